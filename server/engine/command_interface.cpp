@@ -1,0 +1,168 @@
+// Command interface (7.4.2, table 3): finding, binding and commanding components.
+#include <utility>
+
+#include "engine/core.hpp"
+#include "engine/matching.hpp"
+#include "engine/sequence_check.hpp"
+#include "types/texts.hpp"
+
+namespace rois {
+
+namespace {
+
+std::string unknown_component(std::string const& ref) { return "unknown component " + quoted(ref); }
+
+std::string not_bound(std::string const& ref) { return "the component " + quoted(ref) + " is not bound by this session"; }
+
+// Gives an id to every command that has none.
+class IdFiller {
+public:
+    IdFiller(Executor& executor, Session const& session, std::set<CommandId> taken)
+        : executor_{executor}, session_{session}, taken_{std::move(taken)} {}
+
+    void fill(std::vector<CommandUnit>& units) {
+        for (auto& unit : units) std::visit(*this, unit.unit);
+    }
+
+    void operator()(DelayOnly&) {}
+    void operator()(CommandMessage& message) {
+        if (message.command_id.text.empty()) message.command_id = executor_.fresh_id(session_, taken_);
+    }
+    void operator()(ConcurrentCommands& concurrent) {
+        for (auto& branch : concurrent.branches) fill(branch.command_list);
+    }
+    void operator()(SequentialCommandUnit& sequential) { fill(sequential.command_unit_list); }
+    void operator()(ParallelCommandUnit& parallel) { fill(parallel.command_unit_list); }
+
+private:
+    Executor& executor_;
+    Session const& session_;
+    std::set<CommandId> taken_;
+};
+
+}  // namespace
+
+Reply Engine::Core::perform(Session& session, Search const& search, Instant) {
+    if (auto problem = why_unusable(search.condition, component_references()))
+        return refused<Search::Reply>(ReturnCode::bad_parameter, std::move(*problem));
+    Search::Reply reply;
+    for (auto const& [ref, component] : registry_.all())
+        if (matches(search.condition, *component, &session)) reply.component_ref_list.push_back(component->ref());
+    return reply;
+}
+
+Reply Engine::Core::perform(Session& session, Bind const& bind, Instant) {
+    auto* component = registry_.find(bind.component_ref.code);
+    if (component == nullptr) return refused<Bind::Reply>(ReturnCode::bad_parameter, unknown_component(bind.component_ref.code));
+    switch (Registry::bind(*component, session)) {
+        case Registry::Bound::ok:
+            return Bind::Reply{};
+        case Registry::Bound::taken:
+            break;
+    }
+    return refused<Bind::Reply>(ReturnCode::out_of_resources,
+                                "the component " + quoted(component->ref().code) + " is bound by another session");
+}
+
+// Decisions 4 and 6: the lowest free match, else one that is already mine.
+Reply Engine::Core::perform(Session& session, BindAny const& bind, Instant) {
+    if (auto problem = why_unusable(bind.condition, component_references()))
+        return refused<BindAny::Reply>(ReturnCode::bad_parameter, std::move(*problem));
+    RegisteredComponent* mine = nullptr;
+    RegisteredComponent* free = nullptr;
+    bool possible = false;
+    for (auto const& [ref, component] : registry_.all()) {
+        possible = possible || could_match(bind.condition, *component);
+        if (!matches(bind.condition, *component, &session)) continue;
+        if (component->bound_to == nullptr && free == nullptr) free = component.get();
+        if (component->bound_to == &session && mine == nullptr) mine = component.get();
+    }
+    if (!possible) return refused<BindAny::Reply>(ReturnCode::unsupported, "no component of this engine can match the condition");
+    auto* chosen = free != nullptr ? free : mine;
+    if (chosen == nullptr)
+        return refused<BindAny::Reply>(ReturnCode::out_of_resources, "no component that matches the condition is free now");
+    Registry::bind(*chosen, session);
+    BindAny::Reply reply;
+    reply.component_ref = chosen->ref();
+    return reply;
+}
+
+Reply Engine::Core::perform(Session& session, Release const& release_, Instant now) {
+    auto* component = registry_.find(release_.component_ref.code);
+    if (component == nullptr)
+        return refused<Release::Reply>(ReturnCode::bad_parameter, unknown_component(release_.component_ref.code));
+    if (component->bound_to == &session) release(session, *component, now);
+    return Release::Reply{};
+}
+
+void Engine::Core::release(Session& session, RegisteredComponent& component, Instant now) {
+    executor_.release(session, component, now);
+    session.bound.erase(&component);
+    component.bound_to = nullptr;
+}
+
+Reply Engine::Core::perform(Session& session, GetParameter const& get, Instant) {
+    auto* component = registry_.find(get.component_ref.code);
+    if (component == nullptr)
+        return refused<GetParameter::Reply>(ReturnCode::bad_parameter, unknown_component(get.component_ref.code));
+    if (component->bound_to != &session) return refused<GetParameter::Reply>(ReturnCode::error, not_bound(component->ref().code));
+    GetParameter::Reply reply;
+    reply.parameters = component->all_parameters();
+    return reply;
+}
+
+Reply Engine::Core::perform(Session& session, SetParameter const& set, Instant now) {
+    CommandMessage message{
+        .component_ref = set.component_ref, .command_type = "set_parameter", .command_id = {}, .arguments = set.parameters};
+    if (auto problem = SequenceCheck{session, registry_}.objection(message))
+        return refused<SetParameter::Reply>(problem->return_code, std::move(problem->reason));
+    message.command_id = executor_.fresh_id(session, {});
+    SetParameter::Reply reply;
+    reply.command_id = message.command_id;
+    executor_.run_alone(session, message, now);
+    return reply;
+}
+
+Reply Engine::Core::perform(Session& session, Execute const& execute, Instant now) {
+    SequenceCheck check{session, registry_};
+    if (auto problem = check.objection(execute.command_unit_list))
+        return refused<Execute::Reply>(problem->return_code, std::move(problem->reason));
+    Execute::Reply reply;
+    reply.command_unit_list = execute.command_unit_list;
+    IdFiller{executor_, session, check.ids()}.fill(reply.command_unit_list.command_unit_list);
+    executor_.execute(session, reply.command_unit_list, now);
+    return reply;
+}
+
+// Decision 17.
+Reply Engine::Core::perform(Session& session, GetCommandResult const& get, Instant now) {
+    executor_.forget_old_results(session, now);
+    auto const found = session.commands.find(get.command_id);
+    if (found == session.commands.end())
+        return refused<GetCommandResult::Reply>(
+            ReturnCode::bad_parameter, "unknown command_id " + quoted(get.command_id.text) + ", or its results have aged out");
+    auto const& command = *found->second;
+    Results results;
+    std::vector<std::string> references{"status"};
+    switch (command.state) {
+        case Command::State::waiting:
+            results.parameters.push_back(text("status", "WAITING"));
+            break;
+        case Command::State::running:
+            results.parameters.push_back(text("status", "RUNNING"));
+            break;
+        case Command::State::ended:
+            results = command.results;
+            results.parameters.insert(results.parameters.begin(), text("status", std::string{to_text(command.status)}));
+            break;
+    }
+    auto const* message = find_message(command.component->profile(), MessageKind::command, command.type);
+    for (auto const& result : message->results) references.push_back(result.name);
+    if (auto problem = why_unusable(get.condition, references))
+        return refused<GetCommandResult::Reply>(ReturnCode::bad_parameter, std::move(*problem));
+    GetCommandResult::Reply reply;
+    if (matches(get.condition, results)) reply.results = std::move(results);
+    return reply;
+}
+
+}  // namespace rois

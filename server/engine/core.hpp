@@ -1,0 +1,110 @@
+// The engine's inside: its parts, and one `perform` for each operation, in the file of its RoIS interface.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/agenda.hpp"
+#include "engine/deadlines.hpp"
+#include "engine/details.hpp"
+#include "engine/engine.hpp"
+#include "engine/executor.hpp"
+#include "engine/notifier.hpp"
+#include "engine/registry.hpp"
+#include "engine/session.hpp"
+#include "engine/subscriptions.hpp"
+
+namespace rois {
+
+class Engine::Core {
+public:
+    Core(EngineProfile profile, std::vector<ComponentProfile> known_profiles, EngineSettings const& settings, Outbox& outbox,
+         FreshSecret fresh_secret);
+
+    void add(std::unique_ptr<Component>);
+    void add(std::shared_ptr<Device> device) { devices_.push_back(std::move(device)); }
+
+    std::variant<Reply, Refusal> handle(SessionId const&, Operation const&, Instant now);
+    void tick(Instant now);
+
+    Session* find(SessionId const&) const;
+    void end(SessionId const&, Instant now);
+    void shut_down(Instant now);
+    void heard_from(SessionId const&, Instant now);
+    void link_opened(SessionId const&);
+    void link_closed(SessionId const&, Link, Instant now);
+
+    std::shared_ptr<EngineProfile const> profile() const { return profile_; }
+    std::vector<ComponentEntry> components() const;
+    EngineStatistics statistics() const;
+
+private:
+    // System interface (system.cpp)
+    std::variant<Reply, Refusal> connect(SessionId const&, Instant now);
+    Reply perform(Session&, Connect const&, Instant now);
+    Reply perform(Session&, Resume const&, Instant now);
+    Reply perform(Session&, Disconnect const&, Instant now);
+    Reply perform(Session&, GetProfile const&, Instant now);
+    Reply perform(Session&, GetErrorDetail const&, Instant now);
+
+    // Command interface (command_interface.cpp)
+    Reply perform(Session&, Search const&, Instant now);
+    Reply perform(Session&, Bind const&, Instant now);
+    Reply perform(Session&, BindAny const&, Instant now);
+    Reply perform(Session&, Release const&, Instant now);
+    Reply perform(Session&, GetParameter const&, Instant now);
+    Reply perform(Session&, SetParameter const&, Instant now);
+    Reply perform(Session&, Execute const&, Instant now);
+    Reply perform(Session&, GetCommandResult const&, Instant now);
+
+    // Query interface (query_interface.cpp)
+    Reply perform(Session&, Query const&, Instant now);
+    Reply answer(Session&, RegisteredComponent&, std::string const& query_type, Instant now);
+
+    // Event interface (event_interface.cpp)
+    Reply perform(Session&, Subscribe const&, Instant now);
+    Reply perform(Session&, Unsubscribe const&, Instant now);
+    Reply perform(Session&, GetEventDetail const&, Instant now);
+    void publish(EventOccurred, Instant now);
+    void publish(ErrorOccurred, Instant now);
+
+    // Sessions (engine.cpp)
+    void end(Session&, Instant now);
+    void end_if_lost(SessionId const&, Instant now);
+    void settle(Instant now);
+    void advance_devices(Instant now);
+    void release(Session&, RegisteredComponent&, Instant now);
+
+    EngineSettings settings_;
+    FreshSecret fresh_secret_;
+    std::vector<ComponentProfile> known_profiles_;
+    std::shared_ptr<EngineProfile> profile_;
+    Agenda agenda_;
+    Registry registry_;
+    std::vector<std::shared_ptr<Device>> devices_;
+    std::unordered_map<SessionId, std::unique_ptr<Session>, IdHash> sessions_;
+    Subscriptions subscriptions_;
+    Deadlines deadlines_;
+    Notifier notifier_;
+    Executor executor_;
+    Details events_;
+    Details errors_;
+    Steady details_checked_{};
+    bool shutting_down_ = false;
+    std::uint64_t events_published_ = 0;
+    std::uint64_t errors_published_ = 0;
+};
+
+// A reply that says no.
+template <class R>
+R refused(ReturnCode code, std::string reason) {
+    R reply;
+    reply.return_code = code;
+    reply.reason = std::move(reason);
+    return reply;
+}
+
+}  // namespace rois

@@ -1,0 +1,211 @@
+#include "engine/engine.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <stdexcept>
+#include <utility>
+
+#include "engine/core.hpp"
+#include "types/texts.hpp"
+
+namespace rois {
+
+Engine::Core::Core(EngineProfile profile, std::vector<ComponentProfile> known_profiles, EngineSettings const& settings,
+                   Outbox& outbox, FreshSecret fresh_secret)
+    : settings_{settings},
+      fresh_secret_{std::move(fresh_secret)},
+      known_profiles_{std::move(known_profiles)},
+      profile_{std::make_shared<EngineProfile>(std::move(profile))},
+      notifier_{outbox},
+      executor_{settings_, registry_, agenda_, deadlines_, notifier_},
+      events_{"e-", settings_.event_details},
+      errors_{"x-", settings_.error_details} {}
+
+void Engine::Core::add(std::unique_ptr<Component> component) {
+    auto const& description = component->description();
+    auto whole = flattened(*description.profile, known_profiles_);
+    auto const& entry =
+        registry_.add(std::make_unique<RegisteredComponent>(std::move(component), std::move(whole), agenda_)).entry();
+    auto* owner = profile_.get();
+    if (!entry.engine.empty()) {
+        auto const known = std::ranges::find(owner->sub_profiles, entry.engine, [](auto const& sub) { return sub.object.name; });
+        owner = known != owner->sub_profiles.end() ? &*known : &owner->sub_profiles.emplace_back();
+        owner->object = {.identifier = profile_->object.identifier + "." + entry.engine,
+                         .code_space = profile_->object.code_space,
+                         .name = entry.engine,
+                         .description = {}};
+    }
+    owner->components.push_back(entry.ref);
+}
+
+// All refusals, before any operation runs; then the one that it is.
+std::variant<Reply, Refusal> Engine::Core::handle(SessionId const& id, Operation const& operation, Instant now) {
+    if (shutting_down_) return Refusal::shutting_down;
+    if (std::holds_alternative<Connect>(operation)) return connect(id, now);
+    auto const* resumed = std::get_if<Resume>(&operation);
+    auto* session = find(resumed != nullptr ? resumed->session : id);
+    if (session == nullptr) return Refusal::no_session;
+    Reply reply = std::visit([&](auto const& known) { return perform(*session, known, now); }, operation);
+    settle(now);
+    return reply;
+}
+
+void Engine::Core::tick(Instant now) {
+    advance_devices(now);
+    settle(now);
+    while (auto const action = deadlines_.take_due(now)) {
+        action(now);
+        settle(now);
+    }
+    if (now.steady - details_checked_ < std::chrono::seconds{1}) return;
+    details_checked_ = now.steady;
+    events_.forget_expired(now);
+    errors_.forget_expired(now);
+    for (auto const& [id, session] : sessions_) executor_.forget_old_results(*session, now);
+}
+
+// A device that fails is not advanced again: it would fail for ever.
+void Engine::Core::advance_devices(Instant now) {
+    std::erase_if(devices_, [&](std::shared_ptr<Device> const& device) {
+        try {
+            device->advance(now);
+            return false;
+        } catch (std::exception const& problem) {
+            agenda_.add(ErrorOccurred{nullptr, ErrorType::engine_internal_error, problem.what()});
+            return true;
+        }
+    });
+}
+
+// Takes in what components said, and what follows from it, until nothing is left.
+void Engine::Core::settle(Instant now) {
+    struct Taker {
+        Core& core;
+        Instant now;
+        void operator()(CommandStarted const& said) { core.executor_.started(said.command); }
+        void operator()(CommandEnded& said) { core.executor_.completed(std::move(said), now); }
+        void operator()(EventOccurred& said) { core.publish(std::move(said), now); }
+        void operator()(ErrorOccurred& said) { core.publish(std::move(said), now); }
+    };
+    while (true) {
+        while (auto said = agenda_.take()) std::visit(Taker{*this, now}, *said);
+        auto const overflowed = notifier_.take_overflowed();
+        if (overflowed.empty()) return;
+        for (auto const& id : overflowed)
+            if (auto* session = find(id)) end(*session, now);
+    }
+}
+
+Session* Engine::Core::find(SessionId const& id) const {
+    auto const found = sessions_.find(id);
+    return found == sessions_.end() ? nullptr : found->second.get();
+}
+
+void Engine::Core::end(SessionId const& id, Instant now) {
+    auto* session = find(id);
+    if (session == nullptr) return;
+    end(*session, now);
+    settle(now);
+}
+
+// Decision 3. The last notifications are in the queue before it is closed.
+void Engine::Core::end(Session& session, Instant now) {
+    if (settings_.on_session_end == OnSessionEnd::continue_) {
+        executor_.let_run_on(session);
+    } else {
+        executor_.abort_all(session, now);
+        for (auto* component : session.bound) executor_.release(session, *component, now);
+    }
+    for (auto* component : session.bound) component->bound_to = nullptr;
+    subscriptions_.remove_all(session);
+    notifier_.close(session);
+    sessions_.erase(SessionId{session.id});
+}
+
+void Engine::Core::shut_down(Instant now) {
+    shutting_down_ = true;
+    settings_.on_session_end = OnSessionEnd::stop;
+    while (!sessions_.empty()) end(*sessions_.begin()->second, now);
+    settle(now);
+}
+
+void Engine::Core::heard_from(SessionId const& id, Instant now) {
+    if (auto* session = find(id)) session->quiet_until = std::max(session->quiet_until, now.steady + settings_.session_timeout);
+}
+
+void Engine::Core::link_opened(SessionId const& id) {
+    if (auto* session = find(id)) ++session->open_links;
+}
+
+void Engine::Core::link_closed(SessionId const& id, Link link, Instant now) {
+    auto* session = find(id);
+    if (session == nullptr || session->open_links == 0) return;
+    --session->open_links;
+    auto const grace = link == Link::stream ? settings_.session_timeout : std::chrono::milliseconds{0};
+    session->quiet_until = std::max(session->quiet_until, now.steady + grace);
+    deadlines_.add(session->quiet_until + settings_.resume_window, [this, id](Instant then) { end_if_lost(id, then); });
+}
+
+// Looks again later when something was heard in between (decision 2).
+void Engine::Core::end_if_lost(SessionId const& id, Instant now) {
+    auto* session = find(id);
+    if (session == nullptr || session->open_links > 0) return;
+    auto const end_of_window = session->quiet_until + settings_.resume_window;
+    if (end_of_window <= now.steady) {
+        end(*session, now);
+    } else {
+        deadlines_.add(end_of_window, [this, id](Instant then) { end_if_lost(id, then); });
+    }
+}
+
+std::vector<ComponentEntry> Engine::Core::components() const {
+    std::vector<ComponentEntry> entries;
+    for (auto const& [ref, component] : registry_.all()) entries.push_back(component->entry());
+    return entries;
+}
+
+EngineStatistics Engine::Core::statistics() const {
+    EngineStatistics numbers;
+    numbers.sessions = sessions_.size();
+    numbers.components = registry_.all().size();
+    numbers.subscriptions = subscriptions_.size();
+    std::ranges::copy(executor_.completed_by_status(), numbers.commands_completed);
+    numbers.events = events_published_;
+    numbers.notifications = notifier_.told();
+    numbers.notifications_lost = notifier_.lost();
+    numbers.errors = errors_published_;
+    numbers.stray_answers = executor_.stray_answers();
+    return numbers;
+}
+
+Engine::Engine(EngineProfile profile, std::vector<ComponentProfile> known_profiles, EngineSettings settings, Outbox& outbox,
+               FreshSecret fresh_secret)
+    : core_{std::make_unique<Core>(std::move(profile), std::move(known_profiles), settings, outbox, std::move(fresh_secret))} {}
+
+Engine::~Engine() = default;
+
+void Engine::add(std::unique_ptr<Component> component) { core_->add(std::move(component)); }
+void Engine::add(std::shared_ptr<Device> device) { core_->add(std::move(device)); }
+
+std::variant<Reply, Refusal> Engine::handle(SessionId const& session, Operation const& operation, Instant now) {
+    return core_->handle(session, operation, now);
+}
+
+void Engine::tick(Instant now) { core_->tick(now); }
+
+std::shared_ptr<NotificationQueue> Engine::notifications(SessionId const& id) const {
+    auto const* session = core_->find(id);
+    return session == nullptr ? nullptr : session->notifications;
+}
+
+void Engine::heard_from(SessionId const& id, Instant now) { core_->heard_from(id, now); }
+void Engine::link_opened(SessionId const& id) { core_->link_opened(id); }
+void Engine::link_closed(SessionId const& id, Link link, Instant now) { core_->link_closed(id, link, now); }
+void Engine::end(SessionId const& id, Instant now) { core_->end(id, now); }
+void Engine::shut_down(Instant now) { core_->shut_down(now); }
+
+std::shared_ptr<EngineProfile const> Engine::profile() const { return core_->profile(); }
+std::vector<ComponentEntry> Engine::components() const { return core_->components(); }
+EngineStatistics Engine::statistics() const { return core_->statistics(); }
+
+}  // namespace rois

@@ -1,0 +1,93 @@
+// The HRI engine (section 7.2): sessions, components, commands, queries and events behind one door.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/component.hpp"
+#include "engine/notification_queue.hpp"
+#include "engine/settings.hpp"
+#include "types/messages.hpp"
+
+namespace rois {
+
+// The engine's door to those who carry notifications to their receivers. Called from within the engine's own calls.
+class Outbox {
+public:
+    virtual ~Outbox() = default;
+    // There is something to read for this session, or its queue was closed.
+    virtual void notify(SessionId const&) = 0;
+};
+
+// Why an operation did not run at all; the network layer makes a fault of it.
+enum class Refusal : std::uint8_t { no_session, too_many_sessions, shutting_down };
+
+// How a service application is linked to its session (decision 2).
+enum class Link : std::uint8_t { websocket, stream };
+
+// Numbers for /metrics, counted since the start.
+struct EngineStatistics {
+    std::size_t sessions = 0;                  // now
+    std::size_t components = 0;                // now
+    std::size_t subscriptions = 0;             // now: distinct event types with conditions
+    std::uint64_t commands_completed[5] = {};  // by CompletedStatus
+    std::uint64_t events = 0;
+    std::uint64_t notifications = 0;
+    std::uint64_t notifications_lost = 0;
+    std::uint64_t errors = 0;
+    std::uint64_t stray_answers = 0;  // of components: late, double or of nobody
+};
+
+// Plain and single-threaded: all calls, also those to a session's NotificationQueue, are made by one thread at a time. Time is
+// passed in and never goes back on `steady`. A call runs everything that it causes before it returns.
+class Engine {
+public:
+    using FreshSecret = std::function<std::string()>;  // an unguessable text of 128 bits or more, fit for an XML attribute
+
+    // `profile` names the engine; its components and sub profiles are filled in as components are added.
+    Engine(EngineProfile profile, std::vector<ComponentProfile> known_profiles, EngineSettings, Outbox&, FreshSecret);
+    ~Engine();
+    Engine(Engine const&) = delete;
+    Engine& operator=(Engine const&) = delete;
+
+    // Before the first session. Throws std::runtime_error for a ref that is taken or a sub component profile that is unknown.
+    void add(std::unique_ptr<Component>);
+    void add(std::shared_ptr<Device>);
+
+    // Performs an operation for the session (an empty id: for nobody yet). The notifications that it causes are in the session's
+    // queue when it returns. `Connect` opens a session unless `session` is one already. `Resume` only checks that its session
+    // can be taken over from `last_sequence`; reading on from there is the caller's.
+    std::variant<Reply, Refusal> handle(SessionId const& session, Operation const&, Instant now);
+
+    // Does what is due by now: devices, delays, timeouts, expiry, sessions whose link was lost.
+    void tick(Instant now);
+
+    // Null when there is no such session. Whoever keeps it can read what the session was told last, also after its end.
+    std::shared_ptr<NotificationQueue> notifications(SessionId const&) const;
+
+    // The session's link: an HTTP request was heard from it; a WebSocket or a notification stream of it opened or closed.
+    void heard_from(SessionId const&, Instant now);
+    void link_opened(SessionId const&);
+    void link_closed(SessionId const&, Link, Instant now);
+
+    // Ends one session as if disconnected; nothing happens when there is none.
+    void end(SessionId const&, Instant now);
+
+    // Ends every session, and refuses what comes later.
+    void shut_down(Instant now);
+
+    std::shared_ptr<EngineProfile const> profile() const;
+    // All components, ordered by ref.
+    std::vector<ComponentEntry> components() const;
+    EngineStatistics statistics() const;
+
+private:
+    class Core;
+    std::unique_ptr<Core> core_;
+};
+
+}  // namespace rois

@@ -1,0 +1,292 @@
+#include "engine/executor.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include "engine/parameters.hpp"
+#include "engine/sequence_check.hpp"
+
+namespace rois {
+
+namespace {
+
+// The commands of a session that have not ended, in the order in which they were given.
+std::vector<std::shared_ptr<Command>> live_commands(Session const& session) {
+    std::vector<std::shared_ptr<Command>> live;
+    for (auto const& [id, command] : session.commands)
+        if (command->state != Command::State::ended) live.push_back(command);
+    std::ranges::sort(live, {}, [](auto const& command) { return command->handle; });
+    return live;
+}
+
+}  // namespace
+
+CommandId Executor::fresh_id(Session const& session, std::set<CommandId> const& taken) {
+    while (true) {
+        CommandId id{"c-" + std::to_string(++last_id_)};
+        if (!taken.contains(id) && !session.commands.contains(id)) return id;
+    }
+}
+
+Executor::SharedCommand Executor::make(Session& session, CommandMessage const& message) {
+    auto command = std::make_shared<Command>();
+    auto* component = registry_.find(message.component_ref.code);
+    command->handle = CommandHandle{++last_handle_};
+    command->id = message.command_id;
+    command->type = message.command_type;
+    command->session = &session;
+    command->component = component;
+    command->arguments = normalized(*arguments_of(*component, message.command_type), message.arguments);
+    live_.emplace(last_handle_, command);
+    session.commands.emplace(command->id, command);
+    return command;
+}
+
+void Executor::execute(Session& session, CommandUnitSequence const& sequence, Instant now) {
+    auto const execution =
+        std::make_shared<Execution>(sequence, [&](CommandMessage const& message) { return make(session, message); });
+    for (auto const& command : execution->commands()) command->execution = execution;
+    give_turns(execution, execution->begin(0), now);
+    run_ready(now);
+}
+
+void Executor::run_alone(Session& session, CommandMessage const& message, Instant now) {
+    run(make(session, message), now);
+    run_ready(now);
+}
+
+void Executor::give_turns(std::shared_ptr<Execution> const& execution, std::vector<Execution::Turn> const& turns, Instant now) {
+    for (auto const& turn : turns) {
+        if (turn.delay.count() == 0) {
+            ready_.emplace_back(execution, turn.node);
+            continue;
+        }
+        deadlines_.add(now.steady + turn.delay, [this, execution, node = turn.node](Instant then) {
+            ready_.emplace_back(execution, node);
+            run_ready(then);
+        });
+    }
+}
+
+// Runs what is ready, and what becomes ready by that; a loop, not a recursion, however long a sequence is.
+void Executor::run_ready(Instant now) {
+    if (std::exchange(running_ready_, true)) return;
+    while (!ready_.empty()) {
+        auto const [execution, node] = std::move(ready_.front());
+        ready_.pop_front();
+        if (auto const& command = execution->command_at(node)) {
+            run(command, now);
+        } else {
+            give_turns(execution, execution->begin(node), now);
+        }
+    }
+    running_ready_ = false;
+}
+
+void Executor::run(SharedCommand const& command, Instant now) {
+    if (command->state != Command::State::waiting) return;
+    if (command->session != nullptr && (command->binding_lost || command->component->bound_to != command->session))
+        return end(command, CompletedStatus::abort, {}, now);
+    command->state = Command::State::running;
+    if (command->type == "set_parameter") return run_set_parameter(command, now);
+    if (command->type == "start") return run_start(command, now);
+    if (command->type == "stop") return run_stop(command, now);
+    if (command->type == "suspend") return run_suspend(command, now);
+    if (command->type == "resume") return run_resume(command, now);
+    run_function(command, now);
+}
+
+void Executor::run_set_parameter(SharedCommand const& command, Instant now) {
+    auto& component = *command->component;
+    merge(component.parameters, command->arguments, component.settable());
+    component.component().reconcile(component.parameters, command->arguments);
+    auto const called = call(component, [&](Component& c) { c.parameters_changed(component.parameters, now); });
+    end(command, called == Called::ok ? CompletedStatus::ok : CompletedStatus::error, {}, now);
+}
+
+void Executor::run_start(SharedCommand const& command, Instant now) {
+    auto& component = *command->component;
+    merge(component.parameters, command->arguments, component.settable());
+    component.component().reconcile(component.parameters, command->arguments);
+    if (component.activity != RegisteredComponent::Activity::idle) halt(component, CompletedStatus::abort, now);
+    component.activity = RegisteredComponent::Activity::running;
+    component.start = command;
+    await_start(command, now);
+    if (call(component, [&](Component& c) { c.start(command->handle, component.parameters, now); }) == Called::ok) return;
+    component.activity = RegisteredComponent::Activity::idle;
+    component.start = nullptr;
+    end(command, CompletedStatus::error, {}, now);
+}
+
+void Executor::run_stop(SharedCommand const& command, Instant now) {
+    auto& component = *command->component;
+    if (component.activity != RegisteredComponent::Activity::idle)
+        halt(component, component.component().status_when_stopped(), now);
+    end(command, CompletedStatus::ok, {}, now);
+}
+
+void Executor::run_suspend(SharedCommand const& command, Instant now) {
+    auto& component = *command->component;
+    if (component.activity == RegisteredComponent::Activity::idle || component.suspended)
+        return end(command, CompletedStatus::error, {}, now);
+    auto const called = call(component, [&](Component& c) { c.suspend(now); });
+    component.suspended = called == Called::ok;
+    end(command, called == Called::ok ? CompletedStatus::ok : CompletedStatus::error, {}, now);
+}
+
+void Executor::run_resume(SharedCommand const& command, Instant now) {
+    auto& component = *command->component;
+    if (!component.suspended) return end(command, CompletedStatus::error, {}, now);
+    auto const called = call(component, [&](Component& c) { c.resume(now); });
+    component.suspended = called != Called::ok;
+    end(command, called == Called::ok ? CompletedStatus::ok : CompletedStatus::error, {}, now);
+}
+
+void Executor::run_function(SharedCommand const& command, Instant now) {
+    await_start(command, now);
+    auto const called =
+        call(*command->component, [&](Component& c) { c.perform(command->handle, command->type, command->arguments, now); });
+    if (called == Called::failed) end(command, CompletedStatus::error, {}, now);
+}
+
+void Executor::await_start(SharedCommand const& command, Instant now) {
+    auto const* message = find_message(command->component->profile(), MessageKind::command, command->type);
+    auto const timeout = message->timeout.value_or(settings_.start_timeout);
+    command->start_deadline =
+        deadlines_.add(now.steady + timeout, [this, handle = command->handle](Instant then) { start_timed_out(handle, then); });
+}
+
+void Executor::start_timed_out(CommandHandle handle, Instant now) {
+    auto const found = live_.find(static_cast<std::uint64_t>(handle));
+    if (found == live_.end()) return;
+    auto const command = found->second;
+    command->start_deadline.reset();
+    auto& component = *command->component;
+    agenda_.add(ErrorOccurred{&component, ErrorType::component_not_responding,
+                              "the command '" + command->type + "' did not start in time"});
+    if (component.start == command) {
+        halt(component, CompletedStatus::timeout, now);
+    } else {
+        end(command, CompletedStatus::timeout, {}, now);
+    }
+    run_ready(now);
+}
+
+void Executor::started(CommandHandle handle) {
+    auto const found = live_.find(static_cast<std::uint64_t>(handle));
+    if (found == live_.end() || found->second->state != Command::State::running) {
+        ++stray_answers_;
+        return;
+    }
+    if (auto const deadline = std::exchange(found->second->start_deadline, {})) deadlines_.cancel(*deadline);
+}
+
+void Executor::completed(CommandEnded said, Instant now) {
+    auto const found = live_.find(static_cast<std::uint64_t>(said.command));
+    if (found == live_.end() || found->second->state != Command::State::running) {
+        ++stray_answers_;
+        return;
+    }
+    auto const command = found->second;
+    auto& component = *command->component;
+    if (said.status == CompletedStatus::ok) component.failed = false;
+    if (component.start == command) {
+        bool const active = said.afterwards == Afterwards::active && said.status == CompletedStatus::ok;
+        component.activity = active ? RegisteredComponent::Activity::active : RegisteredComponent::Activity::idle;
+        component.suspended = active && component.suspended;
+        component.start = nullptr;
+    }
+    end(command, said.status, std::move(said.results), now);
+    run_ready(now);
+}
+
+void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_start, Instant now) {
+    call(component, [&](Component& c) { c.halt(now); });
+    component.activity = RegisteredComponent::Activity::idle;
+    component.suspended = false;
+    if (auto const start = std::exchange(component.start, nullptr)) end(start, status_of_start, {}, now);
+}
+
+void Executor::end(SharedCommand const& command, CompletedStatus status, Results results, Instant now) {
+    if (command->state == Command::State::ended) return;
+    command->state = Command::State::ended;
+    command->status = status;
+    command->results = std::move(results);
+    command->ended_at = now.steady;
+    if (command->start_deadline) deadlines_.cancel(*command->start_deadline);
+    live_.erase(static_cast<std::uint64_t>(command->handle));
+    ++completed_by_status_.at(static_cast<std::size_t>(status));
+    if (command->session != nullptr) {
+        notifier_.tell(*command->session, Completed{command->id, status});
+        remember(command, now);
+    }
+    auto const execution = std::exchange(command->execution, nullptr);
+    if (!execution) return;
+    auto const turns = execution->command_ended(command->node, status);
+    for (auto const& aborted : execution->take_aborted()) end(aborted, CompletedStatus::abort, {}, now);
+    give_turns(execution, turns, now);
+}
+
+void Executor::remember(SharedCommand const& command, Instant now) {
+    auto& session = *command->session;
+    session.ended.push_back(command);
+    forget_old_results(session, now);
+}
+
+void Executor::forget_old_results(Session& session, Instant now) const {
+    auto const is_old = [&](Command const& command) {
+        return session.ended.size() > settings_.max_command_results || command.ended_at + settings_.command_results <= now.steady;
+    };
+    while (!session.ended.empty() && is_old(*session.ended.front())) {
+        session.commands.erase(session.ended.front()->id);
+        session.ended.pop_front();
+    }
+}
+
+void Executor::release(Session& session, RegisteredComponent& component, Instant now) {
+    for (auto const& command : live_commands(session)) {
+        if (command->component != &component || command->state == Command::State::ended) continue;
+        if (command->state == Command::State::waiting) {
+            command->binding_lost = true;
+        } else if (component.start != command) {
+            call(component, [&](Component& c) { c.halt(now); });
+            end(command, CompletedStatus::abort, {}, now);
+        }
+    }
+    if (component.activity != RegisteredComponent::Activity::idle) halt(component, CompletedStatus::abort, now);
+    run_ready(now);
+}
+
+void Executor::abort_all(Session& session, Instant now) {
+    for (auto const& command : live_commands(session)) {
+        auto& component = *command->component;
+        if (command->state == Command::State::running && component.start == command) {
+            halt(component, CompletedStatus::abort, now);
+        } else {
+            if (command->state == Command::State::running) call(component, [&](Component& c) { c.halt(now); });
+            end(command, CompletedStatus::abort, {}, now);
+        }
+    }
+    run_ready(now);
+}
+
+void Executor::let_run_on(Session& session) {
+    for (auto const& command : live_commands(session)) command->session = nullptr;
+}
+
+Executor::Called Executor::call(RegisteredComponent& component, std::function<void(Component&)> const& what) {
+    try {
+        what(component.component());
+        return Called::ok;
+    } catch (std::exception const& problem) {
+        component.failed = true;
+        agenda_.add(ErrorOccurred{&component, ErrorType::component_internal_error, problem.what()});
+    } catch (...) {
+        component.failed = true;
+        agenda_.add(ErrorOccurred{&component, ErrorType::component_internal_error, "an unknown exception left the component"});
+    }
+    return Called::failed;
+}
+
+}  // namespace rois

@@ -1,0 +1,91 @@
+// Runs commands: one at a time for set_parameter, whole sequences for execute; sees to it that each completes exactly once
+// (decisions 8, 9, 12 to 17).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/deadlines.hpp"
+#include "engine/execution.hpp"
+#include "engine/notifier.hpp"
+#include "engine/registry.hpp"
+#include "engine/settings.hpp"
+
+namespace rois {
+
+class Executor {
+public:
+    Executor(EngineSettings const& settings, Registry const& registry, Agenda& agenda, Deadlines& deadlines, Notifier& notifier)
+        : settings_{settings}, registry_{registry}, agenda_{agenda}, deadlines_{deadlines}, notifier_{notifier} {}
+
+    // Begins a sequence that was checked and whose commands all have ids.
+    void execute(Session&, CommandUnitSequence const&, Instant now);
+
+    // Runs one command by itself.
+    void run_alone(Session&, CommandMessage const&, Instant now);
+
+    // An id that this session does not know yet, nor is among those `taken`.
+    CommandId fresh_id(Session const&, std::set<CommandId> const& taken);
+
+    // What components said.
+    void started(CommandHandle);
+    void completed(CommandEnded, Instant now);
+
+    // Ends what the session has running on the component or waiting for it, and what it made active there (decision 6).
+    void release(Session&, RegisteredComponent&, Instant now);
+
+    // Ends all that the session commanded, with ABORT.
+    void abort_all(Session&, Instant now);
+
+    // Lets all that the session commanded run on, heard by nobody.
+    void let_run_on(Session&);
+
+    // Removes results of the session that are older than they are kept.
+    void forget_old_results(Session&, Instant now) const;
+
+    std::array<std::uint64_t, 5> const& completed_by_status() const { return completed_by_status_; }
+    std::uint64_t stray_answers() const { return stray_answers_; }
+
+private:
+    using SharedCommand = std::shared_ptr<Command>;
+
+    SharedCommand make(Session&, CommandMessage const&);
+    void give_turns(std::shared_ptr<Execution> const&, std::vector<Execution::Turn> const&, Instant now);
+    void run_ready(Instant now);
+    void run(SharedCommand const&, Instant now);
+    void run_set_parameter(SharedCommand const&, Instant now);
+    void run_start(SharedCommand const&, Instant now);
+    void run_stop(SharedCommand const&, Instant now);
+    void run_suspend(SharedCommand const&, Instant now);
+    void run_resume(SharedCommand const&, Instant now);
+    void run_function(SharedCommand const&, Instant now);
+    void halt(RegisteredComponent&, CompletedStatus status_of_start, Instant now);
+    void await_start(SharedCommand const&, Instant now);
+    void start_timed_out(CommandHandle, Instant now);
+    void end(SharedCommand const&, CompletedStatus, Results, Instant now);
+    void remember(SharedCommand const&, Instant now);
+    enum class Called : std::uint8_t { ok, failed };
+    Called call(RegisteredComponent&, std::function<void(Component&)> const&);
+
+    EngineSettings const& settings_;
+    Registry const& registry_;
+    Agenda& agenda_;
+    Deadlines& deadlines_;
+    Notifier& notifier_;
+    std::unordered_map<std::uint64_t, SharedCommand> live_;                 // waiting or running, by handle
+    std::deque<std::pair<std::shared_ptr<Execution>, std::size_t>> ready_;  // units whose turn has come
+    bool running_ready_ = false;
+    std::uint64_t last_handle_ = 0;
+    std::uint64_t last_id_ = 0;
+    std::array<std::uint64_t, 5> completed_by_status_{};
+    std::uint64_t stray_answers_ = 0;
+};
+
+}  // namespace rois

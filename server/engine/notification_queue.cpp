@@ -1,0 +1,77 @@
+#include "engine/notification_queue.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace rois {
+
+namespace {
+
+Numbered gap_until(std::uint64_t until, std::uint64_t count) {
+    return {until, std::make_shared<OutgoingNotification const>(Lost{count})};
+}
+
+Lost const* as_lost(Numbered const& entry) { return std::get_if<Lost>(&entry.notification->body); }
+
+// A `Lost` stands for all that it counts: the sequence before the first of them.
+std::uint64_t before(Numbered const& entry) {
+    auto const* gap = as_lost(entry);
+    return entry.sequence - (gap == nullptr ? 1 : gap->count);
+}
+
+}  // namespace
+
+NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotification const> notification) {
+    if (waiting_ >= max_waiting_ && !make_room()) return Pushed::overflow;
+    entries_.push_back({++last_sequence_, std::move(notification)});
+    ++waiting_;
+    return Pushed::ok;
+}
+
+// Drops the oldest waiting event; a `Lost` takes its place, joined with one that stands right before it.
+bool NotificationQueue::make_room() {
+    auto const first_waiting = entries_.begin() + static_cast<std::ptrdiff_t>(sent_);
+    auto const event = std::find_if(first_waiting, entries_.end(), [](Numbered const& entry) {
+        return std::holds_alternative<ReceiveEvent>(entry.notification->body);
+    });
+    if (event == entries_.end()) return false;
+    --waiting_;
+    ++lost_;
+    if (event != first_waiting) {
+        if (auto const* gap = as_lost(*std::prev(event))) {
+            *std::prev(event) = gap_until(event->sequence, gap->count + 1);
+            entries_.erase(event);
+            return true;
+        }
+    }
+    *event = gap_until(event->sequence, 1);
+    return true;
+}
+
+std::vector<Numbered> NotificationQueue::read(std::uint64_t after, std::size_t most) {
+    std::vector<Numbered> entries;
+    auto const until = visible_until();
+    auto entry = std::ranges::upper_bound(entries_, after, {}, &Numbered::sequence);
+    if (entry != entries_.end() && entry->sequence <= until && before(*entry) != after) {
+        // The position lies before all that is kept, or inside a gap: what is missing comes first, counted from the position.
+        auto const missing_until = as_lost(*entry) == nullptr ? before(*entry) : entry->sequence;
+        if (missing_until > after) entries.push_back(gap_until(missing_until, missing_until - after));
+        if (as_lost(*entry) != nullptr) ++entry;
+    }
+    for (; entry != entries_.end() && entry->sequence <= until && entries.size() < most; ++entry) entries.push_back(*entry);
+    if (!entries.empty()) mark_sent(entries.back().sequence);
+    return entries;
+}
+
+bool NotificationQueue::has_after(std::uint64_t after) const {
+    auto const entry = std::ranges::upper_bound(entries_, after, {}, &Numbered::sequence);
+    return entry != entries_.end() && entry->sequence <= visible_until();
+}
+
+void NotificationQueue::mark_sent(std::uint64_t until) {
+    for (; sent_ < entries_.size() && entries_[sent_].sequence <= until; ++sent_)
+        if (as_lost(entries_[sent_]) == nullptr) --waiting_;
+    for (; sent_ > max_sent_; --sent_) entries_.pop_front();
+}
+
+}  // namespace rois

@@ -1,0 +1,92 @@
+// What an engine has to tell one session: numbered, bounded, readable again for a while (decisions 22, 23).
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "types/messages.hpp"
+
+namespace rois {
+
+// A notification on its way to one or many sessions. Its text after the first tag is the same for all of them; it is made
+// once, by whoever writes it first, on any thread.
+class OutgoingNotification {
+public:
+    explicit OutgoingNotification(Notification n) : body{std::move(n)} {}
+
+    Notification const body;
+
+    template <class Encode>  // std::string(Notification const&)
+    std::string const& text(Encode encode) const {
+        std::call_once(once_, [&] { text_ = encode(body); });
+        return text_;
+    }
+
+private:
+    mutable std::once_flag once_;
+    mutable std::string text_;
+};
+
+// One entry of a session's history.
+struct Numbered {
+    std::uint64_t sequence = 0;
+    std::shared_ptr<OutgoingNotification const> notification;
+};
+
+// Holds the notifications of a session: those that wait (never read) and those that were read, for reading them again. Any number
+// of readers, each with its own position; reading discards nothing but marks as sent. Not thread-safe: the engine's mutex guards
+// it.
+class NotificationQueue {
+public:
+    NotificationQueue(std::size_t max_waiting, std::size_t max_sent) : max_waiting_{max_waiting}, max_sent_{max_sent} {}
+
+    enum class Pushed : std::uint8_t { ok, overflow };
+
+    // Numbers and keeps it. When too many wait, the oldest waiting events make room and a `Lost` takes their place; `overflow`
+    // when there is no event to drop: then the session must end.
+    Pushed push(std::shared_ptr<OutgoingNotification const>);
+
+    // At most `most` visible entries with a sequence above `after`, oldest first, which count as sent from now on. A position
+    // that is older than what is kept begins with a `Lost`.
+    std::vector<Numbered> read(std::uint64_t after, std::size_t most);
+
+    // Whether `read(after, ...)` would give something.
+    bool has_after(std::uint64_t after) const;
+
+    std::uint64_t last_sequence() const { return last_sequence_; }
+
+    // How many were dropped so far.
+    std::uint64_t lost() const { return lost_; }
+
+    // While held, what is pushed from now on stays invisible: an answer that must come first is still on its way (decision 22).
+    // Holds may overlap; each is released once.
+    using Hold = std::multiset<std::uint64_t>::const_iterator;
+    Hold hold() { return holds_.insert(last_sequence_); }
+    void release(Hold h) { holds_.erase(h); }
+
+    // No more will come: the session has ended.
+    void close() { closed_ = true; }
+    bool closed() const { return closed_; }
+
+private:
+    std::uint64_t visible_until() const { return holds_.empty() ? last_sequence_ : *holds_.begin(); }
+    bool make_room();
+    void mark_sent(std::uint64_t until);
+
+    std::size_t max_waiting_;
+    std::size_t max_sent_;
+    std::deque<Numbered> entries_;     // in the order of their sequence; a `Lost` stands for several; first those that were sent
+    std::size_t sent_ = 0;             // how many of them
+    std::size_t waiting_ = 0;          // the others, without `Lost`
+    std::uint64_t last_sequence_ = 0;  // given last
+    std::uint64_t lost_ = 0;
+    std::multiset<std::uint64_t> holds_;
+    bool closed_ = false;
+};
+
+}  // namespace rois

@@ -1,0 +1,56 @@
+// Puts notifications into the queues of sessions.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "engine/engine.hpp"
+#include "engine/session.hpp"
+
+namespace rois {
+
+using SharedNotification = std::shared_ptr<OutgoingNotification const>;
+
+class Notifier {
+public:
+    explicit Notifier(Outbox& outbox) : outbox_{outbox} {}
+
+    void tell(Session& session, Notification notification) {
+        tell(session, std::make_shared<OutgoingNotification const>(std::move(notification)));
+    }
+
+    void tell(Session& session, SharedNotification notification) {
+        if (session.overflowed) return;
+        auto const lost = session.notifications->lost();
+        if (session.notifications->push(std::move(notification)) == NotificationQueue::Pushed::overflow) {
+            session.overflowed = true;
+            overflowed_.push_back(session.id);
+            return;
+        }
+        ++told_;
+        lost_ += session.notifications->lost() - lost;
+        outbox_.notify(session.id);
+    }
+
+    // Nothing more will be told to this session.
+    void close(Session& session) {
+        session.notifications->close();
+        outbox_.notify(session.id);
+    }
+
+    // Sessions that could not be told something, since the last call (decision 23).
+    std::vector<SessionId> take_overflowed() { return std::exchange(overflowed_, {}); }
+
+    std::uint64_t told() const { return told_; }
+    std::uint64_t lost() const { return lost_; }
+
+private:
+    Outbox& outbox_;
+    std::vector<SessionId> overflowed_;
+    std::uint64_t told_ = 0;
+    std::uint64_t lost_ = 0;
+};
+
+}  // namespace rois

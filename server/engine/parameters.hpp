@@ -1,0 +1,25 @@
+// Parameters held against their profiles (decision 26).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "types/profiles.hpp"
+#include "types/values.hpp"
+
+namespace rois {
+
+// The profile that an application's name means: without regard to case, other versions' spellings included. Null when none.
+ParameterProfile const* profile_for(std::vector<ParameterProfile> const&, std::string_view name);
+
+// Why these parameters are not what the profiles say: unknown, twice, of another type. Nothing when they are.
+std::optional<std::string> why_not(std::vector<ParameterProfile> const&, ParameterList const&);
+
+// The same parameters under the profiles' names and type codes; `list` was checked.
+ParameterList normalized(std::vector<ParameterProfile> const&, ParameterList const& list);
+
+// Puts what arrived over what is stored, in the order of the profiles.
+void merge(ParameterList& stored, ParameterList const& arrived, std::vector<ParameterProfile> const&);
+
+}  // namespace rois

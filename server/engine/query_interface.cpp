@@ -1,0 +1,51 @@
+// Query interface (7.4.2, table 4).
+#include <exception>
+#include <utility>
+
+#include "engine/core.hpp"
+#include "engine/matching.hpp"
+#include "types/texts.hpp"
+
+namespace rois {
+
+// Decision 18: the one component that knows the query type, preferring READY, then the lowest ref.
+Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
+    if (auto problem = why_unusable(query.condition, component_references()))
+        return refused<Query::Reply>(ReturnCode::bad_parameter, std::move(*problem));
+    RegisteredComponent* chosen = nullptr;
+    for (auto* component : registry_.with(MessageKind::query, query.query_type)) {
+        if (!matches(query.condition, *component, &session)) continue;
+        bool const ready = component->status_for(&session) == ComponentStatus::ready;
+        if (chosen == nullptr || ready) chosen = component;
+        if (ready) break;
+    }
+    if (chosen == nullptr)
+        return refused<Query::Reply>(ReturnCode::unsupported,
+                                     "no component that matches answers queries of the type " + quoted(query.query_type));
+    return answer(session, *chosen, query.query_type, now);
+}
+
+Reply Engine::Core::answer(Session& session, RegisteredComponent& component, std::string const& query_type, Instant now) {
+    Query::Reply reply;
+    reply.component_ref = component.ref();
+    if (query_type == "component_status") {
+        reply.results.parameters.push_back(status_of("status", component.status_for(&session)));
+        return reply;
+    }
+    if (query_type == "get_parameter") {
+        reply.results.parameters = component.all_parameters();
+        return reply;
+    }
+    try {
+        if (auto results = component.component().query(query_type, now)) {
+            reply.results = std::move(*results);
+            return reply;
+        }
+    } catch (std::exception const& problem) {
+        component.failed = true;
+        agenda_.add(ErrorOccurred{&component, ErrorType::component_internal_error, problem.what()});
+    }
+    return refused<Query::Reply>(ReturnCode::error, "the component " + quoted(component.ref().code) + " could not answer");
+}
+
+}  // namespace rois

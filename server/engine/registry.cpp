@@ -1,0 +1,129 @@
+#include "engine/registry.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "engine/session.hpp"
+#include "types/data_type.hpp"
+#include "types/texts.hpp"
+
+namespace rois {
+
+namespace {
+
+// The values of a default: one text, but for lists of texts an item each.
+std::vector<std::string> default_values(ParameterProfile const& profile) {
+    auto const type = DataType::of(profile.data_type_ref);
+    bool const items =
+        type.list && type.base != BaseType::integer && type.base != BaseType::real && type.base != BaseType::boolean;
+    if (!items) return {*profile.default_value};
+    std::vector<std::string> values;
+    for (std::string_view rest = trimmed(*profile.default_value); !rest.empty();) {
+        auto const item = rest.substr(0, rest.find(' '));
+        values.emplace_back(item);
+        rest = trimmed(rest.substr(item.size()));
+    }
+    return values;
+}
+
+// Those that set_parameter names, and the profile's parameters beside them.
+std::vector<ParameterProfile> settable_of(ComponentProfile const& profile) {
+    std::vector<ParameterProfile> settable;
+    if (auto const* message = find_message(profile, MessageKind::command, "set_parameter")) settable = message->arguments;
+    for (auto const& parameter : profile.parameters) {
+        auto const known = std::ranges::find_if(
+            settable, [&](ParameterProfile const& p) { return equal_ignoring_case(p.name, parameter.name); });
+        if (known == settable.end()) {
+            settable.push_back(parameter);
+        } else if (!known->default_value) {
+            known->default_value = parameter.default_value;
+        }
+    }
+    return settable;
+}
+
+// Published profiles name the parameters only; the two messages that every component with parameters has go without saying.
+void add_parameter_messages(ComponentProfile& profile, std::vector<ParameterProfile> const& settable) {
+    if (settable.empty()) return;
+    if (find_message(profile, MessageKind::command, "set_parameter") == nullptr)
+        profile.messages.push_back(
+            {.kind = MessageKind::command, .name = "set_parameter", .results = {}, .arguments = settable, .timeout = {}});
+    if (find_message(profile, MessageKind::query, "get_parameter") == nullptr)
+        profile.messages.push_back(
+            {.kind = MessageKind::query, .name = "get_parameter", .results = settable, .arguments = {}, .timeout = {}});
+}
+
+}  // namespace
+
+RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, ComponentProfile profile, Agenda& agenda)
+    : component_{std::move(component)}, profile_{std::move(profile)}, settable_{settable_of(profile_)}, agenda_{agenda} {
+    add_parameter_messages(profile_, settable_);
+    auto const& description = component_->description();
+    entry_ = {.ref = description.ref.code,
+              .type = profile_.object.identifier,
+              .engine = description.engine,
+              .profile = description.profile};
+    for (auto const& parameter : settable_)
+        if (parameter.default_value) parameters.push_back({parameter.name, parameter.data_type_ref, default_values(parameter)});
+    component_->attach(*this);
+}
+
+ComponentStatus RegisteredComponent::status_for(Session const* asker) const {
+    if (bound_to != nullptr && bound_to != asker) return ComponentStatus::busy;
+    auto const own = component_->status();
+    return failed && own != ComponentStatus::uninitialized ? ComponentStatus::error : own;
+}
+
+ParameterList RegisteredComponent::all_parameters() const {
+    ParameterList all = component_->readable_parameters();
+    all.insert(all.end(), parameters.begin(), parameters.end());
+    return all;
+}
+
+void RegisteredComponent::started(CommandHandle command) { agenda_.add(CommandStarted{command}); }
+
+void RegisteredComponent::completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards) {
+    agenda_.add(CommandEnded{command, status, std::move(results), afterwards});
+}
+
+void RegisteredComponent::event(std::string_view event_type, Results results) {
+    agenda_.add(EventOccurred{this, std::string{event_type}, std::move(results)});
+}
+
+void RegisteredComponent::error(ErrorType type, std::string text) { agenda_.add(ErrorOccurred{this, type, std::move(text)}); }
+
+RegisteredComponent& Registry::add(std::unique_ptr<RegisteredComponent> component) {
+    auto const& ref = component->ref().code;
+    auto const [place, added] = components_.try_emplace(ref, nullptr);
+    if (!added) throw std::runtime_error("there are two components with the ref " + quoted(ref));
+    place->second = std::move(component);
+    auto& registered = *place->second;
+    for (auto const& message : registered.profile().messages) {
+        auto& list = by_message_[{message.kind, message.name}];
+        list.insert(std::ranges::upper_bound(
+                        list, ref, {}, [](auto const* c) -> auto const& { return c->ref().code; }),
+                    &registered);
+    }
+    return registered;
+}
+
+RegisteredComponent* Registry::find(std::string_view ref) const {
+    auto const found = components_.find(ref);
+    return found == components_.end() ? nullptr : found->second.get();
+}
+
+std::vector<RegisteredComponent*> const& Registry::with(MessageKind kind, std::string_view message) const {
+    static std::vector<RegisteredComponent*> const none;
+    auto const found = by_message_.find({kind, std::string{message}});
+    return found == by_message_.end() ? none : found->second;
+}
+
+Registry::Bound Registry::bind(RegisteredComponent& component, Session& session) {
+    if (component.bound_to != nullptr && component.bound_to != &session) return Bound::taken;
+    component.bound_to = &session;
+    session.bound.insert(&component);
+    return Bound::ok;
+}
+
+}  // namespace rois

@@ -1,0 +1,83 @@
+// Which components exist, what is stored for them, and who has bound them (decisions 4 to 7).
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/agenda.hpp"
+#include "engine/command.hpp"
+#include "engine/component.hpp"
+#include "types/messages.hpp"
+
+namespace rois {
+
+struct Session;
+
+// A component as the engine has it. It is the component's port.
+class RegisteredComponent final : public ComponentPort {
+public:
+    // What the component does, as far as commands are concerned.
+    enum class Activity : std::uint8_t { idle, running, active };
+
+    // `profile` has the messages of the sub components.
+    RegisteredComponent(std::unique_ptr<Component>, ComponentProfile profile, Agenda&);
+
+    Identifier const& ref() const { return component_->description().ref; }
+    ComponentEntry const& entry() const { return entry_; }
+    ComponentProfile const& profile() const { return profile_; }
+    Component& component() { return *component_; }
+
+    // Decision 7: as `asker` sees it.
+    ComponentStatus status_for(Session const* asker) const;
+
+    // What a component of this type may be told by set_parameter, and what get_parameter answers.
+    std::vector<ParameterProfile> const& settable() const { return settable_; }
+    ParameterList all_parameters() const;
+
+    Session* bound_to = nullptr;
+    ParameterList parameters;  // stored: defaults at first
+    Activity activity = Activity::idle;
+    bool suspended = false;
+    std::shared_ptr<Command> start;  // whose action runs, or null
+    bool failed = false;             // an exception left it; until a command of it succeeds
+
+    void started(CommandHandle) override;
+    void completed(CommandHandle, CompletedStatus, Results, Afterwards) override;
+    void event(std::string_view event_type, Results) override;
+    void error(ErrorType, std::string text) override;
+
+private:
+    std::unique_ptr<Component> component_;
+    ComponentProfile profile_;
+    ComponentEntry entry_;
+    std::vector<ParameterProfile> settable_;
+    Agenda& agenda_;
+};
+
+// All components of the engine, by ref.
+class Registry {
+public:
+    using Components = std::map<std::string, std::unique_ptr<RegisteredComponent>, std::less<>>;
+
+    // Throws std::runtime_error when the ref is taken.
+    RegisteredComponent& add(std::unique_ptr<RegisteredComponent>);
+
+    RegisteredComponent* find(std::string_view ref) const;  // null when unknown
+    Components const& all() const { return components_; }
+
+    // The components whose profile has this message, ordered by ref.
+    std::vector<RegisteredComponent*> const& with(MessageKind, std::string_view message) const;
+
+    enum class Bound : std::uint8_t { ok, taken };
+    static Bound bind(RegisteredComponent&, Session&);
+
+private:
+    Components components_;
+    std::map<std::pair<MessageKind, std::string>, std::vector<RegisteredComponent*>> by_message_;
+};
+
+}  // namespace rois

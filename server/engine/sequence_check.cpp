@@ -1,0 +1,108 @@
+#include "engine/sequence_check.hpp"
+
+#include <array>
+#include <utility>
+
+#include "engine/parameters.hpp"
+#include "types/texts.hpp"
+
+namespace rois {
+
+namespace {
+
+std::string element(std::string const& path, std::string_view name, std::size_t index) {
+    return (path.empty() ? "" : path + "/") + std::string{name} + "[" + std::to_string(index + 1) + "]";
+}
+
+std::string command_types_of(ComponentProfile const& profile) {
+    std::string names;
+    for (auto const& message : profile.messages)
+        if (message.kind == MessageKind::command) names += (names.empty() ? "" : ", ") + message.name;
+    return names.empty() ? "none" : names;
+}
+
+Objection bad_parameter(std::string reason) { return {ReturnCode::bad_parameter, std::move(reason)}; }
+
+}  // namespace
+
+std::vector<ParameterProfile> const* arguments_of(RegisteredComponent const& component, std::string_view command_type) {
+    auto const* message = find_message(component.profile(), MessageKind::command, command_type);
+    if (message == nullptr) return nullptr;
+    return command_type == "start" || command_type == "set_parameter" ? &component.settable() : &message->arguments;
+}
+
+std::optional<Objection> SequenceCheck::objection(CommandUnitSequence const& sequence) {
+    return in_list(sequence.command_unit_list, "", "command_unit_list");
+}
+
+std::optional<Objection> SequenceCheck::in_list(std::vector<CommandUnit> const& units, std::string const& path,
+                                                std::string_view name) {
+    for (std::size_t i = 0; i < units.size(); ++i)
+        if (auto problem = in_unit(units[i], element(path, name, i))) return problem;
+    return {};
+}
+
+std::optional<Objection> SequenceCheck::in_unit(CommandUnit const& unit, std::string const& path) {
+    if (unit.delay_time && (*unit.delay_time < 0 || *unit.delay_time > max_delay_time))
+        return bad_parameter(path + ": delay_time must be 0 to " + std::to_string(max_delay_time) + " milliseconds");
+    if (auto const* message = std::get_if<CommandMessage>(&unit.unit)) {
+        auto problem = objection(*message);
+        if (problem) problem->reason.insert(0, path + ": ");
+        return problem;
+    }
+    if (auto const* concurrent = std::get_if<ConcurrentCommands>(&unit.unit)) return in_branches(*concurrent, path);
+    if (auto const* sequential = std::get_if<SequentialCommandUnit>(&unit.unit))
+        return in_list(sequential->command_unit_list, path, "command_unit_list");
+    if (auto const* parallel = std::get_if<ParallelCommandUnit>(&unit.unit))
+        return in_list(parallel->command_unit_list, path, "command_unit_list");
+    return {};
+}
+
+std::optional<Objection> SequenceCheck::in_branches(ConcurrentCommands const& concurrent, std::string const& path) {
+    for (std::size_t i = 0; i < concurrent.branches.size(); ++i) {
+        auto const& commands = concurrent.branches[i].command_list;
+        auto problem = concurrent.form == ConcurrentCommands::Form::command_list
+                           ? in_unit(commands.front(), element(path, "command_list", i))
+                           : in_list(commands, element(path, "branch_list", i), "command_list");
+        if (problem) return problem;
+    }
+    return {};
+}
+
+std::optional<Objection> SequenceCheck::objection(CommandMessage const& message) {
+    auto* component = registry_.find(message.component_ref.code);
+    if (component == nullptr) return bad_parameter("unknown component " + quoted(message.component_ref.code));
+    if (component->bound_to != &session_)
+        return Objection{ReturnCode::error, "the component " + quoted(component->ref().code) + " is not bound by this session"};
+    if (auto problem = values(message, *component)) return problem;
+    return id(message.command_id);
+}
+
+std::optional<Objection> SequenceCheck::values(CommandMessage const& message, RegisteredComponent& component) {
+    auto const* profiles = arguments_of(component, message.command_type);
+    if (profiles == nullptr)
+        return bad_parameter("the component " + quoted(component.ref().code) + " has no command " + quoted(message.command_type) +
+                             "; it has " + command_types_of(component.profile()));
+    if (auto problem = why_not(*profiles, message.arguments)) return bad_parameter(std::move(*problem));
+    auto const arrived = normalized(*profiles, message.arguments);
+    if (profiles != &component.settable()) {
+        if (auto problem = component.component().refusal(message.command_type, arrived))
+            return bad_parameter(std::move(*problem));
+        return {};
+    }
+    auto const place = stored_.try_emplace(&component, component.parameters).first;
+    merge(place->second, arrived, component.settable());
+    component.component().reconcile(place->second, arrived);
+    if (auto problem = component.component().refusal(message.command_type, place->second))
+        return bad_parameter(std::move(*problem));
+    return {};
+}
+
+std::optional<Objection> SequenceCheck::id(CommandId const& id) {
+    if (id.text.empty()) return {};
+    if (session_.commands.contains(id)) return bad_parameter("the command_id " + quoted(id.text) + " is in use in this session");
+    if (!ids_.insert(id).second) return bad_parameter("the command_id " + quoted(id.text) + " is there twice");
+    return {};
+}
+
+}  // namespace rois

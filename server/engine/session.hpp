@@ -1,0 +1,38 @@
+// A service application's session (decisions 1 to 3): what it has bound, subscribed to and commanded.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <unordered_map>
+
+#include "engine/command.hpp"
+#include "engine/notification_queue.hpp"
+#include "types/ids.hpp"
+#include "types/instant.hpp"
+
+namespace rois {
+
+class RegisteredComponent;
+struct Subscription;
+
+// Owned by the engine; state only.
+struct Session {
+    SessionId id;
+    std::shared_ptr<NotificationQueue> notifications;
+
+    std::set<RegisteredComponent*> bound;
+    std::set<Subscription*> subscriptions;
+    std::unordered_map<CommandId, std::shared_ptr<Command>, IdHash> commands;  // all that are known (decision 17)
+    std::deque<std::shared_ptr<Command>> ended;                                // of these, in the order in which they ended
+
+    // The link (decision 2): how many WebSockets and streams are open, and until when silence is no loss.
+    std::size_t open_links = 0;
+    Steady quiet_until;
+    bool overflowed = false;  // cannot be told everything any more: must end
+};
+
+}  // namespace rois

@@ -1,0 +1,26 @@
+// The engine's limits and periods, all configurable.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+
+namespace rois {
+
+// What becomes of the commands of a session that ends (decision 3).
+enum class OnSessionEnd : std::uint8_t { stop, continue_ };
+
+struct EngineSettings {
+    std::size_t max_sessions = 1'000;
+    std::size_t max_waiting_notifications = 1'024;  // a session (decision 23)
+    std::size_t max_sent_notifications = 1'024;     // kept for resuming, a session
+    std::size_t max_command_results = 1'000;        // kept, a session (decision 17)
+    std::chrono::milliseconds command_results = std::chrono::minutes{10};
+    std::chrono::milliseconds event_details = std::chrono::seconds{60};  // `expire` (decision 21)
+    std::chrono::milliseconds error_details = std::chrono::minutes{10};  // decision 24
+    std::chrono::milliseconds start_timeout = std::chrono::seconds{5};   // without one in the profile (decision 16)
+    std::chrono::milliseconds session_timeout = std::chrono::seconds{60};
+    std::chrono::milliseconds resume_window = std::chrono::seconds{30};
+    OnSessionEnd on_session_end = OnSessionEnd::stop;
+};
+
+}  // namespace rois

@@ -1,0 +1,57 @@
+// Who hears of which events (decisions 18 to 21).
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "types/condition.hpp"
+#include "types/ids.hpp"
+#include "types/messages.hpp"
+
+namespace rois {
+
+class RegisteredComponent;
+struct Session;
+
+// An event type and a condition, and those who asked for it.
+struct Subscription {
+    SubscribeId id;
+    std::string event_type;
+    MaybeCondition condition;
+    std::string meaning;                          // the condition's canonical text
+    bool depends_on_asker = false;                // the condition may hold for one session and not for another
+    std::unordered_map<Session*, bool> sessions;  // with inline_results or not
+};
+
+// Kept both ways: a subscription knows its sessions, a session its subscriptions.
+class Subscriptions {
+public:
+    // The same type and condition give the same subscription; the last `inline_results` wins.
+    Subscription& add(Session&, std::string const& event_type, MaybeCondition const&, bool inline_results);
+
+    // Nothing happens when the session has none of that id.
+    void remove(Session&, SubscribeId const&);
+    void remove_all(Session&);
+
+    // Those of an event type.
+    std::vector<Subscription*> const& of(std::string_view event_type) const;
+
+    // Whether the session has subscribed to an event that this component has and may match.
+    static bool hears(Session const&, RegisteredComponent const&);
+
+    std::size_t size() const { return by_id_.size(); }
+
+private:
+    void forget_if_unheard(Subscription&);
+
+    std::unordered_map<SubscribeId, std::unique_ptr<Subscription>, IdHash> by_id_;
+    std::map<std::string, std::vector<Subscription*>, std::less<>> by_type_;
+    std::uint64_t last_ = 0;
+};
+
+}  // namespace rois

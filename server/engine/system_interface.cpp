@@ -1,0 +1,79 @@
+// System interface (7.4.1, table 2): connection, profiles, details of errors.
+#include "engine/core.hpp"
+#include "engine/matching.hpp"
+#include "types/texts.hpp"
+
+namespace rois {
+
+std::variant<Reply, Refusal> Engine::Core::connect(SessionId const& id, Instant now) {
+    if (auto* session = find(id)) return perform(*session, Connect{}, now);
+    if (sessions_.size() >= settings_.max_sessions) return Refusal::too_many_sessions;
+    auto session = std::make_unique<Session>();
+    session->id.text = fresh_secret_();
+    session->notifications =
+        std::make_shared<NotificationQueue>(settings_.max_waiting_notifications, settings_.max_sent_notifications);
+    session->quiet_until = now.steady;
+    auto& opened = *sessions_.emplace(session->id, std::move(session)).first->second;
+    deadlines_.add(now.steady + settings_.resume_window, [this, fresh = opened.id](Instant then) { end_if_lost(fresh, then); });
+    return perform(opened, Connect{}, now);
+}
+
+Reply Engine::Core::perform(Session& session, Connect const&, Instant) {
+    Connect::Reply reply;
+    reply.session = session.id;
+    return reply;
+}
+
+Reply Engine::Core::perform(Session& session, Resume const& resume, Instant) {
+    if (resume.last_sequence <= session.notifications->last_sequence()) return Resume::Reply{};
+    return refused<Resume::Reply>(ReturnCode::bad_parameter, "last_sequence is above the last one that was given, " +
+                                                                 std::to_string(session.notifications->last_sequence()));
+}
+
+Reply Engine::Core::perform(Session& session, Disconnect const&, Instant now) {
+    end(session, now);
+    return Disconnect::Reply{};
+}
+
+Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
+    if (auto problem = why_unusable(get.condition, component_references()))
+        return refused<GetProfile::Reply>(ReturnCode::bad_parameter, std::move(*problem));
+    GetProfile::Reply reply;
+    reply.profile = profile_;
+    for (auto const& [ref, component] : registry_.all())
+        if (matches(get.condition, *component, &session)) reply.components.push_back(component->entry());
+    return reply;
+}
+
+Reply Engine::Core::perform(Session&, GetErrorDetail const& get, Instant now) {
+    auto const found = errors_.find(get.error_id.text, now);
+    if (found.found == Details::Found::unknown)
+        return refused<GetErrorDetail::Reply>(ReturnCode::bad_parameter, "unknown error_id " + quoted(get.error_id.text));
+    if (found.found == Details::Found::expired)
+        return refused<GetErrorDetail::Reply>(ReturnCode::bad_parameter,
+                                              "the details of the error " + quoted(get.error_id.text) + " have expired");
+    if (auto problem = why_unusable(get.condition, {"component_ref", "time", "text"}))
+        return refused<GetErrorDetail::Reply>(ReturnCode::bad_parameter, std::move(*problem));
+    GetErrorDetail::Reply reply;
+    if (matches(get.condition, *found.results)) reply.results = *found.results;
+    return reply;
+}
+
+// Decision 24: the engine's errors go to all sessions, a component's to those who have to do with it.
+void Engine::Core::publish(ErrorOccurred said, Instant now) {
+    ++errors_published_;
+    auto results = std::make_shared<Results>();
+    if (said.component != nullptr) results->parameters.push_back(reference("component_ref", said.component->ref().code));
+    results->parameters.push_back(date_time("time", now.utc));
+    results->parameters.push_back(text("text", said.text));
+    ReceiveError error{.error_id = {errors_.add(std::move(results), now)}, .error_type = said.type, .component_ref = {}};
+    if (said.component != nullptr) error.component_ref = said.component->ref();
+    auto const notification = std::make_shared<OutgoingNotification const>(std::move(error));
+    for (auto const& [id, session] : sessions_) {
+        bool const concerns = said.component == nullptr || said.component->bound_to == session.get() ||
+                              Subscriptions::hears(*session, *said.component);
+        if (concerns) notifier_.tell(*session, notification);
+    }
+}
+
+}  // namespace rois

@@ -1,0 +1,18 @@
+// The project's own files, inside the program: it needs none beside it at run time.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace rois::files {
+
+using Named = std::map<std::string, std::string_view, std::less<>>;  // file name -> bytes, which live for ever
+
+Named const& schemas();     // schemas/*.xsd
+Named const& profiles();    // schemas/profiles/*.xml
+Named const& simulation();  // components/simulation/data/*.xml: floor plans and scenarios
+Named const& web();         // web/*: the page at /
+
+}  // namespace rois::files

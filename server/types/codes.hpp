@@ -1,0 +1,31 @@
+// The enumerations of the specification: tables 1 (7.3), 7 and 8 (7.4.2) and 33 (7.6). Their texts are the specification's.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace rois {
+
+// What an operation answers (table 1).
+enum class ReturnCode : std::uint8_t { ok, error, bad_parameter, unsupported, out_of_resources, timeout };
+
+// How a command ended (table 8).
+enum class CompletedStatus : std::uint8_t { ok, error, abort, out_of_resources, timeout };
+
+// What kind of error a receive_error tells of (table 7).
+enum class ErrorType : std::uint8_t {
+    engine_internal_error,
+    component_internal_error,
+    component_not_responding,
+    user_defined_error
+};
+
+// How a component is (table 33). `busy` is relative to the asker: another session has it bound.
+enum class ComponentStatus : std::uint8_t { uninitialized, ready, busy, warning, error };
+
+std::string_view to_text(ReturnCode);
+std::string_view to_text(CompletedStatus);
+std::string_view to_text(ErrorType);
+std::string_view to_text(ComponentStatus);
+
+}  // namespace rois

@@ -1,0 +1,250 @@
+// The operations of the RoIS interfaces (7.4.2, tables 2 to 5), the notifications (table 6) and the fault: all that is
+// said between a service application and the engine. An operation is a struct; its reply lives inside it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "types/codes.hpp"
+#include "types/command_units.hpp"
+#include "types/condition.hpp"
+#include "types/ids.hpp"
+#include "types/instant.hpp"
+#include "types/profiles.hpp"
+#include "types/values.hpp"
+
+namespace rois {
+
+// What every reply begins with. The out parameters of a reply mean something only when the code is OK.
+struct Outcome {
+    ReturnCode return_code = ReturnCode::ok;
+    std::string reason;  // empty when OK
+};
+
+using MaybeCondition = std::optional<Condition>;
+
+// --- System interface (table 2) ---
+
+struct Connect {
+    struct Reply : Outcome {
+        SessionId session;
+    };
+};
+
+// Takes over a session on a WebSocket and goes on after `last_sequence` (ours; wire.md).
+struct Resume {
+    SessionId session;
+    std::uint64_t last_sequence = 0;
+    struct Reply : Outcome {};
+};
+
+struct Disconnect {
+    struct Reply : Outcome {};
+};
+
+// A component as get_profile lists it.
+struct ComponentEntry {
+    std::string ref;
+    std::string type;    // URN of its profile
+    std::string engine;  // name of the engine or sub engine that has it
+    std::shared_ptr<ComponentProfile const> profile;
+};
+
+struct GetProfile {
+    MaybeCondition condition;
+    struct Reply : Outcome {
+        std::shared_ptr<EngineProfile const> profile;
+        std::vector<ComponentEntry> components;
+    };
+};
+
+struct GetErrorDetail {
+    ErrorId error_id;
+    MaybeCondition condition;
+    struct Reply : Outcome {
+        Results results;
+    };
+};
+
+// --- Command interface (table 3) ---
+
+struct Search {
+    MaybeCondition condition;
+    struct Reply : Outcome {
+        std::vector<Identifier> component_ref_list;
+    };
+};
+
+struct Bind {
+    Identifier component_ref;
+    struct Reply : Outcome {};
+};
+
+struct BindAny {
+    MaybeCondition condition;
+    struct Reply : Outcome {
+        Identifier component_ref;
+    };
+};
+
+struct Release {
+    Identifier component_ref;
+    struct Reply : Outcome {};
+};
+
+struct GetParameter {
+    Identifier component_ref;
+    struct Reply : Outcome {
+        ParameterList parameters;
+    };
+};
+
+struct SetParameter {
+    Identifier component_ref;
+    ParameterList parameters;
+    struct Reply : Outcome {
+        CommandId command_id;
+    };
+};
+
+struct Execute {
+    CommandUnitSequence command_unit_list;
+    struct Reply : Outcome {
+        CommandUnitSequence command_unit_list;  // every command_id filled in
+    };
+};
+
+struct GetCommandResult {
+    CommandId command_id;
+    MaybeCondition condition;
+    struct Reply : Outcome {
+        Results results;
+    };
+};
+
+// --- Query interface (table 4) ---
+
+struct Query {
+    std::string query_type;
+    MaybeCondition condition;
+    struct Reply : Outcome {
+        Identifier component_ref;  // who answered
+        Results results;
+    };
+};
+
+// --- Event interface (table 5) ---
+
+struct Subscribe {
+    std::string event_type;
+    MaybeCondition condition;
+    bool inline_results = false;
+    struct Reply : Outcome {
+        SubscribeId subscribe_id;
+    };
+};
+
+struct Unsubscribe {
+    SubscribeId subscribe_id;
+    struct Reply : Outcome {};
+};
+
+struct GetEventDetail {
+    EventId event_id;
+    MaybeCondition condition;
+    struct Reply : Outcome {
+        Results results;
+    };
+};
+
+// Every operation, once. The order is that of wire.md.
+using Operation =
+    std::variant<Connect, Resume, Disconnect, GetProfile, GetErrorDetail, Search, Bind, BindAny, Release, GetParameter,
+                 SetParameter, Execute, GetCommandResult, Query, Subscribe, Unsubscribe, GetEventDetail>;
+
+template <class>
+struct ReplyOf;
+template <class... Operations>
+struct ReplyOf<std::variant<Operations...>> {
+    using type = std::variant<typename Operations::Reply...>;
+};
+using Reply = ReplyOf<Operation>::type;
+
+struct Request {
+    Operation operation;
+    std::string request_id;  // echoed in the answer; empty when absent
+};
+
+// --- Service application base (table 6): what the engine tells on its own ---
+
+struct ReceiveEvent {
+    EventId event_id;
+    std::string event_type;
+    SubscribeId subscribe_id;
+    Utc expire;
+    Identifier component_ref;
+    std::shared_ptr<Results const> results;  // null unless the subscription asked for them inline
+};
+
+struct ReceiveError {
+    ErrorId error_id;
+    ErrorType error_type = ErrorType::engine_internal_error;
+    std::optional<Identifier> component_ref;
+};
+
+struct Completed {
+    CommandId command_id;
+    CompletedStatus status = CompletedStatus::ok;
+};
+
+// `count` notifications, the last of them with this notification's sequence, were dropped.
+struct Lost {
+    std::uint64_t count = 0;
+};
+
+struct ProfileChanged {};
+
+using Notification = std::variant<ReceiveEvent, ReceiveError, Completed, Lost, ProfileChanged>;
+
+// --- Fault: the message could not be read or was not allowed; no operation ran (wire.md) ---
+
+enum class FaultCode : std::uint8_t {
+    not_well_formed,
+    forbidden_xml,
+    invalid,
+    no_session,
+    unauthorized,
+    not_allowed,
+    not_found,
+    method_not_allowed,
+    too_slow,
+    length_required,
+    too_large,
+    unsupported_media_type,
+    upgrade_required,
+    too_many,
+    header_too_large,
+    uri_too_long,
+    shutting_down
+};
+
+std::string_view to_text(FaultCode);
+
+// A place in a document, counted from 1, in characters.
+struct Place {
+    std::uint64_t line = 1;
+    std::uint64_t column = 1;
+};
+
+struct Fault {
+    FaultCode code = FaultCode::invalid;
+    std::string reason;
+    std::optional<Place> place;
+    std::string request_id;
+};
+
+}  // namespace rois

@@ -1,0 +1,26 @@
+// Small questions about texts that the specification asks everywhere.
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace rois {
+
+// ASCII only: names, URNs and type codes are compared without regard to case (decision 25, 26).
+bool equal_ignoring_case(std::string_view, std::string_view);
+std::string lower_case(std::string_view);
+
+// Without the white space of XML at both ends.
+std::string_view trimmed(std::string_view);
+
+// The whole text as a number, or nothing. White space at the ends is allowed, as in XML Schema.
+std::optional<double> to_double(std::string_view);
+std::optional<std::int32_t> to_int(std::string_view);
+
+// A text from outside, cut to a bearable length and with control characters replaced, fit for a reason or a log line.
+std::string quoted(std::string_view, std::size_t longest = 80);
+
+}  // namespace rois

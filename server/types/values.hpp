@@ -1,0 +1,80 @@
+// The values that messages carry: identifiers, parameters, results and located entities (tables 9, 16 to 19; RLS data).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "types/codes.hpp"
+#include "types/instant.hpp"
+
+namespace rois {
+
+// RoIS_Identifier (table 9): a code, unique within its codebook. Absent attributes are empty.
+struct Identifier {
+    std::string code;
+    std::string authority;
+    std::string codebook_ref;
+    std::string version;
+
+    bool operator==(Identifier const&) const = default;
+};
+
+// Parameter (table 16): a named value. `values` holds the texts of the rois:value elements: exactly one for a single value
+// and for a list of numbers or bools (space-separated), one an item for other lists.
+struct Parameter {
+    std::string name;
+    Identifier data_type_ref;
+    std::vector<std::string> values;
+
+    bool operator==(Parameter const&) const = default;
+};
+
+using ParameterList = std::vector<Parameter>;  // ordered; tables 17, 18 and 19 differ in use only
+
+// Where one entity is: position in mm, orientation (roll, pitch, yaw) in degrees counter-clockwise, in the frame `crs`.
+struct Located {
+    struct Reliability {
+        double probability;  // 0 to 1
+        bool operator==(Reliability const&) const = default;
+    };
+    struct Covariance {
+        std::vector<double> rows;  // row by row, square, in mm and degrees, ordered as position then orientation
+        bool operator==(Covariance const&) const = default;
+    };
+
+    std::string of;   // name of the result that it completes
+    std::string ref;  // code of the entity
+    std::string crs;
+    std::array<double, 3> position;
+    std::vector<double> orientation;  // empty or three
+    std::variant<std::monostate, Reliability, Covariance> certainty;
+
+    bool operator==(Located const&) const = default;
+};
+
+// ResultList (table 17), with the structured form of the located data among its values.
+struct Results {
+    ParameterList parameters;
+    std::vector<Located> located;
+};
+
+// Makers of well-typed parameters, for whoever answers a query or fires an event. The type codes are those of the profiles.
+Parameter integer(std::string name, std::int64_t value);
+Parameter boolean(std::string name, bool value);
+Parameter text(std::string name, std::string value);
+Parameter texts(std::string name, std::vector<std::string> values);
+Parameter date_time(std::string name, Utc value);
+Parameter status_of(std::string name, ComponentStatus value);
+Parameter reference(std::string name, std::string code, std::string codebook_ref = {});
+Parameter references(std::string name, std::vector<std::string> codes, std::string codebook_ref = {});
+Parameter positions(std::string name, std::vector<std::string> points, std::string crs);  // each "x, y, th": mm, mm, degrees
+
+// The parameter of that name, compared without regard to case; null when there is none.
+Parameter const* find(std::span<Parameter const> list, std::string_view name);
+
+}  // namespace rois
