@@ -1,0 +1,58 @@
+#!/bin/sh
+# Judges the profiles and the samples with libxml2, which knows nothing of the server: every profile and every sample in valid/ must
+# be valid, every one in invalid/ must not. Also checks that invalid/manifest.tsv (file, line of the offending start tag, what is
+# wrong; tab-separated) lists each invalid sample once and that a start tag begins on its line. Exits with 1 when anything is wrong.
+set -u
+
+schemas=$(cd "$(dirname "$0")/../../schemas" && pwd) || exit 1
+cd "$schemas" || exit 1
+if ! command -v xmllint >/dev/null; then
+    echo "xmllint is missing (Debian: libxml2-utils)"
+    exit 1
+fi
+
+verdicts=$(mktemp) || exit 1
+trap 'rm -f "$verdicts"' EXIT
+checked=0
+failed=0
+
+complain() {
+    echo "NOT OK  $1"
+    failed=$((failed + 1))
+}
+
+# judge SCHEMA VERDICT FILE...: xmllint must say "FILE VERDICT" of each; what it says otherwise is shown.
+judge() {
+    schema=$1
+    verdict=$2
+    shift 2
+    xmllint --nonet --noout --schema "$schema" "$@" 2>"$verdicts"
+    for file in "$@"; do
+        checked=$((checked + 1))
+        if ! grep -qxF "$file $verdict" "$verdicts"; then
+            complain "$file: expected that it $verdict with $schema"
+            grep -F "$file" "$verdicts"
+        fi
+    done
+}
+
+judge rois.xsd validates profiles/*.xml
+judge messages.xsd validates profiles/*.xml samples/valid/*.xml
+judge messages.xsd "fails to validate" samples/invalid/*.xml
+
+tab=$(printf '\t')
+while IFS="$tab" read -r file line what; do
+    checked=$((checked + 1))
+    if [ -z "$what" ]; then
+        complain "manifest.tsv: $file: three columns are due"
+    elif ! sed -n "${line}p" "samples/invalid/$file" | grep -q '<[A-Za-z]'; then
+        complain "manifest.tsv: $file: no start tag in line $line"
+    fi
+done <samples/invalid/manifest.tsv
+for file in samples/invalid/*.xml; do
+    listed=$(cut -f 1 samples/invalid/manifest.tsv | grep -cxF "$(basename "$file")")
+    [ "$listed" -eq 1 ] || complain "manifest.tsv: $(basename "$file") is listed $listed times"
+done
+
+echo "$checked checked, $failed failed"
+[ "$failed" -eq 0 ]
