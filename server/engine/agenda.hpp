@@ -31,7 +31,7 @@ struct EventOccurred {
 };
 
 struct ErrorOccurred {
-    RegisteredComponent* component;  // null: the engine itself
+    RegisteredComponent const* component;  // null: the engine itself
     ErrorType type;
     std::string text;
 };

@@ -107,7 +107,10 @@ Reply Engine::Core::perform(Session& session, GetParameter const& get, Instant) 
         return refused<GetParameter::Reply>(ReturnCode::bad_parameter, unknown_component(get.component_ref.code));
     if (component->bound_to != &session) return refused<GetParameter::Reply>(ReturnCode::error, not_bound(component->ref().code));
     GetParameter::Reply reply;
-    reply.parameters = component->all_parameters();
+    auto parameters = component->all_parameters();
+    if (!parameters)
+        return refused<GetParameter::Reply>(ReturnCode::error, "the component " + quoted(component->ref().code) + " failed");
+    reply.parameters = std::move(*parameters);
     return reply;
 }
 
@@ -124,6 +127,7 @@ Reply Engine::Core::perform(Session& session, SetParameter const& set, Instant n
 }
 
 Reply Engine::Core::perform(Session& session, Execute const& execute, Instant now) {
+    executor_.forget_old_results(session, now);
     SequenceCheck check{session, registry_};
     if (auto problem = check.objection(execute.command_unit_list))
         return refused<Execute::Reply>(problem->return_code, std::move(problem->reason));

@@ -42,7 +42,7 @@ public:
     EngineStatistics statistics() const;
 
 private:
-    // System interface (system.cpp)
+    // System interface (system_interface.cpp)
     std::variant<Reply, Refusal> connect(SessionId const&, Instant now);
     Reply perform(Session&, Connect const&, Instant now);
     Reply perform(Session&, Resume const&, Instant now);
@@ -73,6 +73,7 @@ private:
 
     // Sessions (engine.cpp)
     void end(Session&, Instant now);
+    void await_end_of_window(Session&);
     void end_if_lost(SessionId const&, Instant now);
     void settle(Instant now);
     void advance_devices(Instant now);

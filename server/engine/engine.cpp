@@ -67,13 +67,17 @@ void Engine::Core::tick(Instant now) {
 // A device that fails is not advanced again: it would fail for ever.
 void Engine::Core::advance_devices(Instant now) {
     std::erase_if(devices_, [&](std::shared_ptr<Device> const& device) {
+        std::string problem;
         try {
             device->advance(now);
             return false;
-        } catch (std::exception const& problem) {
-            agenda_.add(ErrorOccurred{nullptr, ErrorType::engine_internal_error, problem.what()});
-            return true;
+        } catch (std::exception const& exception) {
+            problem = exception.what();
+        } catch (...) {
+            problem = "an unknown exception left a device";
         }
+        agenda_.add(ErrorOccurred{nullptr, ErrorType::engine_internal_error, std::move(problem)});
+        return true;
     });
 }
 
@@ -126,6 +130,7 @@ void Engine::Core::shut_down(Instant now) {
     shutting_down_ = true;
     settings_.on_session_end = OnSessionEnd::stop;
     while (!sessions_.empty()) end(*sessions_.begin()->second, now);
+    executor_.stop_all(now);
     settle(now);
 }
 
@@ -143,18 +148,24 @@ void Engine::Core::link_closed(SessionId const& id, Link link, Instant now) {
     --session->open_links;
     auto const grace = link == Link::stream ? settings_.session_timeout : std::chrono::milliseconds{0};
     session->quiet_until = std::max(session->quiet_until, now.steady + grace);
-    deadlines_.add(session->quiet_until + settings_.resume_window, [this, id](Instant then) { end_if_lost(id, then); });
+    await_end_of_window(*session);
+}
+
+// One look a session, however often its links come and go.
+void Engine::Core::await_end_of_window(Session& session) {
+    if (session.end_of_window) deadlines_.cancel(*session.end_of_window);
+    session.end_of_window = deadlines_.add(session.quiet_until + settings_.resume_window,
+                                           [this, id = session.id](Instant then) { end_if_lost(id, then); });
 }
 
 // Looks again later when something was heard in between (decision 2).
 void Engine::Core::end_if_lost(SessionId const& id, Instant now) {
     auto* session = find(id);
     if (session == nullptr || session->open_links > 0) return;
-    auto const end_of_window = session->quiet_until + settings_.resume_window;
-    if (end_of_window <= now.steady) {
+    if (session->quiet_until + settings_.resume_window <= now.steady) {
         end(*session, now);
     } else {
-        deadlines_.add(end_of_window, [this, id](Instant then) { end_if_lost(id, then); });
+        await_end_of_window(*session);
     }
 }
 

@@ -1,7 +1,6 @@
 #include "engine/executor.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <utility>
 
 #include "engine/parameters.hpp"
@@ -21,6 +20,11 @@ std::vector<std::shared_ptr<Command>> live_commands(Session const& session) {
 }
 
 }  // namespace
+
+// A command and its sequence know each other: what still runs is parted here.
+Executor::~Executor() {
+    for (auto const& [handle, command] : live_) command->execution.reset();
+}
 
 CommandId Executor::fresh_id(Session const& session, std::set<CommandId> const& taken) {
     while (true) {
@@ -62,8 +66,11 @@ void Executor::give_turns(std::shared_ptr<Execution> const& execution, std::vect
             ready_.emplace_back(execution, turn.node);
             continue;
         }
-        deadlines_.add(now.steady + turn.delay, [this, execution, node = turn.node](Instant then) {
-            ready_.emplace_back(execution, node);
+        // A sequence all of whose commands have ended is gone by then.
+        deadlines_.add(now.steady + turn.delay, [this, waiting = std::weak_ptr{execution}, node = turn.node](Instant then) {
+            auto const alive = waiting.lock();
+            if (!alive) return;
+            ready_.emplace_back(alive, node);
             run_ready(then);
         });
     }
@@ -86,7 +93,7 @@ void Executor::run_ready(Instant now) {
 
 void Executor::run(SharedCommand const& command, Instant now) {
     if (command->state != Command::State::waiting) return;
-    if (command->session != nullptr && (command->binding_lost || command->component->bound_to != command->session))
+    if (command->binding_lost || command->component->bound_to != command->session)
         return end(command, CompletedStatus::abort, {}, now);
     command->state = Command::State::running;
     if (command->type == "set_parameter") return run_set_parameter(command, now);
@@ -98,22 +105,28 @@ void Executor::run(SharedCommand const& command, Instant now) {
 }
 
 void Executor::run_set_parameter(SharedCommand const& command, Instant now) {
-    auto& component = *command->component;
-    merge(component.parameters, command->arguments, component.settable());
-    component.component().reconcile(component.parameters, command->arguments);
-    auto const called = call(component, [&](Component& c) { c.parameters_changed(component.parameters, now); });
+    auto const& component = *command->component;
+    auto called = store(*command);
+    if (called == Called::ok) called = component.call([&](Component& c) { c.parameters_changed(component.parameters, now); });
     end(command, called == Called::ok ? CompletedStatus::ok : CompletedStatus::error, {}, now);
+}
+
+Executor::Called Executor::store(Command const& command) {
+    auto& component = *command.component;
+    auto merged = component.merged(component.parameters, command.arguments);
+    if (!merged) return Called::failed;
+    component.parameters = std::move(*merged);
+    return Called::ok;
 }
 
 void Executor::run_start(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
-    merge(component.parameters, command->arguments, component.settable());
-    component.component().reconcile(component.parameters, command->arguments);
+    if (store(*command) == Called::failed) return end(command, CompletedStatus::error, {}, now);
     if (component.activity != RegisteredComponent::Activity::idle) halt(component, CompletedStatus::abort, now);
     component.activity = RegisteredComponent::Activity::running;
     component.start = command;
     await_start(command, now);
-    if (call(component, [&](Component& c) { c.start(command->handle, component.parameters, now); }) == Called::ok) return;
+    if (component.call([&](Component& c) { c.start(command->handle, component.parameters, now); }) == Called::ok) return;
     component.activity = RegisteredComponent::Activity::idle;
     component.start = nullptr;
     end(command, CompletedStatus::error, {}, now);
@@ -121,8 +134,11 @@ void Executor::run_start(SharedCommand const& command, Instant now) {
 
 void Executor::run_stop(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
-    if (component.activity != RegisteredComponent::Activity::idle)
-        halt(component, component.component().status_when_stopped(), now);
+    if (component.activity != RegisteredComponent::Activity::idle) {
+        auto status_of_start = CompletedStatus::abort;
+        component.call([&](Component& c) { status_of_start = c.status_when_stopped(); });
+        halt(component, status_of_start, now);
+    }
     end(command, CompletedStatus::ok, {}, now);
 }
 
@@ -130,7 +146,7 @@ void Executor::run_suspend(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
     if (component.activity == RegisteredComponent::Activity::idle || component.suspended)
         return end(command, CompletedStatus::error, {}, now);
-    auto const called = call(component, [&](Component& c) { c.suspend(now); });
+    auto const called = component.call([&](Component& c) { c.suspend(now); });
     component.suspended = called == Called::ok;
     end(command, called == Called::ok ? CompletedStatus::ok : CompletedStatus::error, {}, now);
 }
@@ -138,7 +154,7 @@ void Executor::run_suspend(SharedCommand const& command, Instant now) {
 void Executor::run_resume(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
     if (!component.suspended) return end(command, CompletedStatus::error, {}, now);
-    auto const called = call(component, [&](Component& c) { c.resume(now); });
+    auto const called = component.call([&](Component& c) { c.resume(now); });
     component.suspended = called != Called::ok;
     end(command, called == Called::ok ? CompletedStatus::ok : CompletedStatus::error, {}, now);
 }
@@ -146,7 +162,7 @@ void Executor::run_resume(SharedCommand const& command, Instant now) {
 void Executor::run_function(SharedCommand const& command, Instant now) {
     await_start(command, now);
     auto const called =
-        call(*command->component, [&](Component& c) { c.perform(command->handle, command->type, command->arguments, now); });
+        command->component->call([&](Component& c) { c.perform(command->handle, command->type, command->arguments, now); });
     if (called == Called::failed) end(command, CompletedStatus::error, {}, now);
 }
 
@@ -202,7 +218,7 @@ void Executor::completed(CommandEnded said, Instant now) {
 }
 
 void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_start, Instant now) {
-    call(component, [&](Component& c) { c.halt(now); });
+    component.call([&](Component& c) { c.halt(now); });
     component.activity = RegisteredComponent::Activity::idle;
     component.suspended = false;
     if (auto const start = std::exchange(component.start, nullptr)) end(start, status_of_start, {}, now);
@@ -250,7 +266,7 @@ void Executor::release(Session& session, RegisteredComponent& component, Instant
         if (command->state == Command::State::waiting) {
             command->binding_lost = true;
         } else if (component.start != command) {
-            call(component, [&](Component& c) { c.halt(now); });
+            component.call([&](Component& c) { c.halt(now); });
             end(command, CompletedStatus::abort, {}, now);
         }
     }
@@ -258,35 +274,26 @@ void Executor::release(Session& session, RegisteredComponent& component, Instant
     run_ready(now);
 }
 
+void Executor::abort(SharedCommand const& command, Instant now) {
+    auto& component = *command->component;
+    if (component.start == command) return halt(component, CompletedStatus::abort, now);
+    if (command->state == Command::State::running) component.call([&](Component& c) { c.halt(now); });
+    end(command, CompletedStatus::abort, {}, now);
+}
+
 void Executor::abort_all(Session& session, Instant now) {
-    for (auto const& command : live_commands(session)) {
-        auto& component = *command->component;
-        if (command->state == Command::State::running && component.start == command) {
-            halt(component, CompletedStatus::abort, now);
-        } else {
-            if (command->state == Command::State::running) call(component, [&](Component& c) { c.halt(now); });
-            end(command, CompletedStatus::abort, {}, now);
-        }
-    }
+    for (auto const& command : live_commands(session)) abort(command, now);
     run_ready(now);
+}
+
+void Executor::stop_all(Instant now) {
+    while (!live_.empty()) abort(SharedCommand{live_.begin()->second}, now);
+    for (auto const& [ref, component] : registry_.all())
+        if (component->activity != RegisteredComponent::Activity::idle) halt(*component, CompletedStatus::abort, now);
 }
 
 void Executor::let_run_on(Session& session) {
     for (auto const& command : live_commands(session)) command->session = nullptr;
-}
-
-Executor::Called Executor::call(RegisteredComponent& component, std::function<void(Component&)> const& what) {
-    try {
-        what(component.component());
-        return Called::ok;
-    } catch (std::exception const& problem) {
-        component.failed = true;
-        agenda_.add(ErrorOccurred{&component, ErrorType::component_internal_error, problem.what()});
-    } catch (...) {
-        component.failed = true;
-        agenda_.add(ErrorOccurred{&component, ErrorType::component_internal_error, "an unknown exception left the component"});
-    }
-    return Called::failed;
 }
 
 }  // namespace rois

@@ -24,6 +24,9 @@ class Executor {
 public:
     Executor(EngineSettings const& settings, Registry const& registry, Agenda& agenda, Deadlines& deadlines, Notifier& notifier)
         : settings_{settings}, registry_{registry}, agenda_{agenda}, deadlines_{deadlines}, notifier_{notifier} {}
+    ~Executor();
+    Executor(Executor const&) = delete;
+    Executor& operator=(Executor const&) = delete;
 
     // Begins a sequence that was checked and whose commands all have ids.
     void execute(Session&, CommandUnitSequence const&, Instant now);
@@ -47,6 +50,9 @@ public:
     // Lets all that the session commanded run on, heard by nobody.
     void let_run_on(Session&);
 
+    // Ends all that still runs or is active, whoever commanded it.
+    void stop_all(Instant now);
+
     // Removes results of the session that are older than they are kept.
     void forget_old_results(Session&, Instant now) const;
 
@@ -55,6 +61,8 @@ public:
 
 private:
     using SharedCommand = std::shared_ptr<Command>;
+
+    using Called = RegisteredComponent::Called;
 
     SharedCommand make(Session&, CommandMessage const&);
     void give_turns(std::shared_ptr<Execution> const&, std::vector<Execution::Turn> const&, Instant now);
@@ -70,9 +78,9 @@ private:
     void await_start(SharedCommand const&, Instant now);
     void start_timed_out(CommandHandle, Instant now);
     void end(SharedCommand const&, CompletedStatus, Results, Instant now);
+    void abort(SharedCommand const&, Instant now);
+    Called store(Command const&);
     void remember(SharedCommand const&, Instant now);
-    enum class Called : std::uint8_t { ok, failed };
-    Called call(RegisteredComponent&, std::function<void(Component&)> const&);
 
     EngineSettings const& settings_;
     Registry const& registry_;

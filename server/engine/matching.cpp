@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "engine/registry.hpp"
 #include "types/texts.hpp"
@@ -99,17 +100,19 @@ Referred result_of(Results const& results, std::string_view reference) {
 // The texts of predicates, alike for those that mean the same.
 std::string canonical(Condition const&);
 
-std::string canonical(Expression const& expression) {
+std::string canonical(Expression const& expression, bool match_case) {
     if (auto const* literal = std::get_if<Literal>(&expression)) {
         auto const text = trimmed(literal->text);
-        return "L" + std::to_string(text.size()) + ":" + std::string{text};
+        return "L" + std::to_string(text.size()) + ":" + (match_case ? std::string{text} : lower_case(text));
     }
     auto const path = lower_case(trimmed(std::get<ValueReference>(expression).path));
     return "R" + std::to_string(path.size()) + ":" + path;
 }
 
 std::string canonical(PropertyIsEqualTo const& equal) {
-    auto const [first, second] = std::minmax(canonical(equal.left), canonical(equal.right));
+    auto first = canonical(equal.left, equal.match_case);
+    auto second = canonical(equal.right, equal.match_case);
+    if (second < first) std::swap(first, second);
     return std::string{equal.match_case ? "=" : "~"} + "(" + first + "," + second + ")";
 }
 

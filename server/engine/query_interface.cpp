@@ -1,5 +1,4 @@
 // Query interface (7.4.2, table 4).
-#include <exception>
 #include <utility>
 
 #include "engine/core.hpp"
@@ -32,18 +31,15 @@ Reply Engine::Core::answer(Session& session, RegisteredComponent& component, std
         reply.results.parameters.push_back(status_of("status", component.status_for(&session)));
         return reply;
     }
+    std::optional<Results> results;
     if (query_type == "get_parameter") {
-        reply.results.parameters = component.all_parameters();
-        return reply;
+        if (auto parameters = component.all_parameters()) results = Results{std::move(*parameters), {}};
+    } else {
+        component.call([&](Component& c) { results = c.query(query_type, now); });
     }
-    try {
-        if (auto results = component.component().query(query_type, now)) {
-            reply.results = std::move(*results);
-            return reply;
-        }
-    } catch (std::exception const& problem) {
-        component.failed = true;
-        agenda_.add(ErrorOccurred{&component, ErrorType::component_internal_error, problem.what()});
+    if (results) {
+        reply.results = std::move(*results);
+        return reply;
     }
     return refused<Query::Reply>(ReturnCode::error, "the component " + quoted(component.ref().code) + " could not answer");
 }

@@ -1,9 +1,11 @@
 #include "engine/registry.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <stdexcept>
 #include <utility>
 
+#include "engine/parameters.hpp"
 #include "engine/session.hpp"
 #include "types/data_type.hpp"
 #include "types/texts.hpp"
@@ -60,10 +62,8 @@ RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, C
     : component_{std::move(component)}, profile_{std::move(profile)}, settable_{settable_of(profile_)}, agenda_{agenda} {
     add_parameter_messages(profile_, settable_);
     auto const& description = component_->description();
-    entry_ = {.ref = description.ref.code,
-              .type = profile_.object.identifier,
-              .engine = description.engine,
-              .profile = description.profile};
+    ref_ = description.ref;
+    entry_ = {.ref = ref_.code, .type = profile_.object.identifier, .engine = description.engine, .profile = description.profile};
     for (auto const& parameter : settable_)
         if (parameter.default_value) parameters.push_back({parameter.name, parameter.data_type_ref, default_values(parameter)});
     component_->attach(*this);
@@ -71,14 +71,37 @@ RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, C
 
 ComponentStatus RegisteredComponent::status_for(Session const* asker) const {
     if (bound_to != nullptr && bound_to != asker) return ComponentStatus::busy;
-    auto const own = component_->status();
-    return failed && own != ComponentStatus::uninitialized ? ComponentStatus::error : own;
+    auto status = ComponentStatus::error;
+    if (!failed) call([&](Component& c) { status = c.status(); });
+    return status;
 }
 
-ParameterList RegisteredComponent::all_parameters() const {
-    ParameterList all = component_->readable_parameters();
+RegisteredComponent::Called RegisteredComponent::call(std::function<void(Component&)> const& what) const {
+    std::string problem;
+    try {
+        what(*component_);
+        return Called::ok;
+    } catch (std::exception const& exception) {
+        problem = exception.what();
+    } catch (...) {
+        problem = "an unknown exception left the component";
+    }
+    failed = true;
+    agenda_.add(ErrorOccurred{this, ErrorType::component_internal_error, std::move(problem)});
+    return Called::failed;
+}
+
+std::optional<ParameterList> RegisteredComponent::all_parameters() const {
+    ParameterList all;
+    if (call([&](Component& c) { all = c.readable_parameters(); }) == Called::failed) return {};
     all.insert(all.end(), parameters.begin(), parameters.end());
     return all;
+}
+
+std::optional<ParameterList> RegisteredComponent::merged(ParameterList stored, ParameterList const& arrived) const {
+    merge(stored, arrived, settable_);
+    if (call([&](Component& c) { c.reconcile(stored, arrived); }) == Called::failed) return {};
+    return stored;
 }
 
 void RegisteredComponent::started(CommandHandle command) { agenda_.add(CommandStarted{command}); }

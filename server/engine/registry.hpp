@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,24 +27,30 @@ public:
     // `profile` has the messages of the sub components.
     RegisteredComponent(std::unique_ptr<Component>, ComponentProfile profile, Agenda&);
 
-    Identifier const& ref() const { return component_->description().ref; }
+    Identifier const& ref() const { return ref_; }
     ComponentEntry const& entry() const { return entry_; }
     ComponentProfile const& profile() const { return profile_; }
-    Component& component() { return *component_; }
+
+    // Asks or tells the component something. An exception that leaves it is reported and makes its status ERROR (decision 16).
+    enum class Called : std::uint8_t { ok, failed };
+    Called call(std::function<void(Component&)> const& what) const;
 
     // Decision 7: as `asker` sees it.
     ComponentStatus status_for(Session const* asker) const;
 
-    // What a component of this type may be told by set_parameter, and what get_parameter answers.
+    // What a component of this type may be told by set_parameter, and what get_parameter answers; nothing when it failed.
     std::vector<ParameterProfile> const& settable() const { return settable_; }
-    ParameterList all_parameters() const;
+    std::optional<ParameterList> all_parameters() const;
+
+    // `stored` with what arrived, as the component reconciles the two; nothing when it failed.
+    std::optional<ParameterList> merged(ParameterList stored, ParameterList const& arrived) const;
 
     Session* bound_to = nullptr;
     ParameterList parameters;  // stored: defaults at first
     Activity activity = Activity::idle;
     bool suspended = false;
     std::shared_ptr<Command> start;  // whose action runs, or null
-    bool failed = false;             // an exception left it; until a command of it succeeds
+    mutable bool failed = false;     // an exception left it; until a command of it succeeds
 
     void started(CommandHandle) override;
     void completed(CommandHandle, CompletedStatus, Results, Afterwards) override;
@@ -52,6 +59,7 @@ public:
 
 private:
     std::unique_ptr<Component> component_;
+    Identifier ref_;
     ComponentProfile profile_;
     ComponentEntry entry_;
     std::vector<ParameterProfile> settable_;

@@ -23,6 +23,10 @@ std::string command_types_of(ComponentProfile const& profile) {
 
 Objection bad_parameter(std::string reason) { return {ReturnCode::bad_parameter, std::move(reason)}; }
 
+Objection failed(RegisteredComponent const& component) {
+    return {ReturnCode::error, "the component " + quoted(component.ref().code) + " failed"};
+}
+
 }  // namespace
 
 std::vector<ParameterProfile> const* arguments_of(RegisteredComponent const& component, std::string_view command_type) {
@@ -37,6 +41,7 @@ std::optional<Objection> SequenceCheck::objection(CommandUnitSequence const& seq
 
 std::optional<Objection> SequenceCheck::in_list(std::vector<CommandUnit> const& units, std::string const& path,
                                                 std::string_view name) {
+    if (units.empty()) return bad_parameter((path.empty() ? "" : path + ": ") + std::string{"there is no "} + std::string{name});
     for (std::size_t i = 0; i < units.size(); ++i)
         if (auto problem = in_unit(units[i], element(path, name, i))) return problem;
     return {};
@@ -59,9 +64,10 @@ std::optional<Objection> SequenceCheck::in_unit(CommandUnit const& unit, std::st
 }
 
 std::optional<Objection> SequenceCheck::in_branches(ConcurrentCommands const& concurrent, std::string const& path) {
+    if (concurrent.branches.empty()) return bad_parameter(path + ": there is no branch");
     for (std::size_t i = 0; i < concurrent.branches.size(); ++i) {
         auto const& commands = concurrent.branches[i].command_list;
-        auto problem = concurrent.form == ConcurrentCommands::Form::command_list
+        auto problem = concurrent.form == ConcurrentCommands::Form::command_list && commands.size() == 1
                            ? in_unit(commands.front(), element(path, "command_list", i))
                            : in_list(commands, element(path, "branch_list", i), "command_list");
         if (problem) return problem;
@@ -84,17 +90,17 @@ std::optional<Objection> SequenceCheck::values(CommandMessage const& message, Re
         return bad_parameter("the component " + quoted(component.ref().code) + " has no command " + quoted(message.command_type) +
                              "; it has " + command_types_of(component.profile()));
     if (auto problem = why_not(*profiles, message.arguments)) return bad_parameter(std::move(*problem));
-    auto const arrived = normalized(*profiles, message.arguments);
-    if (profiles != &component.settable()) {
-        if (auto problem = component.component().refusal(message.command_type, arrived))
-            return bad_parameter(std::move(*problem));
-        return {};
+    auto parameters = normalized(*profiles, message.arguments);
+    if (profiles == &component.settable()) {
+        auto const stored = stored_.try_emplace(&component, component.parameters).first;
+        auto merged = component.merged(stored->second, parameters);
+        if (!merged) return failed(component);
+        parameters = stored->second = std::move(*merged);
     }
-    auto const place = stored_.try_emplace(&component, component.parameters).first;
-    merge(place->second, arrived, component.settable());
-    component.component().reconcile(place->second, arrived);
-    if (auto problem = component.component().refusal(message.command_type, place->second))
-        return bad_parameter(std::move(*problem));
+    std::optional<std::string> refusal;
+    auto const called = component.call([&](Component& c) { refusal = c.refusal(message.command_type, parameters); });
+    if (called == RegisteredComponent::Called::failed) return failed(component);
+    if (refusal) return bad_parameter(std::move(*refusal));
     return {};
 }
 

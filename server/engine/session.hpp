@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "engine/command.hpp"
+#include "engine/deadlines.hpp"
 #include "engine/notification_queue.hpp"
 #include "types/ids.hpp"
 #include "types/instant.hpp"
@@ -32,7 +33,8 @@ struct Session {
     // The link (decision 2): how many WebSockets and streams are open, and until when silence is no loss.
     std::size_t open_links = 0;
     Steady quiet_until;
-    bool overflowed = false;  // cannot be told everything any more: must end
+    std::optional<Deadlines::Ticket> end_of_window;  // when to look whether the link was lost for good
+    bool overflowed = false;                         // cannot be told everything any more: must end
 };
 
 }  // namespace rois

@@ -14,7 +14,7 @@ std::variant<Reply, Refusal> Engine::Core::connect(SessionId const& id, Instant 
         std::make_shared<NotificationQueue>(settings_.max_waiting_notifications, settings_.max_sent_notifications);
     session->quiet_until = now.steady;
     auto& opened = *sessions_.emplace(session->id, std::move(session)).first->second;
-    deadlines_.add(now.steady + settings_.resume_window, [this, fresh = opened.id](Instant then) { end_if_lost(fresh, then); });
+    await_end_of_window(opened);
     return perform(opened, Connect{}, now);
 }
 

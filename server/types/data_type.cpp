@@ -41,6 +41,15 @@ std::string_view without_urn(std::string_view code) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
+// "+09:00": at most 14 hours.
+bool is_offset(std::string_view text) {
+    if (text.size() != 6 || (text[0] != '+' && text[0] != '-') || text[3] != ':') return false;
+    for (std::size_t const i : {1, 2, 4, 5})
+        if (!is_digit(text[i])) return false;
+    auto const hours = text.substr(1, 2), minutes = text.substr(4);
+    return (hours < "14" && minutes < "60") || (hours == "14" && minutes == "00");
+}
+
 // "2026-11-20T12:00:00.123Z": the date, the time, any number of digits after the point, and Z or an offset.
 bool is_date_time(std::string_view text) {
     constexpr std::string_view shape = "dddd-dd-ddTdd:dd:dd";
@@ -59,9 +68,7 @@ bool is_date_time(std::string_view text) {
         if (digits == 0) return false;
         text.remove_prefix(digits + 1);
     }
-    if (text == "Z") return true;
-    return text.size() == 6 && (text[0] == '+' || text[0] == '-') && is_digit(text[1]) && is_digit(text[2]) && text[3] == ':' &&
-           is_digit(text[4]) && is_digit(text[5]);
+    return text == "Z" || is_offset(text);
 }
 
 bool is_component_status(std::string_view text) {

@@ -1,0 +1,61 @@
+#include "xml/characters.hpp"
+
+#include <cstdint>
+#include <cstring>
+
+namespace rois::xml {
+
+namespace {
+
+constexpr std::string_view not_utf8 = "the document is not UTF-8";
+constexpr std::string_view not_a_character = "a character that XML cannot carry";
+
+// Eight printable ASCII bytes at once: none below space, none above 0x7F.
+bool all_printable(char const* p) {
+    std::uint64_t bytes = 0;
+    std::memcpy(&bytes, p, sizeof bytes);
+    return ((bytes | (bytes - 0x2020202020202020u)) & 0x8080808080808080u) == 0;
+}
+
+// The number of bytes of the character that begins here, or 0 when it is none of UTF-8's (surrogates and overlong forms are not).
+std::size_t length_of(std::string_view rest, char32_t& code) {
+    auto const byte = [&](std::size_t i) { return static_cast<unsigned char>(rest[i]); };
+    auto const first = byte(0);
+    std::size_t const length = first < 0x80 ? 1 : first < 0xC2 ? 0 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : first < 0xF5 ? 4 : 0;
+    if (length == 0 || length > rest.size()) return 0;
+    if (length == 1) {
+        code = first;
+        return 1;
+    }
+    code = first & (0x7Fu >> length);
+    for (std::size_t i = 1; i < length; ++i) {
+        if ((byte(i) & 0xC0) != 0x80) return 0;
+        code = code << 6 | (byte(i) & 0x3Fu);
+    }
+    bool const overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
+    bool const surrogate = code >= 0xD800 && code <= 0xDFFF;
+    return overlong || surrogate || code > 0x10FFFF ? 0 : length;
+}
+
+bool allowed(char32_t code) {
+    return code >= 0x20 ? code != 0xFFFE && code != 0xFFFF : code == '\t' || code == '\n' || code == '\r';
+}
+
+}  // namespace
+
+std::optional<BadCharacter> first_bad_character(std::string_view text) {
+    for (std::size_t i = 0; i < text.size();) {
+        if (i + 8 <= text.size() && all_printable(text.data() + i)) {
+            i += 8;
+            continue;
+        }
+        char32_t code = 0;
+        auto const length = length_of(text.substr(i, 4), code);
+        if (length == 0) return BadCharacter{i, 1, not_utf8};
+        if (!allowed(code)) return BadCharacter{i, length, not_a_character};
+        i += length;
+    }
+    return std::nullopt;
+}
+
+}  // namespace rois::xml

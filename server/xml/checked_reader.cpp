@@ -1,0 +1,99 @@
+#include "xml/checked_reader.hpp"
+
+#include <algorithm>
+
+#include "types/texts.hpp"
+#include "xml/explanation.hpp"
+#include "xml/grammars.hpp"
+#include "xml/place.hpp"
+#include "xml/tree.hpp"
+
+namespace rois::xml {
+
+namespace {
+
+constexpr std::size_t keep_at_most = 256 << 10;  // bytes of the buffer between two documents
+
+// A parser's words, fit for a reason.
+std::string clean(std::string_view text) {
+    constexpr std::size_t longest = 160;
+    auto const with_quotes = quoted(text, longest);
+    return with_quotes.substr(1, with_quotes.size() - 2);
+}
+
+Objection about(ForeignNamespace const& foreign) {
+    return {"no schema knows the namespace " + quoted(foreign.name), foreign.offset + 1};
+}
+
+// The offset of the last start tag that begins before `offset`.
+std::size_t tag_before(pugi::xml_node root, std::size_t offset) {
+    struct Last : pugi::xml_tree_walker {
+        std::size_t limit = 0, found = 0;
+        bool for_each(pugi::xml_node& node) override {
+            if (node.type() != pugi::node_element) return true;
+            if (offset_of(node) >= limit) return false;
+            found = offset_of(node);
+            return true;
+        }
+    } last;
+    last.limit = offset;
+    last.found = offset_of(root);
+    root.traverse(last);
+    return last.found;
+}
+
+}  // namespace
+
+CheckedReader::CheckedReader(std::shared_ptr<Schemas const> schemas, DocumentLimits limits,
+                             std::span<std::string_view const> roots)
+    : schemas_{std::move(schemas)}, limits_{limits}, roots_{roots}, validator_{schemas_} {}
+
+std::optional<Fault> CheckedReader::read(std::string_view document) {
+    if (document.size() > limits_.bytes) {
+        return Fault{
+            FaultCode::too_large, "the document is too large: the limit is " + std::to_string(limits_.bytes) + " bytes", {}, {}};
+    }
+    tree_.reset();
+    if (bytes_.capacity() > keep_at_most && document.size() <= keep_at_most) std::string{}.swap(bytes_);
+    document_ = document;
+    bytes_ = document;
+
+    auto const outcome = scan(bytes_, limits_, schemas_->grammars().namespaces());
+    if (auto const* refusal = std::get_if<Refusal>(&outcome)) return refused(refusal->code, refusal->reason, refusal->offset);
+    auto const& scanned = std::get<Scanned>(outcome);
+    if (scanned.foreign) return not_valid(about(*scanned.foreign), scanned);
+    if (auto const objection = validator_.objection_to(bytes_)) return not_valid(*objection, scanned);
+    if (auto const result = tree_.load_buffer_inplace(bytes_.data(), bytes_.size(), as_xerces_reads, pugi::encoding_utf8);
+        !result) {
+        return refused(FaultCode::not_well_formed, result.description(), static_cast<std::size_t>(result.offset));
+    }
+    return std::nullopt;
+}
+
+Fault CheckedReader::complain(pugi::xml_node element, std::string reason) const {
+    return refused(FaultCode::invalid, std::move(reason), offset_of(element));
+}
+
+Fault CheckedReader::refused(FaultCode code, std::string reason, std::size_t offset) const {
+    return {code, std::move(reason), place_of(document_, offset), request_id_of(document_)};
+}
+
+Fault CheckedReader::not_well_formed(Objection const& objection, Scanned const& scanned) const {
+    auto const end = bytes_.find_last_not_of(" \t\r\n") + 1;
+    return refused(FaultCode::not_well_formed, "not well-formed: " + clean(objection.text),
+                   objection.offset >= end ? scanned.last_tag : objection.offset);
+}
+
+Fault CheckedReader::not_valid(Objection const& objection, Scanned const& scanned) const {
+    if (auto const form = objection_to_form(bytes_)) return not_well_formed(*form, scanned);
+    auto copy = bytes_;
+    pugi::xml_document tree;
+    tree.load_buffer_inplace(copy.data(), copy.size(), as_xerces_reads, pugi::encoding_utf8);
+    auto const root = tree.document_element();
+    if (auto explanation = explain(*schemas_, root, roots_)) {
+        return refused(FaultCode::invalid, std::move(explanation->reason), explanation->offset);
+    }
+    return refused(FaultCode::invalid, "not valid: " + clean(objection.text), tag_before(root, objection.offset));
+}
+
+}  // namespace rois::xml

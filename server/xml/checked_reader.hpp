@@ -1,0 +1,47 @@
+// From bytes to a tree, for documents that are well-formed and valid: the way of every document into the program.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <pugixml.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "types/messages.hpp"
+#include "xml/codec.hpp"
+#include "xml/scan.hpp"
+#include "xml/validator.hpp"
+
+namespace rois::xml {
+
+// Checks a document's bytes with a scan of our own, then against the schemas, and parses the very same bytes into a tree. Keeps
+// its parsers and buffers; for one thread.
+class CheckedReader {
+public:
+    // `roots` are the elements that a fault names when the root is another one; none: any that the schemas have.
+    CheckedReader(std::shared_ptr<Schemas const>, DocumentLimits, std::span<std::string_view const> roots = {});
+
+    // Nothing when all is well: then `root` is the document's, until the next call. The document must live as long as it is asked
+    // about.
+    std::optional<Fault> read(std::string_view document);
+    pugi::xml_node root() const { return tree_.document_element(); }
+
+    // A fault about an element of the last document.
+    Fault complain(pugi::xml_node element, std::string reason) const;
+
+private:
+    Fault refused(FaultCode, std::string reason, std::size_t offset) const;
+    Fault not_well_formed(Objection const&, Scanned const&) const;
+    Fault not_valid(Objection const&, Scanned const&) const;
+
+    std::shared_ptr<Schemas const> schemas_;
+    DocumentLimits limits_;
+    std::span<std::string_view const> roots_;
+    Validator validator_;
+    std::string_view document_;  // the last one, as it came
+    std::string bytes_;          // it with its namespaces in today's form; the tree points into it
+    pugi::xml_document tree_;
+};
+
+}  // namespace rois::xml

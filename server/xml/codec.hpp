@@ -1,0 +1,58 @@
+// Text <-> messages: the only place that knows how the messages of wire.md look. Encoding is pure and may be called from any
+// thread.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "types/messages.hpp"
+
+namespace rois::xml {
+
+class Schemas;
+
+// The limits of a document, checked before any parser sees it (bad-input 3).
+struct DocumentLimits {
+    std::size_t bytes = 1 << 20;
+    std::size_t depth = 64;
+    std::size_t attributes = 32;    // an element
+    std::size_t name_length = 256;  // bytes
+    std::size_t elements = 5'000;
+};
+
+// Reads requests: checks the bytes, validates against the schemas, and gives the operation. Keeps its parser and replaces it on a
+// schedule; one for each thread.
+class RequestReader {
+public:
+    explicit RequestReader(std::shared_ptr<Schemas const>, DocumentLimits = {});
+    ~RequestReader();
+    RequestReader(RequestReader&&) noexcept;
+
+    // Never throws for anything that the document says; a fault has the request_id when that could be read.
+    std::variant<Request, Fault> read(std::string_view document);
+
+private:
+    class Kept;
+    std::unique_ptr<Kept> kept_;
+};
+
+// The answer's document. `request_id` is left out when empty.
+std::string encode(Reply const&, std::string_view request_id);
+std::string encode(Fault const&);
+
+// A notification's document is `head(n, sequence) + tail(n)`: the tail is the same for all its receivers.
+std::string notification_head(Notification const&, std::uint64_t sequence);
+std::string notification_tail(Notification const&);
+
+// The document that `/rois/notifications` answers: `<notifications>` with the given documents inside.
+std::string notifications_begin();
+std::string notifications_end();
+
+// Profile documents (7.5; the XML PSM of 2.0), with an XML declaration. `gml_id` is an NCName.
+std::string encode(EngineProfile const&, std::string_view gml_id);
+std::string encode(ComponentProfile const&, std::string_view gml_id);
+
+}  // namespace rois::xml

@@ -1,0 +1,103 @@
+#include "xml/document.hpp"
+
+#include <utility>
+
+#include "types/texts.hpp"
+#include "xml/checked_reader.hpp"
+#include "xml/tree.hpp"
+
+namespace rois::xml {
+
+namespace {
+
+std::string at(std::string const& name, Fault const& fault) {
+    auto const place = fault.place.value_or(Place{});
+    return name + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) + ": " + fault.reason;
+}
+
+// A file as it was read, with its tree. Its elements keep it alive.
+struct Opened {
+    Opened(std::string its_name, std::string its_text, std::shared_ptr<Schemas const> schemas)
+        : name{std::move(its_name)}, text{std::move(its_text)}, reader{std::move(schemas), DocumentLimits{}} {}
+
+    std::string name;
+    std::string text;
+    CheckedReader reader;
+};
+
+}  // namespace
+
+struct Element::Node {
+    std::shared_ptr<Opened const> document;
+    pugi::xml_node node;
+};
+
+std::string_view Element::name() const { return local_name(node_->node); }
+
+std::vector<Element> Element::children() const {
+    std::vector<Element> elements;
+    for (auto const each : node_->node.children()) {
+        if (each.type() != pugi::node_element) continue;
+        elements.emplace_back().node_ = std::make_shared<Node const>(Node{node_->document, each});
+    }
+    return elements;
+}
+
+std::vector<Element> Element::children(std::string_view name) const {
+    auto elements = children();
+    std::erase_if(elements, [&](Element const& each) { return each.name() != name; });
+    return elements;
+}
+
+std::optional<Element> Element::child(std::string_view name) const {
+    for (auto& each : children()) {
+        if (each.name() == name) return each;
+    }
+    return std::nullopt;
+}
+
+std::optional<std::string> Element::attribute(std::string_view name) const {
+    auto const found = xml::attribute(node_->node, name);
+    return found ? std::optional<std::string>{found.value()} : std::nullopt;
+}
+
+std::string Element::attribute(std::string_view name, std::string_view otherwise) const {
+    return attribute(name).value_or(std::string{otherwise});
+}
+
+double Element::number(std::string_view name) const {
+    auto const text = attribute(name);
+    if (!text) throw complain("attribute " + quoted(name) + " is missing");
+    auto const number = to_double(*text);
+    if (!number) throw complain("attribute " + quoted(name) + " is " + quoted(*text) + ": expected a number");
+    return *number;
+}
+
+double Element::number(std::string_view name, double otherwise) const { return attribute(name) ? number(name) : otherwise; }
+
+std::string_view Element::type() const {
+    auto const type = xsi_type(node_->node);
+    return type ? type->local_name : std::string_view{};
+}
+
+std::string Element::text() const { return text_of(node_->node); }
+
+BadDocument Element::complain(std::string_view reason) const {
+    auto const& document = *node_->document;
+    auto const fault = document.reader.complain(node_->node, std::string{reason});
+    return BadDocument{at(document.name, fault)};
+}
+
+Document Document::parse(std::shared_ptr<Schemas const> schemas, std::string name, std::string text) {
+    auto opened = std::make_shared<Opened>(std::move(name), std::move(text), std::move(schemas));
+    if (auto const fault = opened->reader.read(opened->text)) {
+        throw BadDocument{at(opened->name, *fault)};
+    }
+    Document document;
+    document.root_.node_ = std::make_shared<Element::Node const>(Element::Node{opened, opened->reader.root()});
+    return document;
+}
+
+Element Document::root() const { return root_; }
+
+}  // namespace rois::xml

@@ -1,0 +1,28 @@
+// The compiled schemas, for those in this layer who read with them.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+#include <xercesc/framework/XMLGrammarPool.hpp>
+
+#include "xml/schemas.hpp"
+
+namespace rois::xml {
+
+class Schemas::Grammars {
+public:
+    explicit Grammars(NamedFiles const& files);
+
+    // Locked. Parsers and resolvers take it without const, but change nothing in it.
+    xercesc::XMLGrammarPool& pool() const { return *pool_; }
+
+    // The namespaces that a document may declare.
+    std::vector<std::string> const& namespaces() const { return namespaces_; }
+
+private:
+    std::unique_ptr<xercesc::XMLGrammarPool> pool_;
+    std::vector<std::string> namespaces_;
+};
+
+}  // namespace rois::xml

@@ -1,0 +1,36 @@
+// The memory of one kept xerces parser.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+#include <xercesc/framework/MemoryManager.hpp>
+
+namespace rois::xml {
+
+// Gives blocks of the sizes of powers of two and keeps those that come back for the next document. Counts what is in use, so that
+// it can be seen when a parser hoards. Not thread-safe.
+class ParserMemory : public xercesc::MemoryManager {
+public:
+    ParserMemory() = default;
+    ~ParserMemory() override;
+    ParserMemory(ParserMemory const&) = delete;
+    ParserMemory& operator=(ParserMemory const&) = delete;
+
+    void* allocate(XMLSize_t size) override;
+    void deallocate(void* block) override;
+    xercesc::MemoryManager* getExceptionMemoryManager() override;
+
+    std::size_t bytes_in_use() const { return in_use_; }
+    std::size_t bytes_kept() const { return kept_; }
+
+private:
+    struct Header;
+    static constexpr std::size_t smallest = 32;
+
+    std::array<Header*, 48> free_{};  // by the power of two above `smallest`
+    std::size_t in_use_ = 0;
+    std::size_t kept_ = 0;
+};
+
+}  // namespace rois::xml

@@ -1,0 +1,35 @@
+#include "xml/checked_reader.hpp"
+#include "xml/codec.hpp"
+#include "xml/decoding.hpp"
+#include "xml/explanation.hpp"
+
+namespace rois::xml {
+
+class RequestReader::Kept {
+public:
+    Kept(std::shared_ptr<Schemas const> schemas, DocumentLimits limits)
+        : schemas_{schemas}, reader_{std::move(schemas), limits, operation_names()} {}
+
+    std::variant<Request, Fault> read(std::string_view document) {
+        if (auto fault = reader_.read(document)) return *std::move(fault);
+        if (auto request = decode(reader_.root())) return *std::move(request);
+        // Valid, but an answer, a notification or a profile.
+        auto const explanation = explain(*schemas_, reader_.root(), operation_names());
+        return reader_.complain(reader_.root(), explanation ? explanation->reason : "this is no request");
+    }
+
+private:
+    std::shared_ptr<Schemas const> schemas_;
+    CheckedReader reader_;
+};
+
+RequestReader::RequestReader(std::shared_ptr<Schemas const> schemas, DocumentLimits limits)
+    : kept_{std::make_unique<Kept>(std::move(schemas), limits)} {}
+
+RequestReader::~RequestReader() = default;
+
+RequestReader::RequestReader(RequestReader&&) noexcept = default;
+
+std::variant<Request, Fault> RequestReader::read(std::string_view document) { return kept_->read(document); }
+
+}  // namespace rois::xml

@@ -1,0 +1,46 @@
+// Reads one start tag, attribute by attribute, from bytes that no parser has seen yet.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace rois::xml {
+
+inline constexpr std::string_view white_space = " \t\r\n";
+
+class StartTag {
+public:
+    enum class Step { attribute, end, empty_end, broken };
+
+    // `offset` is that of its `<`.
+    StartTag(std::string_view document, std::size_t offset);
+
+    std::string_view name() const { return name_; }
+
+    // Goes on to the next attribute or to the end of the tag. What is `broken` is not well-formed, and cannot be read on.
+    Step next();
+
+    // After Step::attribute. The value is as written: white space and references are not resolved.
+    std::string_view attribute() const { return attribute_; }
+    std::string_view value() const { return value_; }
+
+    // Where reading stands: after the attribute, after the tag, or where it is broken.
+    std::size_t offset() const { return at_; }
+    // What is wrong with a broken tag.
+    std::string_view complaint() const { return complaint_; }
+
+private:
+    std::string_view take_name();
+    Step take_attribute();
+    void skip_white_space();
+    Step broken(std::string_view complaint);
+
+    std::string_view document_;
+    std::size_t at_;
+    std::string_view name_;
+    std::string_view attribute_;
+    std::string_view value_;
+    std::string_view complaint_;
+};
+
+}  // namespace rois::xml

@@ -1,0 +1,139 @@
+#include "xml/validator.hpp"
+
+#include <stdexcept>
+#include <xercesc/framework/MemBufInputSource.hpp>
+#include <xercesc/parsers/SAX2XMLReaderImpl.hpp>
+#include <xercesc/sax/ErrorHandler.hpp>
+#include <xercesc/sax/SAXParseException.hpp>
+#include <xercesc/util/OutOfMemoryException.hpp>
+#include <xercesc/util/XMLEntityResolver.hpp>
+
+#include "xml/grammars.hpp"
+#include "xml/parser_memory.hpp"
+#include "xml/place.hpp"
+#include "xml/xerces_text.hpp"
+
+namespace rois::xml {
+
+namespace {
+
+// Whatever a document asks for outside itself is refused. An empty source would let it through instead.
+class NothingOutside : public xercesc::XMLEntityResolver {
+public:
+    xercesc::InputSource* resolveEntity(xercesc::XMLResourceIdentifier*) override {
+        throw std::runtime_error("the document refers to something outside itself");
+    }
+};
+
+// Keeps the first of what a parser complains about.
+class FirstComplaint : public xercesc::ErrorHandler {
+public:
+    struct Complaint {
+        std::string text;
+        Place place;  // as the parser counts
+    };
+
+    void note(std::string text, Place place = {1, 1}) {
+        if (!complaint_) complaint_ = Complaint{std::move(text), place};
+    }
+    std::optional<Complaint> const& complaint() const { return complaint_; }
+
+private:
+    void warning(xercesc::SAXParseException const&) override {}
+    void error(xercesc::SAXParseException const& e) override {
+        note(from_xerces(e.getMessage()), {e.getLineNumber(), e.getColumnNumber()});
+    }
+    void fatalError(xercesc::SAXParseException const& e) override { error(e); }
+    void resetErrors() override { complaint_.reset(); }
+
+    std::optional<Complaint> complaint_;
+};
+
+// Without grammars it looks at a document's form alone.
+class Reader {
+public:
+    Reader(xercesc::MemoryManager& memory, xercesc::XMLGrammarPool* grammars) : memory_{memory}, parser_{&memory, grammars} {
+        bool const validating = grammars != nullptr;
+        parser_.setFeature(xercesc::XMLUni::fgSAX2CoreNameSpaces, true);
+        parser_.setFeature(xercesc::XMLUni::fgSAX2CoreValidation, validating);
+        parser_.setFeature(xercesc::XMLUni::fgXercesDynamic, false);
+        parser_.setFeature(xercesc::XMLUni::fgXercesSchema, validating);
+        parser_.setFeature(xercesc::XMLUni::fgXercesLoadSchema, false);
+        parser_.setFeature(xercesc::XMLUni::fgXercesLoadExternalDTD, false);
+        parser_.setFeature(xercesc::XMLUni::fgXercesUseCachedGrammarInParse, validating);
+        parser_.setFeature(xercesc::XMLUni::fgXercesDisableDefaultEntityResolution, true);
+        parser_.setFeature(xercesc::XMLUni::fgXercesContinueAfterFatalError, false);
+        parser_.setFeature(xercesc::XMLUni::fgXercesValidationErrorAsFatal, true);
+        auto const* const scanner = validating ? xercesc::XMLUni::fgSGXMLScanner : xercesc::XMLUni::fgWFXMLScanner;
+        parser_.setProperty(xercesc::XMLUni::fgXercesScannerName, const_cast<XMLCh*>(scanner));
+        parser_.setXMLEntityResolver(&nothing_outside_);
+        parser_.setErrorHandler(&first_);
+    }
+
+    std::optional<Objection> read(std::string_view document) {
+        try {
+            xercesc::MemBufInputSource source{reinterpret_cast<XMLByte const*>(document.data()), document.size(), u"document",
+                                              false, &memory_};
+            source.setCopyBufToStream(false);
+            source.setEncoding(xercesc::XMLUni::fgUTF8EncodingString);
+            parser_.parse(source);
+        } catch (xercesc::OutOfMemoryException const&) {
+            first_.note("the document takes too much memory");
+        } catch (xercesc::XMLException const& e) {
+            first_.note(from_xerces(e.getMessage()));
+        } catch (xercesc::SAXException const& e) {
+            first_.note(from_xerces(e.getMessage()));
+        } catch (std::exception const& e) {
+            first_.note(e.what());
+        }
+        auto const& complaint = first_.complaint();
+        if (!complaint) return std::nullopt;
+        return Objection{complaint->text, offset_of(document, complaint->place)};
+    }
+
+private:
+    xercesc::MemoryManager& memory_;
+    NothingOutside nothing_outside_;
+    FirstComplaint first_;
+    xercesc::SAX2XMLReaderImpl parser_;
+};
+
+}  // namespace
+
+class Validator::Parser {
+public:
+    explicit Parser(Schemas const& schemas) : reader_{memory_, &schemas.grammars().pool()}, at_first_{memory_.bytes_in_use()} {}
+
+    std::optional<Objection> read(std::string_view document) { return reader_.read(document); }
+
+    bool hoards() const { return memory_.bytes_in_use() > at_first_ + most_in_use || memory_.bytes_kept() > most_kept; }
+    std::size_t bytes_in_use() const { return memory_.bytes_in_use(); }
+
+private:
+    static constexpr std::size_t most_in_use = 256 << 10;  // beyond what a new parser uses
+    static constexpr std::size_t most_kept = 2 << 20;
+
+    ParserMemory memory_;
+    Reader reader_;
+    std::size_t at_first_;
+};
+
+Validator::Validator(std::shared_ptr<Schemas const> schemas)
+    : schemas_{std::move(schemas)}, parser_{std::make_unique<Parser>(*schemas_)} {}
+
+Validator::~Validator() = default;
+
+std::optional<Objection> Validator::objection_to(std::string_view document) {
+    auto objection = parser_->read(document);
+    if (objection || parser_->hoards()) parser_ = std::make_unique<Parser>(*schemas_);
+    return objection;
+}
+
+std::size_t Validator::bytes_in_use() const { return parser_->bytes_in_use(); }
+
+std::optional<Objection> objection_to_form(std::string_view document) {
+    ParserMemory memory;
+    return Reader{memory, nullptr}.read(document);
+}
+
+}  // namespace rois::xml

@@ -1,0 +1,187 @@
+// Documents that nobody would write on purpose: what they leave behind, and what comes of a great many of them.
+#include <algorithm>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include "speaking.hpp"
+#include "xml/grammars.hpp"
+#include "xml/validator.hpp"
+
+namespace rois::xml {
+namespace {
+
+TEST(Stranger, TwentyThousandFreshNamesLeaveNothingBehind) {
+    Validator validator{schemas()};
+    auto& pool = *schemas()->grammars().pool().getURIStringPool();
+    auto const names = pool.getStringCount();
+    ASSERT_FALSE(validator.objection_to(document("connect")));
+    auto const bytes = validator.bytes_in_use();
+    for (int i = 0; i < 20'000; ++i) {
+        auto const fresh = std::string{"n"}.append(std::to_string(i));
+        auto const unknown = document("bind", std::string{"<"}.append(fresh).append(" ").append(fresh).append("a='1'/>"));
+        EXPECT_TRUE(validator.objection_to(unknown)) << unknown;
+    }
+    EXPECT_FALSE(validator.objection_to(document("connect")));
+    EXPECT_EQ(validator.bytes_in_use(), bytes);
+    EXPECT_EQ(pool.getStringCount(), names);
+}
+
+TEST(Stranger, FreshPrefixesIdsAndTypesInValidDocumentsAreForgottenOnSchedule) {
+    Validator validator{schemas()};
+    auto& pool = *schemas()->grammars().pool().getURIStringPool();
+    auto const names = pool.getStringCount();
+    std::size_t most = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        std::ostringstream written;
+        written << "<p" << i << ":bind xmlns:p" << i << "='urn:x-rois:psm:xml:message:1' request_id='" << i << "'><p" << i
+                << ":component_ref xmlns:r" << i << "='http://www.omg.org/spec/RoIS/20240801' r" << i << ":code='" << i
+                << "'/></p" << i << ":bind>";
+        auto const valid = written.str();
+        ASSERT_FALSE(validator.objection_to(valid)) << valid;
+        most = std::max(most, validator.bytes_in_use());
+    }
+    EXPECT_LT(most, 1u << 20);
+    EXPECT_EQ(pool.getStringCount(), names);
+}
+
+TEST(Stranger, ForeignNamespacesNeverReachTheGrammars) {
+    RequestReader reader{schemas()};
+    auto& pool = *schemas()->grammars().pool().getURIStringPool();
+    auto const names = pool.getStringCount();
+    for (int i = 0; i < 2'000; ++i) {
+        auto const answer = reader.read(document("bind", std::string{"<a xmlns='urn:"}.append(std::to_string(i)).append("'/>")));
+        EXPECT_EQ(std::get<Fault>(answer).code, FaultCode::invalid);
+    }
+    EXPECT_EQ(pool.getStringCount(), names);
+}
+
+// One of the changes that a broken or malicious sender might make.
+std::string mutant(std::string text, std::vector<std::string> const& all, std::mt19937& random) {
+    auto const any = [&](std::size_t below) { return static_cast<std::size_t>(random() % std::max<std::size_t>(below, 1)); };
+    static std::vector<std::string> const pieces{"<",
+                                                 ">",
+                                                 "/>",
+                                                 "\"",
+                                                 "'",
+                                                 "&",
+                                                 "&#0;",
+                                                 "<!--",
+                                                 "-->",
+                                                 "<![CDATA[",
+                                                 "]]>",
+                                                 "<?x?>",
+                                                 "<!DOCTYPE a>",
+                                                 "xmlns=''",
+                                                 "xsi:nil='true'",
+                                                 ":",
+                                                 "\xC3",
+                                                 std::string(1, '\0'),
+                                                 "rois:",
+                                                 "xsi:type=''",
+                                                 "<a>",
+                                                 "</a>",
+                                                 " ",
+                                                 "\xEF\xBB\xBF",
+                                                 "&lt;",
+                                                 "20151201"};
+    for (auto changes = 1 + any(3); changes > 0; --changes) {
+        auto const at = any(text.size());
+        switch (any(7)) {
+            case 0:
+                text[std::min(at, text.size() - 1)] = static_cast<char>(random() % 256);
+                break;
+            case 1:
+                text.erase(at, 1 + any(20));
+                break;
+            case 2:
+                text.insert(at, pieces[any(pieces.size())]);
+                break;
+            case 3:
+                text.insert(any(text.size()), text.substr(at, any(80)));
+                break;
+            case 4:
+                text = text.substr(0, at);
+                break;
+            case 5: {
+                auto const& other = all[any(all.size())];
+                text.insert(at, other.substr(any(other.size()), any(200)));
+                break;
+            }
+            default: {  // exchange two tags
+                auto const one = text.find('<', at), two = text.find('>', one);
+                if (two != text.npos) text.insert(any(text.size()), text.substr(one, two - one + 1)).erase(one, 1);
+            }
+        }
+        if (text.empty()) text = "<";
+    }
+    return text;
+}
+
+std::vector<std::string> all_samples() {
+    std::vector<std::string> all;
+    for (auto const* folder : {"valid", "invalid"}) {
+        std::vector<std::filesystem::path> paths;
+        for (auto const& entry : std::filesystem::directory_iterator{samples() / folder}) paths.push_back(entry.path());
+        std::ranges::sort(paths);  // the same history whatever the order of the directory
+        for (auto const& path : paths) all.push_back(file(path));
+    }
+    return all;
+}
+
+TEST(Stranger, MutantsAreAlwaysAnswered) {
+    auto const samples = all_samples();
+    std::mt19937 random{20261121};
+    RequestReader reader{schemas()};
+    std::size_t taken = 0;
+    std::size_t refused[3] = {};
+    for (int i = 0; i < 20'000; ++i) {
+        auto const text = mutant(samples[random() % samples.size()], samples, random);
+        auto const answer = reader.read(text);
+        if (std::holds_alternative<Request>(answer)) {
+            ++taken;
+            continue;
+        }
+        auto const& fault = std::get<Fault>(answer);
+        ASSERT_LE(static_cast<int>(fault.code), 2) << text;
+        ++refused[static_cast<int>(fault.code)];
+        ASSERT_TRUE(fault.place) << text;
+        auto const place = fault.place.value_or(Place{});
+        ASSERT_TRUE(place.line >= 1 && place.column >= 1) << text;
+        ASSERT_LE(place.line, static_cast<std::uint64_t>(std::ranges::count(text, '\n') + std::ranges::count(text, '\r') + 1))
+            << text;
+        ASSERT_LE(place.column, text.size() + 1) << text;
+        ASSERT_TRUE(!fault.reason.empty() && fault.reason.size() < 2'000) << text;
+        if (i % 20 == 0) {
+            EXPECT_EQ(problem("fault", encode(fault)), "") << text;
+        }
+    }
+    EXPECT_GT(taken, 20u);
+    for (auto const count : refused) EXPECT_GT(count, 20u);
+}
+
+TEST(Stranger, ManyThreadsReadWithTheSameSchemas) {
+    auto const samples = all_samples();
+    auto const compiled = schemas();
+    std::vector<std::vector<std::size_t>> heard(4);
+    {
+        std::vector<std::jthread> threads;
+        threads.reserve(heard.size());
+        for (auto& mine : heard) {
+            threads.emplace_back([&mine, &samples, &compiled] {
+                RequestReader reader{compiled};
+                for (int round = 0; round < 3; ++round) {
+                    for (auto const& text : samples) {
+                        auto const answer = reader.read(text);
+                        auto const* fault = std::get_if<Fault>(&answer);
+                        mine.push_back(fault == nullptr ? 0 : std::hash<std::string>{}(fault->reason));
+                    }
+                }
+            });
+        }
+    }
+    for (auto const& each : heard) EXPECT_EQ(each, heard[0]);
+}
+
+}  // namespace
+}  // namespace rois::xml
