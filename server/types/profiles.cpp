@@ -40,8 +40,8 @@ ComponentProfile flattened(ComponentProfile const& profile, std::vector<Componen
 }
 
 MessageProfile const* find_message(ComponentProfile const& profile, MessageKind kind, std::string_view name) {
-    auto const found = std::ranges::find_if(
-        profile.messages, [&](MessageProfile const& m) { return m.kind == kind && m.name == name; });
+    auto const found =
+        std::ranges::find_if(profile.messages, [&](MessageProfile const& m) { return m.kind == kind && m.name == name; });
     return found == profile.messages.end() ? nullptr : &*found;
 }
 

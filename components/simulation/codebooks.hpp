@@ -1,0 +1,23 @@
+// From which lists the codes of identifiers are (decision 25): `codebook_ref` of their data types.
+#pragma once
+
+#include <string_view>
+
+namespace rois::simulation::codebook {
+
+// Temporary names of those who are sensed: "person-3", "face-3", "sound-3" are the same person during one visit.
+inline constexpr std::string_view track = "urn:x-rois:def:codebook:simulation::track";
+
+// Permanent ids of known visitors.
+inline constexpr std::string_view visitor = "urn:x-rois:def:codebook:simulation::visitor";
+
+// Names of robots.
+inline constexpr std::string_view robot = "urn:x-rois:def:codebook:simulation::robot";
+
+// Gestures of visitors: gestures().
+inline constexpr std::string_view gesture = "urn:x-rois:def:codebook:simulation::gesture";
+
+// The reactions of Annex D: "1" to "50".
+inline constexpr std::string_view reaction = "urn:x-rois:def:codebook:simulation::reaction";
+
+}  // namespace rois::simulation::codebook

@@ -1,0 +1,213 @@
+#include "simulation/course.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rois::simulation {
+namespace {
+
+constexpr Metres at_place = 0.01;
+constexpr Radians at_heading = from_degrees(1);
+
+double braking(double left, double deceleration, Seconds dt) {
+    double const one_step = deceleration * dt;
+    return std::sqrt(one_step * one_step + 2 * deceleration * std::max(0.0, left)) - one_step;
+}
+
+double sign(double value) { return value < 0 ? -1 : 1; }
+
+// The shortest time for a way from standstill to standstill.
+Seconds shortest(double way, double speed, double acceleration) {
+    if (way >= speed * speed / acceleration) return way / speed + speed / acceleration;
+    return 2 * std::sqrt(way / acceleration);
+}
+
+// The speed at which a way from standstill to standstill takes that time.
+double pace(double way, double acceleration, Seconds time) {
+    double const reach = acceleration * time;
+    return (reach - std::sqrt(std::max(0.0, reach * reach - 4 * acceleration * way))) / 2;
+}
+
+// Sums up how far a robot has turned, also beyond a half turn.
+class Turned {
+public:
+    Radians by(Radians heading) {
+        if (last_) sum_ += wrapped(heading - *last_);
+        last_ = heading;
+        return sum_;
+    }
+
+private:
+    Radians sum_ = 0;
+    std::optional<Radians> last_;
+};
+
+// The turn on the spot that ends a Line, and that a Curve without radius is.
+class TurnOnTheSpot {
+public:
+    explicit TurnOnTheSpot(Radians turn) : turn_(turn) {}
+
+    Seconds shortest_time(RobotPlan const& plan) const {
+        return shortest(std::abs(turn_), plan.max_turn_rate, plan.max_turn_acceleration);
+    }
+    void take(Seconds time, RobotPlan const& plan) { fastest_ = pace(std::abs(turn_), plan.max_turn_acceleration, time); }
+
+    // Nothing when it is done.
+    std::optional<Twist> steer(Wheels const& wheels) {
+        Radians const left = turn_ - turned_.by(wheels.pose.heading);
+        if (std::abs(left) < at_heading && wheels.stand()) return std::nullopt;
+        RadiansPerSecond const rate = wheels.rate_to_stop_in(left);
+        return Twist{0, fastest_ ? std::clamp(rate, -*fastest_, *fastest_) : rate};
+    }
+
+private:
+    Radians turn_;
+    std::optional<RadiansPerSecond> fastest_;
+    Turned turned_;
+};
+
+class LineCourse : public Course {
+public:
+    explicit LineCourse(Line line) : line_(line), turn_(line.turn) {}
+
+    Twist steer(Wheels const& wheels, Progress& progress) override {
+        if (!start_ && !wheels.stand()) return {};
+        if (!start_) {
+            start_ = wheels.pose;
+            Point const end = start_->position + line_.distance * unit(start_->heading);
+            if (line_.distance != 0 && !wheels.around.plan().can_go_straight(start_->position, end, wheels.plan.radius)) {
+                progress.state = MotionState::unreachable;
+                return {};
+            }
+            if (line_.duration) take(*line_.duration, wheels.plan);
+        }
+        if (!driven_) return drive(wheels, progress);
+        auto const twist = turn_.steer(wheels);
+        if (!twist) progress.state = MotionState::arrived;
+        return twist.value_or(Twist{});
+    }
+
+private:
+    // Both parts are slowed down alike.
+    void take(Seconds time, RobotPlan const& plan) {
+        Metres const way = std::abs(line_.distance);
+        Seconds const straight = shortest(way, plan.max_speed, plan.max_acceleration), turning = turn_.shortest_time(plan);
+        if (time <= straight + turning) return;
+        double const slower = time / (straight + turning);
+        fastest_ = pace(way, plan.max_acceleration, straight * slower);
+        turn_.take(turning * slower, plan);
+    }
+
+    Twist drive(Wheels const& wheels, Progress& progress) {
+        Metres const left = line_.distance - (wheels.pose.position - start_->position).dot(unit(start_->heading));
+        bool const there = std::abs(left) < at_place || left * line_.distance <= 0;
+        patience_.look(wheels, !there);
+        progress.state = patience_.obstructed() ? MotionState::obstructed : MotionState::moving;
+        driven_ = there && wheels.stand();
+        if (there) return {};
+        MetresPerSecond const speed = std::max(wheels.speed_to_stop_in(std::abs(left)), 0.02);
+        return {sign(left) * (fastest_ ? std::min(speed, *fastest_) : speed), 0};
+    }
+
+    Line line_;
+    TurnOnTheSpot turn_;
+    std::optional<MetresPerSecond> fastest_;
+    std::optional<Pose> start_;
+    bool driven_ = false;
+    Patience patience_;
+};
+
+class CurveCourse : public Course {
+public:
+    explicit CurveCourse(Curve curve) : curve_(curve), on_the_spot_(curve.turn) {}
+
+    std::optional<Metres> circle() const override {
+        if (!started_ || curve_.radius == 0) return std::nullopt;
+        return curve_.radius * sign(curve_.turn);
+    }
+
+    Twist steer(Wheels const& wheels, Progress& progress) override {
+        if (!started_) {
+            if (!wheels.stand()) return {};
+            started_ = true;
+            if (!is_free(wheels)) {
+                progress.state = MotionState::unreachable;
+                return {};
+            }
+            if (curve_.duration) take(*curve_.duration, wheels.plan);
+        }
+        if (curve_.radius != 0) return drive(wheels, progress);
+        auto const twist = on_the_spot_.steer(wheels);
+        if (!twist) progress.state = MotionState::arrived;
+        return twist.value_or(Twist{});
+    }
+
+private:
+    bool is_free(Wheels const& wheels) const {
+        constexpr Metres apart = 0.03;
+        Radians const angle = std::min(std::abs(curve_.turn), 2 * std::numbers::pi);
+        Radians const side = wheels.pose.heading + sign(curve_.turn) * std::numbers::pi / 2;
+        // The centre lies on the side of the turn going forward, on the other going backward.
+        Point const centre = wheels.pose.position + curve_.radius * unit(side);
+        Metres const length = std::abs(curve_.radius) * angle;
+        for (Metres gone = 0; gone <= length + apart; gone += apart) {
+            Radians const part = length > 0 ? angle * std::min(1.0, gone / length) : 0;
+            Point const at = centre - curve_.radius * unit(side + sign(curve_.turn) * part);
+            if (wheels.around.plan().clearance(at) < wheels.plan.radius) return false;
+        }
+        return true;
+    }
+
+    void take(Seconds time, RobotPlan const& plan) {
+        if (curve_.radius == 0) {
+            if (time > on_the_spot_.shortest_time(plan)) on_the_spot_.take(time, plan);
+            return;
+        }
+        Metres const radius = std::abs(curve_.radius), way = radius * std::abs(curve_.turn);
+        double const acceleration = std::min(plan.max_acceleration, plan.max_turn_acceleration * radius);
+        if (time > shortest(way, std::min(plan.max_speed, plan.max_turn_rate * radius), acceleration))
+            fastest_ = pace(way, acceleration, time);
+    }
+
+    Twist drive(Wheels const& wheels, Progress& progress) {
+        Metres const radius = std::abs(curve_.radius);
+        Radians const left = std::abs(curve_.turn) - sign(curve_.turn) * turned_.by(wheels.pose.heading);
+        bool const there = left * radius < at_place || left < from_degrees(0.2);
+        patience_.look(wheels, !there);
+        progress.state = patience_.obstructed() ? MotionState::obstructed : MotionState::moving;
+        if (there && wheels.stand()) progress.state = MotionState::arrived;
+        if (there) return {};
+        MetresPerSecond const speed =
+            std::min(wheels.speed_to_stop_in(left * radius), std::abs(wheels.rate_to_stop_in(left)) * radius);
+        MetresPerSecond const wanted = std::max(speed, std::min(0.02, 0.1 * radius));
+        return {sign(curve_.radius) * (fastest_ ? std::min(wanted, *fastest_) : wanted), 0};
+    }
+
+    Curve curve_;
+    TurnOnTheSpot on_the_spot_;
+    std::optional<MetresPerSecond> fastest_;
+    Turned turned_;
+    bool started_ = false;
+    Patience patience_;
+};
+
+}  // namespace
+
+bool Wheels::stand() const { return std::abs(twist.linear) < 0.005 && std::abs(twist.angular) < 0.01; }
+
+MetresPerSecond Wheels::speed_to_stop_in(Metres left) const {
+    return std::min(plan.max_speed, braking(left, plan.max_acceleration, dt));
+}
+
+RadiansPerSecond Wheels::rate_to_stop_in(Radians left) const {
+    return sign(left) * std::min(plan.max_turn_rate, braking(std::abs(left), plan.max_turn_acceleration, dt));
+}
+
+void Patience::look(Wheels const& wheels, bool wants_to_move) {
+    waited_ = wants_to_move && wheels.stand() ? waited_ + wheels.dt : 0;
+}
+
+std::unique_ptr<Course> course_of(Line line) { return std::make_unique<LineCourse>(line); }
+std::unique_ptr<Course> course_of(Curve curve) { return std::make_unique<CurveCourse>(curve); }
+
+}  // namespace rois::simulation

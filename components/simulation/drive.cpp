@@ -1,0 +1,161 @@
+#include "simulation/drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rois::simulation {
+namespace {
+
+constexpr Metres wall_gap = 0.015;  // left to walls and desks; less where the robot is nearer already
+constexpr Metres body_gap = 0.10;   // nor to a person or another robot
+constexpr Metres look_ahead = 2.0;  // bodies farther away are of no account; more than any stopping distance within the limits
+constexpr std::size_t remembered = 16;
+
+// How far the robot can go along `heading` before a wall or desk is too near.
+Metres free_of_walls(FloorPlan const& plan, Point const& from, Radians heading, Metres radius) {
+    Metres const gap = std::clamp(plan.clearance(from) - radius - 0.001, 0.003, wall_gap);
+    Point const ahead = unit(heading);
+    Metres gone = 0;
+    while (gone < look_ahead) {
+        Point const at = from + gone * ahead;
+        Metres const free = plan.clearance(at) - radius - gap;
+        if (free <= 0.0005 && plan.clearance(at + 0.01 * ahead) < plan.clearance(at)) return gone;
+        gone += std::max(free, 0.005);
+    }
+    return look_ahead;
+}
+
+Metres free_of_bodies(std::vector<Disc> const& others, Point const& from, Radians heading, Metres radius) {
+    Metres free = look_ahead;
+    for (Disc const& other : others) {
+        free = std::min(free, free_way({from, radius + body_gap}, heading, other, look_ahead));
+    }
+    return free;
+}
+
+double towards(double from, double wanted, double most) { return from + std::clamp(wanted - from, -most, most); }
+
+// The exact motion of a unicycle with constant twist.
+Pose moved(Pose const& from, Twist const& twist, Seconds dt) {
+    Radians const turned = twist.angular * dt;
+    Metres const gone = twist.linear * dt;
+    Metres const chord = std::abs(turned) < 1e-9 ? gone : gone * std::sin(turned / 2) / (turned / 2);
+    return {from.position + chord * unit(from.heading + turned / 2), wrapped(from.heading + turned)};
+}
+
+}  // namespace
+
+Drive::Drive(RobotId robot, RobotPlan const& robot_plan, FloorPlan const& floor)
+    : robot_(robot),
+      plan_(robot_plan),
+      planner_(std::make_unique<Planner>(floor, robot_plan.radius, robot_plan.max_speed, robot_plan.max_turn_rate)),
+      pose_(robot_plan.start) {}
+Drive::~Drive() = default;
+Drive::Drive(Drive&&) noexcept = default;
+
+std::optional<MotionId> Drive::begin(std::string_view owner, Motion motion) {
+    if (current_) {
+        if (current_->owner != owner) return std::nullopt;
+        finish(MotionState::ended);
+    }
+    MotionId const id{++last_id_};
+    auto course = std::visit([](auto& kind) { return course_of(std::move(kind)); }, motion);
+    current_ = Current{id, std::string{owner}, Progress{MotionState::moving, 0}, std::move(course), false};
+    return id;
+}
+
+std::string_view Drive::owner() const { return current_ ? std::string_view{current_->owner} : std::string_view{}; }
+
+bool Drive::is_current(MotionId id) const { return current_ && current_->id == id; }
+
+std::optional<Progress> Drive::current() const {
+    if (!current_) return std::nullopt;
+    Progress now = current_->progress;
+    if (current_->held) now.state = MotionState::held;
+    return now;
+}
+
+Progress Drive::progress(MotionId id) const {
+    if (is_current(id)) return *current();
+    auto found = std::ranges::find(finished_, id, &std::pair<MotionId, Progress>::first);
+    return found == finished_.end() ? Progress{} : found->second;
+}
+
+void Drive::finish(MotionState state) {
+    current_->progress.state = state;
+    finished_.emplace_back(current_->id, current_->progress);
+    if (finished_.size() > remembered) finished_.pop_front();
+    current_.reset();
+}
+
+void Drive::stop(MotionId id) {
+    if (is_current(id)) finish(MotionState::ended);
+}
+
+void Drive::hold(MotionId id) {
+    if (is_current(id)) current_->held = true;
+}
+
+void Drive::go_on(MotionId id) {
+    if (is_current(id)) current_->held = false;
+}
+
+std::span<Point const> Drive::way() const { return current_ ? current_->course->way() : std::span<Point const>{}; }
+
+Disc Drive::stopping_disc() const {
+    Metres const braking = twist_.linear * std::abs(twist_.linear) / (2 * plan_.max_acceleration);
+    return {pose_.position + braking / 2 * unit(pose_.heading), plan_.radius + std::abs(braking) / 2};
+}
+
+Wheels Drive::wheels(Surroundings const& around, Seconds dt) const {
+    return {robot_, plan_, *planner_, pose_, twist_, around, dt};
+}
+
+void Drive::step(Surroundings const& around, Seconds dt) {
+    std::optional<Metres> const circle = current_ ? current_->course->circle() : std::nullopt;
+    Twist const wanted = steer(around, dt);
+    double const acceleration =
+        circle ? std::min(plan_.max_acceleration, plan_.max_turn_acceleration * std::abs(*circle)) : plan_.max_acceleration;
+    Twist next;
+    next.linear = towards(twist_.linear, safe(wanted.linear, wheels(around, dt)), acceleration * dt);
+    RadiansPerSecond const rate = std::clamp(wanted.angular, -plan_.max_turn_rate, plan_.max_turn_rate);
+    next.angular = circle ? next.linear / *circle : towards(twist_.angular, rate, plan_.max_turn_acceleration * dt);
+    Pose const there = moved(pose_, next, dt);
+    if (would_touch(there, around)) {
+        twist_ = {};
+        return;
+    }
+    twist_ = next;
+    pose_ = there;
+}
+
+Twist Drive::steer(Surroundings const& around, Seconds dt) {
+    if (!current_ || current_->held) return {};
+    Twist const wanted = current_->course->steer(wheels(around, dt), current_->progress);
+    if (over(current_->progress.state)) finish(current_->progress.state);
+    return wanted;
+}
+
+// Slow enough to stop before what is in the way.
+MetresPerSecond Drive::safe(MetresPerSecond wanted, Wheels const& at) const {
+    MetresPerSecond const going = wanted != 0 ? wanted : twist_.linear;
+    if (going == 0) return 0;
+    Radians const heading = going > 0 ? pose_.heading : wrapped(pose_.heading + std::numbers::pi);
+    Metres const free = std::min(free_of_walls(at.around.plan(), pose_.position, heading, plan_.radius),
+                                 free_of_bodies(at.around.others(robot_), pose_.position, heading, plan_.radius));
+    MetresPerSecond const most = at.speed_to_stop_in(free);
+    return std::clamp(wanted, -most, most);
+}
+
+// The bumper: whoever steps into the way within the stopping distance is not touched either.
+bool Drive::would_touch(Pose const& there, Surroundings const& around) const {
+    FloorPlan const& floor = around.plan();
+    Metres const clearance = floor.clearance(there.position);
+    if (clearance < plan_.radius && clearance < floor.clearance(pose_.position)) return true;
+    return std::ranges::any_of(around.bodies(robot_), [&](Disc const& other) {
+        Metres const apart = distance(there.position, other.centre);
+        return apart < plan_.radius + other.radius && apart < distance(pose_.position, other.centre);
+    });
+}
+
+}  // namespace rois::simulation

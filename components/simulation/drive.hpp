@@ -1,0 +1,81 @@
+// The wheels of one robot, and the one motion that they carry out at a time.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "simulation/course.hpp"
+#include "simulation/motion.hpp"
+
+namespace rois::simulation {
+
+// A drive belongs to its Hall, which steps it. Speeds and accelerations stay within the plan's limits at all times.
+class Drive {
+public:
+    Drive(RobotId, RobotPlan const&, FloorPlan const&);
+    ~Drive();
+    Drive(Drive&&) noexcept;
+
+    // Begins a motion for `owner` ("navigation", "follow", "move"). It takes the place of an earlier one of the same owner, which
+    // is `ended`; nothing, when the wheels are another owner's: busy.
+    std::optional<MotionId> begin(std::string_view owner, Motion);
+
+    // Who has a motion that is not over; empty when nobody has.
+    std::string_view owner() const;
+
+    // How far a motion is. That of the last 16 motions is remembered; older ones are `ended`.
+    Progress progress(MotionId) const;
+
+    // How far the motion under way is; nothing when there is none.
+    std::optional<Progress> current() const;
+
+    // End the motion, hold it (the robot brakes to a stand), go on with it. Nothing happens to one that is over or is another.
+    void stop(MotionId);
+    void hold(MotionId);
+    void go_on(MotionId);
+
+    RobotId robot() const { return robot_; }
+    Pose const& pose() const { return pose_; }
+    Twist const& twist() const { return twist_; }
+    RobotPlan const& plan() const { return plan_; }
+
+    // The corner points of the way ahead, for show.
+    std::span<Point const> way() const;
+
+    // The floor that the robot takes up until it could stand still.
+    Disc stopping_disc() const;
+
+    // One step of the world, `dt` long.
+    void step(Surroundings const&, Seconds dt);
+
+private:
+    struct Current {
+        MotionId id{};
+        std::string owner;
+        Progress progress;
+        std::unique_ptr<Course> course;
+        bool held = false;
+    };
+
+    bool is_current(MotionId) const;
+    void finish(MotionState);
+    Wheels wheels(Surroundings const&, Seconds dt) const;
+    Twist steer(Surroundings const&, Seconds dt);
+    MetresPerSecond safe(MetresPerSecond wanted, Wheels const&) const;
+    bool would_touch(Pose const&, Surroundings const&) const;
+
+    RobotId robot_;
+    RobotPlan plan_;
+    std::unique_ptr<Planner> planner_;
+    Pose pose_;
+    Twist twist_;
+    std::optional<Current> current_;
+    std::uint64_t last_id_ = 0;
+    std::deque<std::pair<MotionId, Progress>> finished_;
+};
+
+}  // namespace rois::simulation

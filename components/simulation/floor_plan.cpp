@@ -1,0 +1,81 @@
+#include "simulation/floor_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "simulation/person.hpp"
+
+namespace rois::simulation {
+namespace {
+
+Metres inside_margin(Box const& bounds, Point const& p) {
+    return std::min((p - bounds.low).minCoeff(), (bounds.high - p).minCoeff());
+}
+
+std::optional<PlanFlaw> flaw_of_places(FloorPlan const& plan) {
+    std::set<std::string_view> names;
+    for (std::size_t i = 0; i < plan.places.size(); ++i) {
+        Place const& place = plan.places[i];
+        if (!names.insert(place.name).second) return PlanFlaw{PlanFlaw::Of::place, i, "a second place named " + place.name};
+        if (plan.clearance(place.pose.position) < person_radius)
+            return PlanFlaw{PlanFlaw::Of::place, i, "nobody can stand at " + place.name + ": too near to a wall or desk"};
+    }
+    if (!names.contains("entrance")) return PlanFlaw{PlanFlaw::Of::plan, 0, "there is no place named entrance"};
+    if (!names.contains("desk")) return PlanFlaw{PlanFlaw::Of::plan, 0, "there is no place named desk"};
+    return std::nullopt;
+}
+
+std::optional<PlanFlaw> flaw_of_robots(FloorPlan const& plan) {
+    if (plan.robots.empty()) return PlanFlaw{PlanFlaw::Of::plan, 0, "there is no robot"};
+    for (std::size_t i = 0; i < plan.robots.size(); ++i) {
+        RobotPlan const& robot = plan.robots[i];
+        if (plan.clearance(robot.start.position) < robot.radius)
+            return PlanFlaw{PlanFlaw::Of::robot, i, robot.name + " cannot start there: too near to a wall or desk"};
+        if (plan.place(robot.name)) return PlanFlaw{PlanFlaw::Of::robot, i, "a place is named " + robot.name + ", too"};
+        for (std::size_t j = 0; j < i; ++j) {
+            if (plan.robots[j].name == robot.name) return PlanFlaw{PlanFlaw::Of::robot, i, "a second robot named " + robot.name};
+            if (distance(plan.robots[j].start.position, robot.start.position) < plan.robots[j].radius + robot.radius)
+                return PlanFlaw{PlanFlaw::Of::robot, i, robot.name + " starts where " + plan.robots[j].name + " does"};
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+Place const* FloorPlan::place(std::string_view name_of_place) const {
+    auto found = std::ranges::find(places, name_of_place, &Place::name);
+    return found == places.end() ? nullptr : &*found;
+}
+
+Metres FloorPlan::clearance(Point const& p) const {
+    Metres nearest = inside_margin(bounds, p);
+    for (Segment const& wall : walls) nearest = std::min(nearest, distance(wall, p));
+    for (Box const& desk : desks) nearest = std::min(nearest, distance(desk, p));
+    return nearest;
+}
+
+bool FloorPlan::in_sight(Point const& from, Point const& to) const {
+    return std::ranges::none_of(walls, [&](Segment const& wall) { return cross(wall, Segment{from, to}); });
+}
+
+bool FloorPlan::can_go_straight(Point const& from, Point const& to, Metres radius) const {
+    Metres const length = distance(from, to);
+    Point const along = length > 0 ? Point{(to - from) / length} : Point::Zero();
+    for (Metres gone = 0;;) {
+        Metres const free = clearance(from + gone * along) - radius;
+        if (free < 0) return false;
+        if (gone >= length) return true;
+        gone = std::min(length, gone + std::max(free, 0.01));  // nothing is nearer than `free`, so nothing is jumped over
+    }
+}
+
+std::optional<PlanFlaw> flaw(FloorPlan const& plan) {
+    Point const size = plan.bounds.high - plan.bounds.low;
+    if (size.minCoeff() < 1 || size.maxCoeff() > 200) return PlanFlaw{PlanFlaw::Of::plan, 0, "a hall has 1 to 200 m a side"};
+    if (auto found = flaw_of_places(plan)) return found;
+    return flaw_of_robots(plan);
+}
+
+}  // namespace rois::simulation

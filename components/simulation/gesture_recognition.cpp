@@ -1,0 +1,41 @@
+// Gesture recognition (7.6.10): which gestures people make before the robot.
+#include "simulation/basic_components.hpp"
+#include "simulation/codebooks.hpp"
+#include "simulation/senses.hpp"
+
+namespace rois::simulation {
+namespace {
+
+class GestureRecognition final : public ContinuousFunction {
+public:
+    using ContinuousFunction::ContinuousFunction;
+
+    ParameterList readable_parameters() const override {
+        auto const all = gestures();
+        return {references("recognizable_gestures", {all.begin(), all.end()}, std::string{codebook::gesture})};
+    }
+
+private:
+    void begin() override { read_ = hall().chronicle().last(); }
+    void resumed() override { read_ = hall().chronicle().last(); }
+
+    void sense(Instant when) override {
+        for (Happening const& happening : hall().chronicle().since(read_)) {
+            read_ = happening.sequence;
+            if (happening.kind != Happening::Kind::gesture_made || !sees_gesture(hall(), robot(), happening.place)) continue;
+            port().event("gesture_recognized", {{date_time("timestamp", when.utc),
+                                                 references("gesture_ref", {happening.text}, std::string{codebook::gesture})},
+                                                {}});
+        }
+    }
+
+    std::uint64_t read_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Component> gesture_recognition(Fitting fitting) {
+    return std::make_unique<GestureRecognition>(std::move(fitting));
+}
+
+}  // namespace rois::simulation

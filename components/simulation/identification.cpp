@@ -1,0 +1,50 @@
+// Person identification (7.6.4): who a known visitor is, told once for each time that they are tracked.
+#include <algorithm>
+#include <set>
+
+#include "simulation/basic_components.hpp"
+#include "simulation/codebooks.hpp"
+#include "simulation/senses.hpp"
+
+namespace rois::simulation {
+namespace {
+
+class Identification final : public ContinuousFunction {
+public:
+    using ContinuousFunction::ContinuousFunction;
+
+private:
+    void begin() override { told_.clear(); }
+
+    void sense(Instant when) override {
+        std::erase_if(told_, [&](PersonId person) { return !hall().track(person); });
+        std::vector<RecognizedPerson> news;
+        for (auto& person : people_recognized(hall(), robot()))
+            if (person.known && told_.insert(person.person).second) news.push_back(std::move(person));
+        if (!news.empty()) port().event("person_identified", results(news, when));
+    }
+
+    Results results(std::vector<RecognizedPerson> const& people, Instant when) const {
+        auto const seen = people_seen(hall(), robot());
+        std::vector<std::string> ids;
+        Results results;
+        for (auto const& person : people) {
+            ids.push_back(person.ref);
+            auto const sighting = std::ranges::find(seen, person.person, &SeenPerson::person);
+            if (sighting == seen.end()) continue;
+            results.located.push_back(
+                located("person_ref", person.ref, hall().plan().crs, sighting->pose, 0, sighting->covariance));
+        }
+        results.parameters = {date_time("timestamp", when.utc),
+                              references("person_ref", std::move(ids), std::string{codebook::visitor})};
+        return results;
+    }
+
+    std::set<PersonId> told_;
+};
+
+}  // namespace
+
+std::unique_ptr<Component> person_identification(Fitting fitting) { return std::make_unique<Identification>(std::move(fitting)); }
+
+}  // namespace rois::simulation

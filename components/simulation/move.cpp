@@ -1,0 +1,69 @@
+// Move (7.6.15): a little motion from where the robot stands.
+#include "simulation/basic_components.hpp"
+#include "simulation/parameter_reading.hpp"
+#include "simulation/wheels.hpp"
+#include "types/texts.hpp"
+
+namespace rois::simulation {
+namespace {
+
+// For how long somebody may be in the way.
+constexpr WorldTime patience{10'000};
+
+class Move final : public WheelAction {
+public:
+    explicit Move(Fitting fitting) : WheelAction{std::move(fitting), "move"} {}
+
+    // The motion that arrived takes the place of the other one.
+    void reconcile(ParameterList& stored, ParameterList const& arrived) const override {
+        bool const line = !integers_of(arrived, "line").empty();
+        bool const curve = !integers_of(arrived, "curve").empty();
+        if (line == curve) return;
+        std::erase_if(stored, [&](Parameter const& p) { return equal_ignoring_case(p.name, line ? "curve" : "line"); });
+    }
+
+private:
+    std::optional<std::string> unfit(ParameterList const& parameters) const override {
+        auto const line = integers_of(parameters, "line");
+        auto const curve = integers_of(parameters, "curve");
+        if (!line.empty() && !curve.empty()) return "either 'line' or 'curve' can be driven, not both";
+        if (!line.empty() && line.size() != 2)
+            return "parameter 'line' must be two numbers, distance (mm) and orientation (degree), here are " +
+                   std::to_string(line.size());
+        if (!curve.empty() && curve.size() != 2)
+            return "parameter 'curve' must be two numbers, radius (mm) and direction (degree), here are " +
+                   std::to_string(curve.size());
+        return negative(parameters, "time");
+    }
+
+    std::optional<std::string> missing(ParameterList const& parameters) const override {
+        if (!integers_of(parameters, "line").empty() || !integers_of(parameters, "curve").empty()) return {};
+        return "there is no motion: 'line' or 'curve' is mandatory";
+    }
+
+    void begin(ParameterList const& parameters) override {
+        std::optional<Seconds> duration;
+        if (auto const time = integer_of(parameters, "time").value_or(0); time > 0) duration = time / 1000.0;
+        if (auto const line = integers_of(parameters, "line"); !line.empty()) {
+            drive(Line{.distance = line[0] / 1000.0, .turn = from_degrees(line[1]), .duration = duration});
+        } else {
+            auto const curve = integers_of(parameters, "curve");
+            drive(Curve{.radius = curve[0] / 1000.0, .turn = from_degrees(curve[1]), .duration = duration});
+        }
+    }
+
+    void act() override {
+        auto const state = progress().state;
+        if (state == MotionState::arrived) return end(CompletedStatus::ok);
+        if (over(state)) return end(CompletedStatus::error);
+        if (blocked(state) < patience) return;
+        cease();
+        end(CompletedStatus::error);
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<Component> move(Fitting fitting) { return std::make_unique<Move>(std::move(fitting)); }
+
+}  // namespace rois::simulation

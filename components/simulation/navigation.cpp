@@ -1,0 +1,98 @@
+// Navigation (7.6.13): to positions, one after the other.
+#include <algorithm>
+
+#include "simulation/basic_components.hpp"
+#include "simulation/parameter_reading.hpp"
+#include "simulation/wheels.hpp"
+#include "types/texts.hpp"
+
+namespace rois::simulation {
+namespace {
+
+constexpr std::size_t most_targets = 100;
+
+// Somebody who stands on the way or the target for longer makes it one that cannot be reached.
+constexpr WorldTime patience{30'000};
+
+std::string names_of_places(FloorPlan const& plan) {
+    std::string names;
+    for (auto const& place : plan.places) names += (names.empty() ? "" : ", ") + place.name;
+    return names;
+}
+
+class Navigation final : public WheelAction {
+public:
+    explicit Navigation(Fitting fitting) : WheelAction{std::move(fitting), "navigation"} {}
+
+private:
+    std::optional<std::string> unfit(ParameterList const& parameters) const override {
+        if (auto problem = negative(parameters, "time_limit")) return problem;
+        auto const policy = text_of(parameters, "routing_policy");
+        if (!policy.empty() && policy != "time" && policy != "distance")
+            return "parameter 'routing_policy' must be 'time' or 'distance', not " + quoted(policy);
+        auto const* targets = find(parameters, "target_position");
+        return targets == nullptr ? std::nullopt : unfit_targets(*targets);
+    }
+
+    std::optional<std::string> unfit_targets(Parameter const& targets) const {
+        auto const& crs = targets.data_type_ref.codebook_ref;
+        if (!crs.empty() && !equal_ignoring_case(crs, hall().plan().crs))
+            return "parameter 'target_position': positions are in " + hall().plan().crs + ", not in " + quoted(crs, 200);
+        if (targets.values.size() > most_targets)
+            return "parameter 'target_position' has more than " + std::to_string(most_targets) + " positions";
+        for (auto const& text : targets.values)
+            if (!hall().target(text))
+                return "parameter 'target_position': " + quoted(text) +
+                       " is neither \"x, y\" nor \"x, y, th\" (mm, mm, degree) nor " + "one of the places " +
+                       names_of_places(hall().plan());
+        return {};
+    }
+
+    std::optional<std::string> missing(ParameterList const& parameters) const override {
+        auto const* targets = find(parameters, "target_position");
+        if (targets != nullptr && !targets->values.empty()) return {};
+        return "parameter 'target_position' is mandatory";
+    }
+
+    // Goes nowhere when one of the targets is outside of the hall, in a desk or in a wall.
+    void begin(ParameterList const& parameters) override {
+        limit_ = WorldTime{integer_of(parameters, "time_limit").value_or(0)};
+        names_ = find(parameters, "target_position")->values;
+        told_ = 0;
+        GoTo way;
+        way.policy = text_of(parameters, "routing_policy") == "distance" ? RoutingPolicy::distance : RoutingPolicy::time;
+        for (auto const& name : names_) way.targets.push_back(*hall().target(name));
+        auto const is_hopeless = [&](Target const& target) { return hall().plan().clearance(target.position) <= 0; };
+        if (std::ranges::any_of(way.targets, is_hopeless)) return end(CompletedStatus::error);
+        drive(std::move(way));
+    }
+
+    void act() override {
+        auto const [state, reached] = progress();
+        while (told_ < reached) tell_reached();
+        if (state == MotionState::arrived) return end(CompletedStatus::ok);
+        if (over(state)) return end(CompletedStatus::error);
+        if (limit_.count() > 0 && elapsed() >= limit_) return give_up(CompletedStatus::timeout);
+        if (blocked(state) >= patience) give_up(CompletedStatus::error);
+    }
+
+    void tell_reached() {
+        std::string const& target = names_[told_++];
+        port().event("reached_target", {{text("target", target), boolean("is_final_target", told_ == names_.size())}, {}});
+    }
+
+    void give_up(CompletedStatus status) {
+        cease();
+        end(status);
+    }
+
+    std::vector<std::string> names_;  // of the targets, as the application wrote them
+    std::size_t told_ = 0;            // of them
+    WorldTime limit_{};               // 0: none
+};
+
+}  // namespace
+
+std::unique_ptr<Component> navigation(Fitting fitting) { return std::make_unique<Navigation>(std::move(fitting)); }
+
+}  // namespace rois::simulation

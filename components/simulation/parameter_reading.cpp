@@ -1,0 +1,46 @@
+#include "simulation/parameter_reading.hpp"
+
+#include <limits>
+#include <string>
+
+#include "types/texts.hpp"
+
+namespace rois::simulation {
+
+std::optional<std::int32_t> integer_of(ParameterList const& parameters, std::string_view name) {
+    auto const* parameter = find(parameters, name);
+    if (parameter == nullptr || parameter->values.empty()) return {};
+    return to_int(parameter->values.front());
+}
+
+std::string_view text_of(ParameterList const& parameters, std::string_view name) {
+    auto const* parameter = find(parameters, name);
+    if (parameter == nullptr || parameter->values.empty()) return {};
+    return trimmed(parameter->values.front());
+}
+
+std::vector<std::int32_t> integers_of(ParameterList const& parameters, std::string_view name) {
+    std::vector<std::int32_t> numbers;
+    for (std::string_view rest = text_of(parameters, name); !rest.empty();) {
+        auto const item = rest.substr(0, rest.find_first_of(" \t\r\n"));
+        if (auto const number = to_int(item)) numbers.push_back(*number);
+        rest = trimmed(rest.substr(item.size()));
+    }
+    return numbers;
+}
+
+std::optional<std::string> not_between(ParameterList const& parameters, std::string_view name, std::int32_t least,
+                                       std::int32_t most) {
+    auto const number = integer_of(parameters, name);
+    if (!number || (*number >= least && *number <= most)) return {};
+    return "parameter '" + std::string{name} + "' must be " + std::to_string(least) + " to " + std::to_string(most) + ", not " +
+           std::to_string(*number);
+}
+
+std::optional<std::string> negative(ParameterList const& parameters, std::string_view name) {
+    auto const number = integer_of(parameters, name);
+    if (!number || *number >= 0) return {};
+    return "parameter '" + std::string{name} + "' must not be negative";
+}
+
+}  // namespace rois::simulation

@@ -1,0 +1,26 @@
+// Reading parameters whose values were already checked to be of their types.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "types/values.hpp"
+
+namespace rois::simulation {
+
+// Nothing when the parameter is not there.
+std::optional<std::int32_t> integer_of(ParameterList const&, std::string_view name);
+
+// Without white space at the ends; empty when the parameter is not there.
+std::string_view text_of(ParameterList const&, std::string_view name);
+
+// Of a list of numbers; empty when the parameter is not there.
+std::vector<std::int32_t> integers_of(ParameterList const&, std::string_view name);
+
+// Why this number is none of those allowed, or nothing; an absent one is fine.
+std::optional<std::string> not_between(ParameterList const&, std::string_view name, std::int32_t least, std::int32_t most);
+std::optional<std::string> negative(ParameterList const&, std::string_view name);
+
+}  // namespace rois::simulation

@@ -1,0 +1,301 @@
+#include "simulation/planner.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+namespace rois::simulation {
+namespace {
+
+constexpr Metres cell_size = 0.125;
+constexpr Metres wall_room = 0.04;    // left between a body and the walls where there is room
+constexpr Metres start_search = 0.8;  // how far a free cell may be from a start or an end that is in a blocked one
+
+struct Direction {
+    int column;
+    int row;
+    double length;  // in cells
+};
+constexpr double diagonal = std::numbers::sqrt2;
+constexpr std::array<Direction, 8> directions{
+    {{1, 0, 1}, {1, 1, diagonal}, {0, 1, 1}, {-1, 1, diagonal}, {-1, 0, 1}, {-1, -1, diagonal}, {0, -1, 1}, {1, -1, diagonal}}};
+
+Radians angle_of(std::size_t direction) { return wrapped(static_cast<double>(direction) * std::numbers::pi / 4); }
+
+Radians turn_between(std::size_t a, std::size_t b) { return std::abs(wrapped(angle_of(b) - angle_of(a))); }
+
+}  // namespace
+
+// One search. Under `time` a state is a cell and the direction of arrival, since the turns cost; under `distance` the cell alone.
+class Planner::Search {
+public:
+    Search(Planner const& planner, Blocked const& blocked, RoutingPolicy policy)
+        : planner_(planner),
+          blocked_(blocked),
+          layers_(policy == RoutingPolicy::time ? directions.size() : 1),
+          cost_of_cell_(policy == RoutingPolicy::time ? cell_size / planner.speed_ : cell_size),
+          cost_of_turn_(policy == RoutingPolicy::time ? 1 / planner.turn_rate_ : 0),
+          cost_(blocked.size() * layers_, std::numeric_limits<float>::infinity()),
+          parent_(blocked.size() * layers_, none) {}
+
+    // Cells from the one after `from` to `to`; empty when there is no way, or they are the same.
+    std::vector<Cell> run(Cell from, Radians heading, Cell to) {
+        start(from, heading, to);
+        while (!open_.empty()) {
+            Entry const entry = open_.top();
+            open_.pop();
+            if (entry.cost > cost_[entry.state]) continue;  // a better one was expanded before
+            if (entry.state / layers_ == planner_.index(to)) return back_from(entry.state, from);
+            expand(entry, to);
+        }
+        return {};
+    }
+
+private:
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+    struct Entry {
+        float estimate;
+        float cost;
+        std::uint32_t state;
+        bool operator<(Entry const& other) const {  // for a queue whose top is the least
+            return estimate != other.estimate ? estimate > other.estimate : state > other.state;
+        }
+    };
+
+    Cell cell_of(std::uint32_t state) const {
+        auto const cell = static_cast<int>(state / layers_);
+        return {cell % planner_.columns_, cell / planner_.columns_};
+    }
+
+    float estimate(Cell from, Cell to) const {
+        int const columns = std::abs(from.column - to.column), rows = std::abs(from.row - to.row);
+        return static_cast<float>((std::max(columns, rows) + (diagonal - 1) * std::min(columns, rows)) * cost_of_cell_);
+    }
+
+    bool can_step(Cell from, Direction const& d) const {
+        auto free = [&](int column, int row) {
+            Cell const cell{column, row};
+            return planner_.inside(cell) && blocked_[planner_.index(cell)] == 0;
+        };
+        if (!free(from.column + d.column, from.row + d.row)) return false;
+        return d.length == 1 || (free(from.column + d.column, from.row) && free(from.column, from.row + d.row));
+    }
+
+    void offer(Cell cell, std::size_t direction, float cost, std::uint32_t parent, Cell to) {
+        auto const state = static_cast<std::uint32_t>(planner_.index(cell) * layers_ + (layers_ > 1 ? direction : 0));
+        if (cost >= cost_[state]) return;
+        cost_[state] = cost;
+        parent_[state] = parent;
+        open_.push({cost + estimate(cell, to), cost, state});
+    }
+
+    // The turn on the spot from the heading to each direction is paid before the first cell.
+    void start(Cell from, Radians heading, Cell to) {
+        for (std::size_t direction = 0; direction < layers_; ++direction) {
+            double const turn = std::abs(wrapped(angle_of(direction) - heading));
+            offer(from, direction, static_cast<float>(turn * cost_of_turn_), none, to);
+        }
+    }
+
+    void expand(Entry const& entry, Cell to) {
+        Cell const cell = cell_of(entry.state);
+        for (std::size_t direction = 0; direction < directions.size(); ++direction) {
+            Direction const& d = directions[direction];
+            if (!can_step(cell, d)) continue;
+            double cost = d.length * cost_of_cell_;
+            if (layers_ > 1) cost += turn_between(entry.state % layers_, direction) * cost_of_turn_;
+            offer({cell.column + d.column, cell.row + d.row}, direction, entry.cost + static_cast<float>(cost), entry.state, to);
+        }
+    }
+
+    std::vector<Cell> back_from(std::uint32_t state, Cell from) const {
+        std::vector<Cell> cells;
+        for (; state != none; state = parent_[state]) {
+            Cell const cell = cell_of(state);
+            if (cell.column == from.column && cell.row == from.row) break;
+            cells.push_back(cell);
+        }
+        std::ranges::reverse(cells);
+        return cells;
+    }
+
+    Planner const& planner_;
+    Blocked const& blocked_;
+    std::size_t layers_;
+    double cost_of_cell_;
+    double cost_of_turn_;
+    std::vector<float> cost_;
+    std::vector<std::uint32_t> parent_;
+    std::priority_queue<Entry> open_;
+};
+
+Planner::Planner(FloorPlan const& plan, Metres radius, MetresPerSecond speed, RadiansPerSecond turn_rate)
+    : plan_(plan), radius_(radius), speed_(speed), turn_rate_(turn_rate) {
+    Point const size = plan.bounds.high - plan.bounds.low;
+    columns_ = std::max(1, static_cast<int>(std::floor(size.x() / cell_size)));
+    rows_ = std::max(1, static_cast<int>(std::floor(size.y() / cell_size)));
+    blocked_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+    for (int row = 0; row < rows_; ++row) {
+        for (int column = 0; column < columns_; ++column) {
+            Cell const cell{column, row};
+            blocked_[index(cell)] = plan_.clearance(centre(cell)) < radius_ + wall_room;
+        }
+    }
+}
+
+bool Planner::goes_on(Cell before, Cell at, Cell after) {
+    return at.column - before.column == after.column - at.column && at.row - before.row == after.row - at.row;
+}
+
+Planner::Cell Planner::cell_at(Point const& p) const {
+    Point const at = (p - plan_.bounds.low) / cell_size;
+    return {std::clamp(static_cast<int>(std::floor(at.x())), 0, columns_ - 1),
+            std::clamp(static_cast<int>(std::floor(at.y())), 0, rows_ - 1)};
+}
+
+Point Planner::centre(Cell cell) const { return plan_.bounds.low + cell_size * Point{cell.column + 0.5, cell.row + 0.5}; }
+
+bool Planner::inside(Cell cell) const { return cell.column >= 0 && cell.column < columns_ && cell.row >= 0 && cell.row < rows_; }
+
+std::size_t Planner::index(Cell cell) const {
+    return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(cell.column);
+}
+
+// The discs that this body's centre stays out of; one that it is in already shrinks until it is not.
+std::vector<Disc> Planner::kept_clear(std::span<Disc const> in_the_way, Point const& from) const {
+    std::vector<Disc> kept;
+    for (Disc const& disc : in_the_way) {
+        Metres const wanted = disc.radius + radius_ + elbow_room;
+        kept.push_back({disc.centre, std::min(wanted, distance(from, disc.centre) - 0.02)});
+    }
+    return kept;
+}
+
+Planner::Blocked Planner::blocked_with(std::span<Disc const> kept_clear) const {
+    Blocked blocked = blocked_;
+    for (Disc const& disc : kept_clear) {
+        Cell const low = cell_at(disc.centre - Point::Constant(std::max(0.0, disc.radius)));
+        Cell const high = cell_at(disc.centre + Point::Constant(std::max(0.0, disc.radius)));
+        for (int row = low.row; row <= high.row; ++row) {
+            for (int column = low.column; column <= high.column; ++column) {
+                Cell const cell{column, row};
+                if (distance(centre(cell), disc.centre) < disc.radius) blocked[index(cell)] = 1;
+            }
+        }
+    }
+    return blocked;
+}
+
+std::optional<Planner::Cell> Planner::free_cell_near(Point const& p, Blocked const& blocked) const {
+    Cell const at = cell_at(p);
+    if (blocked[index(at)] == 0) return at;
+    int const reach = static_cast<int>(start_search / cell_size);
+    std::optional<Cell> nearest;
+    for (int row = at.row - reach; row <= at.row + reach; ++row) {
+        for (int column = at.column - reach; column <= at.column + reach; ++column) {
+            Cell const cell{column, row};
+            if (!inside(cell) || blocked[index(cell)] != 0 || !plan_.can_go_straight(p, centre(cell), 0.05)) continue;
+            if (!nearest || distance(p, centre(cell)) < distance(p, centre(*nearest))) nearest = cell;
+        }
+    }
+    return nearest;
+}
+
+bool Planner::cramped(Point const& p) const { return plan_.clearance(p) < radius_ + wall_room / 2; }
+
+bool Planner::straight(Point const& from, Point const& to, std::span<Disc const> kept_clear) const {
+    Metres const room = std::min(plan_.clearance(from), plan_.clearance(to)) - 0.001;
+    if (!plan_.can_go_straight(from, to, std::min(radius_ + wall_room / 2, room))) return false;
+    return std::ranges::none_of(kept_clear, [&](Disc const& disc) {
+        return distance(Segment{from, to}, disc.centre) < disc.radius;
+    });
+}
+
+bool Planner::fits(Point const& p, std::span<Disc const> in_the_way) const {
+    if (plan_.clearance(p) < radius_ + 0.01) return false;
+    return std::ranges::none_of(in_the_way,
+                                [&](Disc const& disc) { return distance(p, disc.centre) < disc.radius + radius_ + elbow_room; });
+}
+
+std::optional<Point> Planner::beside(Point const& centre, Metres away, Point const& from,
+                                     std::span<Disc const> in_the_way) const {
+    constexpr int candidates = 24;
+    Radians const towards = direction(centre, from);
+    for (int k = 0; k < candidates; ++k) {  // 0, +15, -15, +30, ... degrees from the side of `from`
+        int const step = (k + 1) / 2 * (k % 2 == 1 ? 1 : -1);
+        Point const p = centre + away * unit(towards + step * 2 * std::numbers::pi / candidates);
+        if (fits(p, in_the_way) && plan_.can_go_straight(centre, p, 0.02)) return p;
+    }
+    return std::nullopt;
+}
+
+std::optional<std::vector<Point>> Planner::way(Pose const& from, Point const& to, RoutingPolicy policy,
+                                               std::span<Disc const> in_the_way) const {
+    if (!fits(to)) return std::nullopt;
+    std::vector<Disc> const kept = kept_clear(in_the_way, from.position);
+    if (std::ranges::any_of(kept, [&](Disc const& disc) { return distance(to, disc.centre) < disc.radius; })) return std::nullopt;
+    if (!cramped(from.position) && straight(from.position, to, kept)) return std::vector<Point>{to};
+    Blocked const blocked = blocked_with(kept);
+    auto const first = free_cell_near(from.position, blocked);
+    auto const last = free_cell_near(to, blocked);
+    if (!first || !last) return std::nullopt;
+    std::vector<Point> corners{centre(*first)};
+    if (index(*first) != index(*last)) {
+        std::vector<Cell> const cells = Search{*this, blocked, policy}.run(*first, from.heading, *last);
+        if (cells.empty()) return std::nullopt;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (i + 1 < cells.size() && i > 0 && goes_on(cells[i - 1], cells[i], cells[i + 1])) continue;
+            corners.push_back(centre(cells[i]));
+        }
+    }
+    corners.push_back(to);
+    return smoothed(from.position, corners, kept);
+}
+
+// Leaves out every corner that can be passed by in a straight line.
+std::vector<Point> Planner::smoothed(Point const& from, std::vector<Point> const& corners,
+                                     std::span<Disc const> kept_clear) const {
+    std::vector<Point> way;
+    Point at = from;
+    std::size_t next = 0;
+    if (cramped(from)) {  // first away from the wall
+        at = corners[next++];
+        way.push_back(at);
+    }
+    while (next < corners.size()) {
+        std::size_t farthest = next;
+        for (std::size_t far = corners.size() - 1; far > next; --far) {
+            if (!straight(at, corners[far], kept_clear)) continue;
+            farthest = far;
+            break;
+        }
+        at = corners[farthest];
+        way.push_back(at);
+        next = farthest + 1;
+    }
+    return way;
+}
+
+Seconds Planner::duration(Pose const& from, std::span<Point const> way) const {
+    Seconds sum = 0;
+    Pose at = from;
+    for (Point const& corner : way) {
+        sum += std::abs(bearing(at, corner)) / turn_rate_ + distance(at.position, corner) / speed_;
+        at = {corner, direction(at.position, corner)};
+    }
+    return sum;
+}
+
+Metres Planner::length(Point const& from, std::span<Point const> way) {
+    Metres sum = 0;
+    Point at = from;
+    for (Point const& corner : way) {
+        sum += distance(at, corner);
+        at = corner;
+    }
+    return sum;
+}
+
+}  // namespace rois::simulation

@@ -1,0 +1,69 @@
+// Ways through the hall: A* on a grid around walls, desks and those who stand in the way, then smoothed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "simulation/floor_plan.hpp"
+
+namespace rois::simulation {
+
+// `time`: fewest seconds, where turns cost theirs; `distance`: shortest. RoIS's routing_policy (table 46).
+enum class RoutingPolicy : std::uint8_t { time, distance };
+
+// For bodies of one radius. Immutable after construction.
+class Planner {
+public:
+    // Speeds say what a metre and a turn cost under `time`.
+    Planner(FloorPlan const&, Metres radius, MetresPerSecond speed, RadiansPerSecond turn_rate);
+
+    // Corner points from `from` (not included) to `to` (included), or nothing when there is no way. `in_the_way` are the discs of
+    // others, which are kept clear of, except where `from` is within one already.
+    std::optional<std::vector<Point>> way(Pose const& from, Point const& to, RoutingPolicy,
+                                          std::span<Disc const> in_the_way = {}) const;
+
+    // Room that is left between a body and those in its way.
+    static constexpr Metres elbow_room = 0.1;
+
+    // Whether a body can stand there, walls and desks considered, and those in the way, if any.
+    bool fits(Point const&, std::span<Disc const> in_the_way = {}) const;
+
+    // Of the points at `away` from `centre` where a body fits with nothing between it and the centre, the nearest to `from`.
+    std::optional<Point> beside(Point const& centre, Metres away, Point const& from, std::span<Disc const> in_the_way = {}) const;
+
+    // Seconds that a way takes with the speeds given, and its length.
+    Seconds duration(Pose const& from, std::span<Point const> way) const;
+    static Metres length(Point const& from, std::span<Point const> way);
+
+private:
+    class Search;
+    struct Cell {
+        int column;
+        int row;
+    };
+    using Blocked = std::vector<std::uint8_t>;  // a cell each
+
+    Cell cell_at(Point const&) const;
+    Point centre(Cell) const;
+    bool inside(Cell) const;
+    static bool goes_on(Cell before, Cell at, Cell after);  // without a turn
+    std::size_t index(Cell) const;
+    std::vector<Disc> kept_clear(std::span<Disc const> in_the_way, Point const& from) const;
+    Blocked blocked_with(std::span<Disc const> kept_clear) const;
+    std::optional<Cell> free_cell_near(Point const&, Blocked const&) const;
+    bool cramped(Point const&) const;
+    bool straight(Point const& from, Point const& to, std::span<Disc const> kept_clear) const;
+    std::vector<Point> smoothed(Point const& from, std::vector<Point> const& corners, std::span<Disc const> kept_clear) const;
+
+    FloorPlan plan_;
+    Metres radius_;
+    MetresPerSecond speed_;
+    RadiansPerSecond turn_rate_;
+    int columns_;
+    int rows_;
+    Blocked blocked_;  // cells whose centre is too near to a wall or desk
+};
+
+}  // namespace rois::simulation

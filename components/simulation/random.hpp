@@ -1,0 +1,27 @@
+// Random numbers that are the same on every machine: the distributions are our own, since those of the standard library differ.
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <random>
+
+namespace rois::simulation {
+
+class Random {
+public:
+    explicit Random(std::uint64_t seed) : engine_(seed) {}
+
+    double uniform();                         // [0, 1)
+    double uniform(double low, double high);  // [low, high)
+    std::size_t below(std::size_t count);     // 0 .. count-1; count > 0
+    double gaussian();                        // mean 0, standard deviation 1
+    bool chance(double probability);
+
+private:
+    std::mt19937_64 engine_;
+};
+
+// One number made of many, well mixed: the same parts give the same number. For noise that does not depend on who asks how often.
+std::uint64_t mixed(std::initializer_list<std::uint64_t> parts);
+
+}  // namespace rois::simulation

@@ -1,0 +1,58 @@
+// Reaction (7.6.12): gestures of the robot, of Annex D.
+#include <utility>
+
+#include "simulation/basic_components.hpp"
+#include "simulation/codebooks.hpp"
+#include "simulation/parameter_reading.hpp"
+#include "simulation/reaction_types.hpp"
+#include "types/texts.hpp"
+
+namespace rois::simulation {
+namespace {
+
+class Reaction final : public Action {
+public:
+    using Action::Action;
+
+    ParameterList readable_parameters() const override {
+        std::vector<std::string> codes;
+        for (std::size_t i = 1; i <= reaction_types.size(); ++i) codes.push_back(std::to_string(i));
+        return {references("available_reactions", std::move(codes), std::string{codebook::reaction})};
+    }
+
+private:
+    std::optional<std::string> unfit(ParameterList const& parameters) const override {
+        auto const wanted = text_of(parameters, "reaction_ref");
+        if (wanted.empty() || !reaction_code(wanted).empty()) return {};
+        return "parameter 'reaction_ref': " + quoted(wanted) + " is unknown; known are 1 to " +
+               std::to_string(reaction_types.size()) + " of " + std::string{codebook::reaction} + " and their names";
+    }
+
+    std::optional<std::string> missing(ParameterList const& parameters) const override {
+        if (!text_of(parameters, "reaction_ref").empty()) return {};
+        return "parameter 'reaction_ref' is mandatory";
+    }
+
+    void begin(ParameterList const& parameters) override {
+        code_ = reaction_code(text_of(parameters, "reaction_ref"));
+        go_on();
+    }
+
+    Seconds remaining() const { return reaction_type(code_).duration - in_seconds(elapsed()); }
+
+    void act() override {
+        if (remaining() <= 0) end(CompletedStatus::ok);
+    }
+
+    void cease() override { hall().stop_showing(robot()); }
+    void hold() override { hall().stop_showing(robot()); }
+    void go_on() override { hall().show(robot(), code_, remaining()); }
+
+    std::string code_;
+};
+
+}  // namespace
+
+std::unique_ptr<Component> reaction(Fitting fitting) { return std::make_unique<Reaction>(std::move(fitting)); }
+
+}  // namespace rois::simulation

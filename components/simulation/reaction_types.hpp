@@ -1,0 +1,26 @@
+// What a robot can show: the example codebook Reaction_Type of Annex D.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "simulation/pose.hpp"
+
+namespace rois::simulation {
+
+struct ReactionType {
+    std::string_view name;
+    Seconds duration;
+};
+
+// In the annex's order; the code of the first one is "1".
+extern std::array<ReactionType, 50> const reaction_types;
+
+// The code of a reaction that is named by its code or, in any case, by its name; empty when it is neither.
+std::string reaction_code(std::string_view code_or_name);
+
+// The reaction of that code, which must be one.
+ReactionType const& reaction_type(std::string_view code);
+
+}  // namespace rois::simulation

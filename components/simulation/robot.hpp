@@ -1,0 +1,49 @@
+// A robot in the hall: its drive, its voice and the reactions that it shows.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "simulation/drive.hpp"
+#include "simulation/person.hpp"
+
+namespace rois::simulation {
+
+// Names one utterance of one robot.
+enum class UtteranceId : std::uint64_t {};
+
+struct Utterance {
+    std::string text;  // plain
+    std::string language = "en";
+    double loudness = 0.5;            // 0 to 1: visitors hear 0.5 at 5 m
+    std::optional<Seconds> duration;  // absent: speech_duration(text)
+};
+
+enum class SpeechState : std::uint8_t {
+    speaking,
+    held,
+    spoken,  // over, to its last word
+    broken   // over, before its last word
+};
+
+// How long somebody speaks a text: by its characters, at least half a second. Scripts without spaces count more per character.
+Seconds speech_duration(std::string_view text);
+
+// What a robot shows at the moment.
+struct Showing {
+    std::string reaction;  // its code
+    WorldTime ends{};
+};
+
+// As others see it. `drive` is reached through the Hall.
+struct Robot {
+    RobotId id{};
+    std::string name;
+    Pose pose;
+    Twist twist;
+    std::optional<Speech> speaking;  // absent while held
+    std::optional<Showing> showing;
+};
+
+}  // namespace rois::simulation

@@ -1,0 +1,95 @@
+#include "simulation/robot_component.hpp"
+
+#include <utility>
+
+namespace rois::simulation {
+
+RobotComponent::RobotComponent(Fitting fitting) : fitting_{std::move(fitting)} {}
+
+RobotComponent::~RobotComponent() { fitting_.simulation->part(*this); }
+
+void RobotComponent::attach(ComponentPort& port) {
+    port_ = &port;
+    fitting_.simulation->join(*this);
+}
+
+ComponentStatus RobotComponent::status() const { return last_step_ ? condition() : ComponentStatus::uninitialized; }
+
+std::optional<std::string> RobotComponent::refusal(std::string_view command_type, ParameterList const& parameters) const {
+    bool const starts = command_type == "start";
+    if (!starts && command_type != "set_parameter") return {};
+    if (auto problem = unfit(parameters)) return problem;
+    return starts ? missing(parameters) : std::nullopt;
+}
+
+void RobotComponent::observe(Instant when) {
+    last_step_ = when;
+    stepped(when);
+}
+
+void ContinuousFunction::start(CommandHandle command, ParameterList const& parameters, Instant) {
+    state_ = State::active;
+    apply(parameters);
+    begin();
+    port().completed(command, CompletedStatus::ok, {}, Afterwards::active);
+}
+
+void ContinuousFunction::halt(Instant) { state_ = State::idle; }
+
+void ContinuousFunction::suspend(Instant) {
+    if (state_ != State::active) return;
+    state_ = State::suspended;
+    suspended();
+}
+
+void ContinuousFunction::resume(Instant) {
+    if (state_ != State::suspended) return;
+    state_ = State::active;
+    resumed();
+}
+
+void ContinuousFunction::parameters_changed(ParameterList const& parameters, Instant) {
+    if (state_ != State::idle) apply(parameters);
+}
+
+void ContinuousFunction::stepped(Instant when) {
+    if (state_ == State::active) sense(when);
+}
+
+void Action::start(CommandHandle command, ParameterList const& parameters, Instant) {
+    command_ = command;
+    suspended_ = false;
+    elapsed_ = {};
+    begin(parameters);
+    if (command_) port().started(command);
+}
+
+void Action::halt(Instant) {
+    if (!command_) return;
+    command_.reset();
+    cease();
+}
+
+void Action::suspend(Instant) {
+    if (!command_ || suspended_) return;
+    suspended_ = true;
+    hold();
+}
+
+void Action::resume(Instant) {
+    if (!command_ || !suspended_) return;
+    suspended_ = false;
+    go_on();
+}
+
+void Action::stepped(Instant) {
+    if (!command_ || suspended_) return;
+    elapsed_ += Hall::step_length;
+    act();
+}
+
+void Action::end(CompletedStatus status) {
+    if (auto const command = std::exchange(command_, {})) port().completed(*command, status);
+}
+
+}  // namespace rois::simulation

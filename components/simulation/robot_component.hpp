@@ -1,0 +1,118 @@
+// What the components of a robot have in common, and the two kinds that nearly all of them are: functions that go on until they
+// are stopped (detection, localization, recognition) and actions that come to an end (navigation, speech).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "engine/component.hpp"
+#include "simulation/simulation.hpp"
+
+namespace rois::simulation {
+
+// Where a component belongs.
+struct Fitting {
+    std::shared_ptr<Simulation> simulation;
+    RobotId robot{};
+    ComponentDescription description;
+};
+
+// Looks at the hall after every step of the world. UNINITIALIZED before the first one.
+class RobotComponent : public Component, private Observer {
+public:
+    explicit RobotComponent(Fitting);
+    ~RobotComponent() override;
+    RobotComponent(RobotComponent const&) = delete;
+    RobotComponent& operator=(RobotComponent const&) = delete;
+
+    ComponentDescription const& description() const final { return fitting_.description; }
+    void attach(ComponentPort&) final;
+    ComponentStatus status() const final;
+    std::optional<std::string> refusal(std::string_view command_type, ParameterList const&) const final;
+
+protected:
+    Hall& hall() { return fitting_.simulation->hall(); }
+    Hall const& hall() const { return fitting_.simulation->hall(); }
+    RobotId robot() const { return fitting_.robot; }
+    ComponentPort& port() { return *port_; }
+    std::optional<Instant> const& last_step() const { return last_step_; }
+
+    virtual void stepped(Instant when) = 0;
+    // Once the world has begun: READY or WARNING.
+    virtual ComponentStatus condition() const { return ComponentStatus::ready; }
+
+    // What is wrong with a value among these, and what `start` lacks; nothing when all is well. Values are of their types.
+    virtual std::optional<std::string> unfit(ParameterList const&) const { return {}; }
+    virtual std::optional<std::string> missing(ParameterList const&) const { return {}; }
+
+private:
+    void observe(Instant when) final;
+
+    Fitting fitting_;
+    ComponentPort* port_ = nullptr;
+    std::optional<Instant> last_step_;
+};
+
+// Active from `start` on, until it is stopped.
+class ContinuousFunction : public RobotComponent {
+public:
+    using RobotComponent::RobotComponent;
+
+    void start(CommandHandle, ParameterList const&, Instant now) final;
+    void halt(Instant now) final;
+    void suspend(Instant now) final;
+    void resume(Instant now) final;
+    void parameters_changed(ParameterList const&, Instant now) final;
+
+protected:
+    // Everything that was told is forgotten: what is sensed from now on is new.
+    virtual void begin() = 0;
+    // New parameters, before `begin` and whenever they change while active.
+    virtual void apply(ParameterList const&) {}
+    // Once a step, while active and not suspended.
+    virtual void sense(Instant when) = 0;
+    virtual void suspended() {}
+    virtual void resumed() {}
+
+private:
+    void stepped(Instant when) final;
+
+    enum class State : std::uint8_t { idle, active, suspended } state_ = State::idle;
+};
+
+// Runs from `start` to its end. Its time is the world's, and stands still while it is suspended. New parameters count from the
+// next start on.
+class Action : public RobotComponent {
+public:
+    using RobotComponent::RobotComponent;
+
+    void start(CommandHandle, ParameterList const&, Instant now) final;
+    void halt(Instant now) final;
+    void suspend(Instant now) final;
+    void resume(Instant now) final;
+
+protected:
+    // May end the action at once.
+    virtual void begin(ParameterList const&) = 0;
+    // Once a step, while it runs and is not suspended.
+    virtual void act() = 0;
+    // Stands still from now on: for good, for a while, no longer.
+    virtual void cease() = 0;
+    virtual void hold() = 0;
+    virtual void go_on() = 0;
+
+    // Completes the command; the action has ceased, or ceases by itself.
+    void end(CompletedStatus);
+    WorldTime elapsed() const { return elapsed_; }
+
+private:
+    void stepped(Instant when) final;
+
+    std::optional<CommandHandle> command_;
+    bool suspended_ = false;
+    WorldTime elapsed_{};
+};
+
+}  // namespace rois::simulation

@@ -1,0 +1,20 @@
+// The door to the simulation's components.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/component.hpp"
+#include "simulation/simulation.hpp"
+
+namespace rois::simulation {
+
+// The 15 basic components (7.6) of every robot in the hall, working on this one world. Those of the first robot belong to the
+// main engine and are named as in table 31 ("navigation"); those of a further robot belong to the sub engine of its name and
+// carry it
+// ("robot2.navigation"). `profiles` are found by their URN, urn:x-rois:def:component:OMG::Navigation and so on, in any case;
+// throws std::runtime_error naming one that is not there. The components keep the simulation alive.
+std::vector<std::unique_ptr<Component>> robot_components(std::shared_ptr<Simulation> const&,
+                                                         std::vector<ComponentProfile> const& profiles);
+
+}  // namespace rois::simulation

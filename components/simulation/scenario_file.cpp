@@ -1,0 +1,140 @@
+#include "simulation/scenario_file.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "simulation/person.hpp"
+#include "simulation/wire_units.hpp"
+#include "types/texts.hpp"
+
+namespace rois::simulation {
+
+namespace {
+
+bool is_true(std::string_view text) { return trimmed(text) == "true" || trimmed(text) == "1"; }
+
+bool is_language(std::string_view text) {
+    return text.size() == 2 && std::ranges::all_of(text, [](char c) { return c >= 'a' && c <= 'z'; });
+}
+
+// Reads the elements of one scenario against the floor plan that it plays in.
+class ScenarioReader {
+public:
+    explicit ScenarioReader(FloorPlan const& plan) : plan_{plan} {}
+
+    Role role(xml::Element const& element) const {
+        Role role;
+        role.id = element.attribute("id", "");
+        role.known = is_true(element.attribute("known", "false"));
+        role.name = element.attribute("name", "");
+        role.language = language(element, "en");
+        role.message = element.attribute("message", "");
+        role.height = element.number("height", role.height * 1000.0) / 1000.0;
+        role.speed = element.number("speed", role.speed * 1000.0) / 1000.0;
+        role.enters = element.number("enters", 0);
+        for (auto const& child : element.children()) {
+            if (child.name() == "answer") {
+                role.answers.push_back(answer(child, role.language));
+            } else {
+                role.actions.push_back(action(child, role.language));
+            }
+        }
+        return role;
+    }
+
+private:
+    Answer answer(xml::Element const& element, std::string const& usual_language) const {
+        Answer answer;
+        answer.to = element.attribute("to", "");
+        answer.reaction = element.attribute("reaction", "");
+        if (answer.to.empty() == answer.reaction.empty()) throw element.complain("an answer has one of 'to' and 'reaction'");
+        answer.language = language(element, usual_language);
+        answer.text = trimmed(element.text());
+        answer.gesture = element.attribute("gesture", "");
+        if (!answer.gesture.empty()) check_gesture(element, answer.gesture);
+        answer.once = is_true(element.attribute("once", "false"));
+        return answer;
+    }
+
+    ScriptedAction action(xml::Element const& element, std::string const& usual_language) const {
+        ScriptedAction action;
+        if (element.attribute("at")) action.at = element.number("at");
+        auto const name = element.name();
+        if (name == "walk") {
+            action.what = Walk{whereabouts(element)};
+        } else if (name == "face") {
+            action.what = Face{whereabouts(element)};
+        } else if (name == "ignore") {
+            action.what = Ignore{};
+        } else if (name == "say") {
+            action.what = Say{language(element, usual_language), std::string{trimmed(element.text())}};
+        } else if (name == "gesture") {
+            check_gesture(element, element.attribute("id", ""));
+            action.what = Gesture{element.attribute("id", "")};
+        } else if (name == "wait") {
+            action.what = Wait{element.number("seconds")};
+        } else if (name == "wander") {
+            action.what = Wander{element.number("seconds")};
+        } else {
+            action.what = Leave{};
+        }
+        return action;
+    }
+
+    Whereabouts whereabouts(xml::Element const& element) const {
+        auto const to = element.attribute("to", "");
+        bool const named = plan_.place(to) != nullptr ||
+                           std::ranges::any_of(plan_.robots, [&](RobotPlan const& robot) { return robot.name == to; });
+        if (named) return {to};
+        auto const target = target_from_wire(to);
+        if (!target) throw element.complain(quoted(to) + " is no place, no robot and no point \"x, y\" of the floor plan");
+        if (plan_.clearance(target->position) < person_radius) throw element.complain("nobody can stand at " + quoted(to));
+        return {target->position};
+    }
+
+    static std::string language(xml::Element const& element, std::string const& otherwise) {
+        auto language = element.attribute("language", otherwise);
+        if (!is_language(language)) throw element.complain(quoted(language) + " is no language of ISO 639-1, like en or ja");
+        return language;
+    }
+
+    static void check_gesture(xml::Element const& element, std::string const& id) {
+        if (std::ranges::find(gestures(), id) != gestures().end()) return;
+        std::string all;
+        for (auto const gesture : gestures()) all += (all.empty() ? "" : ", ") + std::string{gesture};
+        throw element.complain("unknown gesture " + quoted(id) + "; known are " + all);
+    }
+
+    FloorPlan const& plan_;
+};
+
+Arrivals arrivals(xml::Element const& element) {
+    Arrivals read{.gap_least = element.number("gap_least"),
+                  .gap_most = element.number("gap_most"),
+                  .at_most = static_cast<std::size_t>(element.number("at_most"))};
+    if (read.gap_most < read.gap_least) throw element.complain("gap_most is below gap_least");
+    return read;
+}
+
+}  // namespace
+
+Scenario read_scenario(std::shared_ptr<xml::Schemas const> schemas, std::string name, std::string text, FloorPlan const& plan) {
+    auto const document = xml::Document::parse(std::move(schemas), std::move(name), std::move(text));
+    auto const root = document.root();
+    if (root.name() != "scenario") throw root.complain("this is no scenario: expected the element scenario");
+    Scenario scenario;
+    scenario.name = root.attribute("name", "");
+    if (root.attribute("round")) scenario.round = root.number("round");
+    if (auto const element = root.child("arrivals")) scenario.arrivals = arrivals(*element);
+    ScenarioReader const reader{plan};
+    for (auto const& person : root.children("person")) {
+        auto role = reader.role(person);
+        if (std::ranges::find(scenario.roles, role.id, &Role::id) != scenario.roles.end())
+            throw person.complain("a second person with the id " + quoted(role.id));
+        if (scenario.round && role.enters >= *scenario.round) throw person.complain("enters after the end of the round");
+        scenario.roles.push_back(std::move(role));
+    }
+    return scenario;
+}
+
+}  // namespace rois::simulation

@@ -1,0 +1,24 @@
+#include "simulation/simulation.hpp"
+
+#include <algorithm>
+
+namespace rois::simulation {
+
+Simulation::Simulation(FloorPlan plan, Scenario scenario, std::uint64_t seed, double speed)
+    : hall_(std::move(plan), std::move(scenario), seed), time_(speed, Hall::step_length) {}
+
+void Simulation::advance(Instant now) {
+    std::int64_t const steps = time_.steps_due(now.steady);
+    for (std::int64_t k = 1; k <= steps; ++k) step(time_.due(k, steps, now));
+}
+
+void Simulation::step(Instant when) {
+    hall_.step();
+    for (Observer* observer : observers_) observer->observe(when);
+}
+
+void Simulation::join(Observer& observer) { observers_.push_back(&observer); }
+
+void Simulation::part(Observer& observer) { std::erase(observers_, &observer); }
+
+}  // namespace rois::simulation

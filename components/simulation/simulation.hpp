@@ -1,0 +1,48 @@
+// The hall as a device of the engine: moves the world on as real time passes.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/component.hpp"
+#include "simulation/hall.hpp"
+#include "simulation/simulated_time.hpp"
+
+namespace rois::simulation {
+
+// Told after every step of the world (20 ms of its time), in the order of joining. The components of the simulation are
+// observers: from here they report what their sensors see and how their actions go.
+class Observer {
+public:
+    virtual ~Observer() = default;
+    // `when` is the real time to which the step belongs: not later than the engine's present.
+    virtual void observe(Instant when) = 0;
+};
+
+// Components hold it by shared_ptr. Used by the engine's thread only.
+class Simulation : public Device {
+public:
+    // `speed`: simulated seconds per real second, > 0.
+    Simulation(FloorPlan, Scenario, std::uint64_t seed, double speed);
+
+    // The first call only sets the clock. A gap longer than SimulatedTime::longest_gap counts as that much.
+    void advance(Instant now) override;
+
+    // One step by hand, seen by the observers at `when`; for tests that hold the clock.
+    void step(Instant when);
+
+    Hall& hall() { return hall_; }
+    Hall const& hall() const { return hall_; }
+    double speed() const { return time_.speed(); }
+
+    void join(Observer&);
+    void part(Observer&);  // in the observer's destructor, never from within observe
+
+private:
+    Hall hall_;
+    SimulatedTime time_;
+    std::vector<Observer*> observers_;
+};
+
+}  // namespace rois::simulation

@@ -1,0 +1,128 @@
+// Speech synthesis (7.6.11): the robot's voice.
+#include <algorithm>
+#include <array>
+
+#include "simulation/basic_components.hpp"
+#include "simulation/languages.hpp"
+#include "simulation/parameter_reading.hpp"
+#include "simulation/ssml.hpp"
+#include "types/texts.hpp"
+
+namespace rois::simulation {
+namespace {
+
+constexpr std::int32_t default_volume = 50;
+constexpr std::size_t longest_text = 16'384;  // bytes
+constexpr std::array<std::string_view, 5> characters{"default", "female", "male", "child", "robot"};
+
+std::string names_of_characters() {
+    std::string names;
+    for (auto character : characters) names += (names.empty() ? "" : ", ") + std::string{character};
+    return names;
+}
+
+std::optional<std::string> too_long(ParameterList const& parameters, std::string_view name) {
+    if (text_of(parameters, name).size() <= longest_text) return {};
+    return "parameter '" + std::string{name} + "' is longer than " + std::to_string(longest_text) + " bytes";
+}
+
+std::optional<std::string> unknown_language(std::string_view language, std::string_view where) {
+    if (language.empty() || is_language(language)) return {};
+    return std::string{where} + ": " + quoted(language) + " cannot be synthesized; those that can are " + names_of_languages();
+}
+
+class SpeechSynthesis final : public Action {
+public:
+    using Action::Action;
+
+    // The text that arrived takes the place of the other one.
+    void reconcile(ParameterList& stored, ParameterList const& arrived) const override {
+        bool const plain = !text_of(arrived, "speech_text").empty();
+        bool const marked_up = !text_of(arrived, "SSML_text").empty();
+        if (plain == marked_up) return;
+        std::erase_if(stored,
+                      [&](Parameter const& p) { return equal_ignoring_case(p.name, plain ? "SSML_text" : "speech_text"); });
+    }
+
+    ParameterList readable_parameters() const override {
+        return {texts("synthesizable_languages", {languages.begin(), languages.end()}),
+                texts("synthesizable_characters", {characters.begin(), characters.end()})};
+    }
+
+private:
+    std::optional<std::string> unfit(ParameterList const& parameters) const override {
+        if (auto problem = not_between(parameters, "volume", 0, 100)) return problem;
+        if (auto problem = unknown_language(text_of(parameters, "language"), "parameter 'language'")) return problem;
+        auto const character = text_of(parameters, "character");
+        if (!character.empty() && std::ranges::find(characters, character) == characters.end())
+            return "parameter 'character': " + quoted(character) + " is unknown; known are " + names_of_characters();
+        if (auto problem = too_long(parameters, "speech_text")) return problem;
+        if (auto problem = too_long(parameters, "SSML_text")) return problem;
+        auto const document = text_of(parameters, "SSML_text");
+        if (document.empty()) return {};
+        if (!text_of(parameters, "speech_text").empty()) return "either 'speech_text' or 'SSML_text' can be said, not both";
+        auto const& read = marked_up(document);
+        if (auto const* bad = std::get_if<BadSsml>(&read)) return "parameter 'SSML_text': " + bad->reason;
+        return unknown_language(std::get<SpokenText>(read).language, "parameter 'SSML_text', xml:lang");
+    }
+
+    std::optional<std::string> missing(ParameterList const& parameters) const override {
+        if (!text_of(parameters, "speech_text").empty()) return {};
+        auto const document = text_of(parameters, "SSML_text");
+        if (document.empty()) return "there is nothing to say: 'speech_text' or 'SSML_text' is mandatory";
+        auto const& spoken = std::get<SpokenText>(marked_up(document));
+        if (spoken.text.empty() && spoken.pauses <= 0) return "there is nothing to say in 'SSML_text'";
+        return {};
+    }
+
+    void begin(ParameterList const& parameters) override { utterance_ = hall().speak(robot(), utterance_of(parameters)); }
+
+    Utterance utterance_of(ParameterList const& parameters) const {
+        Utterance utterance;
+        utterance.loudness = integer_of(parameters, "volume").value_or(default_volume) / 100.0;
+        if (auto const language = text_of(parameters, "language"); !language.empty()) utterance.language = language;
+        utterance.text = text_of(parameters, "speech_text");
+        if (!utterance.text.empty()) return utterance;
+        auto const& spoken = std::get<SpokenText>(marked_up(text_of(parameters, "SSML_text")));
+        Seconds const words = spoken.text.empty() ? 0 : speech_duration(spoken.text) * spoken.stretch;
+        utterance.duration = words + spoken.pauses;
+        utterance.text = spoken.text;
+        if (!spoken.language.empty()) utterance.language = spoken.language;
+        return utterance;
+    }
+
+    void act() override {
+        switch (hall().speech_state(robot(), utterance_)) {
+            case SpeechState::speaking:
+            case SpeechState::held:
+                return;
+            case SpeechState::spoken:
+                return end(CompletedStatus::ok);
+            case SpeechState::broken:
+                return end(CompletedStatus::error);
+        }
+    }
+
+    void cease() override { hall().break_off(robot(), utterance_); }
+    void hold() override { hall().hold_speech(robot(), utterance_); }
+    void go_on() override { hall().go_on_speaking(robot(), utterance_); }
+
+    // The document read; the last one is kept, since each command of a sequence asks for it.
+    std::variant<SpokenText, BadSsml> const& marked_up(std::string_view document) const {
+        if (document != document_) {
+            read_ = read_ssml(document);
+            document_ = document;
+        }
+        return read_;
+    }
+
+    UtteranceId utterance_{};
+    mutable std::string document_;
+    mutable std::variant<SpokenText, BadSsml> read_;
+};
+
+}  // namespace
+
+std::unique_ptr<Component> speech_synthesis(Fitting fitting) { return std::make_unique<SpeechSynthesis>(std::move(fitting)); }
+
+}  // namespace rois::simulation

@@ -1,0 +1,77 @@
+// System information (7.6.1): where the robot is, and how it is.
+#include "simulation/basic_components.hpp"
+#include "simulation/codebooks.hpp"
+#include "simulation/random.hpp"
+
+namespace rois::simulation {
+namespace {
+
+// Standard deviations of the robot's knowledge of where it is.
+constexpr Metres sigma = 0.01;
+constexpr Radians heading_sigma = from_degrees(0.5);
+
+// Tells this use of random numbers from those of the sensors.
+constexpr std::uint64_t own_position = 0x6f776e;
+
+class SystemInformation final : public RobotComponent {
+public:
+    using RobotComponent::RobotComponent;
+
+    // Without the methods of RoIS_Common: there is nothing to start, and the engine never asks for it.
+    void start(CommandHandle command, ParameterList const&, Instant) override {
+        port().completed(command, CompletedStatus::error);
+    }
+    void halt(Instant) override {}
+    void suspend(Instant) override {}
+    void resume(Instant) override {}
+
+    std::optional<Results> query(std::string_view query_type, Instant now) override {
+        if (query_type == "robot_position") return robot_position(last_step().value_or(now));
+        if (query_type == "engine_status") return engine_status();
+        return {};
+    }
+
+private:
+    void stepped(Instant when) override {
+        if (!operable_since_) operable_since_ = when.utc;
+    }
+
+    // WARNING while somebody is in the robot's way.
+    ComponentStatus condition() const override {
+        auto const motion = hall().drive(robot()).current();
+        return motion && motion->state == MotionState::obstructed ? ComponentStatus::warning : ComponentStatus::ready;
+    }
+
+    Results robot_position(Instant measured_at) const {
+        Robot const& self = hall().robot(robot());
+        std::string const& crs = hall().plan().crs;
+        Pose const pose = measured(self.pose);
+        Covariance const covariance =
+            Eigen::Vector3d{sigma * sigma, sigma * sigma, heading_sigma * heading_sigma}.asDiagonal().toDenseMatrix();
+        return {{date_time("timestamp", measured_at.utc), references("robot_ref", {self.name}, std::string{codebook::robot}),
+                 positions("position_data", {to_wire(pose)}, crs)},
+                {located("position_data", self.name, crs, pose, 0, covariance)}};
+    }
+
+    // The same however often it is asked within a step.
+    Pose measured(Pose const& pose) const {
+        auto const step = static_cast<std::uint64_t>(hall().now() / Hall::step_length);
+        Random random{mixed({hall().seed(), step, static_cast<std::uint64_t>(robot()), own_position})};
+        Point const error{random.gaussian() * sigma, random.gaussian() * sigma};
+        return {pose.position + error, wrapped(pose.heading + random.gaussian() * heading_sigma)};
+    }
+
+    Results engine_status() const {
+        Results results{{status_of("status", status())}, {}};
+        if (operable_since_) results.parameters.push_back(date_time("operable_time", *operable_since_));
+        return results;
+    }
+
+    std::optional<Utc> operable_since_;
+};
+
+}  // namespace
+
+std::unique_ptr<Component> system_information(Fitting fitting) { return std::make_unique<SystemInformation>(std::move(fitting)); }
+
+}  // namespace rois::simulation

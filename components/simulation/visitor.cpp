@@ -1,0 +1,120 @@
+#include "simulation/visitor.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace rois::simulation {
+namespace {
+
+constexpr Metres hearing = 5.0;  // of a voice of loudness 0.5, which grows with it
+constexpr Radians looks_at = from_degrees(60);
+constexpr WorldTime gesture_length{1'500};
+constexpr WorldTime before_answer{700};
+
+std::string lowered(std::string_view text) {
+    std::string lower{text};
+    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return lower;
+}
+
+bool fits(Answer const& answer, Happening const& happening) {
+    if (happening.kind == Happening::Kind::reaction_shown) return !answer.reaction.empty() && answer.reaction == happening.text;
+    if (answer.to.empty()) return false;
+    return answer.to == "*" || lowered(happening.text).find(lowered(answer.to)) != std::string::npos;
+}
+
+}  // namespace
+
+Visitor::Visitor(PersonId id, Role role, Pose const& pose, WorldTime now, FloorPlan const& plan, Planner const& planner,
+                 std::uint64_t seed)
+    : role_(std::move(role)), random_(seed), walker_(plan, planner), came_(now), action_began_(now) {
+    person_.id = id;
+    person_.role = role_.id;
+    person_.known = role_.known;
+    person_.name = role_.name;
+    person_.language = role_.language;
+    person_.message = role_.message;
+    person_.height = role_.height;
+    person_.pose = pose;
+}
+
+void Visitor::notice(Happening const& happening, Robot const& robot, double loudness, Company const& company) {
+    Point const here = person_.pose.position;
+    bool const speech = happening.kind == Happening::Kind::speech_finished;
+    Metres const reach = speech ? hearing * std::sqrt(std::max(0.0, loudness) / 0.5) : hearing;
+    if (ignores_ || distance(here, robot.pose.position) > reach) return;
+    if (std::abs(bearing(person_.pose, robot.pose.position)) > looks_at) return;
+    if (!company.plan.in_sight(here, robot.pose.position)) return;
+    addressed_ = company.now;
+    if (talks_left_ > 0) patience_ = usual_patience;
+    talks_left_ = std::max(0, talks_left_ - 1);
+    for (std::size_t i = 0; i < role_.answers.size(); ++i) {
+        Answer const& answer = role_.answers[i];
+        if (!fits(answer, happening) || std::ranges::find(answered_, i) != answered_.end()) continue;
+        if (answer.once) answered_.push_back(i);
+        pending_ = Pending{answer, company.now + before_answer};
+        return;
+    }
+}
+
+void Visitor::step(Company& company) {
+    end_speech_and_gesture(company);
+    mind_robots(company);
+    answer(company);
+    person_.velocity = Point::Zero();
+    play(company);
+    turn(company);
+}
+
+void Visitor::end_speech_and_gesture(Company& company) {
+    if (person_.speaking && company.now >= person_.speaking->ends) {
+        Speech const said = *person_.speaking;
+        person_.speaking.reset();
+        company.chronicle.add(
+            {0, company.now, Happening::Kind::speech_finished, person_.id, person_.pose.position, said.text, said.language});
+    }
+    if (person_.gesturing && company.now >= person_.gesturing->ends) person_.gesturing.reset();
+}
+
+void Visitor::say(std::string text, std::string language, Company& company) {
+    person_.speaking = Speech{std::move(text), std::move(language), company.now, {}};
+    person_.speaking->ends = company.now + world_time(speech_duration(person_.speaking->text));
+    company.chronicle.add({0, company.now, Happening::Kind::speech_started, person_.id, person_.pose.position,
+                           person_.speaking->text, person_.speaking->language});
+}
+
+void Visitor::make_gesture(std::string id, Company& company) {
+    person_.gesturing = Gesturing{std::move(id), company.now + gesture_length};
+    company.chronicle.add(
+        {0, company.now, Happening::Kind::gesture_made, person_.id, person_.pose.position, person_.gesturing->id, {}});
+}
+
+void Visitor::answer(Company& company) {
+    if (!pending_ || company.now < pending_->due || person_.speaking || person_.gesturing) return;
+    Answer const given = std::move(pending_->answer);
+    pending_.reset();
+    if (!given.gesture.empty()) make_gesture(given.gesture, company);
+    if (!given.text.empty()) say(given.text, given.language, company);
+}
+
+void Visitor::play(Company& company) {
+    if (gone_) return;
+    if (action_ >= role_.actions.size()) role_.actions.push_back({Leave{}, std::nullopt});
+    ScriptedAction const& action = role_.actions[action_];
+    if (action.at && in_seconds(company.now - came_) < *action.at) return;
+    Doing const doing = std::visit([&](auto const& what) { return act(what, company); }, action.what);
+    action_fresh_ = false;
+    if (doing == Doing::still) return;
+    if (std::holds_alternative<Leave>(action.what)) gone_ = true;
+    next_action(company.now);
+}
+
+void Visitor::next_action(WorldTime now) {
+    ++action_;
+    action_began_ = now;
+    action_fresh_ = true;
+    walker_.stop();
+}
+
+}  // namespace rois::simulation

@@ -1,0 +1,70 @@
+#include "simulation/voice.hpp"
+
+#include <algorithm>
+
+namespace rois::simulation {
+
+Seconds speech_duration(std::string_view text) {
+    constexpr Seconds per_letter = 0.065;    // about 15 letters a second
+    constexpr Seconds per_wide_sign = 0.15;  // a kana or an ideograph: three bytes or more in UTF-8
+    Seconds sum = 0;
+    for (unsigned char byte : text) {
+        if (byte >= 0xe3) {
+            sum += per_wide_sign;
+        } else if (byte < 0x80 || byte >= 0xc0) {
+            sum += per_letter;
+        }
+    }
+    return std::max(0.5, sum);
+}
+
+UtteranceId Voice::speak(Utterance utterance, WorldTime now, Point const& place, Chronicle& chronicle) {
+    if (state_ == SpeechState::speaking || state_ == SpeechState::held) finish(SpeechState::broken, now, place, chronicle);
+    last_ = UtteranceId{static_cast<std::uint64_t>(last_) + 1};
+    state_ = SpeechState::speaking;
+    loudness_ = std::clamp(utterance.loudness, 0.0, 1.0);
+    WorldTime const length = world_time(utterance.duration.value_or(speech_duration(utterance.text)));
+    speech_ = {std::move(utterance.text), std::move(utterance.language), now, now + length};
+    chronicle.add({0, now, Happening::Kind::speech_started, robot_, place, speech_.text, speech_.language});
+    return last_;
+}
+
+SpeechState Voice::state(UtteranceId id) const {
+    if (id == last_) return state_;
+    auto found = std::ranges::find(ended_, id, &std::pair<UtteranceId, SpeechState>::first);
+    return found == ended_.end() ? SpeechState::broken : found->second;
+}
+
+void Voice::break_off(UtteranceId id, WorldTime now, Point const& place, Chronicle& chronicle) {
+    if (id != last_ || (state_ != SpeechState::speaking && state_ != SpeechState::held)) return;
+    finish(SpeechState::broken, now, place, chronicle);
+}
+
+void Voice::hold(UtteranceId id, WorldTime now) {
+    if (id != last_ || state_ != SpeechState::speaking) return;
+    state_ = SpeechState::held;
+    left_when_held_ = speech_.ends - now;
+}
+
+void Voice::go_on(UtteranceId id, WorldTime now) {
+    if (id != last_ || state_ != SpeechState::held) return;
+    state_ = SpeechState::speaking;
+    speech_.ends = now + left_when_held_;
+}
+
+void Voice::step(WorldTime now, Point const& place, Chronicle& chronicle) {
+    if (state_ == SpeechState::speaking && now >= speech_.ends) finish(SpeechState::spoken, now, place, chronicle);
+}
+
+std::optional<Speech> Voice::speech() const { return state_ == SpeechState::speaking ? std::optional{speech_} : std::nullopt; }
+
+void Voice::finish(SpeechState state, WorldTime now, Point const& place, Chronicle& chronicle) {
+    constexpr std::size_t remembered = 16;
+    state_ = state;
+    ended_.emplace_back(last_, state);
+    if (ended_.size() > remembered) ended_.pop_front();
+    auto const kind = state == SpeechState::spoken ? Happening::Kind::speech_finished : Happening::Kind::speech_broken;
+    chronicle.add({0, now, kind, robot_, place, speech_.text, speech_.language});
+}
+
+}  // namespace rois::simulation

@@ -1,0 +1,42 @@
+// The voice of one robot: one utterance at a time, which ends by itself.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "simulation/chronicle.hpp"
+#include "simulation/robot.hpp"
+
+namespace rois::simulation {
+
+class Voice {
+public:
+    explicit Voice(RobotId robot) : robot_(robot) {}
+
+    // `place` is where the robot is; the chronicle hears of every beginning and end.
+    UtteranceId speak(Utterance, WorldTime now, Point const& place, Chronicle&);
+    SpeechState state(UtteranceId) const;
+    void break_off(UtteranceId, WorldTime now, Point const& place, Chronicle&);
+    void hold(UtteranceId, WorldTime now);
+    void go_on(UtteranceId, WorldTime now);
+
+    // Ends the utterance when its last word is said.
+    void step(WorldTime now, Point const& place, Chronicle&);
+
+    // What is heard now; nothing while held or silent.
+    std::optional<Speech> speech() const;
+    double loudness() const { return loudness_; }  // of the last utterance
+
+private:
+    void finish(SpeechState, WorldTime now, Point const& place, Chronicle&);
+
+    RobotId robot_;
+    UtteranceId last_{};
+    SpeechState state_ = SpeechState::spoken;
+    Speech speech_;
+    WorldTime left_when_held_{};
+    double loudness_ = 0.5;
+    std::deque<std::pair<UtteranceId, SpeechState>> ended_;  // the last few
+};
+
+}  // namespace rois::simulation

@@ -1,0 +1,257 @@
+// The courses that follow ways of the planner: GoTo and KeepDistance.
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/course.hpp"
+#include "simulation/person.hpp"
+
+namespace rois::simulation {
+namespace {
+
+constexpr Metres at_place = 0.04;
+constexpr Metres at_corner = 0.06;
+constexpr Radians at_heading = from_degrees(1.5);
+constexpr Radians too_far_aside = 0.6;  // beyond it the robot turns on the spot
+
+// Drives along corner points.
+class Corners {
+public:
+    bool given() const { return !points_.empty(); }
+    std::span<Point const> points() const { return points_; }
+    void set(std::vector<Point> points) { points_ = std::move(points); }
+    void clear() { points_.clear(); }
+
+    // Nothing when the last point is reached.
+    std::optional<Twist> steer(Wheels const& wheels) {
+        while (points_.size() > 1 && distance(wheels.pose.position, points_.front()) < at_corner) points_.erase(points_.begin());
+        Metres const left = distance(wheels.pose.position, points_.front());
+        if (points_.size() == 1 && left < at_place) return std::nullopt;
+        Radians const aside = bearing(wheels.pose, points_.front());
+        if (std::abs(aside) > too_far_aside || (wheels.stand() && std::abs(aside) > 0.08)) turning_ = true;
+        if (std::abs(aside) < 0.04) turning_ = false;
+        if (turning_) return std::abs(wheels.twist.linear) > 0.05 ? Twist{} : Twist{0, wheels.rate_to_stop_in(aside)};
+        RadiansPerSecond const fastest = std::abs(wheels.rate_to_stop_in(aside));
+        return Twist{speed(wheels, left) * std::cos(aside), std::clamp(3.0 * aside, -fastest, fastest)};
+    }
+
+private:
+    // Slow enough to take the next corner, or to stop at the last one.
+    MetresPerSecond speed(Wheels const& wheels, Metres left) const {
+        MetresPerSecond at_end = 0;
+        if (points_.size() > 1) {
+            Radians const turn = wrapped(direction(points_[0], points_[1]) - direction(wheels.pose.position, points_[0]));
+            at_end = std::max(0.0, 1 - std::abs(turn) / too_far_aside) * wheels.plan.max_speed;
+        }
+        MetresPerSecond const stopping = std::max(wheels.speed_to_stop_in(left), 0.04);
+        return std::min(wheels.plan.max_speed, std::sqrt(at_end * at_end + stopping * stopping));
+    }
+
+    std::vector<Point> points_;
+    bool turning_ = false;
+};
+
+// Turns towards a heading; nothing when it is there and stands.
+std::optional<Twist> turn_to(Wheels const& wheels, Radians heading) {
+    Radians const left = wrapped(heading - wheels.pose.heading);
+    if (std::abs(left) < at_heading && wheels.stand()) return std::nullopt;
+    return Twist{0, wheels.rate_to_stop_in(left)};
+}
+
+// Drives to goals that may move, on ways around those who stand there, and looks for another way after waiting.
+class Approach {
+public:
+    enum class Step : std::uint8_t { driving, waiting, there, no_way };
+
+    Step towards(Point const& goal, RoutingPolicy policy, Wheels const& wheels, Twist& twist) {
+        until_next_try_ -= wheels.dt;
+        if (!goal_ || distance(*goal_, goal) > 0.05) {
+            goal_ = goal;
+            corners_.clear();
+            until_next_try_ = 0;
+        }
+        if (waits_too_long(wheels)) {
+            corners_.clear();
+            others_ = Others::all;
+        }
+        if (!corners_.given()) {
+            Step const planned = plan(policy, wheels);
+            if (planned != Step::driving) return planned;
+        }
+        auto const wanted = corners_.steer(wheels);
+        patience_.look(wheels, wanted.has_value());
+        if (!patience_.obstructed()) others_ = Others::standing;
+        twist = wanted.value_or(Twist{});
+        if (!wanted) return Step::there;
+        return patience_.obstructed() ? Step::waiting : Step::driving;
+    }
+
+    std::span<Point const> way() const { return corners_.points(); }
+
+    void forget() {
+        goal_.reset();
+        corners_.clear();
+        patience_.forget();
+    }
+
+private:
+    enum class Others : std::uint8_t { standing, all };
+
+    // Robots with a higher number are more patient, so that two do not dodge at the same moment for ever.
+    bool waits_too_long(Wheels const& wheels) {
+        Seconds const limit = 1.2 + 0.7 * static_cast<double>(wheels.robot);
+        if (!corners_.given() || patience_.waited() < limit) return false;
+        patience_.forget();
+        until_next_try_ = 0;
+        return true;
+    }
+
+    Step plan(RoutingPolicy policy, Wheels const& wheels) {
+        if (until_next_try_ > 0) return Step::waiting;
+        until_next_try_ = 1.0;
+        auto const others =
+            others_ == Others::all ? wheels.around.others(wheels.robot) : wheels.around.others_standing(wheels.robot);
+        if (auto way = wheels.planner.way(wheels.pose, *goal_, policy, others)) {
+            corners_.set(std::move(*way));
+            return Step::driving;
+        }
+        return wheels.planner.way(wheels.pose, *goal_, policy) ? Step::waiting : Step::no_way;
+    }
+
+    Corners corners_;
+    Patience patience_;
+    std::optional<Point> goal_;
+    Others others_ = Others::standing;
+    Seconds until_next_try_ = 0;
+};
+
+class GoToCourse : public Course {
+public:
+    explicit GoToCourse(GoTo motion) : motion_(std::move(motion)) {}
+
+    std::span<Point const> way() const override { return approach_.way(); }
+
+    Twist steer(Wheels const& wheels, Progress& progress) override {
+        if (progress.targets_reached == motion_.targets.size()) {
+            if (wheels.stand()) progress.state = MotionState::arrived;
+            return {};
+        }
+        until_next_aim_ -= wheels.dt;
+        Target const& target = motion_.targets[progress.targets_reached];
+        if (!aim_ || (until_next_aim_ <= 0 && !in_place_)) aim(target, wheels);
+        if (in_place_) return turn(progress, wheels);
+        Twist twist;
+        switch (approach_.towards(aim_->position, motion_.policy, wheels, twist)) {
+            case Approach::Step::driving:
+                progress.state = MotionState::moving;
+                break;
+            case Approach::Step::waiting:
+                progress.state = MotionState::obstructed;
+                break;
+            case Approach::Step::no_way:
+                progress.state = MotionState::unreachable;
+                break;
+            case Approach::Step::there:
+                in_place_ = true;
+                break;
+        }
+        return twist;
+    }
+
+private:
+    // At the position: turns as wanted, then the next target's turn comes.
+    Twist turn(Progress& progress, Wheels const& wheels) {
+        progress.state = MotionState::moving;
+        auto const twist = aim_->heading ? turn_to(wheels, *aim_->heading) : std::optional<Twist>{};
+        if (twist || !wheels.stand()) return twist.value_or(Twist{});
+        ++progress.targets_reached;
+        in_place_ = false;
+        aim_.reset();
+        approach_.forget();
+        return {};
+    }
+
+    // Where to stand for this target now: at it, or beside whoever stands there.
+    void aim(Target const& target, Wheels const& wheels) {
+        until_next_aim_ = 0.5;
+        auto const others = wheels.around.others_standing(wheels.robot);
+        auto const there = std::ranges::find_if(others, [&](Disc const& other) {
+            return distance(other.centre, target.position) < other.radius + wheels.plan.radius + Planner::elbow_room;
+        });
+        Target wanted = target;
+        if (there != others.end()) wanted = beside(*there, others, target, wheels);
+        // A measured person sways; the robot does not.
+        if (aim_ && distance(aim_->position, wanted.position) < 0.05) wanted.position = aim_->position;
+        aim_ = wanted;
+    }
+
+    static Target beside(Disc const& body, std::vector<Disc> const& others, Target const& target, Wheels const& wheels) {
+        bool const near = distance(wheels.pose.position, body.centre) < polite_distance + 0.15 &&
+                          wheels.around.plan().in_sight(wheels.pose.position, body.centre);
+        auto const place = near ? std::optional<Point>{wheels.pose.position}
+                                : wheels.planner.beside(body.centre, polite_distance, wheels.pose.position, others);
+        if (!place) return target;
+        return {*place, direction(*place, body.centre)};
+    }
+
+    GoTo motion_;
+    Approach approach_;
+    std::optional<Target> aim_;
+    bool in_place_ = false;
+    Seconds until_next_aim_ = 0;
+};
+
+class KeepDistanceCourse : public Course {
+public:
+    explicit KeepDistanceCourse(KeepDistance motion) : motion_(motion) {}
+
+    std::span<Point const> way() const override { return approach_.way(); }
+
+    Twist steer(Wheels const& wheels, Progress& progress) override {
+        auto const whom = wheels.around.pose_of(motion_.whom);
+        if (!whom) {
+            progress.state = MotionState::lost;
+            return {};
+        }
+        progress.state = MotionState::moving;
+        Metres const wanted = std::max(motion_.distance, wheels.plan.radius + person_radius + 0.2);
+        Metres const apart = distance(wheels.pose.position, whom->position);
+        bool const seen = wheels.around.plan().in_sight(wheels.pose.position, whom->position);
+        if (near_ && (apart > wanted + 0.25 || !seen)) near_ = false;
+        if (!near_ && apart <= wanted + 0.02 && seen) near_ = true;
+        if (!near_) return come(whom->position, wanted, wheels, progress);
+        approach_.forget();
+        aim_.reset();
+        Radians const aside = bearing(wheels.pose, whom->position);
+        return {0, std::abs(aside) < from_degrees(4) ? 0 : wheels.rate_to_stop_in(aside)};
+    }
+
+private:
+    // The place to stand at is chosen anew when the other one has moved on.
+    Twist come(Point const& whom, Metres wanted, Wheels const& wheels, Progress& progress) {
+        until_next_aim_ -= wheels.dt;
+        if (!aim_ || (distance(whom, aimed_at_) > 0.3 && until_next_aim_ <= 0)) {
+            until_next_aim_ = 0.4;
+            aimed_at_ = whom;
+            aim_ = wheels.planner.beside(whom, wanted, wheels.pose.position);
+        }
+        Twist twist;
+        Approach::Step const step = aim_ ? approach_.towards(*aim_, RoutingPolicy::time, wheels, twist) : Approach::Step::no_way;
+        if (step == Approach::Step::waiting || step == Approach::Step::no_way) progress.state = MotionState::obstructed;
+        if (step != Approach::Step::driving && distance(whom, aimed_at_) > 0.1) aim_.reset();
+        return twist;
+    }
+
+    KeepDistance motion_;
+    Approach approach_;
+    std::optional<Point> aim_;
+    Point aimed_at_ = Point::Zero();
+    bool near_ = false;
+    Seconds until_next_aim_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Course> course_of(GoTo motion) { return std::make_unique<GoToCourse>(std::move(motion)); }
+std::unique_ptr<Course> course_of(KeepDistance motion) { return std::make_unique<KeepDistanceCourse>(motion); }
+
+}  // namespace rois::simulation

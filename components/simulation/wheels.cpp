@@ -1,0 +1,41 @@
+#include "simulation/wheels.hpp"
+
+#include <utility>
+
+namespace rois::simulation {
+
+void WheelAction::drive(Motion motion) {
+    blocked_ = {};
+    motion_ = hall().drive(robot()).begin(owner_, std::move(motion));
+    if (!motion_) end(CompletedStatus::out_of_resources);
+}
+
+Progress WheelAction::progress() const { return motion_ ? hall().drive(robot()).progress(*motion_) : Progress{}; }
+
+WorldTime WheelAction::blocked(MotionState state) {
+    blocked_ = state == MotionState::obstructed ? blocked_ + Hall::step_length : WorldTime{};
+    return blocked_;
+}
+
+bool WheelAction::wheels_are_anothers() const {
+    auto const owner = hall().drive(robot()).owner();
+    return !owner.empty() && owner != owner_;
+}
+
+ComponentStatus WheelAction::condition() const {
+    return progress().state == MotionState::obstructed ? ComponentStatus::warning : ComponentStatus::ready;
+}
+
+void WheelAction::cease() {
+    if (auto const motion = std::exchange(motion_, {})) hall().drive(robot()).stop(*motion);
+}
+
+void WheelAction::hold() {
+    if (motion_) hall().drive(robot()).hold(*motion_);
+}
+
+void WheelAction::go_on() {
+    if (motion_) hall().drive(robot()).go_on(*motion_);
+}
+
+}  // namespace rois::simulation

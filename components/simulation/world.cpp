@@ -1,0 +1,180 @@
+#include "simulation/world.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "simulation/visibility.hpp"
+
+namespace rois::simulation {
+namespace {
+
+constexpr MetresPerSecond walking_pace = 1.1;
+constexpr RadiansPerSecond walking_turn = 3.0;
+constexpr Metres free_entrance = 0.15;  // between somebody who comes in and others
+constexpr WorldTime tracking_period{100};
+
+FloorPlan checked(FloorPlan plan) {
+    if (auto found = flaw(plan)) throw std::invalid_argument(found->reason);
+    return plan;
+}
+
+bool is_for_visitors(Happening const& happening) {
+    return std::holds_alternative<RobotId>(happening.who) &&
+           (happening.kind == Happening::Kind::speech_finished || happening.kind == Happening::Kind::reaction_shown);
+}
+
+}  // namespace
+
+Hall::World::World(FloorPlan plan, Scenario scenario, std::uint64_t hall_seed)
+    : seed(hall_seed),
+      plan_(checked(std::move(plan))),
+      walkways_(plan_, person_radius, walking_pace, walking_turn),
+      crowd_(std::move(scenario), plan_, mixed({hall_seed, 1})) {
+    for (std::size_t i = 0; i < plan_.robots.size(); ++i) {
+        RobotId const id{static_cast<std::uint32_t>(i)};
+        drives.emplace_back(id, plan_.robots[i], plan_);
+        voices.emplace_back(id);
+        robots.push_back({id, plan_.robots[i].name, plan_.robots[i].start, {}, {}, {}});
+    }
+}
+
+std::optional<Pose> Hall::World::pose_of(Entity entity) const {
+    if (auto const* id = std::get_if<RobotId>(&entity)) return robots.at(static_cast<std::size_t>(*id)).pose;
+    Person const* found = person(std::get<PersonId>(entity));
+    return found ? std::optional{found->pose} : std::nullopt;
+}
+
+Person const* Hall::World::person(PersonId id) const {
+    auto found = std::ranges::find(people, id, &Person::id);
+    return found == people.end() ? nullptr : &*found;
+}
+
+Disc Hall::World::disc(Person const& who) const { return {who.pose.position, person_radius}; }
+
+std::vector<Disc> Hall::World::bodies(RobotId robot) const {
+    std::vector<Disc> discs;
+    for (Person const& who : people) discs.push_back(disc(who));
+    for (Drive const& drive : drives) {
+        if (drive.robot() != robot) discs.push_back({drive.pose().position, drive.plan().radius});
+    }
+    return discs;
+}
+
+std::vector<Disc> Hall::World::others(RobotId robot) const {
+    std::vector<Disc> discs;
+    for (Person const& who : people) discs.push_back(disc(who));
+    for (Drive const& drive : drives) {
+        if (drive.robot() != robot) discs.push_back(drive.stopping_disc());
+    }
+    return discs;
+}
+
+std::vector<Disc> Hall::World::others_standing(RobotId robot) const {
+    std::vector<Disc> discs;
+    for (Person const& who : people) {
+        if (who.velocity.isZero(1e-6)) discs.push_back(disc(who));
+    }
+    for (Drive const& drive : drives) {
+        bool const stands = drive.twist().linear == 0;
+        if (drive.robot() != robot && stands) discs.push_back({drive.pose().position, drive.plan().radius});
+    }
+    return discs;
+}
+
+void Hall::World::step() {
+    now += Hall::step_length;
+    for (Robot const& each : robots) voices[static_cast<std::size_t>(each.id)].step(now, each.pose.position, chronicle);
+    admit();
+    tell_visitors();
+    step_visitors();
+    step_robots();
+    if (now % tracking_period == WorldTime{0}) track();
+}
+
+void Hall::World::admit() {
+    Pose const& entrance = plan_.place("entrance")->pose;
+    auto in_the_door = [&](Disc const& body) {
+        return distance(body.centre, entrance.position) < person_radius + body.radius + free_entrance;
+    };
+    if (std::ranges::any_of(people, [&](Person const& who) { return in_the_door(disc(who)); })) return;
+    if (std::ranges::any_of(drives, [&](Drive const& drive) { return in_the_door(drive.stopping_disc()); })) return;
+    auto is_inside = [&](std::string_view role) {
+        return std::ranges::any_of(visitors_, [&](auto const& visitor) { return visitor->role_id() == role; });
+    };
+    auto role = crowd_.next(now, people.size(), is_inside);
+    if (!role) return;
+    PersonId const id{++last_person_};
+    visitors_.push_back(
+        std::make_unique<Visitor>(id, std::move(*role), entrance, now, plan_, walkways_, mixed({seed, 2, last_person_})));
+    people.push_back(visitors_.back()->person());
+    chronicle.add({0, now, Happening::Kind::entered, id, entrance.position, {}, {}});
+}
+
+Company Hall::World::company(PersonId self) {
+    Company around{plan_, walkways_, robots, {}, chronicle, now, in_seconds(Hall::step_length)};
+    for (Person const& who : people) {
+        if (who.id != self) around.others.push_back(disc(who));
+    }
+    for (Drive const& drive : drives) around.others.push_back(drive.stopping_disc());
+    return around;
+}
+
+// What robots said and showed since the last step.
+void Hall::World::tell_visitors() {
+    std::vector<Happening> news;
+    for (Happening const& happening : chronicle.since(told_)) {
+        if (is_for_visitors(happening)) news.push_back(happening);
+    }
+    told_ = chronicle.last();
+    for (Happening const& happening : news) {
+        RobotId const id = std::get<RobotId>(happening.who);
+        double const loudness = voices[static_cast<std::size_t>(id)].loudness();
+        for (auto const& visitor : visitors_) visitor->notice(happening, robot(id), loudness, company(visitor->person().id));
+    }
+}
+
+// In the order of their coming; each sees where those before have stepped.
+void Hall::World::step_visitors() {
+    for (std::size_t i = 0; i < visitors_.size(); ++i) {
+        Company around = company(people[i].id);
+        visitors_[i]->step(around);
+        people[i] = visitors_[i]->person();
+    }
+    for (auto const& visitor : visitors_) {
+        if (!visitor->gone()) continue;
+        PersonId const id = visitor->person().id;
+        tracks.leave(id);
+        chronicle.add({0, now, Happening::Kind::left, id, visitor->person().pose.position, {}, {}});
+    }
+    std::erase_if(visitors_, [](auto const& visitor) { return visitor->gone(); });
+    people.clear();
+    for (auto const& visitor : visitors_) people.push_back(visitor->person());
+}
+
+void Hall::World::step_robots() {
+    for (Robot& each : robots) {
+        auto const i = static_cast<std::size_t>(each.id);
+        drives[i].step(*this, in_seconds(Hall::step_length));
+        each.pose = drives[i].pose();
+        each.twist = drives[i].twist();
+        each.speaking = voices[i].speech();
+        if (each.showing && now >= each.showing->ends) each.showing.reset();
+    }
+}
+
+void Hall::World::track() {
+    for (Robot const& each : robots) {
+        Sensors const& sensors = plan_.robots[static_cast<std::size_t>(each.id)].sensors;
+        for (Person const& who : people) {
+            bool const heard = who.speaking && hears(plan_, sensors.sound, each.pose, who.pose.position);
+            bool const recognized = recognizes(plan_, sensors.identification, each.pose, who);
+            if (heard || recognized || sees(plan_, sensors.people, each.pose, who) ||
+                sees_face(plan_, sensors.faces, each.pose, who))
+                tracks.see(who.id, now);
+            if (recognized && who.known) tracks.identify(who.id);
+        }
+    }
+    tracks.forget_lost(now);
+}
+
+}  // namespace rois::simulation

@@ -1,0 +1,56 @@
+// What the Hall is made of, and one step of it.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "simulation/crowd.hpp"
+#include "simulation/hall.hpp"
+#include "simulation/tracks.hpp"
+#include "simulation/visitor.hpp"
+#include "simulation/voice.hpp"
+
+namespace rois::simulation {
+
+class Hall::World : public Surroundings {
+public:
+    World(FloorPlan, Scenario, std::uint64_t seed);
+
+    FloorPlan const& plan() const override { return plan_; }
+    std::optional<Pose> pose_of(Entity) const override;
+    std::vector<Disc> bodies(RobotId) const override;
+    std::vector<Disc> others(RobotId) const override;
+    std::vector<Disc> others_standing(RobotId) const override;
+
+    void step();
+    Robot& robot(RobotId id) { return robots.at(static_cast<std::size_t>(id)); }
+    Person const* person(PersonId) const;
+
+    std::uint64_t seed;
+    WorldTime now{0};
+    Chronicle chronicle;
+    Tracks tracks{Hall::track_memory};
+    std::vector<Robot> robots;
+    std::vector<Drive> drives;
+    std::vector<Voice> voices;
+    std::vector<Person> people;  // as the visitors are after the last step
+
+private:
+    void admit();
+    void tell_visitors();
+    void step_visitors();
+    void step_robots();
+    void track();
+    Company company(PersonId);
+    Disc disc(Person const&) const;
+
+    FloorPlan plan_;
+    Planner walkways_;
+    Crowd crowd_;
+    std::vector<std::unique_ptr<Visitor>> visitors_;
+    std::uint32_t last_person_ = 0;
+    std::uint64_t told_ = 0;  // the visitors know of what happened up to here
+};
+
+}  // namespace rois::simulation

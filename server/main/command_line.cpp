@@ -1,0 +1,102 @@
+#include "main/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <map>
+
+#include "main/configuration_file.hpp"
+#include "main/keys.hpp"
+#include "types/texts.hpp"
+
+namespace rois {
+
+namespace {
+
+constexpr auto what_it_is =
+    "RoIS Gateway: an HRI engine (RoIS) that speaks XML over HTTP and WebSocket, with a simulated reception robot.\n";
+
+constexpr auto examples =
+    "Every key is also a variable (ROIS_SIM_SPEED) and a key of the configuration file (sim_speed).\n"
+    "A flag wins over a variable, a variable over the file.\n\n"
+    "Examples:\n"
+    "  rois-gateway                                      on http://127.0.0.1:8080\n"
+    "  rois-gateway --listen [::1]:9000 --sim-speed 20   elsewhere, twenty times as fast\n"
+    "  rois-gateway --print-config > rois-gateway.json   a file to begin with\n"
+    "  rois-gateway --config rois-gateway.json --check-config\n\n"
+    "Exit codes:\n"
+    "  0  stopped by a signal, or what was asked for was done\n"
+    "  1  could not start, or is not healthy\n"
+    "  2  bad configuration";
+
+struct Flags {
+    std::string config;
+    bool check_config = false;
+    bool print_config = false;
+    bool check_health = false;
+    bool version = false;
+    std::map<std::string, std::string> values;  // by key
+};
+
+void declare(CLI::App& app, Flags& flags) {
+    app.set_help_flag("-h,--help", "say this");
+    app.add_flag("--version", flags.version, "say the version");
+    app.add_option("--config", flags.config, "configuration file (ROIS_CONFIG)")->option_text("FILE");
+    app.add_flag("--check-config", flags.check_config, "say whether the configuration is good, and stop");
+    app.add_flag("--print-config", flags.print_config, "print a commented configuration file, and stop");
+    app.add_flag("--check-health", flags.check_health, "ask the gateway that runs with this configuration whether it lives");
+    for (auto const& key : keys()) {
+        auto const now = key.show(Settings{});
+        app.add_option(flag_of(key), flags.values[key.name], key.help)
+            ->option_text(key.value + (now.empty() ? "" : " [" + now + "]"));
+    }
+    app.footer(examples);
+}
+
+std::string variable(std::string const& name) {
+    auto const* const value = std::getenv(name.c_str());
+    return value ? value : "";
+}
+
+void set(Settings& settings, Key const& key, std::string const& where, std::string const& value) {
+    if (key.set(settings, value)) return;
+    throw BadSettings{where + " must be " + key.must_be + ", not " + rois::quoted(value)};
+}
+
+Settings gather(CLI::App const& app, Flags const& flags) {
+    Settings settings;
+    auto const file = flags.config.empty() ? variable("ROIS_CONFIG") : flags.config;
+    if (!file.empty()) read_configuration_file(file, settings);
+    for (auto const& key : keys()) {
+        if (app.count(flag_of(key)) > 0) {
+            set(settings, key, flag_of(key), flags.values.at(key.name));
+        } else if (auto const value = variable(variable_of(key)); !value.empty()) {
+            set(settings, key, variable_of(key), value);
+        }
+    }
+    return settings;
+}
+
+CommandLine say(std::string words) { return {CommandLine::Wish::say, std::move(words), {}}; }
+
+}  // namespace
+
+CommandLine read_command_line(int argc, char const* const* argv) {
+    CLI::App app{what_it_is, "rois-gateway"};
+    Flags flags;
+    declare(app, flags);
+    try {
+        app.parse(argc, argv);
+    } catch (CLI::CallForHelp const&) {
+        return say(app.help());
+    } catch (CLI::ParseError const& error) {
+        throw BadSettings{error.what()};
+    }
+    if (flags.version) return say("rois-gateway " ROIS_VERSION "\n");
+    auto settings = gather(app, flags);
+    if (flags.print_config) return say(commented_configuration(settings));
+    if (flags.check_config) return {CommandLine::Wish::check_config, {}, std::move(settings)};
+    if (flags.check_health) return {CommandLine::Wish::check_health, {}, std::move(settings)};
+    return {CommandLine::Wish::serve, {}, std::move(settings)};
+}
+
+}  // namespace rois

@@ -1,0 +1,19 @@
+// What the program was started to do.
+#pragma once
+
+#include <string>
+
+#include "main/settings.hpp"
+
+namespace rois {
+
+struct CommandLine {
+    enum class Wish : std::uint8_t { serve, say, check_config, check_health } wish = Wish::serve;
+    std::string words;  // to say: help, version, configuration
+    Settings settings;  // from flags, else variables, else the file, else the defaults
+};
+
+// Throws BadSettings.
+CommandLine read_command_line(int argc, char const* const* argv);
+
+}  // namespace rois

@@ -1,0 +1,279 @@
+#include "main/keys.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <thread>
+
+#include "types/texts.hpp"
+
+namespace rois {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+std::string text_of(double number) {
+    char buffer[32];
+    auto const end = std::to_chars(std::begin(buffer), std::end(buffer), number).ptr;
+    return {buffer, end};
+}
+
+std::optional<double> number_within(std::string const& text, double least, double most) {
+    auto const number = to_double(text);
+    if (!number || !(*number >= least && *number <= most)) return {};
+    return number;
+}
+
+std::string range(std::string const& what, double least, double most) {
+    return what + " from " + text_of(least) + " to " + text_of(most);
+}
+
+// A member of the settings, or of a part of them.
+template <class T>
+using Member = std::function<T&(Settings&)>;
+
+template <class T>
+T const& read(Member<T> const& member, Settings const& settings) {
+    return member(const_cast<Settings&>(settings));
+}
+
+template <class T>
+Key whole_number(std::string name, std::string help, Member<T> member, double least, double most) {
+    Key key{std::move(name), std::move(help), "N", range("a whole number", least, most), Key::Kind::number, {}, {}};
+    key.set = [member, least, most](Settings& settings, std::string const& text) {
+        T number{};
+        auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        bool const whole = error == std::errc{} && end == text.data() + text.size();
+        if (!whole || static_cast<double>(number) < least || static_cast<double>(number) > most) return false;
+        member(settings) = number;
+        return true;
+    };
+    key.show = [member](Settings const& settings) { return std::to_string(read(member, settings)); };
+    return key;
+}
+
+Key seconds(std::string name, std::string help, Member<milliseconds> member, double least = 0.1, double most = 86'400) {
+    Key key{std::move(name), std::move(help), "SECONDS", range("a number of seconds", least, most), Key::Kind::number, {}, {}};
+    key.set = [member, least, most](Settings& settings, std::string const& text) {
+        auto const number = number_within(text, least, most);
+        if (number) member(settings) = milliseconds{std::llround(*number * 1'000)};
+        return number.has_value();
+    };
+    key.show = [member](Settings const& settings) {
+        return text_of(static_cast<double>(read(member, settings).count()) / 1'000);
+    };
+    return key;
+}
+
+Key file(std::string name, std::string help, Member<std::string> member) {
+    Key key{std::move(name), std::move(help), "FILE", "a text", Key::Kind::text, {}, {}};
+    key.set = [member](Settings& settings, std::string const& text) { return member(settings) = text, true; };
+    key.show = [member](Settings const& settings) { return read(member, settings); };
+    return key;
+}
+
+template <class T>
+Key choice(std::string name, std::string help, Member<T> member, std::vector<std::pair<std::string, T>> const& choices) {
+    std::string all;
+    for (auto const& [text, value] : choices) all += (all.empty() ? "" : "|") + text;
+    Key key{std::move(name), std::move(help), all, "one of " + all, Key::Kind::text, {}, {}};
+    key.set = [member, choices](Settings& settings, std::string const& text) {
+        auto const found = std::ranges::find(choices, text, &std::pair<std::string, T>::first);
+        if (found == choices.end()) return false;
+        member(settings) = found->second;
+        return true;
+    };
+    key.show = [member, choices](Settings const& settings) {
+        return std::ranges::find(choices, read(member, settings), &std::pair<std::string, T>::second)->first;
+    };
+    return key;
+}
+
+// "127.0.0.1:8080", "[::1]:8080", "localhost:0"
+bool set_listen(Settings& settings, std::string const& text) {
+    auto const colon = text.rfind(':');
+    if (colon == std::string::npos || colon == 0) return false;
+    auto host = text.substr(0, colon);
+    bool const bracketed = host.size() > 2 && host.front() == '[' && host.back() == ']';
+    if (bracketed) host = host.substr(1, host.size() - 2);
+    if (!bracketed && host.find(':') != std::string::npos) return false;
+    std::uint16_t port = 0;
+    auto const [end, error] = std::from_chars(text.data() + colon + 1, text.data() + text.size(), port);
+    if (error != std::errc{} || end != text.data() + text.size()) return false;
+    settings.net.host = host;
+    settings.net.port = port;
+    return true;
+}
+
+std::string show_listen(Settings const& settings) {
+    auto const& host = settings.net.host;
+    bool const ipv6 = host.find(':') != std::string::npos;
+    return (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(settings.net.port);
+}
+
+// The engine's name becomes part of XML ids.
+bool set_engine_name(Settings& settings, std::string const& text) {
+    auto const is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+    auto const fits = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '.'; };
+    if (text.empty() || text.size() > 64 || !is_letter(text.front()) || !std::ranges::all_of(text, fits)) return false;
+    settings.engine_name = text;
+    return true;
+}
+
+bool set_origins(Settings& settings, std::string const& text) {
+    std::vector<std::string> origins;
+    for (std::size_t begin = 0; begin < text.size();) {
+        auto const end = std::min(text.find(' ', begin), text.size());
+        if (end > begin) origins.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    if (!std::ranges::all_of(origins, [](auto const& one) { return one.find("://") != std::string::npos; })) return false;
+    settings.net.allowed_origins = std::move(origins);
+    return true;
+}
+
+std::string show_origins(Settings const& settings) {
+    std::string text;
+    for (auto const& origin : settings.net.allowed_origins) text += (text.empty() ? "" : " ") + origin;
+    return text;
+}
+
+bool set_sim_speed(Settings& settings, std::string const& text) {
+    auto const speed = number_within(text, 0.01, 1'000);
+    if (speed) settings.sim_speed = *speed;
+    return speed.has_value();
+}
+
+std::vector<Key> general_keys() {
+    return {
+        {"listen", "address and port; port 0 takes any free one", "HOST:PORT", "HOST:PORT, such as 127.0.0.1:8080 or [::1]:8080",
+         Key::Kind::text, set_listen, show_listen},
+        whole_number<std::size_t>(
+            "threads", "I/O threads", [](Settings & s) -> auto& { return s.net.threads; }, 1, 256),
+        choice<LogFormat>("log_format", "how the log looks", [](Settings & s) -> auto& { return s.log_format; },
+                          {{"text", LogFormat::text}, {"json", LogFormat::json}}),
+        choice<LogLevel>(
+            "log_level", "the least that is logged", [](Settings & s) -> auto& { return s.log_level; },
+            {{"debug", LogLevel::debug}, {"info", LogLevel::info}, {"warning", LogLevel::warning}, {"error", LogLevel::error}}),
+        {"engine_name", "the engine's name in its profile", "NAME",
+         "a letter, then letters, digits, '-', '_' and '.', 64 at most", Key::Kind::text, set_engine_name,
+         [](Settings const& s) { return s.engine_name; }},
+        {"sim_speed", "simulated seconds in a second", "X", range("a number", 0.01, 1'000), Key::Kind::number, set_sim_speed,
+         [](Settings const& s) { return text_of(s.sim_speed); }},
+        whole_number<std::uint64_t>(
+            "seed", "from which the simulation draws; the same seed gives the same history",
+            [](Settings & s) -> auto& { return s.seed; }, 0, 9'007'199'254'740'991),
+        file(
+            "floor_plan", "floor plan of the simulated hall; empty: the one inside the program",
+            [](Settings & s) -> auto& { return s.floor_plan; }),
+        file(
+            "scenario", "who visits the hall, and when; empty: the one inside the program",
+            [](Settings & s) -> auto& { return s.scenario; }),
+        {"allowed_origins", "web pages that may open WebSockets beside this server's own, separated by blanks", "ORIGINS",
+         "origins such as https://console.example, separated by blanks", Key::Kind::text, set_origins, show_origins},
+    };
+}
+
+std::vector<Key> session_keys() {
+    return {
+        choice<OnSessionEnd>("on_session_end", "what becomes of the commands of a session that ends",
+                             [](Settings & s) -> auto& { return s.engine.on_session_end; },
+                             {{"stop", OnSessionEnd::stop}, {"continue", OnSessionEnd::continue_}}),
+        seconds(
+            "session_timeout", "without a request or an open stream, until a session counts as lost",
+            [](Settings & s) -> auto& { return s.engine.session_timeout; }),
+        seconds(
+            "resume_window", "for a lost session to be resumed in, before it ends",
+            [](Settings & s) -> auto& { return s.engine.resume_window; }, 0),
+        seconds(
+            "event_details", "after an event, in which its details can be fetched",
+            [](Settings & s) -> auto& { return s.engine.event_details; }),
+        seconds(
+            "error_details", "after an error, in which its details can be fetched",
+            [](Settings & s) -> auto& { return s.engine.error_details; }),
+        seconds(
+            "command_results", "after a command, in which its results can be fetched",
+            [](Settings & s) -> auto& { return s.engine.command_results; }),
+        seconds(
+            "start_timeout", "for a component to start a command, unless its profile says otherwise",
+            [](Settings & s) -> auto& { return s.engine.start_timeout; }),
+        whole_number<std::size_t>(
+            "max_sessions", "sessions", [](Settings & s) -> auto& { return s.engine.max_sessions; }, 1, 1e6),
+        whole_number<std::size_t>(
+            "max_waiting_notifications", "notifications that wait for a session",
+            [](Settings & s) -> auto& { return s.engine.max_waiting_notifications; }, 16, 1e6),
+        whole_number<std::size_t>(
+            "max_sent_notifications", "sent notifications that are kept for a session to resume",
+            [](Settings & s) -> auto& { return s.engine.max_sent_notifications; }, 16, 1e6),
+        whole_number<std::size_t>(
+            "max_command_results", "ended commands of a session whose results are kept",
+            [](Settings & s) -> auto& { return s.engine.max_command_results; }, 1, 1e6),
+    };
+}
+
+std::vector<Key> network_keys() {
+    return {
+        whole_number<std::size_t>(
+            "max_connections", "connections", [](Settings & s) -> auto& { return s.net.max_connections; }, 1, 1e6),
+        whole_number<std::size_t>(
+            "max_requests_in_flight", "answers that wait for one WebSocket before it is read again",
+            [](Settings & s) -> auto& { return s.net.max_requests_in_flight; }, 1, 1'024),
+        whole_number<std::size_t>(
+            "max_body", "bytes of a request document", [](Settings & s) -> auto& { return s.net.document.bytes; }, 1'024,
+            1 << 30),
+        whole_number<std::size_t>(
+            "max_header", "bytes of an HTTP header", [](Settings & s) -> auto& { return s.net.max_header; }, 1'024, 1 << 20),
+        whole_number<std::size_t>(
+            "max_depth", "nested elements in a document", [](Settings & s) -> auto& { return s.net.document.depth; }, 8, 1'024),
+        whole_number<std::size_t>(
+            "max_attributes", "attributes of an element", [](Settings & s) -> auto& { return s.net.document.attributes; }, 8,
+            1'024),
+        whole_number<std::size_t>(
+            "max_elements", "elements of a document", [](Settings & s) -> auto& { return s.net.document.elements; }, 16, 1e6),
+        seconds(
+            "request_timeout", "for a request to arrive", [](Settings & s) -> auto& { return s.net.request_timeout; }),
+        seconds(
+            "idle_timeout", "between two requests of an HTTP connection",
+            [](Settings & s) -> auto& { return s.net.idle_timeout; }),
+        seconds(
+            "write_timeout", "for a client to take what it was sent", [](Settings & s) -> auto& { return s.net.write_timeout; }),
+        seconds(
+            "ping_interval", "between signs of life on WebSockets and event streams",
+            [](Settings & s) -> auto& { return s.net.ping_interval; }),
+        seconds(
+            "shutdown_timeout", "for clients to take their last notifications when the gateway stops",
+            [](Settings & s) -> auto& { return s.net.shutdown_timeout; }, 0.1, 8),
+    };
+}
+
+std::string with_dashes(std::string name) {
+    std::ranges::replace(name, '_', '-');
+    return name;
+}
+
+}  // namespace
+
+Settings::Settings() { net.threads = std::clamp(std::thread::hardware_concurrency(), 1u, 4u); }
+
+std::vector<Key> const& keys() {
+    static auto const all = [] {
+        std::vector<Key> together;
+        for (auto const& part : {general_keys(), session_keys(), network_keys()}) {
+            together.insert(together.end(), part.begin(), part.end());
+        }
+        return together;
+    }();
+    return all;
+}
+
+std::string flag_of(Key const& key) { return "--" + with_dashes(key.name); }
+
+std::string variable_of(Key const& key) {
+    std::string name = "ROIS_" + key.name;
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return name;
+}
+
+}  // namespace rois

@@ -1,0 +1,190 @@
+#include "net/documents.hpp"
+
+#include <algorithm>
+
+#include "net/secrets.hpp"
+
+namespace rois::net {
+
+namespace {
+
+std::string escaped(std::string_view text) {
+    std::string html;
+    for (char const c : text) {
+        switch (c) {
+            case '&':
+                html.append("&amp;");
+                break;
+            case '<':
+                html.append("&lt;");
+                break;
+            case '>':
+                html.append("&gt;");
+                break;
+            case '"':
+                html.append("&quot;");
+                break;
+            default:
+                html.push_back(c);
+        }
+    }
+    return html;
+}
+
+std::string list_of_links(std::string_view folder, std::vector<std::string> const& names) {
+    std::string html = "<ul>\n";
+    for (auto const& name : names) {
+        auto const shown = escaped(name);
+        html.append("<li><a href=\"").append(folder).append(shown).append("\">").append(shown).append("</a></li>\n");
+    }
+    return html.append("</ul>");
+}
+
+std::vector<std::string> names_of(xml::NamedFiles const& files) {
+    std::vector<std::string> names;
+    for (auto const& [name, text] : files) names.push_back(name);
+    return names;
+}
+
+std::vector<std::string> names_of(std::vector<ComponentEntry> const& components) {
+    std::vector<std::string> names;
+    for (auto const& component : components) names.push_back(component.ref);
+    return names;
+}
+
+void replace_all(std::string& text, std::string_view mark, std::string_view by) {
+    for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + by.size()))
+        text.replace(at, mark.size(), by);
+}
+
+// Whether the client has this version already (RFC 9110, 13.1.2).
+bool is_known(std::string_view etag, RequestHead const& head) {
+    return head.lists("If-None-Match", "*") || head.lists("If-None-Match", etag) ||
+           head.lists("If-None-Match", "W/" + std::string{etag});
+}
+
+// A document that clients may keep as long as they ask whether it has changed.
+HttpAnswer versioned(std::string content_type, std::string body, RequestHead const& head) {
+    HttpAnswer answer;
+    auto const etag = '"' + digest(body) + '"';
+    answer.cache_control = "no-cache";
+    answer.set("ETag", etag);
+    if (is_known(etag, head)) {
+        answer.status = 304;
+        answer.content_type.clear();
+        return answer;
+    }
+    answer.content_type = std::move(content_type);
+    answer.body = std::move(body);
+    return answer;
+}
+
+HttpAnswer plain(std::string body) {
+    HttpAnswer answer;
+    answer.content_type = "text/plain; charset=utf-8";
+    answer.body = std::move(body);
+    return answer;
+}
+
+HttpAnswer not_found(std::string reason) { return answer_of({FaultCode::not_found, std::move(reason), {}, {}}); }
+
+// The address by which the client reached us, fit to be shown in a page.
+std::string origin_of(RequestHead const& head) {
+    auto const host = head.field("Host").value_or("");
+    bool const harmless = !host.empty() && std::ranges::all_of(host, [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+               std::string_view{".:-_[]"}.find(c) != std::string_view::npos;
+    });
+    return "http://" + (harmless ? std::string{host} : "localhost");
+}
+
+std::string policy_for_style(std::string_view page) {
+    constexpr std::string_view begin = "<style>";
+    auto const from = std::min(page.find(begin), page.size());
+    auto const to = std::min(page.find("</style>"), page.size());
+    auto const style = from < to ? page.substr(from + begin.size(), to - from - begin.size()) : std::string_view{};
+    return "default-src 'none'; style-src 'sha256-" + sha256_base64(style) +
+           "'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+}
+
+}  // namespace
+
+Documents::Documents(Gateway const& gateway, Telemetry const& telemetry, xml::Schemas const& schemas, std::string_view page)
+    : gateway_{gateway}, telemetry_{telemetry}, schemas_{schemas.files()}, page_{page}, style_policy_{policy_for_style(page)} {}
+
+HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const {
+    switch (route.endpoint) {
+        case Endpoint::page:
+            return page(head);
+        case Endpoint::engine_profile:
+            return engine_profile(head);
+        case Endpoint::component_profile:
+            return component_profile(route.name, head);
+        case Endpoint::schema_list:
+            return schema_list(head);
+        case Endpoint::schema:
+            return schema(route.name, head);
+        case Endpoint::healthz:
+            return plain("alive\n");
+        case Endpoint::readyz:
+            return readiness();
+        case Endpoint::metrics:
+            return metrics();
+        case Endpoint::rois:
+        case Endpoint::notifications:
+        case Endpoint::unknown:
+            break;
+    }
+    return not_found("there is nothing here");
+}
+
+HttpAnswer Documents::page(RequestHead const& head) const {
+    std::string html{page_};
+    replace_all(html, "{{origin}}", origin_of(head));
+    replace_all(html, "{{components}}", list_of_links("/rois/profile/", names_of(gateway_.components())));
+    replace_all(html, "{{schemas}}", list_of_links("/rois/schemas/", names_of(schemas_)));
+    auto answer = versioned("text/html; charset=utf-8", std::move(html), head);
+    answer.set("Content-Security-Policy", style_policy_);
+    answer.set("X-Content-Type-Options", "nosniff");
+    answer.set("Referrer-Policy", "no-referrer");
+    return answer;
+}
+
+HttpAnswer Documents::engine_profile(RequestHead const& head) const {
+    auto const profile = gateway_.profile();
+    return versioned("application/xml; charset=utf-8", xml::encode(*profile, "engine." + profile->object.name), head);
+}
+
+HttpAnswer Documents::component_profile(std::string const& ref, RequestHead const& head) const {
+    auto const components = gateway_.components();
+    auto const found = std::ranges::find(components, ref, &ComponentEntry::ref);
+    if (found == components.end()) return not_found("there is no such component; /rois/profile lists them");
+    return versioned("application/xml; charset=utf-8", xml::encode(*found->profile, "profile." + ref), head);
+}
+
+HttpAnswer Documents::schema_list(RequestHead const& head) const {
+    return versioned("text/html; charset=utf-8",
+                     "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>RoIS Gateway: schemas</title>\n"
+                     "<h1>The schemas that this gateway validates with</h1>\n" +
+                         list_of_links("/rois/schemas/", names_of(schemas_)) + "\n</html>\n",
+                     head);
+}
+
+HttpAnswer Documents::schema(std::string const& file, RequestHead const& head) const {
+    auto const found = schemas_.find(file);
+    if (found == schemas_.end()) return not_found("there is no such schema; /rois/schemas lists them");
+    return versioned("application/xml; charset=utf-8", std::string{found->second}, head);
+}
+
+HttpAnswer Documents::readiness() const {
+    if (!gateway_.shutting_down()) return plain("ready\n");
+    return answer_of(shutting_down());
+}
+
+HttpAnswer Documents::metrics() const {
+    auto answer = plain(telemetry_.text(gateway_.statistics()));
+    answer.content_type = "text/plain; version=0.0.4; charset=utf-8";
+    return answer;
+}
+
+}  // namespace rois::net

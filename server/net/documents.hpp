@@ -1,0 +1,41 @@
+// What can be read without a session: profiles, schemas, health, metrics and the page at "/".
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "net/gateway.hpp"
+#include "net/http_answer.hpp"
+#include "net/http_head.hpp"
+#include "net/routes.hpp"
+#include "net/telemetry.hpp"
+#include "xml/schemas.hpp"
+
+namespace rois::net {
+
+// Immutable; any thread. All that is given must outlive it.
+class Documents {
+public:
+    // `page` is HTML with one <style> element, and the marks {{origin}}, {{components}} and {{schemas}}.
+    Documents(Gateway const&, Telemetry const&, xml::Schemas const&, std::string_view page);
+
+    // Answers a GET or HEAD of any endpoint but /rois and /rois/notifications.
+    HttpAnswer answer(Route const&, RequestHead const&) const;
+
+private:
+    HttpAnswer page(RequestHead const&) const;
+    HttpAnswer engine_profile(RequestHead const&) const;
+    HttpAnswer component_profile(std::string const& ref, RequestHead const&) const;
+    HttpAnswer schema_list(RequestHead const&) const;
+    HttpAnswer schema(std::string const& file, RequestHead const&) const;
+    HttpAnswer readiness() const;
+    HttpAnswer metrics() const;
+
+    Gateway const& gateway_;
+    Telemetry const& telemetry_;
+    xml::NamedFiles const& schemas_;
+    std::string_view page_;
+    std::string style_policy_;  // the Content-Security-Policy that allows the page's own style and nothing else
+};
+
+}  // namespace rois::net

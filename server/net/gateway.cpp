@@ -1,0 +1,197 @@
+#include "net/gateway.hpp"
+
+#include <utility>
+
+namespace rois::net {
+
+namespace {
+
+Instant present() { return {std::chrono::steady_clock::now(), std::chrono::system_clock::now()}; }
+
+Fault fault_of(Refusal refusal) {
+    switch (refusal) {
+        case Refusal::too_many_sessions:
+            return {FaultCode::too_many, "too many sessions are open", {}, {}};
+        case Refusal::shutting_down:
+            return shutting_down();
+        case Refusal::no_session:
+            break;
+    }
+    return no_such_session();
+}
+
+std::variant<Reply, Fault> fault_or_reply(std::variant<Reply, Refusal> handled) {
+    if (auto const* refusal = std::get_if<Refusal>(&handled)) return fault_of(*refusal);
+    return std::get<Reply>(std::move(handled));
+}
+
+// What an operation that went well changes for the connection that asked for it.
+void take_turn(Answer& answer, Operation const& operation, Reply const& reply) {
+    if (auto const* connected = std::get_if<Connect::Reply>(&reply)) {
+        answer.turn = Answer::Turn::connected;
+        answer.session = connected->session;
+    } else if (auto const* resume = std::get_if<Resume>(&operation)) {
+        answer.turn = Answer::Turn::resumed;
+        answer.session = resume->session;
+        answer.last_sequence = resume->last_sequence;
+    } else if (std::holds_alternative<Disconnect>(operation)) {
+        answer.turn = Answer::Turn::disconnected;
+        answer.session = {};
+    }
+}
+
+}  // namespace
+
+Hold::Hold(Gateway& gateway, SessionId session, std::shared_ptr<NotificationQueue> queue, NotificationQueue::Hold place)
+    : gateway_{&gateway}, session_{std::move(session)}, queue_{std::move(queue)}, place_{place} {}
+
+Hold& Hold::operator=(Hold&& other) noexcept {
+    release();
+    gateway_ = std::exchange(other.gateway_, nullptr);
+    session_ = std::move(other.session_);
+    queue_ = std::move(other.queue_);
+    place_ = other.place_;
+    return *this;
+}
+
+void Hold::release() {
+    auto* const gateway = std::exchange(gateway_, nullptr);
+    if (!gateway) return;
+    std::lock_guard const lock{gateway->mutex_};
+    queue_->release(place_);
+    gateway->readers_.notify(session_);
+}
+
+Reading::Reading(Gateway& gateway, SessionId session, Link link, std::uint64_t after, Reader& reader,
+                 std::shared_ptr<NotificationQueue> queue)
+    : gateway_{gateway}, session_{std::move(session)}, link_{link}, after_{after}, reader_{reader}, queue_{std::move(queue)} {}
+
+Reading::~Reading() {
+    std::lock_guard const lock{gateway_.mutex_};
+    gateway_.readers_.leave(session_, reader_);
+    gateway_.engine_.link_closed(session_, link_, present());
+}
+
+Reading::Taken Reading::take(std::size_t most) {
+    std::lock_guard const lock{gateway_.mutex_};
+    Taken taken{queue_->read(after_, most), Then::wait};
+    if (!taken.notifications.empty()) after_ = taken.notifications.back().sequence;
+    if (queue_->has_after(after_)) {
+        taken.then = Then::more;
+    } else if (queue_->closed()) {
+        taken.then = Then::ended;
+    }
+    return taken;
+}
+
+Fault shutting_down() { return {FaultCode::shutting_down, "the gateway is shutting down", {}, {}}; }
+
+Fault no_such_session() { return {FaultCode::no_session, "there is no such session; connect first", {}, {}}; }
+
+void append_document(std::string& out, Numbered const& numbered) {
+    out.append(xml::notification_head(numbered.notification->body, numbered.sequence));
+    out.append(numbered.notification->text(xml::notification_tail));
+}
+
+Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std::string_view text, Via via) {
+    auto const begun = std::chrono::steady_clock::now();
+    Answer answer;
+    answer.session = session;
+    auto const refuse = [&](Fault fault, std::string const& request_id) {
+        fault.request_id = request_id;
+        answer.fault = fault.code;
+        answer.document = xml::encode(fault);
+        telemetry_.faulted(fault.code);
+    };
+    auto const read = reader.read(text);
+    if (auto const* fault = std::get_if<Fault>(&read)) return refuse(*fault, fault->request_id), std::move(answer);
+    auto const& request = std::get<Request>(read);
+    auto const* const resume = std::get_if<Resume>(&request.operation);
+    if (resume && via == Via::http) {
+        refuse({FaultCode::not_allowed, "resume is for WebSockets; over HTTP read on with after=N or Last-Event-ID", {}, {}},
+               request.request_id);
+        return answer;
+    }
+
+    auto const said = perform(session, request.operation, answer.hold);
+    if (auto const* fault = std::get_if<Fault>(&said)) return refuse(*fault, request.request_id), std::move(answer);
+    auto const& reply = std::get<Reply>(said);
+    answer.document = xml::encode(reply, request.request_id);
+    auto const code = std::visit([](Outcome const& outcome) { return outcome.return_code; }, reply);
+    telemetry_.answered(request.operation, code, std::chrono::steady_clock::now() - begun);
+    if (code == ReturnCode::ok) take_turn(answer, request.operation, reply);
+    return answer;
+}
+
+std::variant<Reply, Fault> Gateway::perform(SessionId const& session, Operation const& operation, Hold& hold) {
+    auto const now = present();
+    std::lock_guard const lock{mutex_};
+    auto const queue = engine_.notifications(session);
+    // The readers of a session that disconnects hear the last of it before the answer (decision 3): then nothing is held.
+    if (!queue || std::holds_alternative<Disconnect>(operation)) return fault_or_reply(engine_.handle(session, operation, now));
+    engine_.heard_from(session, now);
+    auto const before = queue->last_sequence();
+    auto const place = queue->hold();
+    auto handled = engine_.handle(session, operation, now);
+    if (queue->last_sequence() == before) {
+        queue->release(place);
+    } else {
+        hold = Hold{*this, session, queue, place};
+    }
+    return fault_or_reply(std::move(handled));
+}
+
+std::unique_ptr<Reading> Gateway::read(SessionId const& session, Link link, std::uint64_t after, Reader& reader) {
+    std::lock_guard const lock{mutex_};
+    auto queue = engine_.notifications(session);
+    if (!queue || queue->closed()) return {};
+    engine_.link_opened(session);
+    readers_.join(session, link, reader);
+    return std::make_unique<Reading>(*this, session, link, after, reader, std::move(queue));
+}
+
+void Gateway::tick() {
+    auto const now = present();
+    std::lock_guard const lock{mutex_};
+    engine_.tick(now);
+}
+
+void Gateway::shut_down() {
+    auto const now = present();
+    std::lock_guard const lock{mutex_};
+    shutting_down_ = true;
+    engine_.shut_down(now);
+}
+
+std::shared_ptr<EngineProfile const> Gateway::profile() const {
+    std::lock_guard const lock{mutex_};
+    return engine_.profile();
+}
+
+std::vector<ComponentEntry> Gateway::components() const {
+    std::lock_guard const lock{mutex_};
+    return engine_.components();
+}
+
+EngineStatistics Gateway::statistics() const {
+    std::lock_guard const lock{mutex_};
+    return engine_.statistics();
+}
+
+Farewell::Farewell(Gateway& gateway, SessionId session, Reader& reader)
+    : gateway_{gateway}, session_{std::move(session)}, reader_{reader} {
+    std::lock_guard const lock{gateway_.mutex_};
+    gateway_.readers_.join(session_, Link::stream, reader_);
+}
+
+Farewell::~Farewell() {
+    std::lock_guard const lock{gateway_.mutex_};
+    gateway_.readers_.leave(session_, reader_);
+}
+
+bool Farewell::alone() const {
+    std::lock_guard const lock{gateway_.mutex_};
+    return gateway_.readers_.count(session_) == 1;
+}
+
+}  // namespace rois::net

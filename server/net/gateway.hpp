@@ -1,0 +1,144 @@
+// The engine as the connections see it: one mutex around it, taken for as long as one operation, and the places from which a
+// session's notifications are read. All functions may be called from any thread.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "engine/engine.hpp"
+#include "net/readers.hpp"
+#include "net/telemetry.hpp"
+#include "xml/codec.hpp"
+
+namespace rois::net {
+
+class Gateway;
+
+// As long as it lives, the session's readers do not see what was queued since the operation that gave it: its answer comes
+// first (decision 22). Destroy it once the answer has been handed to the socket. Must not outlive the gateway.
+class Hold {
+public:
+    Hold() = default;
+    Hold(Hold&& other) noexcept { *this = std::move(other); }
+    Hold& operator=(Hold&& other) noexcept;
+    ~Hold() { release(); }
+
+private:
+    friend class Gateway;
+    Hold(Gateway&, SessionId, std::shared_ptr<NotificationQueue>, NotificationQueue::Hold);
+    void release();
+
+    Gateway* gateway_ = nullptr;  // null: holds nothing
+    SessionId session_;
+    std::shared_ptr<NotificationQueue> queue_;
+    NotificationQueue::Hold place_;
+};
+
+// One reader's place in a session's notifications, and its link to the session. The gateway and the reader must outlive it.
+class Reading {
+public:
+    Reading(Gateway&, SessionId, Link, std::uint64_t after, Reader&, std::shared_ptr<NotificationQueue>);
+    ~Reading();
+    Reading(Reading const&) = delete;
+    Reading& operator=(Reading const&) = delete;
+
+    enum class Then : std::uint8_t { more, wait, ended };  // ended: the session has, and all was taken
+    struct Taken {
+        std::vector<Numbered> notifications;
+        Then then;
+    };
+    // The next ones, at most `most`; the place moves behind them.
+    Taken take(std::size_t most);
+
+    SessionId const& session() const { return session_; }
+
+private:
+    Gateway& gateway_;
+    SessionId session_;
+    Link link_;
+    std::uint64_t after_;
+    Reader& reader_;
+    std::shared_ptr<NotificationQueue> queue_;
+};
+
+// What those hear who name no session, an unknown one or an ended one.
+Fault no_such_session();
+Fault shutting_down();
+
+// The document of a notification (wire.md). What all its receivers share is encoded once.
+void append_document(std::string& out, Numbered const&);
+
+enum class Via : std::uint8_t { http, websocket };
+
+// What an operation's request is answered with, and what it means for the connection that it came by.
+struct Answer {
+    std::string document;
+    std::optional<FaultCode> fault;  // the document is a fault; no operation ran
+    SessionId session;               // which the connection speaks for from now on; empty when none
+    enum class Turn : std::uint8_t { stays, connected, resumed, disconnected } turn = Turn::stays;
+    std::uint64_t last_sequence = 0;  // resumed: where its notifications go on
+    Hold hold;
+};
+
+class Gateway {
+public:
+    // All three must outlive the gateway; `readers` is the engine's outbox.
+    Gateway(Engine& engine, Readers& readers, Telemetry& telemetry) : engine_{engine}, readers_{readers}, telemetry_{telemetry} {}
+
+    // Reads the request's text, performs the operation for the session (an empty id: for nobody yet) and encodes the answer.
+    // Only the operation itself is done with the engine locked.
+    Answer answer(xml::RequestReader&, SessionId const&, std::string_view text, Via);
+
+    // Null when there is no such session.
+    std::unique_ptr<Reading> read(SessionId const&, Link, std::uint64_t after, Reader&);
+
+    // To be called every few milliseconds: lets the engine do what is due.
+    void tick();
+
+    // Ends all sessions; what comes later is refused.
+    void shut_down();
+    bool shutting_down() const { return shutting_down_; }
+
+    std::shared_ptr<EngineProfile const> profile() const;
+    std::vector<ComponentEntry> components() const;
+    EngineStatistics statistics() const;
+
+private:
+    friend class Farewell;
+    friend class Hold;
+    friend class Reading;
+
+    std::variant<Reply, Fault> perform(SessionId const&, Operation const&, Hold&);
+
+    Engine& engine_;
+    Readers& readers_;
+    Telemetry& telemetry_;
+    mutable std::mutex mutex_;  // guards the engine, its queues and the readers
+    std::atomic<bool> shutting_down_ = false;
+};
+
+// Joins the readers of a session that has ended, to see when the others have taken what was left for them.
+class Farewell {
+public:
+    Farewell(Gateway&, SessionId, Reader&);
+    ~Farewell();
+    Farewell(Farewell const&) = delete;
+    Farewell& operator=(Farewell const&) = delete;
+
+    // The reader is woken whenever this may have changed.
+    bool alone() const;
+
+private:
+    Gateway& gateway_;
+    SessionId session_;
+    Reader& reader_;
+};
+
+}  // namespace rois::net

@@ -1,0 +1,42 @@
+// What an HTTP request is answered with, and how that looks on the wire.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "types/messages.hpp"
+
+namespace rois::net {
+
+// The status that a fault travels with (wire.md).
+int status_of(FaultCode);
+
+struct HttpAnswer {
+    int status = 200;
+    std::string content_type = "application/xml; charset=utf-8";
+    std::string cache_control = "no-store";
+    std::string body;
+    std::optional<FaultCode> fault;  // what the body says, when it is a fault
+
+    // Adds a header field. Control characters in the value are left out, so that nothing can break out of its line.
+    void set(std::string_view name, std::string_view value);
+    std::string const& fields() const { return fields_; }
+
+private:
+    std::string fields_;
+};
+
+HttpAnswer answer_of(Fault const&);
+
+// Appends the answer to `out`. What the request asked for decides what is sent of it.
+struct Framing {
+    bool body = true;    // false for HEAD
+    bool close = false;  // the connection ends after this answer
+};
+void append(std::string& out, HttpAnswer const&, Framing);
+
+// The head of an answer whose body goes on until the connection ends.
+void append_endless(std::string& out, HttpAnswer const&);
+
+}  // namespace rois::net

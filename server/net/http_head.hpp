@@ -1,0 +1,53 @@
+// Reads the head of an HTTP/1.1 request (RFC 9112): the request line and the header fields. Strict where leniency has been
+// abused: no folded lines, no bare line feeds, exactly one Host, one way to say how long the body is.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "net/settings.hpp"
+#include "types/messages.hpp"
+
+namespace rois::net {
+
+struct Field {
+    std::string_view name;
+    std::string_view value;  // without white space at its ends
+};
+
+// All views point into the text that was read.
+struct RequestHead {
+    std::string_view method;
+    std::string_view path;   // as sent, without the query
+    std::string_view query;  // what follows '?'
+    bool http_1_0 = false;
+    std::vector<Field> fields;
+    std::uint64_t content_length = 0;
+
+    // The value of the field of that name, compared without regard to case; nothing when it is absent or there twice.
+    std::optional<std::string_view> field(std::string_view name) const;
+    std::size_t count(std::string_view name) const;
+    // Whether the comma-separated list in the fields of that name has this member, without regard to case.
+    bool lists(std::string_view name, std::string_view member) const;
+    // The parameter's value in the query, undecoded: the first of that name.
+    std::optional<std::string_view> parameter(std::string_view name) const;
+    // Whether another request may follow on this connection.
+    bool keep_alive() const { return !http_1_0 && !lists("Connection", "close"); }
+};
+
+// The bytes until the end of the head, or 0 as long as it is not complete. `searched` carries the position between calls with
+// more and more of the same text. A line feed without carriage return ends the search: what it ends is given to read_head,
+// which refuses it.
+std::size_t find_head(std::string_view text, std::size_t& searched);
+
+// Reads a complete head. A fault means that the connection cannot go on.
+std::variant<RequestHead, Fault> read_head(std::string_view head, Settings const&);
+
+// What to answer when a head has grown over the limit without an end.
+Fault overlong_head(std::string_view text, Settings const&);
+
+}  // namespace rois::net

@@ -1,0 +1,58 @@
+// One I/O thread: its io_context, its request reader, and the connections that live on it.
+#pragma once
+
+#include <memory>
+#include <unordered_set>
+
+#include "net/asio.hpp"
+#include "net/documents.hpp"
+#include "net/gateway.hpp"
+#include "net/settings.hpp"
+#include "net/telemetry.hpp"
+
+namespace rois::net {
+
+class Connection;
+
+// What all loops share; outlives them.
+struct Shared {
+    Settings settings;
+    Gateway& gateway;
+    Telemetry& telemetry;
+    Documents const& documents;
+    std::shared_ptr<xml::Schemas const> schemas;
+};
+
+class Loop {
+public:
+    explicit Loop(Shared const&);
+    ~Loop();
+    Loop(Loop const&) = delete;
+    Loop& operator=(Loop const&) = delete;
+
+    // Until the last connection has gone after shut_down.
+    void run();
+
+    // From any thread.
+    void serve(Socket);
+    void shut_down(std::chrono::milliseconds within);
+
+    // On the loop's own thread.
+    bool draining() const { return last_moment_ != Steady::max(); }
+    Shared const& shared() const { return shared_; }
+    xml::RequestReader& reader() { return reader_; }
+    Executor executor() { return io_.get_executor(); }
+
+private:
+    friend class Connection;
+
+    Task<> sweep();
+
+    Shared const& shared_;
+    xml::RequestReader reader_;
+    std::unordered_set<Connection*> connections_;
+    Steady last_moment_ = Steady::max();  // set by shut_down: at that time whoever is still there is cut
+    asio::io_context io_{1};
+};
+
+}  // namespace rois::net

@@ -1,0 +1,37 @@
+#include "net/readers.hpp"
+
+#include <algorithm>
+
+namespace rois::net {
+
+void Readers::join(SessionId const& session, Link link, Reader& reader) {
+    auto& readers = readers_[session];
+    if (link == Link::websocket) {
+        std::erase_if(readers, [](Joined const& other) {
+            if (other.link == Link::websocket) other.reader->taken_over();
+            return other.link == Link::websocket;
+        });
+    }
+    readers.push_back({link, &reader});
+}
+
+void Readers::leave(SessionId const& session, Reader const& reader) {
+    auto const found = readers_.find(session);
+    if (found == readers_.end()) return;
+    std::erase_if(found->second, [&](Joined const& joined) { return joined.reader == &reader; });
+    for (auto const& other : found->second) other.reader->wake();
+    if (found->second.empty()) readers_.erase(found);
+}
+
+std::size_t Readers::count(SessionId const& session) const {
+    auto const found = readers_.find(session);
+    return found == readers_.end() ? 0 : found->second.size();
+}
+
+void Readers::notify(SessionId const& session) {
+    auto const found = readers_.find(session);
+    if (found == readers_.end()) return;
+    for (auto const& joined : found->second) joined.reader->wake();
+}
+
+}  // namespace rois::net

@@ -1,0 +1,177 @@
+#include "net/telemetry.hpp"
+
+#include <prometheus/text_serializer.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace rois::net {
+
+namespace {
+
+using prometheus::ClientMetric;
+using prometheus::MetricFamily;
+using prometheus::MetricType;
+
+constexpr std::array<char const*, 17> operation_names{"connect",
+                                                      "resume",
+                                                      "disconnect",
+                                                      "get_profile",
+                                                      "get_error_detail",
+                                                      "search",
+                                                      "bind",
+                                                      "bind_any",
+                                                      "release",
+                                                      "get_parameter",
+                                                      "set_parameter",
+                                                      "execute",
+                                                      "get_command_result",
+                                                      "query",
+                                                      "subscribe",
+                                                      "unsubscribe",
+                                                      "get_event_detail"};
+static_assert(operation_names.size() == std::variant_size_v<Operation>);
+
+constexpr std::array<char const*, 3> kind_names{"http", "websocket", "stream"};
+
+double cpu_seconds() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    auto const seconds = [](timeval const& t) { return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) / 1e6; };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+double resident_bytes() {
+    std::ifstream statm{"/proc/self/statm"};
+    double size = 0, resident = 0;
+    statm >> size >> resident;
+    return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+double open_descriptors() {
+    std::error_code error;
+    auto const folder = std::filesystem::directory_iterator{"/proc/self/fd", error};
+    return error ? 0 : static_cast<double>(std::distance(begin(folder), end(folder)));
+}
+
+}  // namespace
+
+// The families of one scrape.
+class Exposition {
+public:
+    std::string text() const {
+        std::ostringstream out;
+        prometheus::TextSerializer{}.Serialize(out, families_);
+        return out.str();
+    }
+
+    void gauge(std::string name, std::string help, double value) {
+        begin(std::move(name), std::move(help), MetricType::Gauge);
+        add({}, value);
+    }
+    void counter(std::string name, std::string help, double value) {
+        begin(std::move(name), std::move(help), MetricType::Counter);
+        add({}, value);
+    }
+
+    void process() {
+        gauge("process_resident_memory_bytes", "Resident memory of the process.", resident_bytes());
+        gauge("process_open_fds", "Open file descriptors.", open_descriptors());
+        counter("process_cpu_seconds_total", "User and system CPU time of the process.", cpu_seconds());
+    }
+
+    void engine(EngineStatistics const& s) {
+        auto const number = [](auto n) { return static_cast<double>(n); };
+        gauge("rois_sessions", "Open sessions.", number(s.sessions));
+        gauge("rois_components", "Components of the engine.", number(s.components));
+        gauge("rois_subscriptions", "Distinct event types with conditions that are subscribed to.", number(s.subscriptions));
+        counter("rois_events_total", "Events that components fired.", number(s.events));
+        counter("rois_errors_total", "Errors that were notified.", number(s.errors));
+        counter("rois_notifications_total", "Notifications queued for sessions.", number(s.notifications));
+        counter("rois_notifications_lost_total", "Notifications dropped because a session did not read.",
+                number(s.notifications_lost));
+        counter("rois_stray_component_answers_total", "Answers of components that were late, double or of nobody.",
+                number(s.stray_answers));
+        begin("rois_commands_completed_total", "Commands by how they ended.", MetricType::Counter);
+        for (std::size_t i = 0; i < std::size(s.commands_completed); ++i) {
+            add({{"status", std::string{to_text(static_cast<CompletedStatus>(i))}}}, number(s.commands_completed[i]));
+        }
+    }
+
+    void network(Telemetry const& t) {
+        begin("rois_connections", "Open connections by what they are used for.", MetricType::Gauge);
+        for (std::size_t i = 0; i < kind_names.size(); ++i) add({{"kind", kind_names[i]}}, static_cast<double>(t.open_[i]));
+        counter("rois_connections_accepted_total", "Connections accepted.", static_cast<double>(t.accepted_));
+        counter("rois_connections_cut_total", "Connections closed because their reader was too slow.",
+                static_cast<double>(t.cut_));
+        counter("rois_notifications_delivered_total", "Notifications written to connections.", static_cast<double>(t.delivered_));
+        begin("rois_faults_total", "Messages that could not be read or were not allowed.", MetricType::Counter);
+        for (std::size_t i = 0; i < Telemetry::fault_codes; ++i) {
+            add({{"code", std::string{to_text(static_cast<FaultCode>(i))}}}, static_cast<double>(t.faults_[i]));
+        }
+        requests(t);
+        durations(t);
+    }
+
+private:
+    void begin(std::string name, std::string help, MetricType type) {
+        families_.push_back({std::move(name), std::move(help), type, {}});
+    }
+
+    void add(std::vector<ClientMetric::Label> labels, double value) {
+        ClientMetric metric;
+        metric.label = std::move(labels);
+        (families_.back().type == MetricType::Gauge ? metric.gauge.value : metric.counter.value) = value;
+        families_.back().metric.push_back(std::move(metric));
+    }
+
+    // OK is always there; the other return codes once they have occurred.
+    void requests(Telemetry const& t) {
+        begin("rois_requests_total", "Operations performed, by return code.", MetricType::Counter);
+        for (std::size_t operation = 0; operation < Telemetry::operations; ++operation) {
+            for (std::size_t code = 0; code < Telemetry::return_codes; ++code) {
+                auto const count = t.requests_[operation][code].load();
+                if (count == 0 && code != 0) continue;
+                add({{"operation", operation_names[operation]},
+                     {"return_code", std::string{to_text(static_cast<ReturnCode>(code))}}},
+                    static_cast<double>(count));
+            }
+        }
+    }
+
+    void durations(Telemetry const& t) {
+        begin("rois_request_duration_seconds", "From a request's last byte until its answer is ready.", MetricType::Histogram);
+        ClientMetric metric;
+        std::uint64_t cumulative = 0;
+        for (std::size_t i = 0; i < Telemetry::bounds.size(); ++i) {
+            cumulative += t.durations_[i];
+            metric.histogram.bucket.push_back({cumulative, Telemetry::bounds[i]});
+        }
+        metric.histogram.sample_count = cumulative + t.durations_.back();
+        metric.histogram.sample_sum = static_cast<double>(t.nanoseconds_) / 1e9;
+        families_.back().metric.push_back(std::move(metric));
+    }
+
+    std::vector<MetricFamily> families_;
+};
+
+void Telemetry::answered(Operation const& operation, ReturnCode code, std::chrono::nanoseconds spent) {
+    ++requests_[operation.index()][static_cast<std::size_t>(code)];
+    auto const seconds = std::chrono::duration<double>(spent).count();
+    ++durations_[static_cast<std::size_t>(std::ranges::lower_bound(bounds, seconds) - bounds.begin())];
+    nanoseconds_ += static_cast<std::uint64_t>(spent.count());
+}
+
+std::string Telemetry::text(EngineStatistics const& statistics) const {
+    Exposition exposition;
+    exposition.network(*this);
+    exposition.engine(statistics);
+    exposition.process();
+    return exposition.text();
+}
+
+}  // namespace rois::net

@@ -1,0 +1,61 @@
+// What the gateway counts about itself, and how /metrics shows it. Counting is lock-free; any thread.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "engine/engine.hpp"
+#include "types/messages.hpp"
+
+namespace rois::net {
+
+class Telemetry {
+public:
+    enum class Kind : std::uint8_t { http, websocket, stream };  // what a connection is used for
+
+    // Counts a connection of this kind as long as it lives.
+    class Counted {
+    public:
+        Counted(Telemetry& telemetry, Kind kind) : open_{telemetry.open_[static_cast<std::size_t>(kind)]} { ++open_; }
+        ~Counted() { --open_; }
+        Counted(Counted const&) = delete;
+        Counted& operator=(Counted const&) = delete;
+
+    private:
+        std::atomic<std::uint64_t>& open_;
+    };
+
+    void accepted() { ++accepted_; }
+    // `spent`: from the request's last byte until the answer's text was ready.
+    void answered(Operation const&, ReturnCode, std::chrono::nanoseconds spent);
+    void faulted(FaultCode code) { ++faults_[static_cast<std::size_t>(code)]; }
+    void delivered(std::size_t notifications) { delivered_ += notifications; }
+    void cut() { ++cut_; }  // a connection that was closed because its reader was too slow
+
+    std::uint64_t open_connections() const { return open_[0] + open_[1] + open_[2]; }
+
+    // The Prometheus text format.
+    std::string text(EngineStatistics const&) const;
+
+private:
+    static constexpr std::size_t operations = std::variant_size_v<Operation>;
+    static constexpr std::size_t return_codes = 6;
+    static constexpr std::size_t fault_codes = 17;
+    static constexpr std::array<double, 8> bounds{0.00005, 0.0001, 0.00025, 0.0005, 0.001, 0.005, 0.025, 0.1};  // seconds
+
+    friend class Exposition;
+    std::array<std::array<std::atomic<std::uint64_t>, return_codes>, operations> requests_{};
+    std::array<std::atomic<std::uint64_t>, fault_codes> faults_{};
+    std::array<std::atomic<std::uint64_t>, bounds.size() + 1> durations_{};
+    std::atomic<std::uint64_t> nanoseconds_ = 0;
+    std::array<std::atomic<std::uint64_t>, 3> open_{};
+    std::atomic<std::uint64_t> accepted_ = 0;
+    std::atomic<std::uint64_t> delivered_ = 0;
+    std::atomic<std::uint64_t> cut_ = 0;
+};
+
+}  // namespace rois::net

@@ -1,0 +1,233 @@
+#include "net/websocket.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/post.hpp>
+#include <utility>
+
+#include "net/event_stream.hpp"
+
+namespace rois::net {
+
+namespace {
+
+constexpr std::size_t most_at_once = 64;                    // notifications of one write
+constexpr auto longest_farewell = std::chrono::seconds{2};  // from our close frame to the end of the connection
+
+template <class... Cases>
+struct Overloaded : Cases... {
+    using Cases::operator()...;
+};
+
+Steady now() { return std::chrono::steady_clock::now(); }
+
+}  // namespace
+
+WebSocket::WebSocket(std::shared_ptr<Wire> wire, Gateway& gateway, Telemetry& telemetry, xml::RequestReader& reader,
+                     Settings const& settings)
+    : wire_{std::move(wire)},
+      gateway_{gateway},
+      telemetry_{telemetry},
+      reader_{reader},
+      settings_{settings},
+      messages_{settings.document.bytes, settings.max_fragments},
+      room_{std::make_shared<Signal>(wire_->executor())},
+      heard_{now()} {}
+
+Task<> WebSocket::run() {
+    auto outcome = Wire::Outcome::done;
+    while (outcome == Wire::Outcome::done && !broken_) {
+        if (!ending_) co_await take_frames();
+        flush();
+        if (ending_) wire_->use(wire_->received().size());
+        outcome = co_await wire_->receive(Steady::max());
+        heard_ = now();
+        pinged_ = false;
+    }
+    broken_ = true;
+    wire_->cut();
+    reading_.reset();
+    while (writing_) {
+        co_await room_->wait_until(Steady::max());
+    }
+}
+
+// Takes all whole frames that have arrived.
+Task<> WebSocket::take_frames() {
+    bool incomplete = false;
+    while (!incomplete && !ending_ && !broken_) {
+        std::size_t used = 0;
+        auto const heard = messages_.next(wire_->received(), used);
+        if (auto const* message = std::get_if<MessageReader::Text>(&heard)) {
+            co_await take_text(message->text);
+        } else {
+            std::visit(Overloaded{[&](MessageReader::Incomplete) { incomplete = true; },
+                                  [&](MessageReader::Ping ping) { pong_ = std::string{ping.payload}; },
+                                  [&](MessageReader::Closed closed) {
+                                      close({closed.code, ""});
+                                  },
+                                  [&](MessageReader::Violation wrong) {
+                                      close({wrong.code, wrong.reason});
+                                  },
+                                  [](auto) {}},
+                       heard);
+        }
+        wire_->use(used);
+    }
+    note_message(now());
+}
+
+// Answers one request. The text lies in the wire's input, which stays as it is meanwhile.
+Task<> WebSocket::take_text(std::string_view text) {
+    auto answer = gateway_.answer(reader_, session_, text, Via::websocket);
+    if (answer.turn == Answer::Turn::disconnected) {
+        while (gather_notifications(answers_)) {
+        }
+        reading_.reset();
+        flush();
+        co_await others_heard(gateway_, session_, wire_->executor());
+    }
+    append_frame(answers_, Opcode::text, answer.document);
+    ++answers_waiting_;
+    join(answer);
+    if (answer.fault == FaultCode::too_many) close({CloseCode::policy_violation, "too many sessions"});
+    co_await wait_for_room();
+}
+
+// Follows the answer to the session that it opened, took over or left.
+void WebSocket::join(Answer const& answer) {
+    bool const same = answer.session == session_ && reading_;
+    session_ = answer.session;
+    if (answer.turn == Answer::Turn::stays || answer.turn == Answer::Turn::disconnected) return;
+    if (same && answer.turn == Answer::Turn::connected) return;
+    reading_.reset();
+    session_over_ = false;
+    reading_ = gateway_.read(session_, Link::websocket, answer.last_sequence, *this);
+}
+
+// Reading stops while as many answers wait as may be in flight.
+Task<> WebSocket::wait_for_room() {
+    if (answers_waiting_ < settings_.max_requests_in_flight) co_return;
+    flush();
+    while (answers_waiting_ + answers_in_out_ >= settings_.max_requests_in_flight && !broken_) {
+        co_await room_->wait_until(Steady::max());
+    }
+}
+
+void WebSocket::note_message(Steady at) {
+    if (wire_->received().empty() && !messages_.in_message()) {
+        message_due_ = Steady::max();
+    } else if (message_due_ == Steady::max()) {
+        message_due_ = at + settings_.request_timeout;
+    }
+}
+
+void WebSocket::close(Ending ending) {
+    if (ending_) return;
+    if (ending.code != CloseCode::normal)
+        spdlog::debug("a WebSocket closes with {}: {}", static_cast<int>(ending.code), ending.reason);
+    ending_ = ending;
+}
+
+void WebSocket::wake() {
+    if (wake_posted_.exchange(true)) return;
+    asio::post(wire_->executor(), [self = shared_from_this()] {
+        self->wake_posted_ = false;
+        self->flush();
+    });
+}
+
+void WebSocket::taken_over() {
+    asio::post(wire_->executor(), [self = shared_from_this()] {
+        self->close({CloseCode::policy_violation, "the session goes on elsewhere"});
+        self->flush();
+    });
+}
+
+void WebSocket::sweep(Steady at) {
+    if (at >= close_due_ || at >= heard_ + 2 * settings_.ping_interval) {
+        wire_->cut();
+        return;
+    }
+    if (at >= message_due_) close({CloseCode::policy_violation, "the message did not arrive in time"});
+    if (at >= heard_ + settings_.ping_interval && !std::exchange(pinged_, true)) ping_due_ = true;
+    flush();
+}
+
+void WebSocket::shut_down() {
+    close({CloseCode::going_away, "the gateway is shutting down"});
+    flush();
+}
+
+void WebSocket::flush() {
+    while (!writing_ && !broken_ && gather()) {
+        auto const sent = wire_->send_now(out_);
+        if (sent < out_.size()) {
+            writing_ = true;
+            asio::co_spawn(
+                wire_->executor(), [self = shared_from_this(), sent] { return self->drain(sent); }, asio::detached);
+            return;
+        }
+        written();
+    }
+}
+
+// Moves what waits into out_; false when nothing does.
+bool WebSocket::gather() {
+    if (close_gathered_) return false;
+    out_.clear();
+    std::swap(out_, answers_);
+    answers_in_out_ = std::exchange(answers_waiting_, 0);
+    if (pong_) append_frame(out_, Opcode::pong, *std::exchange(pong_, {}));
+    if (std::exchange(ping_due_, false)) append_frame(out_, Opcode::ping, "");
+    bool const more = (!ending_ || ending_->code == CloseCode::going_away) && gather_notifications(out_);
+    if (ending_ && !more) {
+        append_close(out_, ending_->code, ending_->reason);
+        close_gathered_ = true;
+    }
+    return !out_.empty();
+}
+
+// Appends some of the session's notifications; true when there are more. The link ends with the session's last.
+bool WebSocket::gather_notifications(std::string& out) {
+    if (!reading_) return false;
+    auto const taken = reading_->take(most_at_once);
+    std::string document;
+    for (auto const& numbered : taken.notifications) {
+        document.clear();
+        append_document(document, numbered);
+        append_frame(out, Opcode::text, document);
+    }
+    telemetry_.delivered(taken.notifications.size());
+    session_over_ = taken.then == Reading::Then::ended;
+    return taken.then == Reading::Then::more;
+}
+
+void WebSocket::written() {
+    answers_in_out_ = 0;
+    if (session_over_) reading_.reset();
+    if (close_gathered_ && close_due_ == Steady::max()) {
+        reading_.reset();
+        wire_->finish();
+        close_due_ = now() + longest_farewell;
+    }
+    room_->raise();
+}
+
+// Writes what the socket did not take at once, then goes on with what has come since.
+Task<> WebSocket::drain(std::size_t sent) {
+    auto const outcome = co_await wire_->send(std::string_view{out_}.substr(sent));
+    writing_ = false;
+    if (outcome == Wire::Outcome::done) {
+        written();
+        flush();
+    } else {
+        broken_ = true;
+        wire_->cut();
+    }
+    room_->raise();
+}
+
+}  // namespace rois::net

@@ -1,0 +1,82 @@
+// One WebSocket: requests, answers and notifications as text frames (wire.md). Belongs to one thread; always held by a
+// shared_ptr.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "net/gateway.hpp"
+#include "net/settings.hpp"
+#include "net/signal.hpp"
+#include "net/websocket_frames.hpp"
+#include "net/wire.hpp"
+
+namespace rois::net {
+
+// Answers and notifications are gathered and go out in as few writes as possible: whoever has something to say calls `flush`,
+// which writes at once as long as the peer keeps up, and leaves the rest to `drain` when it does not.
+class WebSocket : public Reader, public std::enable_shared_from_this<WebSocket> {
+public:
+    WebSocket(std::shared_ptr<Wire>, Gateway&, Telemetry&, xml::RequestReader&, Settings const&);
+
+    // After the handshake has been answered: until the connection is over.
+    Task<> run();
+
+    void wake() override;        // from any thread
+    void taken_over() override;  // from any thread
+
+    // Looks at the clock: pings who is silent, closes for who sends a message too slowly.
+    void sweep(Steady now);
+    // The peer hears its last notifications, then the connection closes with 1001.
+    void shut_down();
+
+private:
+    struct Ending {
+        CloseCode code;
+        std::string_view reason;
+    };
+
+    Task<> take_frames();
+    Task<> take_text(std::string_view);
+    Task<> wait_for_room();
+    void join(Answer const&);
+    void note_message(Steady now);
+    void close(Ending);
+
+    void flush();
+    bool gather();
+    bool gather_notifications(std::string& out);
+    void written();
+    Task<> drain(std::size_t sent);
+
+    std::shared_ptr<Wire> wire_;
+    Gateway& gateway_;
+    Telemetry& telemetry_;
+    xml::RequestReader& reader_;
+    Settings const& settings_;
+    MessageReader messages_;
+    std::shared_ptr<Signal> room_;  // raised when output was written
+    SessionId session_;
+    std::unique_ptr<Reading> reading_;  // of the session, until its last notification was written
+    bool session_over_ = false;         // reading_ has given its last
+    std::atomic<bool> wake_posted_ = false;
+
+    std::string answers_;  // frames that wait for the next write
+    std::size_t answers_waiting_ = 0;
+    std::string out_;  // what is being written
+    std::size_t answers_in_out_ = 0;
+    std::optional<std::string> pong_;
+    bool ping_due_ = false;
+    bool writing_ = false;
+    bool broken_ = false;
+
+    std::optional<Ending> ending_;  // decided: the close frame goes out behind what was said before
+    bool close_gathered_ = false;   // it is in out_; nothing follows
+    Steady close_due_ = Steady::max();
+    Steady heard_;                        // from the peer, last
+    bool pinged_ = false;                 // since then
+    Steady message_due_ = Steady::max();  // when what has begun to arrive must be whole
+};
+
+}  // namespace rois::net

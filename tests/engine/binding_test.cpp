@@ -1,0 +1,204 @@
+// Decisions 4 to 7: who may command a component.
+#include <gmock/gmock.h>
+
+#include "world.hpp"
+
+namespace rois {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(Bind, KeepsAComponentForOneSession) {
+    World world{navigation};
+    auto desk = world.connect(), hall = world.connect();
+    EXPECT_EQ(desk.bind("navigation"), ReturnCode::ok);
+    EXPECT_EQ(desk.bind("navigation"), ReturnCode::ok);
+    EXPECT_EQ(hall.bind("navigation"), ReturnCode::out_of_resources);
+    desk.leave();
+    EXPECT_EQ(hall.bind("navigation"), ReturnCode::ok);
+}
+
+TEST(Bind, OfWhatIsNotThereIsABadParameter) {
+    World world{navigation};
+    auto desk = world.connect();
+    auto const refused = desk.ask(Bind{Application::identifier("../\r\n<x>")});
+    EXPECT_EQ(refused.return_code, ReturnCode::bad_parameter);
+    EXPECT_EQ(refused.reason, "unknown component '../  <x>'");
+}
+
+TEST(Bind, FiftyThatRaceForOneComponentHaveOneWinner) {
+    World world{navigation};
+    std::vector<Application> racers;
+    for (int i = 0; i < 50; ++i) racers.push_back(world.connect());
+    std::map<ReturnCode, int> answers;
+    for (auto& racer : racers) ++answers[racer.bind("navigation")];
+    EXPECT_THAT(answers, ElementsAre(testing::Pair(ReturnCode::ok, 1), testing::Pair(ReturnCode::out_of_resources, 49)));
+}
+
+TEST(BindAny, TakesTheLowestFreeMatch) {
+    World world{named("speech_b", speech), named("speech_a", speech), navigation};
+    auto desk = world.connect(), hall = world.connect();
+    auto const speaks = equal("component_type", "urn:x-rois:def:component:OMG::SpeechSynthesis");
+    EXPECT_EQ(desk.bind_any(speaks), "speech_a");
+    EXPECT_EQ(hall.bind_any(speaks), "speech_b");
+    EXPECT_EQ(world.connect().bind_any(speaks), "OUT_OF_RESOURCES");
+}
+
+TEST(BindAny, TakesAFreeOneBeforeOneThatIsMine) {
+    World world{named("speech_a", speech), named("speech_b", speech)};
+    auto desk = world.connect();
+    EXPECT_EQ(desk.bind_any(), "speech_a");
+    EXPECT_EQ(desk.bind_any(), "speech_b");
+    EXPECT_EQ(desk.bind_any(), "speech_a") << "when none is free, one that is already mine";
+}
+
+TEST(BindAny, TellsWhatCanNeverMatchFromWhatIsTaken) {
+    World world{navigation, speech};
+    auto desk = world.connect(), hall = world.connect();
+    EXPECT_EQ(desk.bind_any(equal("component_ref", "gripper")), "UNSUPPORTED");
+    EXPECT_EQ(desk.bind_any(both({equal("component_ref", "speech"), equal("component_ref", "navigation")})), "UNSUPPORTED");
+    EXPECT_EQ(desk.bind_any(equal("status", "WARNING")), "OUT_OF_RESOURCES") << "it may still come to that";
+    EXPECT_EQ(desk.bind_any(equal("component_ref", "speech")), "speech");
+    EXPECT_EQ(hall.bind_any(equal("component_ref", "speech")), "OUT_OF_RESOURCES");
+    EXPECT_EQ(hall.bind_any(both({equal("component_ref", "speech"), equal("status", "READY")})), "OUT_OF_RESOURCES");
+    EXPECT_EQ(hall.bind_any(equal("status", "READY")), "navigation") << "speech is BUSY for the hall";
+    EXPECT_EQ(hall.bind_any(equal("colour", "red")), "BAD_PARAMETER");
+    EXPECT_EQ(hall.bind_any(not_understood("what is this")), "BAD_PARAMETER");
+}
+
+TEST(BindAny, InAnEngineWithoutComponentsIsUnsupported) {
+    World world{std::vector<Part>{}, {}};
+    EXPECT_EQ(world.connect().bind_any(), "UNSUPPORTED");
+}
+
+TEST(Search, FindsInTheOrderOfRefs) {
+    World world{speech, navigation, in_engine("sub1", navigation)};
+    auto desk = world.connect();
+    EXPECT_THAT(desk.search(), ElementsAre("navigation", "speech", "sub1.navigation"));
+    EXPECT_THAT(desk.search(equal("engine", "sub1")), ElementsAre("sub1.navigation"));
+    EXPECT_THAT(desk.search(equal("component_ref", "gripper")), IsEmpty());
+    EXPECT_THAT(desk.search(not_understood("what is this")), ElementsAre("BAD_PARAMETER"));
+}
+
+TEST(Binding, IsNeededToCommand) {
+    World world{navigation};
+    auto desk = world.connect(), hall = world.connect();
+    hall.bind("navigation");
+    hall.heard();
+    EXPECT_EQ(desk.get_parameter("navigation").return_code, ReturnCode::error);
+    EXPECT_EQ(desk.set_parameter("navigation", {integer("time_limit", 7)}).return_code, ReturnCode::error);
+    EXPECT_EQ(desk.execute(go("go")).return_code, ReturnCode::error);
+    EXPECT_THAT(world["navigation"].told, IsEmpty());
+    EXPECT_EQ(in_words(hall.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time");
+    EXPECT_EQ(desk.get_parameter("gripper").return_code, ReturnCode::bad_parameter);
+    EXPECT_EQ(desk.set_parameter("gripper", {}).return_code, ReturnCode::bad_parameter);
+}
+
+TEST(Binding, IsNotNeededToAsk) {
+    World world{navigation};
+    auto desk = world.connect(), hall = world.connect();
+    hall.bind("navigation");
+    EXPECT_EQ(desk.query("route").return_code, ReturnCode::ok);
+    EXPECT_EQ(in_words(desk.query("get_parameter").results.parameters), "time_limit=0 routing_policy=time");
+    EXPECT_EQ(desk.subscribe("reached_target").return_code, ReturnCode::ok);
+    EXPECT_EQ(desk.search(), std::vector<std::string>{"navigation"});
+    EXPECT_EQ(desk.ask(GetProfile{}).components.size(), 1U);
+}
+
+TEST(Release, StopsWhatRunsThere) {
+    World world{navigation, speech};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.bind("speech");
+    desk.execute(go("go"), say("arrived"));
+    desk.execute(say("meanwhile"));
+    EXPECT_EQ(desk.release("navigation"), ReturnCode::ok);
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT", "2 completed arrived ABORT"));
+    EXPECT_EQ(desk.result_of("meanwhile"), "RUNNING") << "what is bound still is not touched";
+    EXPECT_EQ(world.connect().bind("navigation"), ReturnCode::ok);
+}
+
+TEST(Release, StopsWhatWasMadeActive) {
+    World world{detection};
+    auto desk = world.connect();
+    desk.bind("detection");
+    desk.execute(named("look", start("detection")));
+    desk.release("detection");
+    EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed look OK"));
+}
+
+TEST(Release, StopsACommandOfTheComponentsOwn) {
+    World world{navigation};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.execute(named("dock", command("dock", "navigation")));
+    desk.release("navigation");
+    EXPECT_THAT(world["navigation"].told, ElementsAre("dock", "halt"));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock ABORT"));
+}
+
+TEST(Release, OfWhatIsNotMineDoesNothing) {
+    World world{navigation};
+    auto desk = world.connect(), hall = world.connect();
+    hall.bind("navigation");
+    hall.execute(go("go"));
+    EXPECT_EQ(desk.release("navigation"), ReturnCode::ok);
+    EXPECT_EQ(hall.result_of("go"), "RUNNING");
+    EXPECT_EQ(desk.release("gripper"), ReturnCode::bad_parameter);
+}
+
+TEST(ComponentStatus, AnswersForTheAsker) {
+    World world{navigation};
+    auto desk = world.connect(), hall = world.connect();
+    EXPECT_EQ(desk.status_of("navigation"), "READY");
+    hall.bind("navigation");
+    hall.execute(go("go"));
+    EXPECT_EQ(desk.status_of("navigation"), "BUSY");
+    EXPECT_EQ(hall.status_of("navigation"), "READY") << "also while my own command runs";
+    EXPECT_THAT(desk.search(equal("status", "BUSY")), ElementsAre("navigation"));
+    EXPECT_THAT(hall.search(equal("status", "BUSY")), IsEmpty());
+}
+
+TEST(ComponentStatus, IsTheComponentsOwnUnlessBusy) {
+    World world{navigation};
+    auto desk = world.connect(), hall = world.connect();
+    for (auto status : {ComponentStatus::uninitialized, ComponentStatus::warning, ComponentStatus::error}) {
+        world["navigation"].status_now = status;
+        EXPECT_EQ(desk.status_of("navigation"), to_text(status));
+    }
+    hall.bind("navigation");
+    EXPECT_EQ(desk.status_of("navigation"), "BUSY");
+}
+
+TEST(Profile, ListsTheComponentsAndTheirEngines) {
+    World world{navigation, in_engine("sub1", speech), in_engine("sub1", navigation)};
+    auto desk = world.connect();
+    auto const reply = desk.ask(GetProfile{});
+    EXPECT_THAT(reply.profile->components, ElementsAre("navigation"));
+    ASSERT_EQ(reply.profile->sub_profiles.size(), 1U);
+    EXPECT_EQ(reply.profile->sub_profiles.front().object.name, "sub1");
+    EXPECT_THAT(reply.profile->sub_profiles.front().components, ElementsAre("sub1.speech", "sub1.navigation"));
+    ASSERT_EQ(reply.components.size(), 3U);
+    EXPECT_EQ(reply.components[0].type, "urn:x-rois:def:component:OMG::Navigation");
+    EXPECT_EQ(reply.components[2].ref, "sub1.speech");
+    EXPECT_EQ(reply.components[2].engine, "sub1");
+}
+
+TEST(Profile, ListsTheChosenComponentsOnly) {
+    World world{navigation, speech};
+    auto desk = world.connect();
+    auto const reply = desk.ask(GetProfile{equal("name", "speech")});
+    ASSERT_EQ(reply.components.size(), 1U);
+    EXPECT_EQ(reply.components.front().ref, "speech");
+    EXPECT_EQ(desk.ask(GetProfile{equal("colour", "red")}).return_code, ReturnCode::bad_parameter);
+}
+
+TEST(Profile, OfTwoComponentsWithOneNameIsRefusedAtTheStart) {
+    EXPECT_THROW((World{navigation, navigation}), std::runtime_error);
+}
+
+}  // namespace rois

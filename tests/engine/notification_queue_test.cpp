@@ -1,0 +1,200 @@
+// Decisions 22 and 23: numbers without gaps, holds, and what is dropped when nobody reads.
+#include <gmock/gmock.h>
+
+#include "engine/notification_queue.hpp"
+
+namespace rois {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+namespace {
+
+// A queue of at most four that wait and three that were sent; events are "e", commands "c", as in "2 e" or "5 lost 3".
+struct Queue : testing::Test {
+    NotificationQueue queue{4, 3};
+
+    void events(int count) {
+        while (count-- > 0) EXPECT_EQ(push(ReceiveEvent{}), NotificationQueue::Pushed::ok);
+    }
+    void completed(int count) {
+        while (count-- > 0) EXPECT_EQ(push(Completed{}), NotificationQueue::Pushed::ok);
+    }
+    NotificationQueue::Pushed push(Notification notification) {
+        return queue.push(std::make_shared<OutgoingNotification const>(std::move(notification)));
+    }
+    std::vector<std::string> read(std::uint64_t after, std::size_t most = 100) {
+        std::vector<std::string> words;
+        for (auto const& [sequence, notification] : queue.read(after, most)) {
+            auto const* lost = std::get_if<Lost>(&notification->body);
+            auto const event = std::holds_alternative<ReceiveEvent>(notification->body);
+            words.push_back(std::to_string(sequence) + (lost ? " lost " + std::to_string(lost->count) : event ? " e" : " c"));
+        }
+        return words;
+    }
+};
+
+}  // namespace
+
+TEST_F(Queue, NumbersFromOneWithoutGaps) {
+    EXPECT_FALSE(queue.has_after(0));
+    EXPECT_EQ(queue.last_sequence(), 0U);
+    events(2);
+    completed(1);
+    EXPECT_TRUE(queue.has_after(0));
+    EXPECT_THAT(read(0), ElementsAre("1 e", "2 e", "3 c"));
+    EXPECT_FALSE(queue.has_after(3));
+    EXPECT_EQ(queue.last_sequence(), 3U);
+}
+
+TEST_F(Queue, IsReadInPiecesAndAgain) {
+    events(4);
+    EXPECT_THAT(read(0, 2), ElementsAre("1 e", "2 e"));
+    EXPECT_THAT(read(2, 1), ElementsAre("3 e"));
+    EXPECT_THAT(read(0, 3), ElementsAre("1 e", "2 e", "3 e")) << "reading discards nothing";
+    EXPECT_THAT(read(3), ElementsAre("4 e"));
+    EXPECT_THAT(read(4), IsEmpty());
+    EXPECT_THAT(read(77), IsEmpty());
+}
+
+TEST_F(Queue, DropsTheOldestWaitingEventsAndCountsThem) {
+    events(6);
+    EXPECT_THAT(read(0), ElementsAre("2 lost 2", "3 e", "4 e", "5 e", "6 e"));
+    EXPECT_EQ(queue.lost(), 2U);
+}
+
+TEST_F(Queue, NeverDropsWhatMustBeTold) {
+    completed(1);
+    EXPECT_EQ(push(ReceiveError{}), NotificationQueue::Pushed::ok);
+    events(2);
+    completed(2);
+    EXPECT_THAT(read(0), ElementsAre("1 c", "2 c", "4 lost 2", "5 c", "6 c"));
+}
+
+TEST_F(Queue, OverflowsWhenOnlyThatFillsIt) {
+    completed(4);
+    EXPECT_EQ(push(ReceiveEvent{}), NotificationQueue::Pushed::overflow);
+    EXPECT_EQ(push(Completed{}), NotificationQueue::Pushed::overflow);
+    EXPECT_THAT(read(0), ElementsAre("1 c", "2 c", "3 c", "4 c"));
+    completed(1);
+    EXPECT_THAT(read(4), ElementsAre("5 c")) << "what was not taken has no number";
+}
+
+TEST_F(Queue, HasAGapForEachPlaceWhereSomethingIsMissing) {
+    events(1);
+    completed(1);
+    events(1);
+    completed(1);
+    events(2);
+    EXPECT_THAT(read(0), ElementsAre("1 lost 1", "2 c", "3 lost 1", "4 c", "5 e", "6 e"));
+}
+
+TEST_F(Queue, CountsOnlyWhatWaits) {
+    events(4);
+    read(0);
+    events(4);
+    EXPECT_EQ(queue.lost(), 0U);
+    EXPECT_THAT(read(4), ElementsAre("5 e", "6 e", "7 e", "8 e"));
+}
+
+TEST_F(Queue, KeepsWhatWasSentInARing) {
+    events(4);
+    read(0);
+    EXPECT_THAT(read(0), ElementsAre("1 lost 1", "2 e", "3 e", "4 e"));
+    EXPECT_THAT(read(1), ElementsAre("2 e", "3 e", "4 e"));
+    events(2);
+    read(4);
+    EXPECT_THAT(read(1), ElementsAre("3 lost 2", "4 e", "5 e", "6 e"));
+    EXPECT_THAT(read(0, 1), ElementsAre("3 lost 3"));
+    EXPECT_THAT(read(3, 1), ElementsAre("4 e"));
+}
+
+TEST_F(Queue, AnswersAPositionInsideAGapWithTheRestOfIt) {
+    events(8);
+    EXPECT_THAT(read(0), ElementsAre("4 lost 4", "5 e", "6 e", "7 e", "8 e"));
+    EXPECT_THAT(read(4), ElementsAre("5 lost 1", "6 e", "7 e", "8 e")) << "three of those that were sent are kept";
+    NotificationQueue other{4, 100};
+    std::swap(queue, other);
+    events(8);
+    read(0);
+    EXPECT_THAT(read(2), ElementsAre("4 lost 2", "5 e", "6 e", "7 e", "8 e"));
+    EXPECT_THAT(read(3, 1), ElementsAre("4 lost 1"));
+    EXPECT_THAT(read(4, 1), ElementsAre("5 e"));
+}
+
+TEST_F(Queue, AnswersAPositionBeforeAGapThatWasOnceLarger) {
+    events(7);  // 3 lost 3
+    read(0);    // sent: the gap, 4 and 5 are out of the ring by then
+    events(6);  // 9 lost 2
+    EXPECT_THAT(read(0), ElementsAre("4 lost 4", "5 e", "6 e", "7 e", "9 lost 2", "10 e", "11 e", "12 e", "13 e"));
+    EXPECT_THAT(read(5), ElementsAre("10 lost 5", "11 e", "12 e", "13 e"));
+}
+
+TEST_F(Queue, CountsAsSentWhatAReaderHasSkipped) {
+    events(4);
+    EXPECT_THAT(read(3), ElementsAre("4 e"));
+    events(4);
+    EXPECT_EQ(queue.lost(), 0U);
+}
+
+// --- Holds: an answer comes before what it causes ---
+
+TEST_F(Queue, ShowsNothingThatIsHeld) {
+    events(1);
+    auto const hold = queue.hold();
+    events(2);
+    EXPECT_TRUE(queue.has_after(0));
+    EXPECT_FALSE(queue.has_after(1));
+    EXPECT_THAT(read(0), ElementsAre("1 e"));
+    EXPECT_THAT(read(1), IsEmpty());
+    queue.release(hold);
+    EXPECT_THAT(read(1), ElementsAre("2 e", "3 e"));
+}
+
+TEST_F(Queue, IsHeldByTheOldestOfSeveralHolds) {
+    auto const first = queue.hold();
+    events(1);
+    auto const second = queue.hold();
+    events(1);
+    auto const third = queue.hold();
+    queue.release(second);
+    EXPECT_THAT(read(0), IsEmpty());
+    queue.release(first);
+    EXPECT_THAT(read(0), ElementsAre("1 e", "2 e"));
+    events(1);
+    EXPECT_THAT(read(2), IsEmpty());
+    queue.release(third);
+    EXPECT_THAT(read(2), ElementsAre("3 e"));
+}
+
+TEST_F(Queue, MayLoseWhatIsHeld) {
+    events(1);
+    auto const hold = queue.hold();
+    events(5);
+    EXPECT_THAT(read(0), IsEmpty()) << "the gap reaches beyond the hold";
+    EXPECT_THAT(read(1), IsEmpty());
+    queue.release(hold);
+    EXPECT_THAT(read(0), ElementsAre("2 lost 2", "3 e", "4 e", "5 e", "6 e"));
+}
+
+TEST_F(Queue, CanBeReadAfterItWasClosed) {
+    completed(1);
+    EXPECT_FALSE(queue.closed());
+    queue.close();
+    EXPECT_TRUE(queue.closed());
+    EXPECT_THAT(read(0), ElementsAre("1 c"));
+}
+
+TEST(OutgoingNotification, IsEncodedOnce) {
+    OutgoingNotification const notification{Completed{{"go"}, CompletedStatus::ok}};
+    int encoded = 0;
+    auto const encode = [&](Notification const& n) {
+        ++encoded;
+        return std::get<Completed>(n).command_id.text;
+    };
+    EXPECT_EQ(notification.text(encode), "go");
+    EXPECT_EQ(notification.text(encode), "go");
+    EXPECT_EQ(encoded, 1);
+}
+
+}  // namespace rois

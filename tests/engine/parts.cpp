@@ -1,0 +1,227 @@
+#include "parts.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace rois {
+
+namespace {
+
+std::string urn(std::string const& name) { return "urn:x-rois:def:component:OMG::" + name; }
+
+ParameterProfile parameter(std::string name, std::string type, std::optional<std::string> default_value = {}) {
+    return {.name = std::move(name),
+            .data_type_ref = {.code = std::move(type), .authority = {}, .codebook_ref = {}, .version = {}},
+            .default_value = std::move(default_value),
+            .description = {}};
+}
+
+using Parameters = std::vector<ParameterProfile>;
+
+MessageProfile command(std::string name, Parameters arguments = {}, Parameters results = {},
+                       std::optional<std::chrono::milliseconds> timeout = {}) {
+    return {.kind = MessageKind::command,
+            .name = std::move(name),
+            .results = std::move(results),
+            .arguments = std::move(arguments),
+            .timeout = timeout};
+}
+
+MessageProfile query(std::string name, Parameters results) {
+    return {.kind = MessageKind::query, .name = std::move(name), .results = std::move(results), .arguments = {}, .timeout = {}};
+}
+
+MessageProfile event(std::string name, Parameters results) {
+    return {.kind = MessageKind::event, .name = std::move(name), .results = std::move(results), .arguments = {}, .timeout = {}};
+}
+
+ComponentProfile profile(std::string const& name, std::vector<MessageProfile> messages, Parameters parameters = {}) {
+    return {.object = {.identifier = urn(name), .code_space = "urn:ietf:rfc:2141", .name = name, .description = {}},
+            .sub_components = {urn("RoISCommon")},
+            .messages = std::move(messages),
+            .parameters = std::move(parameters)};
+}
+
+ComponentProfile common_profile() {
+    auto whole = profile("RoISCommon", {command("start"), command("stop"), command("suspend"), command("resume"),
+                                        query("component_status", {parameter("status", "Component_Status")})});
+    whole.sub_components.clear();
+    return whole;
+}
+
+ComponentProfile navigation_profile() {
+    Parameters const parameters{parameter("target_position", "string[]"), parameter("time_limit", "int", "0"),
+                                parameter("routing_policy", "string", "time")};
+    return profile("Navigation",
+                   {command("set_parameter", {parameter("target_position", "string[]"), parameter("time_limit", "int"),
+                                              parameter("routing_policy", "string")}),
+                    command("dock", {parameter("side", "string")}, {parameter("charge", "int")}, std::chrono::milliseconds{500}),
+                    query("route", {parameter("length", "double")}),
+                    event("reached_target", {parameter("target", "string"), parameter("is_final_target", "bool")})},
+                   parameters);
+}
+
+ComponentProfile speech_profile() {
+    return profile("SpeechSynthesis", {command("start", {}, {}, std::chrono::seconds{2})},
+                   {parameter("speech_text", "string"), parameter("SSML_text", "string"), parameter("volume", "int", "50"),
+                    parameter("language", "string", "en")});
+}
+
+ComponentProfile detection_profile() {
+    return profile("PersonDetection",
+                   {event("person_detected", {parameter("timestamp", "DateTime"), parameter("number", "int")})});
+}
+
+ComponentProfile lamp_profile() {
+    return profile("Lamp", {},
+                   {parameter("count", "int"), parameter("ratio", "urn:x-rois:def:DataType:ATR::Real"), parameter("lit", "bool"),
+                    parameter("label", "string"), parameter("since", "DateTime"), parameter("owner", "RoISIdentifier"),
+                    parameter("counts", "int[]", "1 2"), parameter("labels", "string[]", "red green"),
+                    parameter("owners", "RoISIdentifier[]"), parameter("grammar", "string"), parameter("shade", "Shade")});
+}
+
+}  // namespace
+
+ComponentProfile const common = common_profile();
+Part const navigation{"navigation", navigation_profile(), OnStart::acts, {{"target_position"}}, CompletedStatus::abort, {}};
+Part const speech{"speech", speech_profile(), OnStart::acts, {{"speech_text", "SSML_text"}}, CompletedStatus::abort, {}};
+Part const detection{"detection", detection_profile(), OnStart::becomes_active, {}, CompletedStatus::abort, {}};
+Part const desk_lamp{"lamp", lamp_profile(), OnStart::is_done, {}, CompletedStatus::abort, {}};
+
+Part named(std::string ref, Part part) {
+    part.ref = std::move(ref);
+    return part;
+}
+
+Part in_engine(std::string engine, Part part) {
+    part.ref = engine + "." + part.ref;
+    part.engine = std::move(engine);
+    return part;
+}
+
+void Stage::advance(Instant) {
+    for (auto const& what : std::exchange(waiting_, {})) what();
+}
+
+ScriptedComponent::ScriptedComponent(Part const& part, std::function<void(std::function<void()>)> happen)
+    : on_start{part.on_start}, part_{part}, happen_{std::move(happen)} {
+    description_.ref = {.code = part.ref, .authority = "OMG", .codebook_ref = {}, .version = {}};
+    description_.engine = part.engine;
+    description_.profile = std::make_shared<ComponentProfile const>(part.profile);
+}
+
+void ScriptedComponent::called(std::string const& name) const {
+    if (!throws_in.contains(name)) return;
+    if (throws_no_exception) throw 42;
+    throw std::runtime_error(name + " went wrong");
+}
+
+void ScriptedComponent::begins() {
+    happen_([this] { port_->started(latest_); });
+}
+
+void ScriptedComponent::finishes(CompletedStatus status, Results results, Afterwards afterwards) {
+    happen_([this, status, results, afterwards] { port_->completed(latest_, status, results, afterwards); });
+}
+
+void ScriptedComponent::answers(CommandHandle command, CompletedStatus status) {
+    happen_([this, command, status] { port_->completed(command, status); });
+}
+
+void ScriptedComponent::fires(std::string const& event_type, ParameterList results) {
+    happen_([this, event_type, results] { port_->event(event_type, {results, {}}); });
+}
+
+void ScriptedComponent::reports(ErrorType type, std::string const& text) {
+    happen_([this, type, text] { port_->error(type, text); });
+}
+
+ComponentDescription const& ScriptedComponent::description() const {
+    called("description");
+    return description_;
+}
+
+ComponentStatus ScriptedComponent::status() const {
+    called("status");
+    return status_now;
+}
+
+std::optional<std::string> ScriptedComponent::refusal(std::string_view command_type, ParameterList const& parameters) const {
+    called("refusal");
+    if (command_type != "start") return {};
+    for (auto const& group : part_.mandatory)
+        if (std::ranges::none_of(group, [&](auto const& name) { return find(parameters, name) != nullptr; }))
+            return "the parameter " + group.front() + " is mandatory";
+    return {};
+}
+
+// The latest of a group of alternatives replaces the others.
+void ScriptedComponent::reconcile(ParameterList& stored, ParameterList const& arrived) const {
+    called("reconcile");
+    for (auto const& group : part_.mandatory)
+        for (auto const& name : group)
+            if (find(arrived, name) != nullptr)
+                std::erase_if(stored, [&](Parameter const& p) {
+                    return p.name != name && std::ranges::find(group, p.name) != group.end();
+                });
+}
+
+void ScriptedComponent::start(CommandHandle command, ParameterList const& parameters, Instant) {
+    told.emplace_back("start");
+    latest_ = command;
+    started_with = parameters;
+    called("start");
+    if (on_start == OnStart::stays_silent) return;
+    port_->started(command);
+    if (on_start == OnStart::becomes_active) port_->completed(command, CompletedStatus::ok, {}, Afterwards::active);
+    if (on_start == OnStart::is_done) port_->completed(command, CompletedStatus::ok);
+}
+
+void ScriptedComponent::halt(Instant) {
+    told.emplace_back("halt");
+    called("halt");
+}
+
+void ScriptedComponent::suspend(Instant) {
+    told.emplace_back("suspend");
+    called("suspend");
+}
+
+void ScriptedComponent::resume(Instant) {
+    told.emplace_back("resume");
+    called("resume");
+}
+
+void ScriptedComponent::parameters_changed(ParameterList const&, Instant) {
+    told.emplace_back("parameters_changed");
+    called("parameters_changed");
+}
+
+void ScriptedComponent::perform(CommandHandle command, std::string_view command_type, ParameterList const& arguments,
+                                Instant now) {
+    told.emplace_back(command_type);
+    latest_ = command;
+    started_with = arguments;
+    called("perform");
+    if (throws_in.contains("nothing performed")) Component::perform(command, command_type, arguments, now);
+}
+
+CompletedStatus ScriptedComponent::status_when_stopped() const {
+    called("status_when_stopped");
+    return part_.status_when_stopped;
+}
+
+ParameterList ScriptedComponent::readable_parameters() const {
+    called("readable_parameters");
+    if (part_.ref != speech.ref) return {};
+    return {texts("synthesizable_languages", {"en", "ja"})};
+}
+
+std::optional<Results> ScriptedComponent::query(std::string_view query_type, Instant now) {
+    called("query");
+    if (query_type != "route" || throws_in.contains("nothing known")) return Component::query(query_type, now);
+    return Results{{Parameter{"length", {"double", {}, {}, {}}, {"2.5"}}}, {}};
+}
+
+}  // namespace rois

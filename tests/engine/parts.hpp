@@ -1,0 +1,106 @@
+// The parts of the world that the engine's tests play in: components that do as the test says.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "engine/component.hpp"
+#include "engine/engine.hpp"
+#include "types/profiles.hpp"
+
+namespace rois {
+
+// Where things happen by themselves: what is put on it is done when the engine next advances its devices.
+class Stage final : public Device {
+public:
+    void put(std::function<void()> what) { waiting_.push_back(std::move(what)); }
+    void advance(Instant now) override;
+
+private:
+    std::vector<std::function<void()>> waiting_;
+};
+
+// What a component does when it is told to start.
+enum class OnStart : std::uint8_t {
+    acts,            // begins at once, and goes on until the test ends it
+    becomes_active,  // a continuous function: completes at once, and stays active
+    is_done,         // completes at once
+    stays_silent     // says nothing; the test may speak for it
+};
+
+// A component of the world, as it is before the engine has it.
+struct Part {
+    std::string ref;
+    ComponentProfile profile;
+    OnStart on_start = OnStart::acts;
+    std::vector<std::vector<std::string>> mandatory;  // of each group of alternatives, one value must be there to start
+    CompletedStatus status_when_stopped = CompletedStatus::abort;
+    std::string engine;  // of a sub engine
+};
+
+class ScriptedComponent final : public Component {
+public:
+    ScriptedComponent(Part const& part, std::function<void(std::function<void()>)> happen);
+
+    // The script: may be changed at any time.
+    OnStart on_start;
+    ComponentStatus status_now = ComponentStatus::ready;
+    std::set<std::string> throws_in;   // names of calls that an exception leaves
+    bool throws_no_exception = false;  // but something else
+    std::vector<std::string> told;     // the calls that reached it
+    ParameterList started_with;
+
+    // What it says by itself; the engine has heard it when the call returns.
+    void begins();
+    void finishes(CompletedStatus = CompletedStatus::ok, Results = {}, Afterwards = Afterwards::idle);
+    void answers(CommandHandle, CompletedStatus = CompletedStatus::ok);
+    void fires(std::string const& event_type, ParameterList results = {});
+    void reports(ErrorType, std::string const& text);
+    CommandHandle latest() const { return latest_; }  // the command that it was told last
+
+    ComponentDescription const& description() const override;
+    void attach(ComponentPort& port) override { port_ = &port; }
+    ComponentStatus status() const override;
+    std::optional<std::string> refusal(std::string_view command_type, ParameterList const& parameters) const override;
+    void reconcile(ParameterList& stored, ParameterList const& arrived) const override;
+    void start(CommandHandle, ParameterList const& parameters, Instant now) override;
+    void halt(Instant now) override;
+    void suspend(Instant now) override;
+    void resume(Instant now) override;
+    void parameters_changed(ParameterList const& parameters, Instant now) override;
+    void perform(CommandHandle, std::string_view command_type, ParameterList const& arguments, Instant now) override;
+    CompletedStatus status_when_stopped() const override;
+    ParameterList readable_parameters() const override;
+    std::optional<Results> query(std::string_view query_type, Instant now) override;
+
+private:
+    void called(std::string const& name) const;
+
+    Part part_;
+    ComponentDescription description_;
+    std::function<void(std::function<void()>)> happen_;
+    ComponentPort* port_ = nullptr;
+    CommandHandle latest_{};
+};
+
+// What nearly all profiles include.
+extern ComponentProfile const common;
+
+// Drives: target_position is mandatory; tells `reached_target`; has the command `dock` (side; within 500 ms; results charge) and
+// the query `route` (length).
+extern Part const navigation;
+// Speaks: speech_text or SSML_text, of which the later replaces the earlier; `start` within 2 s.
+extern Part const speech;
+// Detects people, continuously; has no parameters.
+extern Part const detection;
+// Has a parameter of each type.
+extern Part const desk_lamp;
+
+// The same part under another name; and of a sub engine.
+Part named(std::string ref, Part part);
+Part in_engine(std::string engine, Part part);
+
+}  // namespace rois

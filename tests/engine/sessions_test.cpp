@@ -1,0 +1,317 @@
+// Decisions 1 to 3: sessions begin, lose their link, and end.
+#include <gmock/gmock.h>
+
+#include "world.hpp"
+
+namespace rois {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+namespace {
+
+bool lives(World& world, Application const& application) { return world.engine->notifications(application.session) != nullptr; }
+
+}  // namespace
+
+TEST(Session, WithoutOneEverythingButConnectIsRefused) {
+    World world{navigation};
+    auto const bind = Operation{Bind{Application::identifier("navigation")}};
+    EXPECT_EQ(std::get<Refusal>(world.say({}, bind)), Refusal::no_session);
+    EXPECT_EQ(std::get<Refusal>(world.say({"made-up"}, Disconnect{})), Refusal::no_session);
+    EXPECT_EQ(std::get<Refusal>(world.say({}, Resume{{"made-up"}, 0})), Refusal::no_session);
+}
+
+TEST(Session, EndsWithDisconnect) {
+    World world{navigation};
+    auto desk = world.connect();
+    desk.leave();
+    EXPECT_EQ(desk.refusal_of(Search{}), Refusal::no_session);
+    EXPECT_EQ(desk.refusal_of(Disconnect{}), Refusal::no_session);
+    EXPECT_EQ(world.engine->statistics().sessions, 0U);
+}
+
+TEST(Session, ASecondConnectInsideChangesNothing) {
+    World world{navigation};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    auto const again = desk.ask(Connect{});
+    EXPECT_EQ(again.return_code, ReturnCode::ok);
+    EXPECT_EQ(again.session, desk.session);
+    EXPECT_EQ(world.engine->statistics().sessions, 1U);
+    EXPECT_EQ(desk.status_of("navigation"), "READY");
+}
+
+TEST(Session, ConnectWithAnEndedIdOpensANewOne) {
+    World world{navigation};
+    auto desk = world.connect();
+    desk.leave();
+    EXPECT_NE(desk.ask(Connect{}).session, desk.session);
+    EXPECT_EQ(world.engine->statistics().sessions, 1U);
+}
+
+TEST(Session, ThereAreNoMoreThanAllowed) {
+    EngineSettings settings;
+    settings.max_sessions = 2;
+    World world{{navigation}, settings};
+    auto desk = world.connect();
+    auto hall = world.connect();
+    EXPECT_EQ(std::get<Refusal>(world.say({}, Connect{})), Refusal::too_many_sessions);
+    EXPECT_EQ(desk.refusal_of(Connect{}), std::nullopt) << "inside a session nothing is opened";
+    hall.leave();
+    EXPECT_TRUE(std::holds_alternative<Reply>(world.say({}, Connect{})));
+}
+
+TEST(Session, DisconnectStopsWhatItStarted) {
+    World world{navigation, detection};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.bind("detection");
+    desk.execute(start("detection"));
+    desk.execute(go("go"), go("and on"));
+    desk.heard();
+    desk.leave();
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt")) << "a function that is active counts, too";
+    EXPECT_THAT(desk.heard(), ElementsAre("2 completed go ABORT", "3 completed and on ABORT"));
+    EXPECT_TRUE(desk.told_of_the_end());
+    auto hall = world.connect();
+    EXPECT_EQ(hall.bind("navigation"), ReturnCode::ok);
+    EXPECT_EQ(hall.bind("detection"), ReturnCode::ok);
+}
+
+TEST(Session, NothingIsToldAfterItsEnd) {
+    World world{navigation, detection};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.subscribe("person_detected");
+    desk.execute(go("go"), after(200ms, go("later")));
+    desk.leave();
+    desk.heard();
+    auto const notified = world.notified[desk.session];
+    world["detection"].fires("person_detected");
+    world["navigation"].finishes();
+    world.advance(10s);
+    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_EQ(world.notified[desk.session], notified);
+    EXPECT_EQ(world.engine->statistics().subscriptions, 0U);
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
+}
+
+TEST(Session, MayLetItsCommandsRunOn) {
+    EngineSettings settings;
+    settings.on_session_end = OnSessionEnd::continue_;
+    World world{{navigation, speech}, settings};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.bind("speech");
+    desk.execute(go("go"), say("say"));
+    desk.leave();
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start"));
+    world["navigation"].finishes();
+    EXPECT_THAT(world["speech"].told, ElementsAre("start"));
+    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_EQ(world.stray_answers(), 0U);
+}
+
+TEST(Session, WhatRunsOnDoesNotTakeAComponentFromItsNextSession) {
+    EngineSettings settings;
+    settings.on_session_end = OnSessionEnd::continue_;
+    World world{{navigation, speech}, settings};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.bind("speech");
+    desk.execute(go("go"), say("say"));
+    desk.leave();
+    auto hall = world.connect();
+    hall.bind("speech");
+    hall.execute(say("mine"));
+    world["navigation"].finishes();
+    EXPECT_THAT(world["speech"].told, ElementsAre("start"));
+    EXPECT_EQ(hall.result_of("mine"), "RUNNING");
+}
+
+// --- The link (decision 2) ---
+
+TEST(Link, AWebSocketThatClosesLeavesTheSessionTheResumeWindow) {
+    World world{navigation};
+    auto desk = world.connect_without_link();
+    world.engine->link_opened(desk.session);
+    world.advance(200s);
+    EXPECT_TRUE(lives(world, desk)) << "a silent WebSocket is a link";
+    world.engine->link_closed(desk.session, Link::websocket, world.now);
+    world.advance(29900ms);
+    EXPECT_TRUE(lives(world, desk));
+    world.advance(100ms);
+    EXPECT_FALSE(lives(world, desk));
+}
+
+TEST(Link, AClientThatBindsAndVanishesIsStoppedWithinTheWindow) {
+    World world{navigation};
+    auto desk = world.connect_without_link();
+    world.engine->link_opened(desk.session);
+    desk.bind("navigation");
+    desk.execute(go("go"));
+    world.engine->link_closed(desk.session, Link::websocket, world.now);
+    world.advance(29s);
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start"));
+    world.advance(1s);
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT"));
+    EXPECT_EQ(world.connect().bind("navigation"), ReturnCode::ok);
+}
+
+TEST(Link, ASessionThatIsResumedGoesOn) {
+    World world{navigation};
+    auto desk = world.connect_without_link();
+    world.engine->link_opened(desk.session);
+    world.engine->link_closed(desk.session, Link::websocket, world.now);
+    world.advance(29s);
+    EXPECT_EQ(desk.ask(Resume{desk.session, 0}).return_code, ReturnCode::ok);
+    world.engine->link_opened(desk.session);
+    world.advance(100s);
+    EXPECT_TRUE(lives(world, desk));
+    world.engine->link_closed(desk.session, Link::websocket, world.now);
+    world.advance(30s);
+    EXPECT_FALSE(lives(world, desk));
+    EXPECT_EQ(std::get<Refusal>(world.say({}, Resume{desk.session, 0})), Refusal::no_session);
+}
+
+TEST(Link, NobodyResumesFromWhatWasNeverTold) {
+    World world{navigation};
+    auto desk = world.connect_without_link();
+    desk.bind("navigation");
+    desk.set_parameter("navigation", {});
+    EXPECT_EQ(desk.ask(Resume{desk.session, 1}).return_code, ReturnCode::ok);
+    auto const refused = desk.ask(Resume{desk.session, 2});
+    EXPECT_EQ(refused.return_code, ReturnCode::bad_parameter);
+    EXPECT_THAT(refused.reason, testing::HasSubstr("last_sequence"));
+}
+
+TEST(Link, HttpMayBeSilentForTheSessionTimeoutAndTheWindow) {
+    World world{navigation};
+    auto desk = world.connect_without_link();
+    world.engine->heard_from(desk.session, world.now);
+    world.advance(80s);
+    world.engine->heard_from(desk.session, world.now);
+    world.advance(89900ms);
+    EXPECT_TRUE(lives(world, desk));
+    world.advance(100ms);
+    EXPECT_FALSE(lives(world, desk));
+}
+
+TEST(Link, AConnectThatNobodyFollowsUpEnds) {
+    World world{navigation};
+    auto desk = world.connect_without_link();
+    world.advance(29900ms);
+    EXPECT_TRUE(lives(world, desk));
+    world.advance(100ms);
+    EXPECT_FALSE(lives(world, desk));
+}
+
+TEST(Link, AStreamThatClosesLeavesTheSessionTimeoutToo) {
+    World world{navigation};
+    auto desk = world.connect_without_link();
+    world.engine->link_opened(desk.session);
+    world.advance(300s);
+    world.engine->link_closed(desk.session, Link::stream, world.now);
+    world.advance(89900ms);
+    EXPECT_TRUE(lives(world, desk));
+    world.advance(100ms);
+    EXPECT_FALSE(lives(world, desk));
+}
+
+TEST(Link, OneOfSeveralIsEnough) {
+    World world{navigation};
+    auto desk = world.connect_without_link();
+    world.engine->link_opened(desk.session);
+    world.engine->link_opened(desk.session);
+    world.engine->link_closed(desk.session, Link::websocket, world.now);
+    world.advance(300s);
+    EXPECT_TRUE(lives(world, desk));
+    world.engine->link_closed(desk.session, Link::websocket, world.now);
+    world.advance(30s);
+    EXPECT_FALSE(lives(world, desk));
+}
+
+TEST(Link, HttpBesideAWebSocketCounts) {
+    World world{navigation};
+    auto desk = world.connect_without_link();
+    world.engine->link_opened(desk.session);
+    world.engine->heard_from(desk.session, world.now);
+    world.engine->link_closed(desk.session, Link::websocket, world.now);
+    world.advance(89950ms);
+    EXPECT_TRUE(lives(world, desk));
+    world.advance(50ms);
+    EXPECT_FALSE(lives(world, desk));
+}
+
+TEST(Link, ManyShortPollsDoNotShortenIt) {
+    World world{navigation};
+    auto desk = world.connect_without_link();
+    for (int poll = 0; poll < 200; ++poll) {
+        world.engine->link_opened(desk.session);
+        world.engine->link_closed(desk.session, Link::stream, world.now);
+        world.advance(1s);
+    }
+    EXPECT_TRUE(lives(world, desk));
+    world.advance(88950ms);
+    EXPECT_TRUE(lives(world, desk));
+    world.advance(50ms);
+    EXPECT_FALSE(lives(world, desk));
+}
+
+TEST(Link, ThatOfAnUnknownSessionIsNothing) {
+    World world{navigation};
+    world.engine->heard_from({"made-up"}, world.now);
+    world.engine->link_opened({"made-up"});
+    world.engine->link_closed({"made-up"}, Link::stream, world.now);
+    world.engine->end({"made-up"}, world.now);
+    EXPECT_EQ(world.engine->statistics().sessions, 0U);
+}
+
+// --- The engine's end ---
+
+TEST(ShutDown, EndsAllSessionsAndRefusesNewOnes) {
+    World world{navigation, speech};
+    auto desk = world.connect();
+    auto hall = world.connect();
+    desk.bind("navigation");
+    hall.bind("speech");
+    desk.execute(go("go"));
+    hall.execute(say("say"));
+    world.engine->shut_down(world.now);
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT"));
+    EXPECT_THAT(hall.heard(), ElementsAre("1 completed say ABORT"));
+    EXPECT_TRUE(desk.told_of_the_end());
+    EXPECT_TRUE(hall.told_of_the_end());
+    EXPECT_EQ(desk.refusal_of(Search{}), Refusal::shutting_down);
+    EXPECT_EQ(std::get<Refusal>(world.say({}, Connect{})), Refusal::shutting_down);
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
+}
+
+TEST(ShutDown, StopsAlsoWhatWasLeftToRunOn) {
+    EngineSettings settings;
+    settings.on_session_end = OnSessionEnd::continue_;
+    World world{{navigation, detection}, settings};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.bind("detection");
+    desk.execute(start("detection"), go("go"), go("and on"));
+    desk.leave();
+    world.engine->shut_down(world.now);
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt"));
+}
+
+TEST(ShutDown, AnEngineMayGoWhileItsCommandsRun) {
+    World world{navigation};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.execute(go("go"), after(1h, go("later")));
+    world.engine.reset();  // a sanitizer that looks for leaks sees whether all of it went
+    EXPECT_THAT(desk.heard(), IsEmpty());
+}
+
+}  // namespace rois

@@ -1,0 +1,77 @@
+// The clock jumps a day: nothing fires early or late (bad-input.md); documents show the new time.
+#include <gmock/gmock.h>
+
+#include "world.hpp"
+
+namespace rois {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+namespace {
+
+// Whichever way somebody sets the calendar.
+struct Calendar : testing::TestWithParam<std::chrono::hours> {
+    World world{navigation, speech, detection};
+    Application desk = world.connect();
+
+    Calendar() { desk.bind("navigation"); }
+    void jump() {
+        world.set_calendar(GetParam());
+        world.engine->tick(world.now);
+    }
+};
+
+}  // namespace
+
+TEST_P(Calendar, MovesNoDelay) {
+    desk.execute(after(1s, go("go")));
+    jump();
+    world.advance(950ms);
+    EXPECT_EQ(desk.result_of("go"), "WAITING");
+    world.advance(50ms);
+    EXPECT_EQ(desk.result_of("go"), "RUNNING");
+}
+
+TEST_P(Calendar, MovesNoTimeout) {
+    world["navigation"].on_start = OnStart::stays_silent;
+    desk.execute(go("go"));
+    jump();
+    world.advance(4950ms);
+    EXPECT_THAT(desk.heard(), IsEmpty());
+    world.advance(50ms);
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go TIMEOUT", "2 COMPONENT_NOT_RESPONDING navigation"));
+}
+
+TEST_P(Calendar, EndsNoSessionAndForgetsNothing) {
+    desk.subscribe("person_detected");
+    world["detection"].fires("person_detected");
+    desk.heard();
+    auto const event = desk.last_heard<ReceiveEvent>().event_id;
+    desk.execute(named("stop", stop("navigation")));
+    auto silent = world.connect_without_link();
+    jump();
+    world.advance(29950ms);
+    EXPECT_EQ(desk.detail_of(event).return_code, ReturnCode::ok);
+    EXPECT_EQ(desk.result_of("stop"), "OK");
+    EXPECT_EQ(silent.refusal_of(Search{}), std::nullopt);
+    world.advance(50ms);
+    EXPECT_EQ(silent.refusal_of(Search{}), Refusal::no_session);
+    world.advance(30s);
+    EXPECT_EQ(desk.detail_of(event).return_code, ReturnCode::bad_parameter);
+}
+
+TEST_P(Calendar, IsWhatDocumentsShow) {
+    auto const before = world.now.utc;
+    jump();
+    world["navigation"].reports(ErrorType::user_defined_error, "late");
+    desk.heard();
+    auto const detail = desk.detail_of(desk.last_heard<ReceiveError>().error_id);
+    EXPECT_EQ(find(detail.results.parameters, "time")->values.front(), to_text(before + GetParam()));
+}
+
+INSTANTIATE_TEST_SUITE_P(ADay, Calendar, testing::Values(24h, -24h),
+                         [](auto const& set) { return set.param > 0h ? "Forth" : "Back"; });
+
+}  // namespace rois

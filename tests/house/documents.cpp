@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <regex>
+
+#include "house/rules.hpp"
+#include "house/text.hpp"
+
+namespace rois::house {
+
+namespace {
+
+constexpr std::ptrdiff_t longest_file = 500;  // lines
+
+constexpr auto dependencies = "docs/dependencies.md";
+
+bool is_document(std::string_view file) {
+    if (file == "README.md" || file == "ARCHITECTURE.md" || file == "CONTRIBUTING.md") return true;
+    return file.starts_with("docs/") && file.ends_with(".md") && file.find('/', 5) == file.npos;
+}
+
+bool exists(Tree const& tree, std::string path) {
+    while (path.ends_with('/')) path.pop_back();
+    if (path.empty() || path == "." || tree.contains(path)) return true;
+    auto const inside = tree.lower_bound(path + "/");
+    return inside != tree.end() && inside->first.starts_with(path + "/");
+}
+
+// The file that a link in `document` leads to; none when it leads out of the project or stays on the page.
+std::optional<std::string> target(std::string const& document, std::string link) {
+    link = link.substr(0, link.find('#'));
+    if (link.empty() || link.find("://") != link.npos || link.starts_with("mailto:")) return {};
+    return (std::filesystem::path(document).parent_path() / link).lexically_normal().generic_string();
+}
+
+// The targets of `[text](target "title")` and `[label]: target` in a line that is no example.
+std::vector<std::string> links(std::string const& line) {
+    static std::regex const code("`[^`]*`");
+    static std::regex const link(R"re(\]\(\s*<?([^)\s>]+)[^)]*\)|^\s*\[[^\]]+\]:\s*<?([^\s>]+))re");
+    auto const prose = std::regex_replace(line, code, "");
+    std::vector<std::string> found;
+    for (std::sregex_iterator at(prose.begin(), prose.end(), link), end; at != end; ++at)
+        found.push_back((*at)[1].matched ? (*at)[1] : (*at)[2]);
+    return found;
+}
+
+void judge_name(Tree const& tree, std::string const& where, std::string const& name, Complaints& complaints) {
+    auto const document = tree.find(dependencies);
+    if (document == tree.end() || document->second.find("`" + name + "`") == std::string::npos)
+        complaints.push_back(where + dependencies + " does not name `" + name + "`");
+}
+
+}  // namespace
+
+Complaints against_short_files(Tree const& tree) {
+    Complaints complaints;
+    for (auto const& [file, text] : tree) {
+        auto const lines = std::ranges::count(text, '\n');
+        if (is_cpp(file) && lines > longest_file)
+            complaints.push_back(at(file, longest_file + 1) + "has " + std::to_string(lines) + " lines, more than " +
+                                 std::to_string(longest_file));
+    }
+    return complaints;
+}
+
+Complaints against_links(Tree const& tree) {
+    Complaints complaints;
+    for (auto const& [file, text] : tree) {
+        if (!is_document(file)) continue;
+        bool example = false;
+        for_each_line(text, [&](std::string const& line, std::size_t number) {
+            if (line.find("```") != line.npos) example = !example;
+            if (example) return;
+            for (auto const& link : links(line))
+                if (auto const path = target(file, link); path && !exists(tree, *path))
+                    complaints.push_back(at(file, number) + link + " leads nowhere");
+        });
+    }
+    return complaints;
+}
+
+Complaints against_named_dependencies(Tree const& tree) {
+    static std::regex const found_by_cmake(R"re(^\s*find_package\(\s*([^\s)]+).*)re");
+    static std::regex const installed_by_dev(R"re(^(?:build|test|check)\s+([a-z0-9][a-z0-9.+-]+)\s+\S.*)re");
+    Complaints complaints;
+    for (auto const& [file, text] : tree) {
+        bool const by_cmake = file == "CMakeLists.txt" || file.ends_with("/CMakeLists.txt") || file.ends_with(".cmake");
+        if (!by_cmake && file != "dev") continue;
+        for_each_line(text, [&](std::string const& line, std::size_t number) {
+            std::smatch match;
+            if (std::regex_match(line, match, by_cmake ? found_by_cmake : installed_by_dev))
+                judge_name(tree, at(file, number), match[1], complaints);
+        });
+    }
+    return complaints;
+}
+
+}  // namespace rois::house

@@ -1,0 +1,44 @@
+// The project itself keeps the rules of the house.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "house/rules.hpp"
+
+namespace rois::house {
+
+namespace {
+
+// One complaint a line.
+std::string list(Complaints const& complaints) {
+    std::string text;
+    for (auto const& complaint : complaints) text += complaint + "\n";
+    return text;
+}
+
+bool has_folder(Tree const& tree, std::string const& folder) {
+    return std::ranges::any_of(tree, [&](auto const& file) { return file.first.starts_with(folder); });
+}
+
+}  // namespace
+
+struct House : testing::Test {
+    static void SetUpTestSuite() { tree = read_tree(ROIS_SOURCE_DIR); }
+    static inline Tree tree;
+};
+
+TEST_F(House, IsReadWhole) {
+    EXPECT_TRUE(tree.contains("server/types/ids.hpp"));
+    EXPECT_TRUE(tree.contains("dev"));
+    EXPECT_TRUE(tree.contains(".ci/run"));
+    EXPECT_FALSE(has_folder(tree, ".git/"));
+    EXPECT_FALSE(has_folder(tree, "build/"));
+}
+
+TEST_F(House, KeepsItsLayers) { EXPECT_EQ(list(against_layers(tree)), ""); }
+TEST_F(House, ReadsNoClockBelowTheNetwork) { EXPECT_EQ(list(against_passed_in_time(tree)), ""); }
+TEST_F(House, HasShortFiles) { EXPECT_EQ(list(against_short_files(tree)), ""); }
+TEST_F(House, HasLinksThatLeadSomewhere) { EXPECT_EQ(list(against_links(tree)), ""); }
+TEST_F(House, NamesItsDependencies) { EXPECT_EQ(list(against_named_dependencies(tree)), ""); }
+
+}  // namespace rois::house

@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <regex>
+#include <set>
+
+#include "house/rules.hpp"
+#include "house/text.hpp"
+
+namespace rois::house {
+
+namespace {
+
+using Headers = std::vector<std::string>;  // how the names of headers begin
+
+Headers const xerces{"xercesc/"};
+Headers const pugixml{"pugixml.hpp", "pugiconfig.hpp"};
+Headers const boost{"boost/"};
+Headers const openssl{"openssl/"};
+Headers const prometheus{"prometheus/"};
+Headers const spdlog{"spdlog/"};
+Headers const eigen{"Eigen/"};
+Headers const cli11{"CLI/"};
+Headers const json{"nlohmann/"};
+Headers const posix{"arpa/",     "errno.h", "fcntl.h",  "netdb.h", "netinet/", "poll.h",
+                    "pthread.h", "sched.h", "signal.h", "sys/",    "time.h",   "unistd.h"};
+
+// What other layers may see through the headers of the one that uses it: vectors and poses are the simulation's vocabulary.
+Headers const shown{eigen};
+
+enum class Time { read, passed_in };
+
+struct Layer {
+    std::string folder;
+    Headers uses;                    // the project's headers that it may include
+    std::vector<Headers> libraries;  // the C++ standard library is everybody's
+    Time time;
+};
+
+// The arrows of ARCHITECTURE.md. A folder with C++ files that has no row here is a mistake, too.
+std::vector<Layer> const layers{
+    {"server/types/", {"types/"}, {}, Time::passed_in},
+    {"server/xml/", {"xml/", "types/"}, {xerces, pugixml}, Time::passed_in},
+    {"server/engine/", {"engine/", "types/"}, {}, Time::passed_in},
+    {"server/files/", {"files/"}, {}, Time::passed_in},
+    {"server/net/", {"net/", "engine/", "xml/", "types/"}, {boost, openssl, prometheus, spdlog, posix}, Time::read},
+    {"server/main/",
+     {"main/", "net/", "engine/", "xml/", "types/", "files/", "simulation/"},
+     {cli11, json, spdlog, posix},
+     Time::read},
+    {"components/simulation/",
+     {"simulation/", "engine/", "types/", "xml/document.hpp", "xml/schemas.hpp"},
+     {eigen},
+     Time::passed_in},
+};
+
+std::array<std::string, 2> const include_folders{"server/", "components/"};
+std::array<std::string, 3> const layered_folders{"server/", "components/", "client-cpp/"};
+
+struct Include {
+    std::string name;
+    std::size_t line;
+    enum { of_the_project, of_a_library } from;
+};
+
+std::vector<Include> includes(std::string_view text) {
+    static std::regex const directive(R"re(\s*#\s*include\s*([<"])([^>"]+)[>"].*)re");
+    std::vector<Include> found;
+    for_each_line(text, [&](std::string const& line, std::size_t number) {
+        std::smatch match;
+        if (line.find("include") != line.npos && std::regex_match(line, match, directive))
+            found.push_back({match[2], number, match[1] == "\"" ? Include::of_the_project : Include::of_a_library});
+    });
+    return found;
+}
+
+bool is_one_of(Headers const& headers, std::string_view name) {
+    return std::ranges::any_of(headers, [&](auto const& beginning) { return name.starts_with(beginning); });
+}
+
+bool is_of_the_standard_library(std::string_view header) { return header.find_first_of("./") == header.npos; }
+
+bool may_see(Layer const& layer, std::string_view header) {
+    return is_of_the_standard_library(header) ||
+           std::ranges::any_of(layer.libraries, [&](Headers const& library) { return is_one_of(library, header); });
+}
+
+Layer const* layer_of(std::string_view file) {
+    auto const found = std::ranges::find_if(layers, [&](Layer const& layer) { return file.starts_with(layer.folder); });
+    return found == layers.end() ? nullptr : &*found;
+}
+
+std::optional<std::string> file_of(Tree const& tree, std::string const& header) {
+    for (auto const& folder : include_folders)
+        if (tree.contains(folder + header)) return folder + header;
+    return {};
+}
+
+// The libraries' headers that including `file` brings along, each with the file that includes it.
+std::map<std::string, std::string> brought_along(Tree const& tree, std::string const& file) {
+    std::map<std::string, std::string> brought;
+    std::set<std::string> seen{file};
+    std::vector<std::string> todo{file};
+    while (!todo.empty()) {
+        auto const here = todo.back();
+        todo.pop_back();
+        for (auto const& include : includes(tree.at(here))) {
+            if (include.from == Include::of_a_library) {
+                brought.try_emplace(include.name, here);
+            } else if (auto const next = file_of(tree, include.name); next && seen.insert(*next).second) {
+                todo.push_back(*next);
+            }
+        }
+    }
+    return brought;
+}
+
+void judge_own(Tree const& tree, std::string const& file, Layer const& layer, Include const& include, Complaints& complaints) {
+    auto const header = file_of(tree, include.name);
+    if (!header) {
+        complaints.push_back(at(file, include.line) + "\"" + include.name + "\" is no file under server/ or components/");
+        return;
+    }
+    if (!is_one_of(layer.uses, include.name)) {
+        complaints.push_back(at(file, include.line) + layer.folder + " may not use \"" + include.name + "\"");
+        return;
+    }
+    if (header->starts_with(layer.folder)) return;
+    for (auto const& [library, through] : brought_along(tree, *header))
+        if (!may_see(layer, library) && !is_one_of(shown, library))
+            complaints.push_back(at(file, include.line) + layer.folder + " may not see <" + library + "> through " + through);
+}
+
+}  // namespace
+
+Complaints against_layers(Tree const& tree) {
+    Complaints complaints;
+    for (auto const& [file, text] : tree) {
+        if (!is_cpp(file) || std::ranges::none_of(layered_folders, [&](auto const& folder) { return file.starts_with(folder); }))
+            continue;
+        auto const* const layer = layer_of(file);
+        if (!layer) {
+            complaints.push_back(at(file, 1) + "this folder is in no layer: tests/house/layers.cpp lists them");
+            continue;
+        }
+        for (auto const& include : includes(text)) {
+            if (include.from == Include::of_the_project) {
+                judge_own(tree, file, *layer, include, complaints);
+            } else if (!may_see(*layer, include.name)) {
+                complaints.push_back(at(file, include.line) + layer->folder + " may not see <" + include.name + ">");
+            }
+        }
+    }
+    return complaints;
+}
+
+Complaints against_passed_in_time(Tree const& tree) {
+    static std::regex const reading(
+        R"re(::\s*now\b(?!\s*\(\s*\)\s*const)|\btime\s*\(\s*(nullptr|NULL|0|&)|\b(clock_gettime|gettimeofday|sleep_for|sleep_until|random_device)\b)re");
+    Complaints complaints;
+    for (auto const& [file, text] : tree) {
+        auto const* const layer = layer_of(file);
+        if (!is_cpp(file) || !layer || layer->time == Time::read) continue;
+        for_each_line(code_alone(text), [&](std::string const& line, std::size_t number) {
+            std::smatch match;
+            if (std::regex_search(line, match, reading))
+                complaints.push_back(at(file, number) + "time and chance are passed to " + layer->folder +
+                                     ", not read: " + match.str());
+        });
+    }
+    return complaints;
+}
+
+}  // namespace rois::house

@@ -1,0 +1,152 @@
+// Each rule is broken on purpose, and says where.
+#include <gmock/gmock.h>
+
+#include "house/rules.hpp"
+#include "house/text.hpp"
+
+namespace rois::house {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TEST(Layers, PointDown) {
+    Tree const tree{
+        {"server/types/ids.hpp", "#include <string>\n"},
+        {"server/xml/codec.hpp", "#include \"types/ids.hpp\"\n"},
+        {"server/xml/codec.cpp", "#include \"xml/codec.hpp\"\n#include <pugixml.hpp>\n#include <xercesc/sax2/X.hpp>\n"},
+        {"server/net/web.cpp", "#include \"xml/codec.hpp\"\n#include <boost/asio.hpp>\n#include <sys/socket.h>\n"},
+        {"components/simulation/hall.cpp", "#include <Eigen/Core>\n#include \"types/ids.hpp\"\n"}};
+    EXPECT_THAT(against_layers(tree), IsEmpty());
+}
+
+TEST(Layers, AnArrowThatPointsUpIsSeen) {
+    Tree const tree{{"server/types/ids.hpp", "// ids\n#include \"xml/codec.hpp\"\n"},
+                    {"server/engine/engine.cpp", "#  include \"net/web.hpp\"\n"},
+                    {"server/net/web.hpp", ""},
+                    {"server/xml/codec.hpp", ""}};
+    EXPECT_THAT(against_layers(tree), ElementsAre("server/engine/engine.cpp:1: server/engine/ may not use \"net/web.hpp\"",
+                                                  "server/types/ids.hpp:2: server/types/ may not use \"xml/codec.hpp\""));
+}
+
+TEST(Layers, SiblingsDoNotKnowEachOther) {
+    Tree const tree{{"server/engine/engine.cpp", "#include \"xml/codec.hpp\"\n"},
+                    {"server/xml/codec.hpp", "#include \"engine/engine.hpp\"\n"},
+                    {"server/engine/engine.hpp", ""},
+                    {"components/simulation/hall.cpp", "#include \"xml/codec.hpp\"\n#include \"xml/document.hpp\"\n"},
+                    {"server/xml/document.hpp", ""}};
+    EXPECT_THAT(against_layers(tree),
+                ElementsAre("components/simulation/hall.cpp:1: components/simulation/ may not use \"xml/codec.hpp\"",
+                            "server/engine/engine.cpp:1: server/engine/ may not use \"xml/codec.hpp\"",
+                            "server/xml/codec.hpp:1: server/xml/ may not use \"engine/engine.hpp\""));
+}
+
+TEST(Layers, ALibraryBelongsToOneLayer) {
+    Tree const tree{{"server/engine/engine.cpp", "#include <vector>\n#include <boost/asio.hpp>\n"},
+                    {"server/types/ids.hpp", "#include <unistd.h>\n"},
+                    {"server/main/main.cpp", "#include <CLI/CLI.hpp>\n#include <Eigen/Core>\n"}};
+    EXPECT_THAT(against_layers(tree), ElementsAre("server/engine/engine.cpp:2: server/engine/ may not see <boost/asio.hpp>",
+                                                  "server/main/main.cpp:2: server/main/ may not see <Eigen/Core>",
+                                                  "server/types/ids.hpp:1: server/types/ may not see <unistd.h>"));
+}
+
+TEST(Layers, ALibraryDoesNotShineThroughAHeader) {
+    Tree const tree{{"server/main/main.cpp", "#include \"net/web.hpp\"\n"},
+                    {"server/net/web.hpp", "#include \"net/socket.hpp\"\n"},
+                    {"server/net/web.cpp", "#include \"net/web.hpp\"\n"},
+                    {"server/net/socket.hpp", "#include <boost/asio.hpp>\n"}};
+    EXPECT_THAT(against_layers(tree),
+                ElementsAre("server/main/main.cpp:1: server/main/ may not see <boost/asio.hpp> through server/net/socket.hpp"));
+}
+
+TEST(Layers, PosesMayShineThrough) {
+    Tree const tree{{"server/main/main.cpp", "#include \"simulation/pose.hpp\"\n"},
+                    {"components/simulation/pose.hpp", "#include <Eigen/Geometry>\n"}};
+    EXPECT_THAT(against_layers(tree), IsEmpty());
+}
+
+TEST(Layers, EveryFolderIsInOne) {
+    Tree const tree{{"server/gossip/rumour.cpp", ""}, {"client-cpp/client.hpp", ""}, {"tests/engine/engine_test.cpp", ""}};
+    EXPECT_THAT(against_layers(tree),
+                ElementsAre("client-cpp/client.hpp:1: this folder is in no layer: tests/house/layers.cpp lists them",
+                            "server/gossip/rumour.cpp:1: this folder is in no layer: tests/house/layers.cpp lists them"));
+}
+
+TEST(Layers, AnIncludeThatIsNoFileIsSeen) {
+    Tree const tree{{"server/types/ids.cpp", "#include \"ids.hpp\"\n"}, {"server/types/ids.hpp", ""}};
+    EXPECT_THAT(against_layers(tree), ElementsAre("server/types/ids.cpp:1: \"ids.hpp\" is no file under server/ or components/"));
+}
+
+TEST(PassedInTime, IsReadByTheNetworkAndMainAlone) {
+    auto const reading = "auto t = std::chrono::steady_clock::now();\n";
+    Tree const tree{{"server/engine/engine.cpp", reading}, {"server/net/web.cpp", reading}, {"server/main/main.cpp", reading}};
+    EXPECT_THAT(against_passed_in_time(tree),
+                ElementsAre("server/engine/engine.cpp:1: time and chance are passed to server/engine/, not read: ::now"));
+}
+
+TEST(PassedInTime, HasManyDoors) {
+    Tree const tree{{"components/simulation/hall.cpp",
+                     "std::time(nullptr);\n"
+                     "Steady::clock :: now();\n"
+                     "std::this_thread::sleep_for(1s);\n"
+                     "std::random_device chance;\n"
+                     "clock_gettime(CLOCK_MONOTONIC, &t);\n"
+                     "auto const read = &std::chrono::steady_clock::now;\n"
+                     "WorldTime Hall::now() const { return now >= time(leg) ? now : runtime(0); }\n"}};
+    EXPECT_EQ(against_passed_in_time(tree).size(), 6U);
+}
+
+TEST(PassedInTime, MayBeSpokenOf) {
+    Tree const tree{{"server/types/instant.hpp",
+                     "// nobody calls steady_clock::now() here\n"
+                     "/* nor\n system_clock::now() */ auto text = \"::now\" R\"x(::now\n\")x\";\n"
+                     "auto million = 1'000'000; auto quote = '\"'; auto tick = '\\'';\n"}};
+    EXPECT_THAT(against_passed_in_time(tree), IsEmpty());
+}
+
+TEST(CodeAlone, KeepsItsLinesAndItsCode) {
+    EXPECT_EQ(code_alone("a // b\nc \"d\\\"e\" f\n/* g\nh */ i"), "a     \nc        f\n    \n     i");
+    EXPECT_EQ(code_alone("1'000 R\"(x\ny)\" z"), "1'000     \n    z");
+}
+
+TEST(ShortFiles, EndAtFiveHundredLines) {
+    auto const lines = [](std::size_t number) {
+        std::string text;
+        while (number-- > 0) text += "\n";
+        return text;
+    };
+    Tree const tree{{"server/a.cpp", lines(501)}, {"tests/b.hpp", lines(500)}, {"docs/c.md", lines(900)}};
+    EXPECT_THAT(against_short_files(tree), ElementsAre("server/a.cpp:501: has 501 lines, more than 500"));
+}
+
+TEST(Links, LeadToFilesAndFolders) {
+    Tree const tree{
+        {"README.md", "[a](docs/a.md#part) [b](docs/) ![c](./docs/a.md \"c\") [d](#here) [e](https://rois.example/x)\n"},
+        {"docs/a.md", "[up](../README.md)\n`[no](link)`\n```\n[no](link)\n```\n"},
+        {"server/notes.md", "[not](judged)\n"}};
+    EXPECT_THAT(against_links(tree), IsEmpty());
+}
+
+TEST(Links, ThatLeadNowhereAreSeen) {
+    Tree const tree{{"ARCHITECTURE.md", "text\n[a](docs/a.md), [b](docs/b.md)\n"},
+                    {"CONTRIBUTING.md", "[c]: docs/c.md\n"},
+                    {"docs/a.md", "```\n[no](link)\n```\n[d](docs/a.md)\n"}};
+    EXPECT_THAT(against_links(tree),
+                ElementsAre("ARCHITECTURE.md:2: docs/b.md leads nowhere", "CONTRIBUTING.md:1: docs/c.md leads nowhere",
+                            "docs/a.md:4: docs/a.md leads nowhere"));
+}
+
+TEST(Dependencies, AreNamedByTheDocument) {
+    Tree const tree{{"CMakeLists.txt", "find_package(Boost 1.81 REQUIRED)\nfind_package(Magic)\n"},
+                    {"server/CMakeLists.txt", "    find_package(spdlog REQUIRED)\n"},
+                    {"dev", "packages='\nbuild  g++       compiles\ntest   libmagic-dev  conjures\n'\n"},
+                    {"docs/dependencies.md", "| `Boost` | `spdlog` | `g++` |\n"}};
+    EXPECT_THAT(against_named_dependencies(tree), ElementsAre("CMakeLists.txt:2: docs/dependencies.md does not name `Magic`",
+                                                              "dev:3: docs/dependencies.md does not name `libmagic-dev`"));
+}
+
+TEST(Dependencies, NeedTheDocument) {
+    EXPECT_THAT(against_named_dependencies({{"CMakeLists.txt", "find_package(Boost)\n"}}),
+                ElementsAre("CMakeLists.txt:1: docs/dependencies.md does not name `Boost`"));
+}
+
+}  // namespace rois::house

@@ -1,0 +1,126 @@
+#include "server/gateway_process.hpp"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace rois::test {
+
+namespace {
+
+constexpr auto program = ROIS_BINARY_DIR "/bin/rois-gateway";
+
+struct Pipe {
+    std::array<int, 2> ends{-1, -1};
+    Pipe() {
+        if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error{"no pipe"};
+    }
+};
+
+pid_t start(std::vector<std::string> const& arguments, Variables const& variables, int out, int error) {
+    std::vector<char*> argv{const_cast<char*>(program)};
+    for (auto const& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    auto const process = fork();
+    if (process < 0) throw std::runtime_error{"cannot fork"};
+    if (process > 0) return process;
+    for (auto const& [name, value] : variables) setenv(name.c_str(), value.c_str(), 1);
+    if (out >= 0) dup2(out, STDOUT_FILENO);
+    dup2(error, STDERR_FILENO);
+    execv(program, argv.data());
+    _exit(127);
+}
+
+// Appends what comes; false at the end.
+bool read_some(int from, std::string& text) {
+    std::array<char, 4096> buffer;
+    auto const size = read(from, buffer.data(), buffer.size());
+    if (size <= 0) return false;
+    text.append(buffer.data(), static_cast<std::size_t>(size));
+    return true;
+}
+
+std::string read_all(int from) {
+    std::string text;
+    while (read_some(from, text)) {
+    }
+    close(from);
+    return text;
+}
+
+int exit_code(pid_t process) {
+    int status = 0;
+    waitpid(process, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+}  // namespace
+
+Ended run_gateway(std::vector<std::string> const& arguments, Variables const& variables) {
+    Pipe out, error;
+    auto const process = start(arguments, variables, out.ends[1], error.ends[1]);
+    close(out.ends[1]);
+    close(error.ends[1]);
+    Ended ended;
+    ended.error = read_all(error.ends[0]);  // a line or two, never as much as a pipe holds
+    ended.out = read_all(out.ends[0]);
+    ended.exit_code = exit_code(process);
+    return ended;
+}
+
+GatewayProcess::GatewayProcess(std::vector<std::string> arguments, Variables const& variables) {
+    if (std::ranges::find(arguments, "--listen") == arguments.end()) {
+        arguments.insert(arguments.end(), {"--listen", "127.0.0.1:0"});
+    }
+    Pipe error;
+    process_ = start(arguments, variables, -1, error.ends[1]);
+    close(error.ends[1]);
+    errors_ = error.ends[0];
+    static std::string const mark = "listening on ";
+    auto const listening = [&] {
+        auto const at = log_.find(mark);
+        return at != std::string::npos && log_.find_first_of("\"\n", at) != std::string::npos;
+    };
+    while (!listening()) {
+        if (read_some(errors_, log_)) continue;
+        exit_code(process_);
+        process_ = 0;
+        throw std::runtime_error{"the gateway does not listen: " + log_};
+    }
+    auto const begin = log_.find(mark) + mark.size();
+    url_ = log_.substr(begin, log_.find_first_of("\"\n", begin) - begin);
+    port_ = static_cast<std::uint16_t>(std::stoi(url_.substr(url_.rfind(':') + 1)));
+}
+
+GatewayProcess::~GatewayProcess() {
+    if (process_ > 0) {
+        signal(SIGTERM);
+        wait();
+    }
+}
+
+void GatewayProcess::signal(int number) { kill(process_, number); }
+
+Ended GatewayProcess::wait() {
+    while (read_some(errors_, log_)) {
+    }
+    close(errors_);
+    Ended ended;
+    ended.exit_code = exit_code(process_);
+    ended.error = log_;
+    process_ = 0;
+    return ended;
+}
+
+GatewayProcess& shared_gateway() {
+    static GatewayProcess gateway;
+    return gateway;
+}
+
+}  // namespace rois::test

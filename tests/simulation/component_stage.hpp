@@ -1,0 +1,250 @@
+// A hall with one or two robots whose components are operated as the engine does it, on a clock that is stepped by hand.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "simulation/robot_components.hpp"
+#include "types/texts.hpp"
+
+namespace rois::simulation {
+
+// Told by a component: an event, or how a command went.
+struct Told {
+    std::string what;  // the event's type, or "started", or "completed OK"
+    Results results;   // of an event
+    WorldTime at{};
+};
+
+// One component with its port. It keeps the parameters as the engine does.
+class Operated final : public ComponentPort {
+public:
+    Operated(std::unique_ptr<Component> component, std::function<Instant()> now, std::function<WorldTime()> world_now)
+        : component_{std::move(component)}, now_{std::move(now)}, world_now_{std::move(world_now)} {
+        component_->attach(*this);
+    }
+
+    Component& component() { return *component_; }
+
+    // Why the command is refused with these parameters put over those stored.
+    std::optional<std::string> refusal(std::string const& command_type, ParameterList const& arrived) const {
+        return component_->refusal(command_type, merged(arrived));
+    }
+
+    void set_parameter(ParameterList const& arrived) {
+        stored_ = merged(arrived);
+        component_->parameters_changed(stored_, now_());
+    }
+
+    void start(ParameterList const& arrived = {}) {
+        if (runs_) component_->halt(now_());
+        stored_ = merged(arrived);
+        runs_ = true;
+        component_->start(CommandHandle{++last_}, stored_, now_());
+    }
+
+    void stop() {
+        component_->halt(now_());
+        runs_ = false;
+    }
+    void suspend() { component_->suspend(now_()); }
+    void resume() { component_->resume(now_()); }
+    Results query(std::string_view type) { return component_->query(type, now_()).value_or(Results{}); }
+    ParameterList const& stored() const { return stored_; }
+
+    // How the last `start` ended, if it did.
+    std::optional<std::string> ended() const {
+        for (auto told = log_.rbegin(); told != log_.rend() && told->what != "started"; ++told)
+            if (told->what.starts_with("completed")) return told->what.substr(std::string{"completed "}.size());
+        return {};
+    }
+
+    std::vector<Told> const& log() const { return log_; }
+    std::vector<std::string> words() const {
+        std::vector<std::string> all;
+        for (auto const& told : log_) all.push_back(told.what);
+        return all;
+    }
+    std::vector<Told> events(std::string_view type) const {
+        std::vector<Told> found;
+        for (auto const& told : log_)
+            if (told.what == type) found.push_back(told);
+        return found;
+    }
+    void forget() { log_.clear(); }
+
+    void started(CommandHandle) override { tell("started", {}); }
+    void completed(CommandHandle command, CompletedStatus status, Results, Afterwards afterwards) override {
+        EXPECT_EQ(static_cast<std::uint64_t>(command), last_);
+        runs_ = afterwards == Afterwards::active;
+        tell("completed " + std::string{to_text(status)} + (runs_ ? ", active" : ""), {});
+    }
+    void event(std::string_view type, Results results) override { tell(std::string{type}, std::move(results)); }
+    void error(ErrorType, std::string text) override { tell("error " + text, {}); }
+
+private:
+    ParameterList merged(ParameterList const& arrived) const {
+        ParameterList all = stored_;
+        for (auto const& parameter : arrived) {
+            std::erase_if(all, [&](Parameter const& p) { return p.name == parameter.name; });
+            all.push_back(parameter);
+        }
+        component_->reconcile(all, arrived);
+        return all;
+    }
+    void tell(std::string what, Results results) { log_.push_back({std::move(what), std::move(results), world_now_()}); }
+
+    std::unique_ptr<Component> component_;
+    std::function<Instant()> now_;
+    std::function<WorldTime()> world_now_;
+    ParameterList stored_;
+    std::uint64_t last_ = 0;
+    bool runs_ = false;
+    std::vector<Told> log_;
+};
+
+// 12 m by 8 m. The robot stands at (2, 4) and looks along x, to the entrance at (11, 4); a wall closes the upper right corner
+// off.
+inline FloorPlan reception() {
+    FloorPlan plan;
+    plan.name = "reception";
+    plan.bounds = {Point{0, 0}, Point{12, 8}};
+    plan.walls = {{Point{8, 8}, Point{8, 6}}, {Point{8, 6}, Point{12, 6}}};
+    plan.places = {{"entrance", {Point{11, 4}, from_degrees(180)}},
+                   {"exit", {Point{11, 1}, 0}},
+                   {"desk", {Point{3, 2}, from_degrees(90)}},
+                   {"start", {Point{2, 4}, 0}}};
+    RobotPlan robot;
+    robot.name = "robot";
+    robot.start = {Point{2, 4}, 0};
+    plan.robots = {robot};
+    return plan;
+}
+
+inline FloorPlan reception_with_two_robots() {
+    FloorPlan plan = reception();
+    RobotPlan second = plan.robots.front();
+    second.name = "robot2";
+    second.start = {Point{2, 6}, 0};
+    plan.robots.push_back(second);
+    return plan;
+}
+
+inline std::vector<ComponentProfile> bare_profiles() {
+    std::vector<ComponentProfile> profiles;
+    for (auto name : {"SystemInformation", "PersonDetection", "PersonLocalization", "PersonIdentification", "FaceDetection",
+                      "FaceLocalization", "SoundDetection", "SoundLocalization", "SpeechRecognition", "GestureRecognition",
+                      "SpeechSynthesis", "Reaction", "Navigation", "Follow", "Move"}) {
+        ComponentProfile profile;
+        profile.object.identifier = "urn:x-rois:def:Component:omg::" + std::string{name};
+        profiles.push_back(std::move(profile));
+    }
+    return profiles;
+}
+
+// An identifier that has a code only.
+inline Identifier coded(std::string code) {
+    return {.code = std::move(code), .authority = {}, .codebook_ref = {}, .version = {}};
+}
+
+// A list of numbers as it is written: "1000 90".
+inline Parameter integers(std::string name, std::string numbers) {
+    return {std::move(name), coded("int[]"), {std::move(numbers)}};
+}
+
+// A visitor's doings, in order.
+inline Whereabouts at(double x, double y) { return {Point{x, y}}; }
+inline Whereabouts at(std::string name) { return {std::move(name)}; }
+template <class Doing>
+ScriptedAction does(Doing doing, std::optional<Seconds> when = {}) {
+    return {std::move(doing), when};
+}
+
+inline Role visitor(std::string id, std::vector<ScriptedAction> actions, Seconds enters = 0) {
+    Role role;
+    role.id = std::move(id);
+    role.language = "en";
+    role.enters = enters;
+    role.actions = std::move(actions);
+    return role;
+}
+
+inline Role known(Role role) {
+    role.known = true;
+    return role;
+}
+
+class Stage {
+public:
+    explicit Stage(std::vector<Role> roles = {}, FloorPlan plan = reception()) {
+        Scenario scenario;
+        scenario.name = "test";
+        scenario.roles = std::move(roles);
+        simulation_ = std::make_shared<Simulation>(std::move(plan), std::move(scenario), 7, 1.0);
+        for (auto& component : robot_components(simulation_, bare_profiles())) {
+            std::string const ref = component->description().ref.code;
+            operated_.emplace(ref, std::make_unique<Operated>(
+                                       std::move(component), [this] { return now_; }, [this] { return hall().now(); }));
+        }
+    }
+
+    Operated& operator[](std::string const& ref) { return *operated_.at(ref); }
+    std::vector<std::string> refs() const {
+        std::vector<std::string> all;
+        for (auto const& [ref, operated] : operated_) all.push_back(ref);
+        return all;
+    }
+    Hall& hall() { return simulation_->hall(); }
+    Robot const& robot_state(std::uint32_t index = 0) { return hall().robot(RobotId{index}); }
+    Pose robot(std::uint32_t index = 0) { return robot_state(index).pose; }
+    Instant now() const { return now_; }
+
+    void step() {
+        now_ = now_ + Hall::step_length;
+        simulation_->step(now_);
+    }
+    void run(Seconds seconds) {
+        for (auto const end = hall().now() + world_time(seconds); hall().now() < end;) step();
+    }
+    // Whether it came about.
+    bool run_until(std::function<bool()> const& come_about, Seconds at_most = 60) {
+        for (auto const end = hall().now() + world_time(at_most); hall().now() < end;) {
+            if (come_about()) return true;
+            step();
+        }
+        return come_about();
+    }
+    // How the component's last `start` ended, waited for.
+    std::string outcome(std::string const& ref, Seconds at_most = 60) {
+        run_until([&] { return (*this)[ref].ended().has_value(); }, at_most);
+        return (*this)[ref].ended().value_or("not ended");
+    }
+
+private:
+    std::shared_ptr<Simulation> simulation_;
+    Instant now_{Steady{}, Utc{std::chrono::seconds{1'800'000'000}}};
+    std::map<std::string, std::unique_ptr<Operated>, std::less<>> operated_;
+};
+
+// What a test reads out of results.
+inline std::string value(Results const& results, std::string_view name) {
+    auto const* parameter = find(results.parameters, name);
+    return parameter == nullptr || parameter->values.empty() ? "none" : parameter->values.front();
+}
+inline std::vector<std::string> values(Results const& results, std::string_view name) {
+    auto const* parameter = find(results.parameters, name);
+    return parameter == nullptr ? std::vector<std::string>{"none"} : parameter->values;
+}
+inline std::string codebook_of(Results const& results, std::string_view name) {
+    auto const* parameter = find(results.parameters, name);
+    return parameter == nullptr ? "none" : parameter->data_type_ref.codebook_ref;
+}
+
+}  // namespace rois::simulation

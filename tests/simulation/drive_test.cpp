@@ -1,0 +1,266 @@
+#include "simulation/drive.hpp"
+
+#include "world_stage.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rois::simulation {
+namespace {
+
+// Somebody who stands at a point for a long time.
+Role standing_at(Point const& p) { return tanaka({{Walk{{p}}, {}}, {Wait{3'600}, {}}}); }
+
+TEST(Drive, GoesToAPositionAndTurnsAsWanted) {
+    Hall hall{plain_hall(), nobody(), 1};
+    auto const go = hall.drive(robot1).begin("navigation", GoTo{{{Point{6, 2}, from_degrees(90)}}});
+    ASSERT_TRUE(go);
+    EXPECT_EQ(state(hall, robot1, *go), MotionState::moving);
+    ASSERT_TRUE(runs_until(hall, 30, [&] { return over(state(hall, robot1, *go)); }));
+    EXPECT_EQ(state(hall, robot1, *go), MotionState::arrived);
+    EXPECT_LT(distance(hall.robot(robot1).pose.position, Point{6, 2}), 0.05);
+    EXPECT_NEAR(hall.robot(robot1).pose.heading, from_degrees(90), from_degrees(2));
+}
+
+TEST(Drive, CountsTheTargetsThatItReaches) {
+    Hall hall{plain_hall(), nobody(), 1};
+    auto const go = hall.drive(robot1).begin("navigation", GoTo{{{Point{4, 4}, {}}, {Point{4, 2}, {}}, {Point{2, 2}, {}}}});
+    for (std::size_t reached = 1; reached <= 3; ++reached)
+        ASSERT_TRUE(runs_until(hall, 30, [&] { return hall.drive(robot1).progress(*go).targets_reached == reached; }));
+    ASSERT_TRUE(runs_until(hall, 5, [&] { return state(hall, robot1, *go) == MotionState::arrived; }));
+}
+
+TEST(Drive, KeepsItsLimits) {
+    Hall hall{divided_hall(), nobody(), 1};
+    Drive& drive = hall.drive(robot1);
+    auto const go = drive.begin("navigation", GoTo{{{Point{8, 2}, from_degrees(0)}}});
+    Twist before;
+    MetresPerSecond fastest = 0;
+    ASSERT_TRUE(runs_until(hall, 60, [&] {
+        Twist const now = drive.twist();
+        EXPECT_LE(std::abs(now.linear - before.linear), drive.plan().max_acceleration * 0.02 + 1e-9);
+        EXPECT_LE(std::abs(now.angular - before.angular), drive.plan().max_turn_acceleration * 0.02 + 1e-9);
+        EXPECT_LE(std::abs(now.linear), drive.plan().max_speed + 1e-9);
+        EXPECT_LE(std::abs(now.angular), drive.plan().max_turn_rate + 1e-9);
+        EXPECT_GE(hall.plan().clearance(drive.pose().position), drive.plan().radius);
+        fastest = std::max(fastest, now.linear);
+        before = now;
+        return over(state(hall, robot1, *go));
+    }));
+    EXPECT_EQ(state(hall, robot1, *go), MotionState::arrived);
+    EXPECT_GT(fastest, 0.85) << "it uses what it has";
+}
+
+TEST(Drive, ATargetInAWallIsUnreachableAndTheRobotStays) {
+    Hall hall{divided_hall(), nobody(), 1};
+    auto const go = hall.drive(robot1).begin("navigation", GoTo{{{Point{5, 3}, {}}}});
+    hall.step();
+    EXPECT_EQ(state(hall, robot1, *go), MotionState::unreachable);
+    run(hall, 2);
+    EXPECT_EQ(hall.robot(robot1).pose.position, Point(2, 4));
+}
+
+TEST(Drive, HasOneOwnerAtATime) {
+    Hall hall{plain_hall(), nobody(), 1};
+    Drive& drive = hall.drive(robot1);
+    EXPECT_EQ(drive.owner(), "");
+    EXPECT_FALSE(drive.current());
+    auto const first = drive.begin("navigation", GoTo{{{Point{8, 4}, {}}}});
+    EXPECT_EQ(drive.owner(), "navigation");
+    EXPECT_FALSE(drive.begin("move", Line{0.5, 0})) << "busy";
+    auto const second = drive.begin("navigation", GoTo{{{Point{4, 4}, {}}}});
+    ASSERT_TRUE(second);
+    EXPECT_EQ(state(hall, robot1, *first), MotionState::ended);
+    drive.stop(*first);
+    EXPECT_EQ(drive.owner(), "navigation") << "an old motion stops nothing";
+    drive.stop(*second);
+    EXPECT_EQ(drive.owner(), "");
+    EXPECT_TRUE(drive.begin("move", Line{0.5, 0}));
+}
+
+TEST(Drive, BrakesWithinItsLimitsWhenStopped) {
+    Hall hall{plain_hall(), nobody(), 1};
+    Drive& drive = hall.drive(robot1);
+    auto const line = drive.begin("move", Line{5, 0});
+    run(hall, 3);
+    MetresPerSecond const speed = drive.twist().linear;
+    ASSERT_GT(speed, 0.8);
+    Point const there = drive.pose().position;
+    drive.stop(*line);
+    run(hall, 3);
+    EXPECT_EQ(drive.twist().linear, 0);
+    EXPECT_NEAR(distance(there, drive.pose().position), speed * speed / (2 * drive.plan().max_acceleration), 0.02);
+}
+
+TEST(Drive, HoldsAndGoesOn) {
+    Hall hall{plain_hall(), nobody(), 1};
+    Drive& drive = hall.drive(robot1);
+    auto const line = drive.begin("move", Line{3, 0});
+    run(hall, 1.5);
+    drive.hold(*line);
+    EXPECT_EQ(state(hall, robot1, *line), MotionState::held);
+    run(hall, 5);
+    Point const held = drive.pose().position;
+    EXPECT_EQ(drive.twist().linear, 0);
+    EXPECT_LT(held.x(), 4);
+    drive.go_on(*line);
+    ASSERT_TRUE(runs_until(hall, 10, [&] { return state(hall, robot1, *line) == MotionState::arrived; }));
+    EXPECT_NEAR(drive.pose().position.x(), 5, 0.02);
+}
+
+TEST(Drive, ALineIsADistanceAndThenATurn) {
+    Hall hall{plain_hall(), nobody(), 1};
+    auto const line = hall.drive(robot1).begin("move", Line{-1, from_degrees(-270)});
+    Radians turned = 0, before = 0;
+    ASSERT_TRUE(runs_until(hall, 20, [&] {
+        Radians const heading = hall.robot(robot1).pose.heading;
+        turned += wrapped(heading - before);
+        before = heading;
+        return over(state(hall, robot1, *line));
+    }));
+    EXPECT_EQ(state(hall, robot1, *line), MotionState::arrived);
+    EXPECT_LT(distance(hall.robot(robot1).pose.position, Point{1, 4}), 0.02);
+    EXPECT_NEAR(to_degrees(turned), -270, 1.5);
+}
+
+TEST(Drive, ALineIntoAWallIsNotEvenBegun) {
+    Hall hall{plain_hall(), nobody(), 1};
+    auto const line = hall.drive(robot1).begin("move", Line{-1.8, 0});
+    run(hall, 1);
+    EXPECT_EQ(state(hall, robot1, *line), MotionState::unreachable);
+    EXPECT_EQ(hall.robot(robot1).pose.position, Point(2, 4));
+}
+
+struct CurveCase {
+    Curve curve;
+    Pose end;
+};
+class Curves : public testing::TestWithParam<CurveCase> {};
+TEST_P(Curves, EndWhereTheCircleSays) {
+    Hall hall{plain_hall(), nobody(), 1};
+    auto const curve = hall.drive(robot1).begin("move", GetParam().curve);
+    ASSERT_TRUE(runs_until(hall, 30, [&] { return over(state(hall, robot1, *curve)); }));
+    EXPECT_EQ(state(hall, robot1, *curve), MotionState::arrived);
+    Pose const pose = hall.robot(robot1).pose;
+    EXPECT_LT(distance(pose.position, GetParam().end.position), 0.03) << pose.position.transpose();
+    EXPECT_NEAR(wrapped(pose.heading - GetParam().end.heading), 0, from_degrees(2));
+}
+INSTANTIATE_TEST_SUITE_P(
+    All, Curves,
+    testing::Values(CurveCase{{1, from_degrees(90), {}}, {Point{3, 5}, from_degrees(90)}},
+                    CurveCase{{1, from_degrees(-90), {}}, {Point{3, 3}, from_degrees(-90)}},
+                    CurveCase{{-1, from_degrees(90), {}}, {Point{1, 3}, from_degrees(90)}},
+                    CurveCase{{-1, from_degrees(-90), {}}, {Point{1, 5}, from_degrees(-90)}},
+                    CurveCase{{0, from_degrees(120), {}}, {Point{2, 4}, from_degrees(120)}},
+                    CurveCase{{1, from_degrees(720), {}}, {Point{2, 4}, 0}}));
+
+TEST(Drive, ACurveThroughAWallIsNotBegun) {
+    Hall hall{plain_hall(), nobody(), 1};
+    auto const curve = hall.drive(robot1).begin("move", Curve{4, from_degrees(180)});
+    run(hall, 1);
+    EXPECT_EQ(state(hall, robot1, *curve), MotionState::unreachable);
+    EXPECT_EQ(hall.robot(robot1).pose.position, Point(2, 4));
+}
+
+TEST(Drive, MotionsTakeTheTimeThatIsAskedFor) {
+    for (Motion const& motion : {Motion{Line{2, from_degrees(90), 12.0}}, Motion{Line{0, from_degrees(90), 8.0}},
+                                 Motion{Curve{1, from_degrees(90), 10.0}}, Motion{Curve{0, from_degrees(90), 6.0}}}) {
+        Hall hall{plain_hall(), nobody(), 1};
+        auto const id = hall.drive(robot1).begin("move", motion);
+        ASSERT_TRUE(runs_until(hall, 60, [&] { return over(state(hall, robot1, *id)); }));
+        Seconds const wanted = std::visit(
+            [](auto const& kind) {
+                if constexpr (requires { kind.duration; }) return *kind.duration;
+                return 0.0;
+            },
+            motion);
+        EXPECT_NEAR(in_seconds(hall.now()), wanted, wanted * 0.1 + 0.3) << motion.index();
+    }
+}
+
+TEST(Drive, StopsBeforeSomebodyAndGoesOnWhenTheyHaveGone) {
+    Role role = tanaka({{Walk{{Point{6, 4}}}, {}}, {Ignore{}, {}}, {Wait{40}, {}}, {Leave{}, {}}});
+    Hall hall{plain_hall(), only(role), 1};
+    ASSERT_TRUE(runs_until(hall, 20, [&] { return !hall.people().empty() && hall.people()[0].pose.position.x() < 6.2; }));
+    auto const line = hall.drive(robot1).begin("move", Line{6, 0});
+    ASSERT_TRUE(runs_until(hall, 20, [&] { return state(hall, robot1, *line) == MotionState::obstructed; }));
+    Metres const gap = distance(hall.robot(robot1).pose.position, hall.people()[0].pose.position) - person_radius - 0.28;
+    EXPECT_GT(gap, 0.05);
+    EXPECT_LT(gap, 0.25);
+    ASSERT_TRUE(runs_until(hall, 90, [&] { return state(hall, robot1, *line) == MotionState::arrived; }));
+    EXPECT_NEAR(hall.robot(robot1).pose.position.x(), 8, 0.03);
+}
+
+TEST(Drive, GoesAroundSomebodyWhoStandsInTheWay) {
+    Hall hall{plain_hall(), only(standing_at(Point{5, 4})), 1};
+    run(hall, 10);
+    auto const go = hall.drive(robot1).begin("navigation", GoTo{{{Point{8, 4}, {}}}});
+    Metres nearest = 9;
+    ASSERT_TRUE(runs_until(hall, 40, [&] {
+        nearest = std::min(nearest, distance(hall.robot(robot1).pose.position, hall.people()[0].pose.position));
+        return over(state(hall, robot1, *go));
+    }));
+    EXPECT_EQ(state(hall, robot1, *go), MotionState::arrived);
+    EXPECT_GT(nearest, 0.28 + person_radius);
+}
+
+TEST(Drive, ATargetWhereSomebodyStandsIsReachedAtAPoliteDistanceFacingThem) {
+    Hall hall{plain_hall(), only(standing_at(Point{6, 5})), 1};
+    run(hall, 10);
+    auto const go = hall.drive(robot1).begin("navigation", GoTo{{{Point{6.1, 4.95}, 0}}});
+    ASSERT_TRUE(runs_until(hall, 40, [&] { return over(state(hall, robot1, *go)); }));
+    EXPECT_EQ(state(hall, robot1, *go), MotionState::arrived);
+    Person const& person = hall.people()[0];
+    EXPECT_NEAR(distance(hall.robot(robot1).pose.position, person.pose.position), polite_distance, 0.1);
+    EXPECT_NEAR(bearing(hall.robot(robot1).pose, person.pose.position), 0, from_degrees(5));
+}
+
+TEST(Drive, FollowsSomebodyAtADistance) {
+    Role role = tanaka({{Walk{{Point{5, 4}}}, {}}, {Wait{20}, {}}, {Walk{{Point{5, 1}}}, {}}, {Wait{20}, {}}, {Leave{}, {}}});
+    Hall hall{plain_hall(), only(role), 1};
+    run(hall, 6);
+    PersonId const whom = hall.people()[0].id;
+    auto const follow = hall.drive(robot1).begin("follow", KeepDistance{whom, 1.2});
+    Metres nearest = 9;
+    auto watch = [&](Seconds duration) {
+        runs_until(hall, duration, [&] {
+            if (Person const* person = hall.person(whom))
+                nearest = std::min(nearest, distance(person->pose.position, hall.robot(robot1).pose.position));
+            return false;
+        });
+    };
+    watch(12);
+    EXPECT_NEAR(distance(hall.person(whom)->pose.position, hall.robot(robot1).pose.position), 1.2, 0.27);
+    EXPECT_NEAR(bearing(hall.robot(robot1).pose, hall.person(whom)->pose.position), 0, from_degrees(6));
+    ASSERT_TRUE(runs_until(hall, 60, [&] { return hall.person(whom)->pose.position.y() < 1.3; })) << "the visitor goes on";
+    watch(10);
+    EXPECT_NEAR(distance(hall.person(whom)->pose.position, hall.robot(robot1).pose.position), 1.2, 0.27);
+    EXPECT_EQ(state(hall, robot1, *follow), MotionState::moving) << "following is never done by itself";
+    EXPECT_GT(nearest, 0.9);
+    ASSERT_TRUE(runs_until(hall, 120, [&] { return over(state(hall, robot1, *follow)); }));
+    EXPECT_EQ(state(hall, robot1, *follow), MotionState::lost) << "the visitor has left";
+}
+
+TEST(Drive, TwoRobotsMeetingHeadOnPassEachOther) {
+    Hall hall{hall_with_two_robots(), nobody(), 1};
+    auto const to_right = hall.drive(robot1).begin("navigation", GoTo{{{Point{8, 4}, {}}}});
+    auto const to_left = hall.drive(robot2).begin("navigation", GoTo{{{Point{2, 4}, {}}}});
+    Metres nearest = 9;
+    ASSERT_TRUE(runs_until(hall, 90, [&] {
+        nearest = std::min(nearest, distance(hall.robot(robot1).pose.position, hall.robot(robot2).pose.position));
+        return over(state(hall, robot1, *to_right)) && over(state(hall, robot2, *to_left));
+    }));
+    EXPECT_EQ(state(hall, robot1, *to_right), MotionState::arrived);
+    EXPECT_EQ(state(hall, robot2, *to_left), MotionState::arrived);
+    EXPECT_GT(nearest, 0.56);
+}
+
+TEST(Drive, OneRobotFollowsTheOther) {
+    Hall hall{hall_with_two_robots(), nobody(), 1};
+    hall.drive(robot2).begin("follow", KeepDistance{robot1, 1.5});
+    hall.drive(robot1).begin("navigation", GoTo{{{Point{2, 1}, {}}}});
+    run(hall, 25);
+    EXPECT_NEAR(distance(hall.robot(robot1).pose.position, hall.robot(robot2).pose.position), 1.5, 0.27);
+}
+
+}  // namespace
+}  // namespace rois::simulation

@@ -1,0 +1,103 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "simulation/component_stage.hpp"
+
+namespace rois::simulation {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Parameter whom(std::string ref) { return reference("target_object_ref", std::move(ref)); }
+
+Role walker() {
+    return visitor("guest",
+                   {does(Walk{at(6, 4)}), does(Face{at("robot")}), does(Wait{12}), does(Walk{at(6, 1)}), does(Wait{1000})});
+}
+
+TEST(Follow, KeepsItsDistanceUntilItIsStopped) {
+    Stage stage{{walker()}};
+    stage.run(6);
+    stage["follow"].start({whom("person-1"), integer("distance", 1500)});
+    stage.run(40);
+    EXPECT_THAT(stage["follow"].words(), ElementsAre("started"));
+    EXPECT_NEAR(distance(stage.robot().position, Point{6, 1}), 1.5, 0.4);
+    EXPECT_EQ(stage["follow"].component().status_when_stopped(), CompletedStatus::ok);
+    stage["follow"].stop();
+    EXPECT_THAT(stage["follow"].words(), ElementsAre("started"));
+}
+
+TEST(Follow, TakesThePermanentIdOfWhomTheRobotHasIdentified) {
+    Stage stage{{known(visitor(
+        "tanaka", {does(Walk{at(4, 4)}), does(Face{at("robot")}), does(Wait{10}), does(Walk{at(8, 2)}), does(Wait{1000})}))}};
+    stage["person_identification"].start();
+    ASSERT_TRUE(stage.run_until([&] { return !stage["person_identification"].events("person_identified").empty(); }, 20));
+    stage["follow"].start({whom("tanaka"), integer("distance", 1000)});
+    stage.run(40);
+    EXPECT_THAT(stage["follow"].words(), ElementsAre("started"));
+    EXPECT_NEAR(distance(stage.robot().position, Point{8, 2}), 1.0, 0.4);
+}
+
+TEST(Follow, TakesAnotherRobot) {
+    Stage stage{{}, reception_with_two_robots()};
+    stage["follow"].start({whom("robot2"), integer("distance", 1000)});
+    stage["robot2.navigation"].start({texts("target_position", {"7000, 4000"})});
+    EXPECT_EQ(stage.outcome("robot2.navigation"), "OK");
+    stage.run(10);
+    EXPECT_NEAR(distance(stage.robot(0).position, stage.robot(1).position), 1.0, 0.4);
+}
+
+TEST(Follow, FailsAfterAWhileWhenTheTargetIsUnknown) {
+    Stage stage;
+    stage["follow"].start({whom("person-9"), integer("distance", 1000)});
+    EXPECT_THAT(stage["follow"].words(), ElementsAre("started"));
+    EXPECT_EQ(stage.outcome("follow", 10), "ERROR");
+    EXPECT_NEAR(in_seconds(stage.hall().now()), 5, 0.1);
+}
+
+TEST(Follow, FailsWhenTheTargetHasLeft) {
+    Stage stage{{visitor("guest", {does(Walk{at(6, 4)}), does(Wait{3}), does(Leave{})})}};
+    stage.run(6);
+    stage["follow"].start({whom("person-1"), integer("distance", 1000)});
+    EXPECT_EQ(stage.outcome("follow", 60), "ERROR");
+}
+
+TEST(Follow, KeepsItsTimeLimit) {
+    Stage stage{{walker()}};
+    stage.run(6);
+    stage["follow"].start({whom("person-1"), integer("distance", 1000), integer("time_limit", 3000)});
+    auto const begun = stage.hall().now();
+    EXPECT_EQ(stage.outcome("follow"), "TIMEOUT");
+    EXPECT_NEAR(in_seconds(stage.hall().now() - begun), 3, 0.05);
+}
+
+TEST(Follow, StandsStillWhileSuspended) {
+    Stage stage{{walker()}};
+    stage.run(6);
+    stage["follow"].start({whom("person-1"), integer("distance", 1000)});
+    stage.run(1);
+    stage["follow"].suspend();
+    stage.run(2);
+    auto const held = stage.robot().position;
+    stage.run(10);
+    EXPECT_EQ(distance(held, stage.robot().position), 0);
+    stage["follow"].resume();
+    stage.run(20);
+    EXPECT_GT(distance(held, stage.robot().position), 1);
+    EXPECT_THAT(stage["follow"].words(), ElementsAre("started"));
+}
+
+TEST(Follow, RefusesWhatIsMissingOrMakesNoSense) {
+    Stage stage;
+    auto& follow = stage["follow"];
+    EXPECT_THAT(follow.refusal("start", {integer("distance", 1000)}).value_or(""), HasSubstr("target_object_ref"));
+    EXPECT_THAT(follow.refusal("start", {whom("person-1")}).value_or(""), HasSubstr("distance"));
+    EXPECT_THAT(follow.refusal("set_parameter", {whom("robot")}).value_or(""), HasSubstr("itself"));
+    EXPECT_TRUE(follow.refusal("set_parameter", {integer("distance", -1)}));
+    EXPECT_TRUE(follow.refusal("set_parameter", {integer("time_limit", -1)}));
+    EXPECT_FALSE(follow.refusal("set_parameter", {}));
+}
+
+}  // namespace
+}  // namespace rois::simulation

@@ -1,0 +1,197 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "engine/engine.hpp"
+#include "files/files.hpp"
+#include "simulation/component_stage.hpp"
+#include "types/data_type.hpp"
+#include "xml/document.hpp"
+#include "xml/schemas.hpp"
+
+namespace rois::simulation {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::SizeIs;
+using testing::UnorderedElementsAre;
+
+TEST(Robots, TheOnlyOneHasTheFifteenBasicComponents) {
+    Stage stage;
+    EXPECT_THAT(
+        stage.refs(),
+        UnorderedElementsAre("system_information", "person_detection", "person_localization", "person_identification",
+                             "face_detection", "face_localization", "sound_detection", "sound_localization", "speech_recognition",
+                             "gesture_recognition", "speech_synthesis", "reaction", "navigation", "follow", "move"));
+    EXPECT_EQ(stage["navigation"].component().description().engine, "");
+}
+
+TEST(Robots, AFurtherOneIsASubEngine) {
+    Stage stage{{}, reception_with_two_robots()};
+    EXPECT_THAT(stage.refs(), SizeIs(30));
+    EXPECT_THAT(stage.refs(), Contains("robot2.navigation"));
+    EXPECT_EQ(stage["robot2.navigation"].component().description().engine, "robot2");
+    EXPECT_EQ(stage["navigation"].component().description().engine, "");
+}
+
+TEST(Robots, NeedTheProfilesOfTheirComponents) {
+    auto simulation = std::make_shared<Simulation>(reception(), Scenario{}, 1, 1.0);
+    auto profiles = bare_profiles();
+    profiles.pop_back();
+    EXPECT_THROW(robot_components(simulation, profiles), std::runtime_error);
+}
+
+TEST(Robots, SeeTheSamePersonByTheSameName) {
+    Stage stage{{visitor("guest", {does(Walk{at(5, 4)}), does(Face{at("robot")}), does(Wait{1000})})},
+                reception_with_two_robots()};
+    stage.run(15);
+    stage["person_localization"].start();
+    stage["robot2.person_localization"].start();
+    stage.step();
+    auto const first = stage["person_localization"].events("person_localized");
+    auto const second = stage["robot2.person_localization"].events("person_localized");
+    ASSERT_THAT(first, SizeIs(1));
+    ASSERT_THAT(second, SizeIs(1));
+    EXPECT_EQ(values(first[0].results, "person_ref"), values(second[0].results, "person_ref"));
+}
+
+TEST(Robots, SpeakAndReactEachForItself) {
+    Stage stage{{}, reception_with_two_robots()};
+    stage["speech_synthesis"].start({text("speech_text", "Good morning.")});
+    stage["robot2.speech_synthesis"].start({text("speech_text", "Good evening to you all, ladies and gentlemen.")});
+    stage["robot2.reaction"].start({reference("reaction_ref", "9")});
+    stage.step();
+    EXPECT_EQ(stage.robot_state(0).speaking->text, "Good morning.");
+    EXPECT_FALSE(stage.robot_state(0).showing);
+    EXPECT_TRUE(stage.robot_state(1).showing);
+    EXPECT_EQ(stage.outcome("speech_synthesis"), "OK");
+    EXPECT_FALSE(stage["robot2.speech_synthesis"].ended());
+    EXPECT_EQ(stage.outcome("robot2.speech_synthesis"), "OK");
+}
+
+// With the project's own profiles, in a real engine.
+class Engaged : public testing::Test, private Outbox {
+protected:
+    Engaged() {
+        auto const schemas = std::make_shared<xml::Schemas const>(files::schemas());
+        for (auto const& [name, text] : files::profiles())
+            profiles_.push_back(xml::read_component_profile(schemas, name, std::string{text}));
+        int secrets = 0;
+        engine_ = std::make_unique<Engine>(EngineProfile{}, profiles_, EngineSettings{}, static_cast<Outbox&>(*this),
+                                           [secrets]() mutable { return "secret-" + std::to_string(++secrets); });
+        simulation_ = std::make_shared<Simulation>(
+            reception(),
+            Scenario{.name = "test",
+                     .roles = {known(visitor("tanaka", {does(Walk{at(4, 4)}), does(Face{at("robot")}), does(Say{"en", "Hello."}),
+                                                        does(Gesture{std::string{gestures().front()}}), does(Wait{1000})}))},
+                     .round = {},
+                     .arrivals = {}},
+            7, 1.0);
+        engine_->add(std::static_pointer_cast<Device>(simulation_));
+        for (auto& component : robot_components(simulation_, profiles_)) engine_->add(std::move(component));
+        session_ = std::get<Connect::Reply>(ask(Connect{})).session;
+    }
+
+    Reply ask(Operation const& operation) { return std::get<Reply>(engine_->handle(session_, operation, now_)); }
+
+    void run(std::chrono::milliseconds time) {
+        for (auto const end = now_.steady + time; now_.steady < end;) {
+            now_ = now_ + std::chrono::milliseconds{20};
+            engine_->tick(now_);
+        }
+    }
+
+    ReturnCode start(std::string ref, ParameterList arguments = {}) {
+        EXPECT_EQ(std::get<Bind::Reply>(ask(Bind{coded(ref)})).return_code, ReturnCode::ok) << ref;
+        CommandUnit unit;
+        unit.unit = CommandMessage{coded(ref), "start", {}, std::move(arguments)};
+        auto const reply = std::get<Execute::Reply>(ask(Execute{{{unit}}}));
+        EXPECT_EQ(reply.reason, "") << ref;
+        return reply.return_code;
+    }
+
+    void notify(SessionId const&) override {}
+
+    xml::Platform platform_;
+    std::vector<ComponentProfile> profiles_;
+    std::shared_ptr<Simulation> simulation_;
+    std::unique_ptr<Engine> engine_;
+    SessionId session_;
+    Instant now_{Steady{}, Utc{std::chrono::seconds{1'800'000'000}}};
+};
+
+TEST_F(Engaged, ComponentsTellWhatTheirProfilesPromise) {
+    std::map<std::string, MessageProfile const*> promised;
+    for (auto const& profile : profiles_)
+        for (auto const& message : profile.messages)
+            if (message.kind == MessageKind::event) promised[message.name] = &message;
+    for (auto const& [type, message] : promised) {
+        Subscribe subscribe{type, {}, true};
+        EXPECT_EQ(std::get<Subscribe::Reply>(ask(subscribe)).return_code, ReturnCode::ok) << type;
+    }
+    for (auto ref : {"person_detection", "person_localization", "person_identification", "face_detection", "face_localization",
+                     "sound_detection", "sound_localization", "speech_recognition", "gesture_recognition"})
+        EXPECT_EQ(start(ref), ReturnCode::ok) << ref;
+    EXPECT_EQ(start("navigation", {texts("target_position", {"desk"})}), ReturnCode::ok);
+    run(std::chrono::seconds{40});
+
+    std::set<std::string> heard;
+    for (auto const& entry : engine_->notifications(session_)->read(0, 10'000)) {
+        auto const* event = std::get_if<ReceiveEvent>(&entry.notification->body);
+        if (event == nullptr) continue;
+        heard.insert(event->event_type);
+        auto const& results = promised.at(event->event_type)->results;
+        ASSERT_EQ(event->results->parameters.size(), results.size()) << event->event_type;
+        for (auto const& result : results) {
+            auto const* told = find(event->results->parameters, result.name);
+            ASSERT_NE(told, nullptr) << event->event_type << " " << result.name;
+            EXPECT_TRUE(DataType::of(told->data_type_ref) == DataType::of(result.data_type_ref)) << result.name;
+            EXPECT_EQ(why_not(DataType::of(result.data_type_ref), told->values), std::nullopt) << result.name;
+        }
+    }
+    EXPECT_EQ(heard.size(), promised.size()) << testing::PrintToString(heard);
+}
+
+TEST_F(Engaged, ComponentsHaveTheParametersOfTheirProfiles) {
+    for (auto const& component : engine_->components()) {
+        auto const* get_parameter = find_message(*component.profile, MessageKind::query, "get_parameter");
+        if (get_parameter == nullptr) continue;
+        EXPECT_EQ(std::get<Bind::Reply>(ask(Bind{coded(component.ref)})).return_code, ReturnCode::ok);
+        for (auto const& parameter : std::get<GetParameter::Reply>(ask(GetParameter{coded(component.ref)})).parameters) {
+            auto const* result = find_parameter(get_parameter->results, parameter.name);
+            ASSERT_NE(result, nullptr) << component.ref << " " << parameter.name;
+            EXPECT_TRUE(DataType::of(parameter.data_type_ref) == DataType::of(result->data_type_ref)) << parameter.name;
+        }
+    }
+}
+
+TEST_F(Engaged, ActionsStartWithTheDefaultsOfTheirProfiles) {
+    run(std::chrono::seconds{1});
+    EXPECT_EQ(start("speech_synthesis", {text("speech_text", "Hello.")}), ReturnCode::ok);
+    EXPECT_EQ(start("reaction", {reference("reaction_ref", "1")}), ReturnCode::ok);
+    EXPECT_EQ(start("move", {integers("line", "100 0")}), ReturnCode::ok);
+    run(std::chrono::seconds{20});
+    int ok = 0;
+    for (auto const& entry : engine_->notifications(session_)->read(0, 1'000))
+        if (auto const* completed = std::get_if<Completed>(&entry.notification->body))
+            ok += completed->status == CompletedStatus::ok ? 1 : 0;
+    EXPECT_EQ(ok, 3);
+}
+
+TEST_F(Engaged, AStoppedFollowHasDoneItsDuty) {
+    run(std::chrono::seconds{10});
+    EXPECT_EQ(start("follow", {reference("target_object_ref", "person-1"), integer("distance", 1000)}), ReturnCode::ok);
+    CommandUnit stop;
+    stop.unit = CommandMessage{coded("follow"), "stop", {}, {}};
+    ask(Execute{{{stop}}});
+    for (auto const& entry : engine_->notifications(session_)->read(0, 1'000)) {
+        auto const* completed = std::get_if<Completed>(&entry.notification->body);
+        if (completed == nullptr) continue;
+        EXPECT_EQ(completed->status, CompletedStatus::ok);
+    }
+}
+
+}  // namespace
+}  // namespace rois::simulation

@@ -1,0 +1,151 @@
+// Decision 26: which texts are of which type.
+#include "types/data_type.hpp"
+
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
+
+namespace rois {
+
+using testing::HasSubstr;
+
+namespace {
+
+DataType type(std::string const& code) {
+    return DataType::of({.code = code, .authority = {}, .codebook_ref = {}, .version = {}});
+}
+
+// Whether one value, or these, are of the type.
+bool is(std::string const& code, std::string const& value) { return !why_not(type(code), std::vector{value}); }
+bool are(std::string const& code, std::vector<std::string> const& values) { return !why_not(type(code), values); }
+std::string reason(std::string const& code, std::vector<std::string> const& values) {
+    return why_not(type(code), values).value_or("");
+}
+
+}  // namespace
+
+TEST(DataType, IsKnownInAnyCaseAndUnderItsOtherNames) {
+    for (auto const* code : {"int", "INT", "integer", " Integer ", "UnlimitedNatural", "urn:x-rois:def:DataType:ATR::Integer",
+                             "URN:X-ROIS:DEF:DATATYPE:atr::int"})
+        EXPECT_EQ(type(code), type("int")) << code;
+    for (auto const* code : {"double", "real", "urn:x-rois:def:DataType:ATR::Real"})
+        EXPECT_EQ(type(code), type("double")) << code;
+    for (auto const* code : {"bool", "Boolean"}) EXPECT_EQ(type(code), type("bool")) << code;
+    for (auto const* code : {"string", "String"}) EXPECT_EQ(type(code), type("string")) << code;
+    for (auto const* code : {"DateTime", "datetime"}) EXPECT_EQ(type(code), type("DateTime")) << code;
+    for (auto const* code : {"RoISIdentifier", "rois_identifier"}) EXPECT_EQ(type(code), type("RoISIdentifier")) << code;
+    for (auto const* code : {"Component_Status", "componentstatus"}) EXPECT_EQ(type(code), type("Component_Status")) << code;
+}
+
+TEST(DataType, IsWrittenUnderItsFirstName) {
+    EXPECT_EQ(to_text(type("urn:x-rois:def:DataType:ATR::Integer")), "int");
+    EXPECT_EQ(to_text(type("REAL[]")), "double[]");
+    EXPECT_EQ(to_text(type("Shade")), "Shade");
+    EXPECT_EQ(to_text(type("urn:x-rois:def:DataType:ATR::Shade[]")), "Shade[]");
+}
+
+TEST(DataType, OfOneKindOnlyIsEqual) {
+    EXPECT_NE(type("int"), type("double"));
+    EXPECT_NE(type("int"), type("int[]"));
+    EXPECT_EQ(type("int[]"), type("urn:x-rois:def:DataType:ATR::Integer[]"));
+    EXPECT_EQ(type("Shade"), type("SHADE"));
+    EXPECT_NE(type("Shade"), type("Colour"));
+    EXPECT_EQ(type("urn:x-other:Shade").base, BaseType::other);
+    EXPECT_EQ(type("").base, BaseType::other);
+}
+
+TEST(DataType, IntHas32Bits) {
+    for (auto const* text : {"0", "-0", "7", "+5", " 7 ", "\t7\r\n", "007", "2147483647", "-2147483648"})
+        EXPECT_TRUE(is("int", text)) << text;
+    for (auto const* text : {"", " ", "2147483648", "-2147483649", "99999999999999999999", "1.0", "1e3", "0x10", "1 2", "+-5",
+                             "++5", "- 5", "+", "-", "seven", "7,000"})
+        EXPECT_FALSE(is("int", text)) << text;
+}
+
+TEST(DataType, DoubleIsThatOfXmlSchema) {
+    for (auto const* text : {"0", "-1.5", "+1.5", ".5", "5.", " 1e3 ", "1E-3", "1e+3", "INF", "-INF", "NaN", "1e308"})
+        EXPECT_TRUE(is("double", text)) << text;
+    for (auto const* text :
+         {"", "1e400", "-1e400", "inf", "nan", "Infinity", "-NaN", "0x1p3", "1e", "e3", ".", "1,5", "1.5.1", "+-1", "++1", "1 2"})
+        EXPECT_FALSE(is("double", text)) << text;
+}
+
+TEST(DataType, BoolIsThatOfXmlSchema) {
+    for (auto const* text : {"true", "false", "1", "0", " true "}) EXPECT_TRUE(is("bool", text)) << text;
+    for (auto const* text : {"", "True", "FALSE", "yes", "2", "true false"}) EXPECT_FALSE(is("bool", text)) << text;
+}
+
+TEST(DataType, StringTakesAnything) {
+    for (auto const* text : {"", " ", "a b", "\xE3\x81\x82"}) EXPECT_TRUE(is("string", text)) << text;
+}
+
+TEST(DataType, DateTimeIsADayThatExists) {
+    for (auto const* text : {"2026-11-20T12:00:00Z", "2026-11-20T12:00:00.1Z", "2026-11-20T12:00:00.123456789Z",
+                             " 2026-11-20T12:00:00Z ", "2024-02-29T23:59:59Z", "2000-02-29T00:00:00Z"})
+        EXPECT_TRUE(is("DateTime", text)) << text;
+    for (auto const* text : {"", "2026-02-30T12:00:00Z", "2026-02-29T12:00:00Z", "1900-02-29T12:00:00Z", "2026-13-01T12:00:00Z",
+                             "2026-00-01T12:00:00Z", "2026-01-00T12:00:00Z", "2026-11-20T24:00:00Z", "2026-11-20T12:60:00Z",
+                             "2026-11-20T12:00:60Z", "2026-11-20T12:00:00", "2026-11-20T12:00:00.Z", "2026-11-20 12:00:00Z",
+                             "2026-11-20", "26-11-20T12:00:00Z", "2026-11-20T12:00:00z", "2026-11-20T12:00:00Zulu", "yesterday"})
+        EXPECT_FALSE(is("DateTime", text)) << text;
+}
+
+TEST(DataType, DateTimeMayHaveAnOffset) {
+    for (auto const* offset : {"+09:00", "-03:30", "+00:00", "-00:00", "+14:00", "-14:00", "+13:59"})
+        EXPECT_TRUE(is("DateTime", std::string{"2026-11-20T12:00:00"} + offset)) << offset;
+    for (auto const* offset :
+         {"+9:00", "+0900", "+09", "09:00", "+14:01", "+15:00", "+99:99", "-23:00", "+09:60", "+09:00Z", "+aa:00"})
+        EXPECT_FALSE(is("DateTime", std::string{"2026-11-20T12:00:00.5"} + offset)) << offset;
+}
+
+TEST(DataType, IdentifierIsACode) {
+    EXPECT_TRUE(is("RoISIdentifier", "visitor_1"));
+    EXPECT_TRUE(is("RoISIdentifier", "urn:x-test:visitor 1"));
+    EXPECT_FALSE(is("RoISIdentifier", ""));
+    EXPECT_FALSE(is("RoISIdentifier", "  "));
+}
+
+TEST(DataType, ComponentStatusIsOneOfFive) {
+    for (auto const* text : {"UNINITIALIZED", "READY", "BUSY", "WARNING", " ERROR "})
+        EXPECT_TRUE(is("Component_Status", text)) << text;
+    EXPECT_FALSE(is("Component_Status", "ready"));
+    EXPECT_FALSE(is("Component_Status", "FINE"));
+}
+
+TEST(DataType, OfItsOwnTakesAnything) { EXPECT_TRUE(is("Shade", "red")); }
+
+TEST(DataType, ASingleValueNeedsExactlyOne) {
+    for (auto const* code : {"int", "double", "bool", "string", "DateTime", "RoISIdentifier", "Component_Status", "Shade"}) {
+        EXPECT_THAT(reason(code, {}), HasSubstr("needs exactly one value, here are 0")) << code;
+        EXPECT_THAT(reason(code, {"1", "1"}), HasSubstr("needs exactly one value, here are 2")) << code;
+    }
+}
+
+TEST(DataType, ListsOfNumbersAndBoolsAreOneText) {
+    EXPECT_TRUE(are("int[]", {}));
+    EXPECT_TRUE(are("int[]", {""}));
+    EXPECT_TRUE(are("int[]", {"  "}));
+    EXPECT_TRUE(are("int[]", {"1"}));
+    EXPECT_TRUE(are("int[]", {" 1\t2\n -3 "}));
+    EXPECT_TRUE(are("double[]", {"1 2.5 INF"}));
+    EXPECT_TRUE(are("bool[]", {"true 0"}));
+    EXPECT_FALSE(are("int[]", {"1", "2"}));
+    EXPECT_FALSE(are("int[]", {"1,2"}));
+    EXPECT_FALSE(are("bool[]", {"true maybe"}));
+    EXPECT_EQ(reason("int[]", {"1 2147483648 x"}), "'2147483648' is not of the type int");
+}
+
+TEST(DataType, ListsOfOtherTypesAreATextEach) {
+    EXPECT_TRUE(are("string[]", {}));
+    EXPECT_TRUE(are("string[]", {"", "one two"}));
+    EXPECT_TRUE(are("DateTime[]", {"2026-11-20T12:00:00Z", "2026-11-21T12:00:00Z"}));
+    EXPECT_TRUE(are("RoISIdentifier[]", {"a", "b"}));
+    EXPECT_TRUE(are("Component_Status[]", {"READY", "BUSY"}));
+    EXPECT_TRUE(are("Shade[]", {"red", "green"}));
+    EXPECT_FALSE(are("DateTime[]", {"2026-11-20T12:00:00Z 2026-11-21T12:00:00Z"}));
+    EXPECT_FALSE(are("RoISIdentifier[]", {"a", ""}));
+    EXPECT_EQ(reason("Component_Status[]", {"READY", "FINE"}), "'FINE' is not of the type Component_Status");
+}
+
+}  // namespace rois

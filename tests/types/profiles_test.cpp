@@ -1,0 +1,98 @@
+// Profiles and the sub profiles that they include.
+#include "types/profiles.hpp"
+
+#include <gmock/gmock.h>
+
+#include <stdexcept>
+
+namespace rois {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+namespace {
+
+struct Made {
+    std::string urn;
+    std::vector<std::string> parts = {};
+    std::vector<std::string> commands = {};
+    std::vector<std::string> parameters = {};
+};
+
+ComponentProfile profile(Made const& made) {
+    ComponentProfile p;
+    p.object.identifier = made.urn;
+    p.sub_components = made.parts;
+    for (auto const& name : made.commands)
+        p.messages.push_back({.kind = MessageKind::command, .name = name, .results = {}, .arguments = {}, .timeout = {}});
+    for (auto const& name : made.parameters)
+        p.parameters.push_back({.name = name, .data_type_ref = {}, .default_value = {}, .description = made.urn});
+    return p;
+}
+
+std::vector<std::string> names(auto const& list) {
+    std::vector<std::string> all;
+    for (auto const& each : list) all.push_back(each.name);
+    return all;
+}
+
+}  // namespace
+
+TEST(Flattened, HasTheMessagesOfItsPartsAfterItsOwn) {
+    std::vector const known{profile({"urn:base", {}, {"start", "stop"}, {"volume"}}),
+                            profile({"urn:middle", {"urn:base"}, {"pause"}, {"language"}})};
+    auto const whole = flattened(profile({"urn:top", {"URN:Middle "}, {"speak"}, {"text"}}), known);
+    EXPECT_THAT(names(whole.messages), ElementsAre("speak", "pause", "start", "stop"));
+    EXPECT_THAT(names(whole.parameters), ElementsAre("text", "language", "volume"));
+    EXPECT_EQ(whole.object.identifier, "urn:top");
+    EXPECT_THAT(whole.sub_components, ElementsAre("URN:Middle "));
+}
+
+TEST(Flattened, HasANameOnceAndItsOwnFirst) {
+    std::vector const known{profile({"urn:base", {}, {"start"}, {"Volume", "pitch"}})};
+    auto const whole = flattened(profile({"urn:top", {"urn:base"}, {"start"}, {"volume"}}), known);
+    EXPECT_THAT(names(whole.messages), ElementsAre("start"));
+    EXPECT_THAT(names(whole.parameters), ElementsAre("volume", "pitch"));
+    EXPECT_EQ(whole.parameters.front().description, "urn:top");
+}
+
+TEST(Flattened, MayIncludeAPartOnTwoWays) {
+    std::vector const known{profile({"urn:base", {}, {"start"}}), profile({"urn:left", {"urn:base"}, {"l"}}),
+                            profile({"urn:right", {"urn:base"}, {"r"}})};
+    EXPECT_THAT(names(flattened(profile({"urn:top", {"urn:left", "urn:right"}}), known).messages),
+                ElementsAre("l", "start", "r"));
+}
+
+TEST(Flattened, NamesThePartThatIsUnknown) {
+    EXPECT_THAT(
+        [] {
+            flattened(profile({"urn:top", {"urn:gone"}}), {});
+        },
+        ThrowsMessage<std::runtime_error>("no component profile 'urn:gone' is known"));
+}
+
+TEST(Flattened, NamesThePartThatIncludesItself) {
+    std::vector const known{profile({"urn:a", {"urn:b"}}), profile({"urn:b", {"urn:a"}}), profile({"urn:self", {"urn:self"}})};
+    EXPECT_THAT([&] { flattened(known[0], known); }, ThrowsMessage<std::runtime_error>(HasSubstr("includes itself")));
+    EXPECT_THAT(
+        [&] {
+            flattened(profile({"urn:self", {"urn:self"}}), known);
+        },
+        ThrowsMessage<std::runtime_error>("the component profile 'urn:self' includes itself"));
+}
+
+TEST(Messages, AreFoundByKindAndName) {
+    auto const p = profile({"urn:top", {}, {"start", "stop"}});
+    EXPECT_EQ(find_message(p, MessageKind::command, "stop"), &p.messages[1]);
+    EXPECT_EQ(find_message(p, MessageKind::command, "Stop"), nullptr);
+    EXPECT_EQ(find_message(p, MessageKind::query, "stop"), nullptr);
+}
+
+TEST(Parameters, AreFoundInAnyCase) {
+    auto const p = profile({"urn:top", {}, {}, {"SSML_text"}});
+    EXPECT_EQ(find_parameter(p.parameters, "ssml_TEXT"), &p.parameters[0]);
+    EXPECT_EQ(find_parameter(p.parameters, "text"), nullptr);
+}
+
+}  // namespace rois
