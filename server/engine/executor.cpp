@@ -184,6 +184,7 @@ void Executor::start_timed_out(CommandHandle handle, Instant now) {
     if (component.start == command) {
         halt(component, CompletedStatus::timeout, now);
     } else {
+        component.call([&](Component& c) { c.halt(now); });
         end(command, CompletedStatus::timeout, {}, now);
     }
     run_ready(now);

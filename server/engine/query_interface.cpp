@@ -35,9 +35,10 @@ Reply Engine::Core::answer(Session& session, RegisteredComponent& component, std
     if (query_type == "get_parameter") {
         if (auto parameters = component.all_parameters()) results = Results{std::move(*parameters), {}};
     } else {
-        component.call([&](Component& c) { results = c.query(query_type, now); });
+        component.call([&](Component& c) { results = c.query(query_type, now); }, RegisteredComponent::Report::once);
     }
     if (results) {
+        component.failed = false;
         reply.results = std::move(*results);
         return reply;
     }

@@ -76,7 +76,7 @@ ComponentStatus RegisteredComponent::status_for(Session const* asker) const {
     return status;
 }
 
-RegisteredComponent::Called RegisteredComponent::call(std::function<void(Component&)> const& what) const {
+RegisteredComponent::Called RegisteredComponent::call(std::function<void(Component&)> const& what, Report report) const {
     std::string problem;
     try {
         what(*component_);
@@ -86,14 +86,15 @@ RegisteredComponent::Called RegisteredComponent::call(std::function<void(Compone
     } catch (...) {
         problem = "an unknown exception left the component";
     }
-    failed = true;
-    agenda_.add(ErrorOccurred{this, ErrorType::component_internal_error, std::move(problem)});
+    bool const known = std::exchange(failed, true);
+    if (!known || report == Report::each)
+        agenda_.add(ErrorOccurred{this, ErrorType::component_internal_error, std::move(problem)});
     return Called::failed;
 }
 
 std::optional<ParameterList> RegisteredComponent::all_parameters() const {
     ParameterList all;
-    if (call([&](Component& c) { all = c.readable_parameters(); }) == Called::failed) return {};
+    if (call([&](Component& c) { all = c.readable_parameters(); }, Report::once) == Called::failed) return {};
     all.insert(all.end(), parameters.begin(), parameters.end());
     return all;
 }

@@ -32,8 +32,10 @@ public:
     ComponentProfile const& profile() const { return profile_; }
 
     // Asks or tells the component something. An exception that leaves it is reported and makes its status ERROR (decision 16).
+    // What anybody may ask at any time is reported `once` only: until something of the component succeeds again.
     enum class Called : std::uint8_t { ok, failed };
-    Called call(std::function<void(Component&)> const& what) const;
+    enum class Report : std::uint8_t { each, once };
+    Called call(std::function<void(Component&)> const& what, Report = Report::each) const;
 
     // Decision 7: as `asker` sees it.
     ComponentStatus status_for(Session const* asker) const;
@@ -50,7 +52,7 @@ public:
     Activity activity = Activity::idle;
     bool suspended = false;
     std::shared_ptr<Command> start;  // whose action runs, or null
-    mutable bool failed = false;     // an exception left it; until a command of it succeeds
+    mutable bool failed = false;     // an exception left it; until a command or query of it succeeds
 
     void started(CommandHandle) override;
     void completed(CommandHandle, CompletedStatus, Results, Afterwards) override;

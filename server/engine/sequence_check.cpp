@@ -76,6 +76,7 @@ std::optional<Objection> SequenceCheck::in_branches(ConcurrentCommands const& co
 }
 
 std::optional<Objection> SequenceCheck::objection(CommandMessage const& message) {
+    ++commands_;
     auto* component = registry_.find(message.component_ref.code);
     if (component == nullptr) return bad_parameter("unknown component " + quoted(message.component_ref.code));
     if (component->bound_to != &session_)

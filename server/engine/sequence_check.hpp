@@ -28,6 +28,9 @@ public:
     // One command: known, bound, type, values, in this order.
     std::optional<Objection> objection(CommandMessage const&);
 
+    // How many commands were checked.
+    std::size_t commands() const { return commands_; }
+
     // The ids that the application gave.
     std::set<CommandId> const& ids() const { return ids_; }
 
@@ -40,6 +43,7 @@ private:
 
     Session const& session_;
     Registry const& registry_;
+    std::size_t commands_ = 0;
     std::set<CommandId> ids_;
     std::map<RegisteredComponent const*, ParameterList> stored_;  // where it will differ from what is stored now
 };

@@ -58,8 +58,9 @@ void Hold::release() {
     auto* const gateway = std::exchange(gateway_, nullptr);
     if (!gateway) return;
     std::lock_guard const lock{gateway->mutex_};
+    auto const answered_at = *place_;
     queue_->release(place_);
-    gateway->readers_.notify(session_);
+    if (queue_->last_sequence() > answered_at) gateway->readers_.notify(session_);
 }
 
 Reading::Reading(Gateway& gateway, SessionId session, Link link, std::uint64_t after, Reader& reader,
@@ -113,7 +114,7 @@ Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std
         return answer;
     }
 
-    auto const said = perform(session, request.operation, answer.hold);
+    auto const said = perform(session, request.operation, via, answer.hold);
     if (auto const* fault = std::get_if<Fault>(&said)) return refuse(*fault, request.request_id), std::move(answer);
     auto const& reply = std::get<Reply>(said);
     answer.document = xml::encode(reply, request.request_id);
@@ -123,22 +124,23 @@ Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std
     return answer;
 }
 
-std::variant<Reply, Fault> Gateway::perform(SessionId const& session, Operation const& operation, Hold& hold) {
+std::variant<Reply, Fault> Gateway::perform(SessionId const& session, Operation const& operation, Via via, Hold& hold) {
     auto const now = present();
     std::lock_guard const lock{mutex_};
     auto const queue = engine_.notifications(session);
     // The readers of a session that disconnects hear the last of it before the answer (decision 3): then nothing is held.
-    if (!queue || std::holds_alternative<Disconnect>(operation)) return fault_or_reply(engine_.handle(session, operation, now));
-    engine_.heard_from(session, now);
-    auto const before = queue->last_sequence();
-    auto const place = queue->hold();
+    if (queue && !std::holds_alternative<Disconnect>(operation)) hold = Hold{*this, session, queue, queue->hold()};
+    if (via == Via::http) engine_.heard_from(session, now);
     auto handled = engine_.handle(session, operation, now);
-    if (queue->last_sequence() == before) {
-        queue->release(place);
-    } else {
-        hold = Hold{*this, session, queue, place};
-    }
+    if (via == Via::http && !queue) heard_from_opened(handled, now);
     return fault_or_reply(std::move(handled));
+}
+
+// A session that was opened over HTTP has been heard from (decision 2).
+void Gateway::heard_from_opened(std::variant<Reply, Refusal> const& handled, Instant now) {
+    auto const* reply = std::get_if<Reply>(&handled);
+    auto const* connected = reply == nullptr ? nullptr : std::get_if<Connect::Reply>(reply);
+    if (connected != nullptr) engine_.heard_from(connected->session, now);
 }
 
 std::unique_ptr<Reading> Gateway::read(SessionId const& session, Link link, std::uint64_t after, Reader& reader) {

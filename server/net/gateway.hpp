@@ -115,7 +115,8 @@ private:
     friend class Hold;
     friend class Reading;
 
-    std::variant<Reply, Fault> perform(SessionId const&, Operation const&, Hold&);
+    std::variant<Reply, Fault> perform(SessionId const&, Operation const&, Via, Hold&);
+    void heard_from_opened(std::variant<Reply, Refusal> const&, Instant now);
 
     Engine& engine_;
     Readers& readers_;

@@ -211,6 +211,7 @@ TEST_F(Commands, OfTheComponentsOwnMustBeginInTimeToo) {
     desk.execute(named("dock", command("dock", "navigation")));
     world.advance(500ms);
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock TIMEOUT", "2 COMPONENT_NOT_RESPONDING navigation"));
+    EXPECT_EQ(world["navigation"].told.back(), "halt");
 }
 
 TEST_F(Commands, TimeoutsEndWithTheCommand) {

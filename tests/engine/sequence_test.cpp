@@ -278,4 +278,20 @@ TEST_F(Sequence, ThatHasFailedDoesNotWakeAfterItsDelay) {
     EXPECT_THAT(voice.told, IsEmpty());
 }
 
+// A session cannot pile up commands without end.
+TEST(LiveCommands, OfASessionAreLimited) {
+    EngineSettings settings;
+    settings.max_live_commands = 3;
+    World world{{speech}, settings};
+    auto desk = world.connect();
+    desk.bind("speech");
+    EXPECT_EQ(desk.execute(say("1"), say("2")).return_code, ReturnCode::ok);
+    auto const refused = desk.execute(say("3"), say("4"));
+    EXPECT_EQ(refused.return_code, ReturnCode::out_of_resources);
+    EXPECT_THAT(refused.reason, testing::HasSubstr("3 commands"));
+    EXPECT_EQ(desk.result_of("3"), "BAD_PARAMETER");
+    world["speech"].finishes();
+    EXPECT_EQ(desk.execute(say("3"), say("4")).return_code, ReturnCode::ok);
+}
+
 }  // namespace rois
