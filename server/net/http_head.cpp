@@ -1,7 +1,9 @@
 #include "net/http_head.hpp"
 
 #include <algorithm>
-#include <charconv>
+#include <boost/asio/buffer.hpp>
+#include <boost/beast/http/basic_parser.hpp>
+#include <boost/none.hpp>
 #include <string>
 
 #include "types/texts.hpp"
@@ -9,18 +11,6 @@
 namespace rois::net {
 
 namespace {
-
-bool is_token_char(char c) {
-    auto const u = static_cast<unsigned char>(c);
-    if ((u >= '0' && u <= '9') || ((u | 0x20) >= 'a' && (u | 0x20) <= 'z')) return true;
-    return std::string_view{"!#$%&'*+-.^_`|~"}.find(c) != std::string_view::npos;
-}
-
-bool is_token(std::string_view text) { return !text.empty() && std::ranges::all_of(text, is_token_char); }
-
-bool is_visible(char c) { return static_cast<unsigned char>(c) > 0x20 && c != 0x7f; }
-
-bool is_field_char(char c) { return c == '\t' || (static_cast<unsigned char>(c) >= 0x20 && c != 0x7f); }
 
 std::string_view without_blanks(std::string_view text) {
     auto const first = text.find_first_not_of(" \t");
@@ -32,15 +22,6 @@ Fault broken(std::string reason) { return {FaultCode::not_well_formed, "broken H
 Fault overlong_target(Settings const& settings) {
     return {
         FaultCode::uri_too_long, "the request target is longer than " + std::to_string(settings.max_target) + " bytes", {}, {}};
-}
-
-// The next line without its end; `text` goes on behind it. Nothing when a line feed stands alone.
-std::optional<std::string_view> next_line(std::string_view& text) {
-    auto const end = text.find('\n');
-    if (end == std::string_view::npos || end == 0 || text[end - 1] != '\r') return {};
-    auto const line = text.substr(0, end - 1);
-    text.remove_prefix(end + 1);
-    return line;
 }
 
 // Splits "http://host/path?query" or "/path?query"; both are allowed (RFC 9112, 3.2).
@@ -55,46 +36,76 @@ bool read_target(std::string_view target, RequestHead& head) {
     return head.path.starts_with('/') || head.path == "*" || head.method == "CONNECT";
 }
 
-std::optional<Fault> read_request_line(std::string_view line, RequestHead& head, Settings const& settings) {
-    auto const first = line.find(' ');
-    auto const last = line.rfind(' ');
-    if (first == std::string_view::npos || first == last) return broken("the request line is not 'method target version'");
-    head.method = line.substr(0, first);
-    auto const target = line.substr(first + 1, last - first - 1);
-    auto const version = line.substr(last + 1);
-    if (!is_token(head.method)) return broken("the method is not a token");
-    if (target.size() > settings.max_target) return overlong_target(settings);
-    if (target.empty() || !std::ranges::all_of(target, is_visible)) return broken("the target has a blank or control character");
-    if (version != "HTTP/1.1" && version != "HTTP/1.0") return broken("this server speaks HTTP/1.1");
-    head.http_1_0 = version == "HTTP/1.0";
-    if (!read_target(target, head)) return broken("the target does not begin with '/'");
-    return {};
+namespace http = boost::beast::http;
+using boost::beast::error_code;
+using boost::beast::string_view;
+
+std::string_view view(string_view text) { return {text.data(), text.size()}; }
+
+// Beast's parser, which gives the parts of a head as it finds them.
+class HeadParser : public http::basic_parser<true> {
+public:
+    explicit HeadParser(Settings const& settings) : settings_{settings} {
+        body_limit(boost::none);  // the routes know how much they take
+        head_.fields.reserve(16);
+    }
+
+    RequestHead& head() { return head_; }
+    std::optional<Fault>& fault() { return fault_; }
+
+private:
+    void on_request_impl(http::verb, string_view method, string_view target, int version, error_code& problem) override {
+        head_.method = view(method);
+        head_.http_1_0 = version == 10;
+        if (target.size() > settings_.max_target) return refuse(overlong_target(settings_), problem);
+        if (!read_target(view(target), head_)) refuse(broken("the target does not begin with '/'"), problem);
+    }
+
+    void on_field_impl(http::field, string_view name, string_view value, error_code& problem) override {
+        if (head_.fields.size() < settings_.max_fields) {
+            head_.fields.push_back({view(name), view(value)});
+            return;
+        }
+        refuse({FaultCode::header_too_large, "more than " + std::to_string(settings_.max_fields) + " header fields", {}, {}},
+               problem);
+    }
+
+    void on_header_impl(error_code&) override {}
+    void on_response_impl(int, string_view, int, error_code&) override {}
+    void on_body_init_impl(boost::optional<std::uint64_t> const&, error_code&) override {}
+    std::size_t on_body_impl(string_view body, error_code&) override { return body.size(); }
+    void on_chunk_header_impl(std::uint64_t, string_view, error_code&) override {}
+    std::size_t on_chunk_body_impl(std::uint64_t, string_view body, error_code&) override { return body.size(); }
+    void on_finish_impl(error_code&) override {}
+
+    void refuse(Fault fault, error_code& problem) {
+        fault_ = std::move(fault);
+        problem = http::error::bad_value;
+    }
+
+    Settings const& settings_;
+    RequestHead head_;
+    std::optional<Fault> fault_;
+};
+
+Fault no_transfer_encoding() {
+    return {FaultCode::length_required, "send the body with a Content-Length; Transfer-Encoding is not taken", {}, {}};
 }
 
-std::optional<Fault> read_field(std::string_view line, RequestHead& head) {
-    if (line.front() == ' ' || line.front() == '\t') return broken("a folded header line");
-    auto const colon = line.find(':');
-    if (colon == std::string_view::npos || !is_token(line.substr(0, colon))) return broken("a header line without a name");
-    auto const value = without_blanks(line.substr(colon + 1));
-    if (!std::ranges::all_of(value, is_field_char)) return broken("a header value with a control character");
-    head.fields.push_back({line.substr(0, colon), value});
-    return {};
+Fault fault_of(error_code const& problem) {
+    if (problem == http::error::bad_transfer_encoding) return no_transfer_encoding();
+    return broken(problem.message());
 }
 
-// How long the body is, and whether that can be believed (RFC 9112, 6.3).
-std::optional<Fault> read_framing(RequestHead& head) {
+// What Beast lets pass: lines folded into the next, and no Host, or two, or two lengths that agree (RFC 9112, 3.2, 5.2, 6.3).
+std::optional<Fault> too_lenient(std::string_view text, RequestHead const& head) {
+    if (text.find("\r\n ") != std::string_view::npos || text.find("\r\n\t") != std::string_view::npos)
+        return broken("a folded header line");
     auto const hosts = head.count("Host");
     if (hosts > 1 || (hosts == 0 && !head.http_1_0)) return broken("exactly one Host header is needed");
-    if (head.count("Transfer-Encoding") > 0) {
-        return Fault{FaultCode::length_required, "send the body with a Content-Length; Transfer-Encoding is not taken", {}, {}};
-    }
-    if (head.count("Content-Length") > 1) return broken("two Content-Length headers");
-    auto const length = head.field("Content-Length");
-    if (!length) return {};
-    auto const [end, error] = std::from_chars(length->data(), length->data() + length->size(), head.content_length);
-    bool const digits = !length->empty() && std::ranges::all_of(*length, [](char c) { return c >= '0' && c <= '9'; });
-    if (!digits) return broken("Content-Length is not a number");
-    if (error == std::errc::result_out_of_range) head.content_length = UINT64_MAX;
+    if (head.count("Transfer-Encoding") > 0) return no_transfer_encoding();
+    bool const two_in_one = head.field("Content-Length").value_or("").find(',') != std::string_view::npos;
+    if (head.count("Content-Length") > 1 || two_in_one) return broken("two lengths in Content-Length");
     return {};
 }
 
@@ -148,23 +159,17 @@ std::size_t find_head(std::string_view text, std::size_t& searched) {
 }
 
 std::variant<RequestHead, Fault> read_head(std::string_view text, Settings const& settings) {
-    RequestHead head;
-    auto const line = next_line(text);
-    if (!line) return broken("a line that does not end with CR LF");
-    if (auto fault = read_request_line(*line, head, settings)) return *fault;
-    head.fields.reserve(16);
-    while (true) {
-        auto const field = next_line(text);
-        if (!field) return broken("a line that does not end with CR LF");
-        if (field->empty()) break;
-        if (head.fields.size() == settings.max_fields) {
-            return Fault{
-                FaultCode::header_too_large, "more than " + std::to_string(settings.max_fields) + " header fields", {}, {}};
-        }
-        if (auto fault = read_field(*field, head)) return *fault;
-    }
-    if (auto fault = read_framing(head)) return *fault;
-    return head;
+    HeadParser parser{settings};
+    parser.header_limit(static_cast<std::uint32_t>(text.size()) + 1);
+    error_code problem;
+    parser.put(boost::asio::buffer(text), problem);
+    if (parser.fault()) return std::move(*parser.fault());
+    if (problem) return fault_of(problem);
+    if (!parser.is_header_done()) return broken("a line that does not end with CR LF");
+    auto& head = parser.head();
+    if (auto fault = too_lenient(text, head)) return std::move(*fault);
+    head.content_length = parser.content_length().value_or(0);
+    return std::move(head);
 }
 
 Fault overlong_head(std::string_view text, Settings const& settings) {

@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include "net/http_head.hpp"
+
+namespace rois::net {
+namespace {
+
+std::variant<RequestHead, Fault> read(std::string_view text) {
+    static std::string kept;
+    kept = text;
+    return read_head(kept, Settings{});
+}
+
+FaultCode fault(std::string_view text) {
+    auto const result = read(text);
+    EXPECT_TRUE(std::holds_alternative<Fault>(result)) << text;
+    return std::holds_alternative<Fault>(result) ? std::get<Fault>(result).code : FaultCode::invalid;
+}
+
+TEST(HttpHead, IsTakenApart) {
+    auto const result = read(
+        "GET /rois/notifications?after=3&wait=&after=4 HTTP/1.1\r\nHost: h\r\nAccept:  text/plain ,TEXT/Event-Stream\t\r\n\r\n");
+    auto const& head = std::get<RequestHead>(result);
+    EXPECT_EQ(head.method, "GET");
+    EXPECT_EQ(head.path, "/rois/notifications");
+    EXPECT_EQ(head.parameter("after"), "3");
+    EXPECT_EQ(head.parameter("wait"), "");
+    EXPECT_FALSE(head.parameter("aft"));
+    EXPECT_TRUE(head.lists("accept", "text/event-stream"));
+    EXPECT_FALSE(head.lists("accept", "text"));
+    EXPECT_TRUE(head.keep_alive());
+}
+
+TEST(HttpHead, TakesATargetWithItsAuthority) {
+    auto const result = read("GET http://h:80/healthz?x HTTP/1.1\r\nHost: h\r\n\r\n");
+    EXPECT_EQ(std::get<RequestHead>(result).path, "/healthz");
+    auto const bare = read("GET http://h HTTP/1.1\r\nHost: h\r\n\r\n");
+    EXPECT_EQ(std::get<RequestHead>(bare).path, "/");
+}
+
+TEST(HttpHead, MayEndTheConnection) {
+    EXPECT_FALSE(std::get<RequestHead>(read("GET / HTTP/1.1\r\nHost: h\r\nConnection: x, Close\r\n\r\n")).keep_alive());
+    EXPECT_FALSE(std::get<RequestHead>(read("GET / HTTP/1.0\r\n\r\n")).keep_alive());
+}
+
+TEST(HttpHead, IsRefusedWhenItIsNotHttp) {
+    for (auto const* text :
+         {"GET /\r\n\r\n", "GET / HTTP/2.0\r\nHost: h\r\n\r\n", "GET  / HTTP/1.1\r\nHost: h\r\n\r\n",
+          "G{T / HTTP/1.1\r\nHost: h\r\n\r\n", "GET rois HTTP/1.1\r\nHost: h\r\n\r\n", "GET /a\tb HTTP/1.1\r\nHost: h\r\n\r\n",
+          "GET / HTTP/1.1\nHost: h\r\n\r\n", "GET / HTTP/1.1\r\nHost: h\r\n folded\r\n\r\n", "GET / HTTP/1.1\r\nHost : h\r\n\r\n",
+          "GET / HTTP/1.1\r\nHost: h\r\nNameless\r\n\r\n", "GET / HTTP/1.1\r\nHost: h\r\nX: a\rb\r\n\r\n"}) {
+        EXPECT_EQ(fault(text), FaultCode::not_well_formed) << text;
+    }
+}
+
+TEST(HttpHead, SaysItsLengthOnce) {
+    auto const with = [](std::string_view line) { return "POST /rois HTTP/1.1\r\nHost: h\r\n" + std::string{line} + "\r\n\r\n"; };
+    EXPECT_EQ(std::get<RequestHead>(read(with("Content-Length: 12"))).content_length, 12u);
+    EXPECT_EQ(std::get<RequestHead>(read(with("Content-Length: 18446744073709551615"))).content_length, UINT64_MAX);
+    for (auto const* line :
+         {"Content-Length: -1", "Content-Length: 1e3", "Content-Length: +1", "Content-Length: 99999999999999999999999",
+          "Content-Length:", "Content-Length: 1\r\nContent-Length: 1"}) {
+        EXPECT_EQ(fault(with(line)), FaultCode::not_well_formed) << line;
+    }
+    EXPECT_EQ(fault(with("Transfer-Encoding: chunked")), FaultCode::length_required);
+}
+
+TEST(HttpHead, EndsAtAnEmptyLine) {
+    std::string const text = "GET / HTTP/1.1\r\nHost: h\r\n\r\nbody";
+    for (std::size_t cut = 0, searched = 0; cut < text.size(); ++cut) {
+        auto const size = find_head(std::string_view{text}.substr(0, cut), searched);
+        EXPECT_EQ(size, cut >= 27 ? 27u : 0u);
+    }
+}
+
+}  // namespace
+}  // namespace rois::net
