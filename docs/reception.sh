@@ -124,13 +124,29 @@ wait_for_a_person() {
     run person_detection stop
 }
 
-# Goes to a metre before the person, beside that when there is no way; fails when the person is gone.
-go_there() {
+# Finds somebody who was not received yet: $person and $position; fails when there is nobody for some time.
+find_somebody() {
+    person=
+    tries=0
     run person_localization start
-    wait_for '*<event_type>person_localized</event_type>*<rois:value>*' 10 || { run person_localization stop; return 1; }
-    person=$(values_of person_ref "$notification" | sed -n 1p)
-    position=$(values_of position_data "$notification" | sed -n 1p)
+    while [ -z "$person" ] && [ "$tries" -lt 5 ] && wait_for '*<event_type>person_localized</event_type>*<rois:value>*' 10; do
+        tries=$((tries + 1))
+        line=0
+        for one in $(values_of person_ref "$notification"); do
+            line=$((line + 1))
+            case $known_persons in *" $one "*) continue ;; esac
+            person=$one
+            position=$(values_of position_data "$notification" | sed -n "${line}p")
+            break
+        done
+    done
     run person_localization stop
+    [ -n "$person" ]
+}
+
+# Goes to a metre before the person, beside that when there is no way; fails when nobody new is there.
+go_there() {
+    find_somebody || return 1
     tell "$person is at $position (mm, mm, degree); going there."
     for angle in 0 60 -60 120 -120; do
         go_to "$(printf '%s' "$position" | awk -F, -v turn="$angle" '{ a = ($3 + turn) * 3.14159265 / 180
@@ -173,11 +189,23 @@ guide() {
 receive() {
     wait_for_a_person
     go_there || return 1
+    known_persons="$known_persons$person "
     identify
+    case $known_visitors in *" ${visitor:-nobody} "*)
+        tell "This is $visitor, who was received already."
+        go_back
+        return 1
+        ;;
+    esac
+    known_visitors="$known_visitors$visitor "
     guide
     tell 'The robot bows.'
     run reaction start "$(parameter reaction_ref RoISIdentifier 9)"
     say 'Goodbye.'
+    go_back
+}
+
+go_back() {
     tell 'Going back to the start.'
     go_to "$start"
     [ "$status" = OK ] || tell "The way back ended with $status."
@@ -204,6 +232,8 @@ start=$(values_of position_data "$answer" | sed -n 1p)
 tell "Connected to $url; the robot stands at $start."
 
 received=0
+known_persons=' '   # the temporary names of those who were received, good while the robot does not lose sight of them
+known_visitors=' '  # their permanent ids
 while [ "$received" -lt "$visitors" ]; do
     if receive; then received=$((received + 1)); fi
 done
