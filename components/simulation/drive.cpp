@@ -6,15 +6,17 @@
 namespace rois::simulation {
 namespace {
 
-constexpr Metres wall_gap = 0.015;  // left to walls and desks; less where the robot is nearer already
-constexpr Metres body_gap = 0.10;   // nor to a person or another robot
-constexpr Metres look_ahead = 2.0;  // bodies farther away are of no account; more than any stopping distance within the limits
+constexpr Metres wall_gap = 0.015;   // left to walls and desks; less where the robot is nearer already and passes by
+constexpr Metres body_gap = 0.10;    // and to people and other robots, likewise
+constexpr Metres squeezing = 0.008;  // within which the robot can stop while it passes somebody by so near
+constexpr Metres look_ahead = 2.0;   // bodies farther away are of no account; more than any stopping distance within the limits
 constexpr std::size_t remembered = 16;
 
 // How far the robot can go along `heading` before a wall or desk is too near.
 Metres free_of_walls(FloorPlan const& plan, Point const& from, Radians heading, Metres radius) {
-    Metres const gap = std::clamp(plan.clearance(from) - radius - 0.001, 0.003, wall_gap);
     Point const ahead = unit(heading);
+    bool const passes_by = plan.clearance(from) - plan.clearance(from + 0.01 * ahead) < 0.005;
+    Metres const gap = passes_by ? std::clamp(plan.clearance(from) - radius - 0.001, 0.003, wall_gap) : wall_gap;
     Metres gone = 0;
     while (gone < look_ahead) {
         Point const at = from + gone * ahead;
@@ -28,7 +30,11 @@ Metres free_of_walls(FloorPlan const& plan, Point const& from, Radians heading, 
 Metres free_of_bodies(std::vector<Disc> const& others, Point const& from, Radians heading, Metres radius) {
     Metres free = look_ahead;
     for (Disc const& other : others) {
-        free = std::min(free, free_way({from, radius + body_gap}, heading, other, look_ahead));
+        bool const passes_by = std::abs(wrapped(direction(from, other.centre) - heading)) > from_degrees(60);
+        Metres const left = distance(from, other.centre) - radius - other.radius - 0.001;
+        Metres const gap = passes_by ? std::clamp(left, 0.02, body_gap) : body_gap;
+        free = std::min(free, free_way({from, radius + gap}, heading, other, look_ahead));
+        if (passes_by && left < body_gap) free = std::min(free, squeezing);
     }
     return free;
 }

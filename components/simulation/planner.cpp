@@ -163,13 +163,10 @@ std::size_t Planner::index(Cell cell) const {
     return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(cell.column);
 }
 
-// The discs that this body's centre stays out of; one that it is in already shrinks until it is not.
-std::vector<Disc> Planner::kept_clear(std::span<Disc const> in_the_way, Point const& from) const {
-    std::vector<Disc> kept;
-    for (Disc const& disc : in_the_way) {
-        Metres const wanted = disc.radius + radius_ + elbow_room;
-        kept.push_back({disc.centre, std::min(wanted, distance(from, disc.centre) - 0.02)});
-    }
+// The discs that this body's centre stays out of.
+std::vector<Disc> Planner::kept_clear(std::span<Disc const> in_the_way) const {
+    std::vector<Disc> kept{in_the_way.begin(), in_the_way.end()};
+    for (Disc& disc : kept) disc.radius += radius_ + elbow_room;
     return kept;
 }
 
@@ -203,7 +200,10 @@ std::optional<Planner::Cell> Planner::free_cell_near(Point const& p, Blocked con
     return nearest;
 }
 
-bool Planner::cramped(Point const& p) const { return plan_.clearance(p) < radius_ + wall_room / 2; }
+bool Planner::cramped(Point const& p, std::span<Disc const> kept_clear) const {
+    return plan_.clearance(p) < radius_ + wall_room / 2 ||
+           std::ranges::any_of(kept_clear, [&](Disc const& disc) { return distance(p, disc.centre) < disc.radius; });
+}
 
 bool Planner::straight(Point const& from, Point const& to, std::span<Disc const> kept_clear) const {
     Metres const room = std::min(plan_.clearance(from), plan_.clearance(to)) - 0.001;
@@ -234,9 +234,9 @@ std::optional<Point> Planner::beside(Point const& centre, Metres away, Point con
 std::optional<std::vector<Point>> Planner::way(Pose const& from, Point const& to, RoutingPolicy policy,
                                                std::span<Disc const> in_the_way) const {
     if (!fits(to)) return std::nullopt;
-    std::vector<Disc> const kept = kept_clear(in_the_way, from.position);
+    std::vector<Disc> const kept = kept_clear(in_the_way);
     if (std::ranges::any_of(kept, [&](Disc const& disc) { return distance(to, disc.centre) < disc.radius; })) return std::nullopt;
-    if (!cramped(from.position) && straight(from.position, to, kept)) return std::vector<Point>{to};
+    if (!cramped(from.position, kept) && straight(from.position, to, kept)) return std::vector<Point>{to};
     Blocked const blocked = blocked_with(kept);
     auto const first = free_cell_near(from.position, blocked);
     auto const last = free_cell_near(to, blocked);
@@ -260,7 +260,7 @@ std::vector<Point> Planner::smoothed(Point const& from, std::vector<Point> const
     std::vector<Point> way;
     Point at = from;
     std::size_t next = 0;
-    if (cramped(from)) {  // first away from the wall
+    if (cramped(from, kept_clear)) {  // first away from the wall or body
         at = corners[next++];
         way.push_back(at);
     }

@@ -20,7 +20,7 @@ public:
     Planner(FloorPlan const&, Metres radius, MetresPerSecond speed, RadiansPerSecond turn_rate);
 
     // Corner points from `from` (not included) to `to` (included), or nothing when there is no way. `in_the_way` are the discs of
-    // others, which are kept clear of, except where `from` is within one already.
+    // others, which are kept clear of; from one that is too near already the way first leads away.
     std::optional<std::vector<Point>> way(Pose const& from, Point const& to, RoutingPolicy,
                                           std::span<Disc const> in_the_way = {}) const;
 
@@ -50,10 +50,10 @@ private:
     bool inside(Cell) const;
     static bool goes_on(Cell before, Cell at, Cell after);  // without a turn
     std::size_t index(Cell) const;
-    std::vector<Disc> kept_clear(std::span<Disc const> in_the_way, Point const& from) const;
+    std::vector<Disc> kept_clear(std::span<Disc const> in_the_way) const;
     Blocked blocked_with(std::span<Disc const> kept_clear) const;
     std::optional<Cell> free_cell_near(Point const&, Blocked const&) const;
-    bool cramped(Point const&) const;
+    bool cramped(Point const&, std::span<Disc const> kept_clear) const;  // where ways have to lead away first
     bool straight(Point const& from, Point const& to, std::span<Disc const> kept_clear) const;
     std::vector<Point> smoothed(Point const& from, std::vector<Point> const& corners, std::span<Disc const> kept_clear) const;
 

@@ -65,7 +65,7 @@ bool is_name(char c) {
            std::string_view{"-._:"}.find(c) != std::string_view::npos;
 }
 
-bool begins_name(char c) { return is_name(c) && !(c >= '0' && c <= '9') && c != '-' && c != '.'; }
+bool begins_name(char c) { return is_name(c) && std::string_view{"0123456789-."}.find(c) == std::string_view::npos; }
 
 void append_utf8(std::string& text, std::uint32_t c) {
     if (c < 0x80) {

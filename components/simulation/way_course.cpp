@@ -96,9 +96,9 @@ public:
 private:
     enum class Others : std::uint8_t { standing, all };
 
-    // Robots with a higher number are more patient, so that two do not dodge at the same moment for ever.
+    // Robots with a higher number wait longer, so that of two which meet one stands while the other goes around it.
     bool waits_too_long(Wheels const& wheels) {
-        Seconds const limit = 1.2 + 0.7 * static_cast<double>(wheels.robot);
+        Seconds const limit = 1.0 + 3.0 * std::min(3.0, static_cast<double>(wheels.robot));
         if (!corners_.given() || patience_.waited() < limit) return false;
         patience_.forget();
         until_next_try_ = 0;

@@ -14,7 +14,7 @@
 #include "simulation/robot_components.hpp"
 #include "types/texts.hpp"
 
-namespace rois::simulation {
+namespace rois::simulation::stage {
 
 // Told by a component: an event, or how a command went.
 struct Told {
@@ -247,4 +247,4 @@ inline std::string codebook_of(Results const& results, std::string_view name) {
     return parameter == nullptr ? "none" : parameter->data_type_ref.codebook_ref;
 }
 
-}  // namespace rois::simulation
+}  // namespace rois::simulation::stage

@@ -3,7 +3,7 @@
 
 #include "simulation/component_stage.hpp"
 
-namespace rois::simulation {
+namespace rois::simulation::stage {
 namespace {
 
 using testing::ElementsAre;
@@ -129,4 +129,4 @@ TEST(Component, IsUninitializedUntilTheWorldBegins) {
 }
 
 }  // namespace
-}  // namespace rois::simulation
+}  // namespace rois::simulation::stage

@@ -1,6 +1,6 @@
 #include "simulation/drive.hpp"
 
-#include "world_stage.hpp"
+#include "simulation/world_stage.hpp"
 
 #include <gtest/gtest.h>
 
@@ -144,14 +144,13 @@ TEST_P(Curves, EndWhereTheCircleSays) {
     EXPECT_LT(distance(pose.position, GetParam().end.position), 0.03) << pose.position.transpose();
     EXPECT_NEAR(wrapped(pose.heading - GetParam().end.heading), 0, from_degrees(2));
 }
-INSTANTIATE_TEST_SUITE_P(
-    All, Curves,
-    testing::Values(CurveCase{{1, from_degrees(90), {}}, {Point{3, 5}, from_degrees(90)}},
-                    CurveCase{{1, from_degrees(-90), {}}, {Point{3, 3}, from_degrees(-90)}},
-                    CurveCase{{-1, from_degrees(90), {}}, {Point{1, 3}, from_degrees(90)}},
-                    CurveCase{{-1, from_degrees(-90), {}}, {Point{1, 5}, from_degrees(-90)}},
-                    CurveCase{{0, from_degrees(120), {}}, {Point{2, 4}, from_degrees(120)}},
-                    CurveCase{{1, from_degrees(720), {}}, {Point{2, 4}, 0}}));
+INSTANTIATE_TEST_SUITE_P(All, Curves,
+                         testing::Values(CurveCase{{1, from_degrees(90), {}}, {Point{3, 5}, from_degrees(90)}},
+                                         CurveCase{{1, from_degrees(-90), {}}, {Point{3, 3}, from_degrees(-90)}},
+                                         CurveCase{{-1, from_degrees(90), {}}, {Point{1, 3}, from_degrees(90)}},
+                                         CurveCase{{-1, from_degrees(-90), {}}, {Point{1, 5}, from_degrees(-90)}},
+                                         CurveCase{{0, from_degrees(120), {}}, {Point{2, 4}, from_degrees(120)}},
+                                         CurveCase{{1, from_degrees(720), {}}, {Point{2, 4}, 0}}));
 
 TEST(Drive, ACurveThroughAWallIsNotBegun) {
     Hall hall{plain_hall(), nobody(), 1};

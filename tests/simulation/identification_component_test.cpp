@@ -3,7 +3,7 @@
 
 #include "simulation/component_stage.hpp"
 
-namespace rois::simulation {
+namespace rois::simulation::stage {
 namespace {
 
 using testing::ElementsAre;
@@ -74,4 +74,4 @@ TEST(Identification, TellsAfterResumeWhoCameMeanwhile) {
 }
 
 }  // namespace
-}  // namespace rois::simulation
+}  // namespace rois::simulation::stage

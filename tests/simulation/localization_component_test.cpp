@@ -5,7 +5,7 @@
 
 #include "simulation/component_stage.hpp"
 
-namespace rois::simulation {
+namespace rois::simulation::stage {
 namespace {
 
 using testing::AllOf;
@@ -170,4 +170,4 @@ TEST(Localization, OfASoundHasNoOrientation) {
 }
 
 }  // namespace
-}  // namespace rois::simulation
+}  // namespace rois::simulation::stage

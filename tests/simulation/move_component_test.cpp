@@ -5,7 +5,7 @@
 
 #include "simulation/component_stage.hpp"
 
-namespace rois::simulation {
+namespace rois::simulation::stage {
 namespace {
 
 using testing::ElementsAre;
@@ -110,4 +110,4 @@ TEST(Move, GoesOnWhereItWasHeld) {
 }
 
 }  // namespace
-}  // namespace rois::simulation
+}  // namespace rois::simulation::stage

@@ -3,7 +3,7 @@
 
 #include "simulation/component_stage.hpp"
 
-namespace rois::simulation {
+namespace rois::simulation::stage {
 namespace {
 
 using testing::ElementsAre;
@@ -161,4 +161,4 @@ TEST(Wheels, AreTheRobotsOwn) {
 }
 
 }  // namespace
-}  // namespace rois::simulation
+}  // namespace rois::simulation::stage

@@ -1,6 +1,6 @@
 #include "simulation/planner.hpp"
 
-#include "world_stage.hpp"
+#include "simulation/world_stage.hpp"
 
 #include <gtest/gtest.h>
 
@@ -79,15 +79,10 @@ TEST(Planner, LeavesAPlaceThatIsTooNearToSomebody) {
 FloorPlan slalom() {
     FloorPlan plan = plain_hall();
     plan.bounds = {Point{0, 0}, Point{12, 9}};
-    plan.walls = {{Point{2, 5.4}, Point{10, 5.4}}};
+    plan.walls = {{Point{2, 7}, Point{10, 7}}};
     for (int i = 0; i < 6; ++i) {
         double const x = 2.5 + 1.4 * i;
-        if (i % 2 == 0) {
-            plan.walls.push_back({Point{x, 0}, Point{x, 4.3}});
-        } else {
-            plan.walls.push_back({Point{x, 3.6}, Point{x, 5.4}});
-            plan.walls.push_back({Point{x, 0}, Point{x, 2.2}});
-        }
+        plan.walls.push_back(i % 2 == 0 ? Segment{Point{x, 0}, Point{x, 4.3}} : Segment{Point{x, 3.7}, Point{x, 7}});
     }
     return plan;
 }

@@ -6,7 +6,7 @@
 #include "simulation/component_stage.hpp"
 #include "simulation/reaction_types.hpp"
 
-namespace rois::simulation {
+namespace rois::simulation::stage {
 namespace {
 
 using testing::HasSubstr;
@@ -86,4 +86,4 @@ TEST(Reaction, EndsWhenStopped) {
 }
 
 }  // namespace
-}  // namespace rois::simulation
+}  // namespace rois::simulation::stage

@@ -5,7 +5,7 @@
 #include "simulation/grammar.hpp"
 #include "simulation/scenario.hpp"
 
-namespace rois::simulation {
+namespace rois::simulation::stage {
 namespace {
 
 using testing::Contains;
@@ -194,4 +194,4 @@ TEST(GestureRecognition, NamesTheGesturesThatItCanRecognize) {
 }
 
 }  // namespace
-}  // namespace rois::simulation
+}  // namespace rois::simulation::stage

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
 #include <stdexcept>
 
 #include "engine/engine.hpp"
@@ -10,11 +11,12 @@
 #include "xml/document.hpp"
 #include "xml/schemas.hpp"
 
-namespace rois::simulation {
+namespace rois::simulation::stage {
 namespace {
 
 using testing::Contains;
 using testing::ElementsAre;
+using testing::IsSupersetOf;
 using testing::SizeIs;
 using testing::UnorderedElementsAre;
 
@@ -92,6 +94,7 @@ protected:
         engine_->add(std::static_pointer_cast<Device>(simulation_));
         for (auto& component : robot_components(simulation_, profiles_)) engine_->add(std::move(component));
         session_ = std::get<Connect::Reply>(ask(Connect{})).session;
+        engine_->link_opened(session_);
     }
 
     Reply ask(Operation const& operation) { return std::get<Reply>(engine_->handle(session_, operation, now_)); }
@@ -155,16 +158,21 @@ TEST_F(Engaged, ComponentsTellWhatTheirProfilesPromise) {
 }
 
 TEST_F(Engaged, ComponentsHaveTheParametersOfTheirProfiles) {
+    std::set<std::string> read;
     for (auto const& component : engine_->components()) {
         auto const* get_parameter = find_message(*component.profile, MessageKind::query, "get_parameter");
         if (get_parameter == nullptr) continue;
         EXPECT_EQ(std::get<Bind::Reply>(ask(Bind{coded(component.ref)})).return_code, ReturnCode::ok);
-        for (auto const& parameter : std::get<GetParameter::Reply>(ask(GetParameter{coded(component.ref)})).parameters) {
+        auto const reply = std::get<GetParameter::Reply>(ask(GetParameter{coded(component.ref)}));
+        for (auto const& parameter : reply.parameters) {
+            read.insert(parameter.name);
             auto const* result = find_parameter(get_parameter->results, parameter.name);
             ASSERT_NE(result, nullptr) << component.ref << " " << parameter.name;
             EXPECT_TRUE(DataType::of(parameter.data_type_ref) == DataType::of(result->data_type_ref)) << parameter.name;
         }
     }
+    EXPECT_THAT(read, IsSupersetOf({"recognizable_languages", "recognizable_gestures", "synthesizable_languages",
+                                    "synthesizable_characters", "available_reactions", "volume", "routing_policy"}));
 }
 
 TEST_F(Engaged, ActionsStartWithTheDefaultsOfTheirProfiles) {
@@ -186,12 +194,11 @@ TEST_F(Engaged, AStoppedFollowHasDoneItsDuty) {
     CommandUnit stop;
     stop.unit = CommandMessage{coded("follow"), "stop", {}, {}};
     ask(Execute{{{stop}}});
-    for (auto const& entry : engine_->notifications(session_)->read(0, 1'000)) {
-        auto const* completed = std::get_if<Completed>(&entry.notification->body);
-        if (completed == nullptr) continue;
-        EXPECT_EQ(completed->status, CompletedStatus::ok);
-    }
+    std::vector<CompletedStatus> statuses;
+    for (auto const& entry : engine_->notifications(session_)->read(0, 1'000))
+        if (auto const* completed = std::get_if<Completed>(&entry.notification->body)) statuses.push_back(completed->status);
+    EXPECT_THAT(statuses, ElementsAre(CompletedStatus::ok, CompletedStatus::ok));
 }
 
 }  // namespace
-}  // namespace rois::simulation
+}  // namespace rois::simulation::stage

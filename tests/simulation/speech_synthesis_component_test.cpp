@@ -4,7 +4,7 @@
 #include "simulation/component_stage.hpp"
 #include "simulation/ssml.hpp"
 
-namespace rois::simulation {
+namespace rois::simulation::stage {
 namespace {
 
 using testing::Contains;
@@ -158,7 +158,7 @@ TEST(SpeechSynthesis, HonoursPausesAndPaceOfSsml) {
 }
 
 TEST(SpeechSynthesis, NamesThePlaceOfAMistakeInSsml) {
-    EXPECT_THAT(refusal({text("SSML_text", "<speak>\n  Hello <emphasis>you</speak>")}), HasSubstr("line 2, column 24"));
+    EXPECT_THAT(refusal({text("SSML_text", "<speak>\n  Hello <emphasis>you</speak>")}), HasSubstr("line 2, column 22"));
     EXPECT_THAT(refusal({text("SSML_text", "<speak>Hello")}, "set_parameter"), HasSubstr("<speak> is not closed"));
     EXPECT_THAT(refusal({text("SSML_text", "<speak xml:lang='xx'>Hello</speak>")}), HasSubstr("'xx'"));
 }
@@ -241,4 +241,4 @@ TEST(Ssml, BearsDeepNesting) {
 }
 
 }  // namespace
-}  // namespace rois::simulation
+}  // namespace rois::simulation::stage

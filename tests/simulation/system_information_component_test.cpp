@@ -3,7 +3,7 @@
 
 #include "simulation/component_stage.hpp"
 
-namespace rois::simulation {
+namespace rois::simulation::stage {
 namespace {
 
 using testing::DoubleNear;
@@ -70,4 +70,4 @@ TEST(SystemInformation, IsOfItsOwnRobot) {
 }
 
 }  // namespace
-}  // namespace rois::simulation
+}  // namespace rois::simulation::stage

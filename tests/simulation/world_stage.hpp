@@ -13,7 +13,8 @@
 
 namespace rois::simulation {
 
-// 10 m by 8 m without an inner wall; people come in at (9, 4), the desk's place is (5, 7), and robot1 stands at (2, 4) and looks along x.
+// 10 m by 8 m without an inner wall; people come in at (9, 4), the desk's place is (5, 7), and robot1 stands at (2, 4) and looks
+// along x.
 inline FloorPlan plain_hall() {
     FloorPlan plan;
     plan.name = "plain";
@@ -110,7 +111,8 @@ inline std::string observed(Hall const& hall) {
         add_pose(person.pose);
     }
     for (Happening const& happening : hall.chronicle().since(0)) {
-        all += std::to_string(happening.at.count()) + " " + std::to_string(static_cast<int>(happening.kind)) + happening.text + "\n";
+        all +=
+            std::to_string(happening.at.count()) + " " + std::to_string(static_cast<int>(happening.kind)) + happening.text + "\n";
     }
     return all;
 }

@@ -1,0 +1,141 @@
+#include "simulation/world_stage.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace rois::simulation {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string plan_text(std::string const& places, std::string const& robots) {
+    return "<floor_plan xmlns=\"urn:x-rois:simulation:hall:1\" name=\"test\">\n"
+           "<bounds x=\"0\" y=\"0\" width=\"10000\" depth=\"8000\"/>\n"
+           "<wall x1=\"5000\" y1=\"0\" x2=\"5000\" y2=\"6000\"/>\n" +
+           places + robots + "</floor_plan>";
+}
+std::string const places =
+    "<place name=\"entrance\" x=\"9000\" y=\"4000\" heading=\"180\"/>\n<place name=\"desk\" x=\"7000\" y=\"7000\"/>\n";
+std::string const robots = "<robot name=\"robot1\" x=\"2000\" y=\"4000\"/>\n";
+
+FloorPlan read_plan(std::string text) { return read_floor_plan(schemas(), "hall.xml", std::move(text)); }
+
+// What is wrong with a document, as the user is told.
+template <class Read>
+std::string complaint(Read read) {
+    try {
+        read();
+    } catch (xml::BadDocument const& bad) {
+        return bad.what();
+    }
+    return "nothing";
+}
+
+std::string complaint_of_scenario(std::string const& text) {
+    return complaint([&] { read_scenario(schemas(), "day.xml", text, read_plan(plan_text(places, robots))); });
+}
+
+TEST(FloorPlanFile, IsReadIntoMetresAndRadians) {
+    FloorPlan const plan =
+        read_plan(plan_text(places,
+                            "<robot name=\"robot1\" x=\"2000\" y=\"4000\" heading=\"-90\" radius=\"300\" max_turn_rate=\"45\">"
+                            "<faces range=\"4000\" turned_within=\"30\" heading_sigma=\"2\"/></robot>"));
+    EXPECT_EQ(plan.bounds.high, Point(10, 8));
+    ASSERT_EQ(plan.walls.size(), 1u);
+    EXPECT_EQ(plan.walls[0].to, Point(5, 6));
+    ASSERT_TRUE(plan.place("entrance"));
+    EXPECT_NEAR(plan.place("entrance")->pose.heading, from_degrees(180), 1e-12);
+    RobotPlan const& robot = plan.robots.at(0);
+    EXPECT_NEAR(robot.start.heading, from_degrees(-90), 1e-12);
+    EXPECT_DOUBLE_EQ(robot.radius, 0.3);
+    EXPECT_NEAR(robot.max_turn_rate, from_degrees(45), 1e-12);
+    EXPECT_DOUBLE_EQ(robot.max_speed, RobotPlan{}.max_speed) << "what is left out is as usual";
+    EXPECT_DOUBLE_EQ(robot.sensors.faces.range, 4);
+    EXPECT_NEAR(robot.sensors.faces.turned_within, from_degrees(30), 1e-12);
+}
+
+TEST(FloorPlanFile, SaysWhereItIsWrong) {
+    EXPECT_THAT(complaint([] { read_plan("<floor_plan"); }), StartsWith("hall.xml:1:"));
+    EXPECT_THAT(complaint([] { read_plan(plan_text(places, "<robot name=\"robot1\" x=\"two\" y=\"4000\"/>")); }),
+                StartsWith("hall.xml:6:"));
+    EXPECT_THAT(complaint([] { read_plan(plan_text(places + "<place name=\"desk\" x=\"6000\" y=\"7000\"/>", robots)); }),
+                AllOf(StartsWith("hall.xml:6:1:"), HasSubstr("second place named desk")));
+    EXPECT_THAT(complaint([] { read_plan(plan_text(places, "<robot name=\"robot1\" x=\"5100\" y=\"4000\"/>\n")); }),
+                AllOf(StartsWith("hall.xml:6:1:"), HasSubstr("too near to a wall")));
+    EXPECT_THAT(complaint([] { read_plan(plan_text("<place name=\"desk\" x=\"7000\" y=\"7000\"/>", robots)); }),
+                AllOf(StartsWith("hall.xml:1:1:"), HasSubstr("no place named entrance")));
+}
+
+TEST(ScenarioFile, IsReadWithAllItsActions) {
+    FloorPlan const plan = read_plan(plan_text(places, robots));
+    Scenario const scenario = read_scenario(schemas(), "day.xml", R"(
+<scenario xmlns="urn:x-rois:simulation:hall:1" name="a day" round="120">
+  <arrivals gap_least="10" gap_most="20" at_most="3"/>
+  <person id="tanaka" known="true" name="Tanaka" language="ja" message="Room 3." height="1720" speed="1200" enters="2.5">
+    <answer to="name" language="en" gesture="nod">Tanaka.</answer>
+    <answer reaction="9" gesture="bow" once="true"/>
+    <walk to="desk"/><face to="robot1"/><say at="8">はじめまして。</say><gesture id="wave"/>
+    <wait seconds="3"/><ignore/><wander seconds="4"/><walk to="6500, 2000"/><leave/>
+  </person>
+</scenario>)",
+                                            plan);
+    EXPECT_EQ(scenario.round, 120.0);
+    ASSERT_TRUE(scenario.arrivals);
+    EXPECT_EQ(scenario.arrivals->at_most, 3u);
+    Role const& role = scenario.roles.at(0);
+    EXPECT_TRUE(role.known);
+    EXPECT_DOUBLE_EQ(role.height, 1.72);
+    EXPECT_DOUBLE_EQ(role.speed, 1.2);
+    EXPECT_DOUBLE_EQ(role.enters, 2.5);
+    ASSERT_EQ(role.answers.size(), 2u);
+    EXPECT_EQ(role.answers[0].text, "Tanaka.");
+    EXPECT_TRUE(role.answers[1].once);
+    ASSERT_EQ(role.actions.size(), 9u);
+    EXPECT_EQ(std::get<std::string>(std::get<Walk>(role.actions[0].what).to.at), "desk");
+    EXPECT_EQ(std::get<Say>(role.actions[2].what).language, "ja") << "the person's own";
+    EXPECT_EQ(role.actions[2].at, 8.0);
+    EXPECT_EQ(std::get<Point>(std::get<Walk>(role.actions[7].what).to.at), Point(6.5, 2));
+    EXPECT_TRUE(std::holds_alternative<Leave>(role.actions[8].what));
+}
+
+TEST(ScenarioFile, SaysWhereItIsWrong) {
+    auto day = [](std::string const& inside) {
+        return "<scenario xmlns=\"urn:x-rois:simulation:hall:1\" name=\"day\" round=\"60\">\n<person id=\"a\">\n" + inside +
+               "\n</person>\n</scenario>";
+    };
+    EXPECT_THAT(complaint_of_scenario(day("  <walk to=\"garden\"/>")), AllOf(StartsWith("day.xml:3:3:"), HasSubstr("garden")));
+    EXPECT_THAT(complaint_of_scenario(day("<walk to=\"5000, 3000\"/>")), AllOf(StartsWith("day.xml:3:1:"), HasSubstr("stand")));
+    EXPECT_THAT(complaint_of_scenario(day("<gesture id=\"yawn\"/>")), AllOf(StartsWith("day.xml:3:1:"), HasSubstr("wave")));
+    EXPECT_THAT(complaint_of_scenario(day("<say language=\"English\">Hi</say>")),
+                AllOf(StartsWith("day.xml:3:1:"), HasSubstr("639-1")));
+    EXPECT_THAT(complaint_of_scenario(day("<answer>Hi</answer>")), AllOf(StartsWith("day.xml:3:1:"), HasSubstr("one of 'to'")));
+    EXPECT_THAT(complaint_of_scenario(day("<dance/>")), StartsWith("day.xml:3:"));
+    EXPECT_THAT(complaint_of_scenario(day("<wait seconds=\"-1\"/>")), StartsWith("day.xml:3:"));
+    EXPECT_THAT(complaint_of_scenario(day("</person>\n<person id=\"a\">")),
+                AllOf(StartsWith("day.xml:4:1:"), HasSubstr("second person")));
+    EXPECT_THAT(complaint_of_scenario(day("</person>\n<person id=\"b\" enters=\"70\">")),
+                AllOf(StartsWith("day.xml:4:1:"), HasSubstr("round")));
+    EXPECT_THAT(complaint_of_scenario(plan_text(places, robots)), HasSubstr("no scenario"));
+}
+
+TEST(ShippedFiles, AreWithoutFlaw) {
+    for (auto name : {"reception-hall.xml", "two-robots.xml"}) {
+        FloorPlan const plan = shipped_plan(name);
+        EXPECT_FALSE(flaw(plan)) << name;
+        EXPECT_GE(reception_day(plan).roles.size(), 3u);
+        EXPECT_EQ(plan.crs, "urn:x-rois:def:crs:simulation::hall");
+    }
+    EXPECT_EQ(shipped_plan("two-robots.xml").robots.size(), 2u);
+}
+
+TEST(ShippedFiles, EveryPlaceCanBeReached) {
+    FloorPlan const plan = shipped_plan("reception-hall.xml");
+    RobotPlan const& robot = plan.robots.at(0);
+    Planner const planner{plan, robot.radius, robot.max_speed, robot.max_turn_rate};
+    for (Place const& place : plan.places)
+        EXPECT_TRUE(planner.way(robot.start, place.pose.position, RoutingPolicy::time)) << place.name;
+}
+
+}  // namespace
+}  // namespace rois::simulation
