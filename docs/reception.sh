@@ -170,8 +170,8 @@ identify() {
 guide() {
     if [ -z "$visitor" ]; then
         tell 'Nobody that is known.'
-        say 'Welcome. How can I help you?'
         run speech_recognition start
+        say 'Welcome. How can I help you?'
         if wait_for '*<event_type>speech_recognized</event_type>*' 10; then
             tell "Visitor: \"$(values_of recognized_text "$notification" | sed -n 1p)\""
             say 'I shall tell my colleagues at the desk.'

@@ -99,7 +99,7 @@ private:
     }
 
     Twist drive(Wheels const& wheels, Progress& progress) {
-        Metres const left = line_.distance - (wheels.pose.position - start_->position).dot(unit(start_->heading));
+        Metres const left = line_.distance - (frame(*start_).inverse() * wheels.pose.position).x();
         bool const there = std::abs(left) < at_place || left * line_.distance <= 0;
         patience_.look(wheels, !there);
         progress.state = patience_.obstructed() ? MotionState::obstructed : MotionState::moving;

@@ -3,7 +3,6 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 
 #include "simulation/motion.hpp"
 
@@ -34,8 +33,6 @@ public:
 
     // Signed radius of the circle on which the robot stays, also while it brakes; nothing when it may turn as it likes.
     virtual std::optional<Metres> circle() const { return std::nullopt; }
-
-    virtual std::span<Point const> way() const { return {}; }
 };
 
 std::unique_ptr<Course> course_of(GoTo);

@@ -106,8 +106,6 @@ void Drive::go_on(MotionId id) {
     if (is_current(id)) current_->held = false;
 }
 
-std::span<Point const> Drive::way() const { return current_ ? current_->course->way() : std::span<Point const>{}; }
-
 Disc Drive::stopping_disc() const {
     Metres const braking = twist_.linear * std::abs(twist_.linear) / (2 * plan_.max_acceleration);
     return {pose_.position + braking / 2 * unit(pose_.heading), plan_.radius + std::abs(braking) / 2};

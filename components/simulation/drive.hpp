@@ -43,9 +43,6 @@ public:
     Twist const& twist() const { return twist_; }
     RobotPlan const& plan() const { return plan_; }
 
-    // The corner points of the way ahead, for show.
-    std::span<Point const> way() const;
-
     // The floor that the robot takes up until it could stand still.
     Disc stopping_disc() const;
 

@@ -37,13 +37,6 @@ bool cross(Segment const& a, Segment const& b) {
            (a_from == 0 && within_extent(b, a.from)) || (a_to == 0 && within_extent(b, a.to));
 }
 
-bool cross(Box const& box, Segment const& s) {
-    if (box.contains(s.from) || box.contains(s.to)) return true;
-    Point const low_right{box.high.x(), box.low.y()}, high_left{box.low.x(), box.high.y()};
-    return cross(Segment{box.low, low_right}, s) || cross(Segment{low_right, box.high}, s) ||
-           cross(Segment{box.high, high_left}, s) || cross(Segment{high_left, box.low}, s);
-}
-
 Metres free_way(Disc const& from, Radians heading, Disc const& other, Metres far) {
     Point const to_other = other.centre - from.centre;
     Metres const touch = from.radius + other.radius;

@@ -28,7 +28,6 @@ struct Disc {
 Metres distance(Segment const&, Point const&);
 Metres distance(Box const&, Point const&);   // 0 inside
 bool cross(Segment const&, Segment const&);  // also when they only touch
-bool cross(Box const&, Segment const&);
 
 // How far a disc of `radius` at `from` can go along `heading` until it touches the other; `far` when it never does within `far`.
 Metres free_way(Disc const& from, Radians heading, Disc const& other, Metres far);

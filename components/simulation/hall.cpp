@@ -65,8 +65,6 @@ std::optional<Target> Hall::target(std::string_view text) const {
     return place ? std::optional{Target{place->pose.position, place->pose.heading}} : std::nullopt;
 }
 
-bool Hall::in_sight(Point const& from, Point const& to) const { return plan().in_sight(from, to); }
-
 UtteranceId Hall::speak(RobotId id, Utterance utterance) {
     Robot& robot = world_->robot(id);
     UtteranceId const said = world_->voices[index(id)].speak(std::move(utterance), now(), robot.pose.position, world_->chronicle);

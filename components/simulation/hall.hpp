@@ -60,9 +60,6 @@ public:
     // Reads a target: "x, y, th" or "x, y" in mm and degrees, or the name of a place. Nothing when it is none of them.
     std::optional<Target> target(std::string_view) const;
 
-    // No wall in the way.
-    bool in_sight(Point const& from, Point const& to) const;
-
     // A robot speaks. One utterance at a time: a new one breaks the old one. It ends by itself, in the world's time.
     UtteranceId speak(RobotId, Utterance);
     SpeechState speech_state(RobotId, UtteranceId) const;

@@ -278,24 +278,4 @@ std::vector<Point> Planner::smoothed(Point const& from, std::vector<Point> const
     return way;
 }
 
-Seconds Planner::duration(Pose const& from, std::span<Point const> way) const {
-    Seconds sum = 0;
-    Pose at = from;
-    for (Point const& corner : way) {
-        sum += std::abs(bearing(at, corner)) / turn_rate_ + distance(at.position, corner) / speed_;
-        at = {corner, direction(at.position, corner)};
-    }
-    return sum;
-}
-
-Metres Planner::length(Point const& from, std::span<Point const> way) {
-    Metres sum = 0;
-    Point at = from;
-    for (Point const& corner : way) {
-        sum += distance(at, corner);
-        at = corner;
-    }
-    return sum;
-}
-
 }  // namespace rois::simulation

@@ -33,10 +33,6 @@ public:
     // Of the points at `away` from `centre` where a body fits with nothing between it and the centre, the nearest to `from`.
     std::optional<Point> beside(Point const& centre, Metres away, Point const& from, std::span<Disc const> in_the_way = {}) const;
 
-    // Seconds that a way takes with the speeds given, and its length.
-    Seconds duration(Pose const& from, std::span<Point const> way) const;
-    static Metres length(Point const& from, std::span<Point const> way);
-
 private:
     class Search;
     struct Cell {

@@ -17,7 +17,6 @@ constexpr Radians too_far_aside = 0.6;  // beyond it the robot turns on the spot
 class Corners {
 public:
     bool given() const { return !points_.empty(); }
-    std::span<Point const> points() const { return points_; }
     void set(std::vector<Point> points) { points_ = std::move(points); }
     void clear() { points_.clear(); }
 
@@ -85,8 +84,6 @@ public:
         return patience_.obstructed() ? Step::waiting : Step::driving;
     }
 
-    std::span<Point const> way() const { return corners_.points(); }
-
     void forget() {
         goal_.reset();
         corners_.clear();
@@ -127,8 +124,6 @@ private:
 class GoToCourse : public Course {
 public:
     explicit GoToCourse(GoTo motion) : motion_(std::move(motion)) {}
-
-    std::span<Point const> way() const override { return approach_.way(); }
 
     Twist steer(Wheels const& wheels, Progress& progress) override {
         if (progress.targets_reached == motion_.targets.size()) {
@@ -203,8 +198,6 @@ private:
 class KeepDistanceCourse : public Course {
 public:
     explicit KeepDistanceCourse(KeepDistance motion) : motion_(motion) {}
-
-    std::span<Point const> way() const override { return approach_.way(); }
 
     Twist steer(Wheels const& wheels, Progress& progress) override {
         auto const whom = wheels.around.pose_of(motion_.whom);

@@ -23,16 +23,20 @@ Engine::Core::Core(EngineProfile profile, std::vector<ComponentProfile> known_pr
 
 void Engine::Core::add(std::unique_ptr<Component> component) {
     auto const& description = component->description();
+    auto const sub_engine = description.engine;
     auto whole = flattened(*description.profile, known_profiles_);
     auto const& entry =
-        registry_.add(std::make_unique<RegisteredComponent>(std::move(component), std::move(whole), agenda_)).entry();
+        registry_
+            .add(std::make_unique<RegisteredComponent>(std::move(component), std::move(whole),
+                                                       sub_engine.empty() ? profile_->object.name : sub_engine, agenda_))
+            .entry();
     auto* owner = profile_.get();
-    if (!entry.engine.empty()) {
-        auto const known = std::ranges::find(owner->sub_profiles, entry.engine, [](auto const& sub) { return sub.object.name; });
+    if (!sub_engine.empty()) {
+        auto const known = std::ranges::find(owner->sub_profiles, sub_engine, [](auto const& sub) { return sub.object.name; });
         owner = known != owner->sub_profiles.end() ? &*known : &owner->sub_profiles.emplace_back();
-        owner->object = {.identifier = profile_->object.identifier + "." + entry.engine,
+        owner->object = {.identifier = profile_->object.identifier + "." + sub_engine,
                          .code_space = profile_->object.code_space,
-                         .name = entry.engine,
+                         .name = sub_engine,
                          .description = {}};
     }
     owner->components.push_back(entry.ref);

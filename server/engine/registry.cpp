@@ -58,12 +58,13 @@ void add_parameter_messages(ComponentProfile& profile, std::vector<ParameterProf
 
 }  // namespace
 
-RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, ComponentProfile profile, Agenda& agenda)
+RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, ComponentProfile profile, std::string engine,
+                                         Agenda& agenda)
     : component_{std::move(component)}, profile_{std::move(profile)}, settable_{settable_of(profile_)}, agenda_{agenda} {
     add_parameter_messages(profile_, settable_);
     auto const& description = component_->description();
     ref_ = description.ref;
-    entry_ = {.ref = ref_.code, .type = profile_.object.identifier, .engine = description.engine, .profile = description.profile};
+    entry_ = {.ref = ref_.code, .type = profile_.object.identifier, .engine = std::move(engine), .profile = description.profile};
     for (auto const& parameter : settable_)
         if (parameter.default_value) parameters.push_back({parameter.name, parameter.data_type_ref, default_values(parameter)});
     component_->attach(*this);

@@ -24,8 +24,8 @@ public:
     // What the component does, as far as commands are concerned.
     enum class Activity : std::uint8_t { idle, running, active };
 
-    // `profile` has the messages of the sub components.
-    RegisteredComponent(std::unique_ptr<Component>, ComponentProfile profile, Agenda&);
+    // `profile` has the messages of the sub components; `engine` is the name of the engine or sub engine that has it.
+    RegisteredComponent(std::unique_ptr<Component>, ComponentProfile profile, std::string engine, Agenda&);
 
     Identifier const& ref() const { return ref_; }
     ComponentEntry const& entry() const { return entry_; }

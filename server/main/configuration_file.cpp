@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -56,6 +57,7 @@ void set(Settings& settings, std::string const& name, json const& value, std::st
 }  // namespace
 
 std::string text_of_file(std::string const& file) {
+    if (std::filesystem::is_directory(file)) throw BadSettings{file + ": cannot be read: this is a directory"};
     std::ifstream stream{file, std::ios::binary};
     std::string text{std::istreambuf_iterator<char>{stream}, {}};
     if (!stream.is_open() || stream.bad()) throw BadSettings{file + ": cannot be read: " + std::strerror(errno)};
@@ -64,7 +66,8 @@ std::string text_of_file(std::string const& file) {
 
 void read_configuration_file(std::string const& file, Settings& settings) {
     auto const text = text_of_file(file);
-    for (auto const& [name, value] : parse(file, text).items()) {
+    auto const object = parse(file, text);
+    for (auto const& [name, value] : object.items()) {
         set(settings, name, value, file + ":" + std::to_string(line_of(text, name)) + ": ");
     }
 }

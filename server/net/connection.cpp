@@ -74,7 +74,10 @@ Task<std::variant<RequestHead, Connection::Then>> Connection::receive_head() {
     std::size_t searched = 0;
     std::size_t size = 0;
     while (true) {
-        while (searched == 0 && wire_.text().starts_with("\r\n")) wire_.use(2);  // RFC 9112, 2.2
+        while (wire_.text().starts_with("\r\n")) {  // RFC 9112, 2.2
+            wire_.use(2);
+            searched = 0;
+        }
         size = find_head(wire_.text(), searched);
         if (size > 0 || wire_.received().size() > settings.max_header) break;
         co_await flush();

@@ -1,13 +1,13 @@
 #include "net/health_check.hpp"
 
+#include "net/asio.hpp"
+
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/read.hpp>
 #include <boost/asio/read_until.hpp>
 #include <boost/asio/streambuf.hpp>
 #include <boost/asio/write.hpp>
-
-#include "net/asio.hpp"
 
 namespace rois::net {
 

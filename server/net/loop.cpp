@@ -28,10 +28,9 @@ void Loop::run() {
 }
 
 void Loop::serve(Socket socket) {
-    auto connection = std::make_shared<Connection>(*this, std::move(socket));
-    asio::co_spawn(
-        io_, [connection] { return connection->run(); },
-        [connection](std::exception_ptr broken) {
+    // Given away whole: a connection ends on its own thread.
+    asio::post(io_, [this, connection = std::make_shared<Connection>(*this, std::move(socket))] {
+        asio::co_spawn(io_, connection->run(), [connection](std::exception_ptr const& broken) {
             if (!broken) return;
             try {
                 std::rethrow_exception(broken);
@@ -39,6 +38,7 @@ void Loop::serve(Socket socket) {
                 spdlog::error("a connection broke off: {}", error.what());
             }
         });
+    });
 }
 
 void Loop::shut_down(std::chrono::milliseconds within) {

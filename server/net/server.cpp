@@ -1,5 +1,7 @@
 #include "net/server.hpp"
 
+#include "net/asio.hpp"
+
 #include <spdlog/spdlog.h>
 
 #include <boost/asio/basic_socket_acceptor.hpp>

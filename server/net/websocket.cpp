@@ -187,6 +187,7 @@ bool WebSocket::gather() {
         append_close(out_, ending_->code, ending_->reason);
         close_gathered_ = true;
     }
+    if (out_.empty() && session_over_) reading_.reset();  // it had nothing left to say
     return !out_.empty();
 }
 

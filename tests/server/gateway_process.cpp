@@ -1,6 +1,7 @@
 #include "server/gateway_process.hpp"
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <memory>
 #include <stdexcept>
 
 namespace rois::test {
@@ -99,10 +101,10 @@ GatewayProcess::GatewayProcess(std::vector<std::string> arguments, Variables con
 }
 
 GatewayProcess::~GatewayProcess() {
-    if (process_ > 0) {
-        signal(SIGTERM);
-        wait();
-    }
+    if (process_ == 0) return;
+    signal(SIGTERM);
+    auto const ended = wait();
+    EXPECT_EQ(ended.exit_code, 0) << ended.error;
 }
 
 void GatewayProcess::signal(int number) { kill(process_, number); }
@@ -119,8 +121,15 @@ Ended GatewayProcess::wait() {
 }
 
 GatewayProcess& shared_gateway() {
-    static GatewayProcess gateway;
-    return gateway;
+    // Ended with the tests, as long as a failure counts.
+    class Shared : public testing::Environment {
+    public:
+        void TearDown() override { gateway.reset(); }
+        std::unique_ptr<GatewayProcess> gateway;
+    };
+    static auto* const shared = dynamic_cast<Shared*>(testing::AddGlobalTestEnvironment(new Shared));
+    if (!shared->gateway) shared->gateway = std::make_unique<GatewayProcess>();
+    return *shared->gateway;
 }
 
 }  // namespace rois::test

@@ -22,7 +22,7 @@ struct Ended {
 // Runs rois-gateway with these arguments until it ends.
 Ended run_gateway(std::vector<std::string> const& arguments, Variables const& = {});
 
-// A gateway that listens on a free port of the loopback; ended with it.
+// A gateway that listens on a free port of the loopback; ended with it. It is a failure when that does not go well.
 class GatewayProcess {
 public:
     // Waits until it listens. Throws std::runtime_error with what it said when it does not.

@@ -51,9 +51,8 @@ std::string HttpReply::header(std::string const& name) const {
 }
 
 std::string request(std::string const& operation, std::string const& children, std::string const& attributes) {
-    return "<" + operation +
-           " xmlns=\"urn:x-rois:psm:xml:message:1\" xmlns:rois=\"http://www.omg.org/spec/RoIS/20240801\" " + attributes + ">" +
-           children + "</" + operation + ">";
+    return "<" + operation + " xmlns=\"urn:x-rois:psm:xml:message:1\" xmlns:rois=\"http://www.omg.org/spec/RoIS/20240801\" " +
+           attributes + ">" + children + "</" + operation + ">";
 }
 
 std::string component_ref(std::string const& code) { return "<component_ref rois:code=\"" + code + "\"/>"; }
@@ -61,6 +60,19 @@ std::string component_ref(std::string const& code) { return "<component_ref rois
 std::string parameters(std::string const& name, int value) {
     return "<parameters><parameter rois:name=\"" + name + "\"><rois:data_type_ref rois:code=\"int\"/><rois:value>" +
            std::to_string(value) + "</rois:value></parameter></parameters>";
+}
+
+HttpClient::~HttpClient() {
+    if (session.empty()) return;
+    try {
+        Line line{port_};
+        auto const body = request("disconnect");
+        line.send("POST /rois HTTP/1.1\r\nHost: h\r\nConnection: close\r\nContent-Type: text/xml\r\nRoIS-Session: " + session +
+                  "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
+        line.rest();
+    } catch (LineEnded const&) {
+        // The gateway has gone, and the session with it.
+    }
 }
 
 HttpReply HttpClient::say(std::string_view bytes, std::string_view method) {
@@ -106,7 +118,8 @@ void bind_and_complete(HttpClient& client, int count) {
 }
 
 void complete(HttpClient& client, int count) {
-    for (int i = 0; i < count; ++i) client.call("set_parameter", component_ref("navigation") + parameters("time_limit", 1'000 + i));
+    for (int i = 0; i < count; ++i)
+        client.call("set_parameter", component_ref("navigation") + parameters("time_limit", 1'000 + i));
 }
 
 }  // namespace rois::test

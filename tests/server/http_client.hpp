@@ -18,15 +18,16 @@ struct HttpReply {
     Headers headers;
     std::string body;
 
-    pugi::xml_node root() const;         // of the body's document
-    std::string fault() const;           // the code when the body is a fault, else empty
-    std::string reason() const;          // of a fault or an answer
-    std::string return_code() const;     // of an answer
+    pugi::xml_node root() const;      // of the body's document
+    std::string fault() const;        // the code when the body is a fault, else empty
+    std::string reason() const;       // of a fault or an answer
+    std::string return_code() const;  // of an answer
     std::string text(char const* child) const;
     std::string header(std::string const& name) const;
 
 private:
     mutable pugi::xml_document document_;
+
 public:
     HttpReply() = default;
     HttpReply(HttpReply const& other) : status{other.status}, headers{other.headers}, body{other.body} {}
@@ -38,9 +39,13 @@ std::string component_ref(std::string const& code);
 // `<parameters>` for set_parameter: one whole number.
 std::string parameters(std::string const& name, int value);
 
+// Disconnects its session in the end, so that other tests find the components free.
 class HttpClient {
 public:
-    explicit HttpClient(GatewayProcess const& gateway = shared_gateway()) : line_{gateway.port()} {}
+    explicit HttpClient(GatewayProcess const& gateway = shared_gateway()) : port_{gateway.port()}, line_{port_} {}
+    ~HttpClient();
+    HttpClient(HttpClient const&) = delete;
+    HttpClient& operator=(HttpClient const&) = delete;
 
     Line& line() { return line_; }
 
@@ -58,6 +63,7 @@ public:
     std::string session;
 
 private:
+    std::uint16_t port_;
     Line line_;
 };
 

@@ -15,7 +15,8 @@ Line::Line(std::uint16_t port, std::string const& address) {
     wanted.ai_socktype = SOCK_STREAM;
     wanted.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV;
     addrinfo* found = nullptr;
-    if (getaddrinfo(address.c_str(), std::to_string(port).c_str(), &wanted, &found) != 0) throw LineEnded{"no address " + address};
+    if (getaddrinfo(address.c_str(), std::to_string(port).c_str(), &wanted, &found) != 0)
+        throw LineEnded{"no address " + address};
     socket_ = socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
     auto const connected = connect(socket_, found->ai_addr, found->ai_addrlen);
     freeaddrinfo(found);

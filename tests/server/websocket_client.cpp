@@ -22,9 +22,7 @@ int Frame::close_code() const {
     return static_cast<unsigned char>(payload[0]) << 8 | static_cast<unsigned char>(payload[1]);
 }
 
-WebSocketClient::WebSocketClient(GatewayProcess const& gateway) : http_{gateway} {
-    EXPECT_EQ(shake_hands(http_).status, 101);
-}
+WebSocketClient::WebSocketClient(GatewayProcess const& gateway) : http_{gateway} { EXPECT_EQ(shake_hands(http_).status, 101); }
 
 void WebSocketClient::send(std::string_view payload, Kind kind) { send_raw(0x80 | static_cast<unsigned>(kind), payload); }
 
@@ -72,7 +70,7 @@ pugi::xml_node WebSocketClient::next_document() {
 pugi::xml_node WebSocketClient::call(std::string const& operation, std::string const& children, std::string const& attributes) {
     ask(operation, children, attributes);
     auto const answer = next_document();
-    if (operation == "connect") session = answer.child("session").text().get();
+    if (operation == "connect") http_.session = answer.child("session").text().get();
     return answer;
 }
 

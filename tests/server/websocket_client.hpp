@@ -44,7 +44,9 @@ public:
     // The code with which the server closes, after which it must end the connection; other frames are passed over.
     int closes();
 
-    std::string session;
+    std::string const& session() const { return http_.session; }
+    // Keeps its session when it goes: closes without a word.
+    void vanish() { http_.session.clear(); }
 
 private:
     HttpClient http_;

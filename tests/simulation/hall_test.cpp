@@ -62,16 +62,15 @@ TEST(Hall, RefusesAPlanWithAFlaw) {
     EXPECT_THROW((Hall{plan, nobody(), 1}), std::invalid_argument);
 }
 
-TEST(Hall, WallsBlockSightAndDesksDoNot) {
+TEST(FloorPlan, WallsBlockSightAndDesksDoNot) {
     FloorPlan plan = divided_hall();
     plan.desks = {{Point{6.5, 1}, Point{7.5, 3}}};
-    Hall const hall{plan, nobody(), 1};
-    EXPECT_FALSE(hall.in_sight(Point{2, 2}, Point{8, 2}));
-    EXPECT_TRUE(hall.in_sight(Point{2, 7}, Point{8, 7}));
-    EXPECT_TRUE(hall.in_sight(Point{6, 2}, Point{8, 2}));
+    EXPECT_FALSE(plan.in_sight(Point{2, 2}, Point{8, 2}));
+    EXPECT_TRUE(plan.in_sight(Point{2, 7}, Point{8, 7}));
+    EXPECT_TRUE(plan.in_sight(Point{6, 2}, Point{8, 2}));
 }
 
-// Over hours of the shipped day, with robots that go to and fro among the people.
+// Over twenty minutes of the shipped day, with robots that go to and fro among the people.
 class LongRun : public testing::TestWithParam<char const*> {};
 TEST_P(LongRun, NobodyIsEverInAWallOrTouchesAnother) {
     FloorPlan const plan = shipped_plan(GetParam());
@@ -80,7 +79,7 @@ TEST_P(LongRun, NobodyIsEverInAWallOrTouchesAnother) {
     std::vector<MotionId> motions(hall.robots().size());
     Metres people_to_walls = 9, robots_to_walls = 9, people_apart = 9, robots_apart = 9, person_to_robot = 9;
     std::vector<Twist> before(hall.robots().size());
-    runs_until(hall, 3'600, [&] {
+    runs_until(hall, 1'200, [&] {
         for (Robot const& robot : hall.robots()) {
             auto const i = static_cast<std::size_t>(robot.id);
             Drive& drive = hall.drive(robot.id);
@@ -121,7 +120,7 @@ TEST(ShippedDay, SomebodyComesSoonAndThenAgainAndAgain) {
     std::size_t most = 0;
     std::map<PersonId, Seconds> looked_at;  // how long somebody stood and looked at the robot
     std::uint64_t read = 0;
-    runs_until(hall, 3'600, [&] {
+    runs_until(hall, 1'800, [&] {
         for (Happening const& happening : hall.chronicle().since(read)) {
             read = happening.sequence;
             if (happening.kind == Happening::Kind::entered) entries.push_back(in_seconds(happening.at));
@@ -133,12 +132,12 @@ TEST(ShippedDay, SomebodyComesSoonAndThenAgainAndAgain) {
         }
         return false;
     });
-    ASSERT_GT(entries.size(), 60u);
+    ASSERT_GT(entries.size(), 45u);
     EXPECT_LE(entries[0], 2);
     for (std::size_t i = 1; i < entries.size(); ++i) EXPECT_LE(entries[i] - entries[i - 1], 60) << "after " << entries[i - 1];
     EXPECT_LE(most, 8u);
     auto const patient = std::ranges::count_if(looked_at, [](auto const& each) { return each.second > 60; });
-    EXPECT_GT(patient, 20) << "many stand long enough to be received";
+    EXPECT_GT(patient, 10) << "many stand long enough to be received";
 }
 
 TEST(ShippedDay, ARobotCanReceiveTanaka) {

@@ -11,6 +11,25 @@ constexpr Metres radius = 0.28;
 
 Planner planner_of(FloorPlan const& plan) { return {plan, radius, 0.9, 1.6}; }
 
+Metres length(Point from, std::vector<Point> const& way) {
+    Metres sum = 0;
+    for (Point const& corner : way) {
+        sum += distance(from, corner);
+        from = corner;
+    }
+    return sum;
+}
+
+// How long a way takes at 0.9 m/s, with turns on the spot.
+Seconds duration(Pose from, std::vector<Point> const& way, RadiansPerSecond turn_rate) {
+    Seconds sum = 0;
+    for (Point const& corner : way) {
+        sum += std::abs(bearing(from, corner)) / turn_rate + distance(from.position, corner) / 0.9;
+        from = {corner, direction(from.position, corner)};
+    }
+    return sum;
+}
+
 // Every leg keeps the body off walls and desks.
 void expect_free(FloorPlan const& plan, Point from, std::vector<Point> const& way) {
     for (Point const& corner : way) {
@@ -33,8 +52,8 @@ TEST(Planner, GoesThroughTheDoor) {
     ASSERT_TRUE(way);
     EXPECT_EQ(way->back(), Point(8, 2));
     expect_free(plan, Point{2, 2}, *way);
-    EXPECT_GT(Planner::length(Point{2, 2}, *way), 10);
-    EXPECT_LT(Planner::length(Point{2, 2}, *way), 11.5) << "the way is smoothed";
+    EXPECT_GT(length(Point{2, 2}, *way), 10);
+    EXPECT_LT(length(Point{2, 2}, *way), 11.5) << "the way is smoothed";
 }
 
 TEST(Planner, FindsNoWayThroughWalls) {
@@ -94,8 +113,8 @@ TEST(Planner, PolicyTimeSparesTurnsAndPolicyDistanceSparesMetres) {
     auto const fastest = planner.way(from, Point{11, 4}, RoutingPolicy::time);
     auto const shortest = planner.way(from, Point{11, 4}, RoutingPolicy::distance);
     ASSERT_TRUE(fastest && shortest);
-    EXPECT_LT(planner.duration(from, *fastest), planner.duration(from, *shortest));
-    EXPECT_GT(Planner::length(from.position, *fastest), Planner::length(from.position, *shortest));
+    EXPECT_LT(duration(from, *fastest, 0.5), duration(from, *shortest, 0.5));
+    EXPECT_GT(length(from.position, *fastest), length(from.position, *shortest));
 }
 
 TEST(Planner, FindsRoomBesideSomebody) {

@@ -45,7 +45,7 @@ TEST(PeopleSeen, AreMeasuredWithTheStatedNoise) {
         squares += off * off;
         turned += std::pow(wrapped(seen[0].pose.heading - truth.heading), 2);
     }
-    auto const& stated = people_seen(*hall, robot1)[0].covariance;
+    Covariance const stated = people_seen(*hall, robot1)[0].covariance;
     EXPECT_NEAR(sum / count, 0, 0.005);
     EXPECT_NEAR(squares / count, stated(0, 0), stated(0, 0) * 0.15);
     EXPECT_NEAR(turned / count, stated(2, 2), stated(2, 2) * 0.15);

@@ -1,0 +1,43 @@
+// What the dialogues over both ways have in common: the hall and an application that is connected.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "server/application.hpp"
+
+namespace rois::test {
+
+// A hall that nobody enters, 20 times as fast as the world.
+GatewayProcess& empty_hall();
+
+class Conversation : public testing::TestWithParam<Way> {
+protected:
+    Conversation() { desk.connect(); }
+
+    Application desk{GetParam(), empty_hall()};
+};
+
+// The same dialogues over HTTP and over WebSocket.
+#define ROIS_OVER_BOTH_WAYS(suite) \
+    INSTANTIATE_TEST_SUITE_P(Over, suite, testing::ValuesIn(all_ways), testing::PrintToStringParamName())
+
+MATCHER(IsOk, "is OK") {
+    *result_listener << arg.whole();
+    return arg.return_code() == "OK" && arg.reason().empty();
+}
+
+// A refusal whose reason holds these words.
+MATCHER_P2(IsRefused, code, words, std::string{code} + " because of " + words) {
+    *result_listener << arg.whole();
+    return arg.return_code() == code && arg.reason().find(words) != std::string::npos;
+}
+
+inline Command speak(std::string const& text, std::string const& id = "") {
+    return {.component = "speech_synthesis", .id = id, .arguments = {speech_text(text)}};
+}
+
+// A speech that goes on for longer than any test.
+Command speak_long(std::string const& id);
+
+}  // namespace rois::test

@@ -1,0 +1,167 @@
+// HTTP itself: what is refused, with which status, and whether the connection goes on (wire.md, bad-input.md).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "server/http_client.hpp"
+
+namespace rois::test {
+namespace {
+
+using testing::HasSubstr;
+
+std::string head(std::string const& method_and_target, std::string const& lines = "") {
+    return method_and_target + " HTTP/1.1\r\nHost: gateway.test\r\n" + lines + "\r\n";
+}
+
+// Says it and expects this fault; the connection ends after it.
+void expect_end(std::string const& bytes, int status, std::string const& fault) {
+    HttpClient client;
+    auto const reply = client.say(bytes);
+    EXPECT_EQ(reply.status, status) << bytes.substr(0, 100);
+    EXPECT_EQ(reply.fault(), fault) << bytes.substr(0, 100);
+    EXPECT_EQ(reply.header("Connection"), "close");
+    EXPECT_TRUE(client.line().ends());
+}
+
+TEST(Http, KeepsTheConnectionAndAnswersInOrder) {
+    HttpClient client;
+    auto const once =
+        head("GET /healthz") + head("GET /nowhere") + head("HEAD /readyz") + head("GET /healthz", "Connection: close\r\n");
+    EXPECT_EQ(client.say(once).status, 200);
+    EXPECT_EQ(client.read().status, 404);
+    auto const headers_only = client.read("HEAD");
+    EXPECT_EQ(headers_only.status, 200);
+    EXPECT_EQ(headers_only.header("Content-Length"), "6");
+    EXPECT_EQ(client.read().header("Connection"), "close");
+    EXPECT_TRUE(client.line().ends());
+}
+
+TEST(Http, TakesARequestByteByByte) {
+    HttpClient client;
+    auto const body = request("connect");
+    for (char const byte : "\r\nPOST /rois HTTP/1.1\r\nHost: h\r\nContent-Type: text/xml\r\nContent-Length: " +
+                               std::to_string(body.size()) + "\r\n\r\n" + body) {
+        client.line().send({&byte, 1});
+    }
+    EXPECT_EQ(client.read().return_code(), "OK");
+}
+
+TEST(Http, AnswersWithXmlThatIsNotStored) {
+    HttpClient client;
+    auto const reply = client.call("connect");
+    EXPECT_EQ(reply.header("Content-Type"), "application/xml; charset=utf-8");
+    EXPECT_EQ(reply.header("Cache-Control"), "no-store");
+    EXPECT_NE(reply.header("Date"), "");
+}
+
+TEST(Http, RefusesALargeHeader) {
+    expect_end(head("GET /healthz", "X: " + std::string(17 * 1024, 'x') + "\r\n"), 431, "header_too_large");
+    std::string fields;
+    for (int i = 0; i < 100; ++i) fields += "X-" + std::to_string(i) + ": y\r\n";
+    expect_end(head("GET /healthz", fields), 431, "header_too_large");  // with Host, 101
+}
+
+TEST(Http, RefusesALongTarget) {
+    expect_end(head("GET /" + std::string(5 * 1024, 'x')), 414, "uri_too_long");
+    expect_end("GET /" + std::string(20 * 1024, 'x'), 414, "uri_too_long");
+}
+
+TEST(Http, RefusesWhatIsNotHttp) {
+    expect_end("hello\r\n\r\n", 400, "not_well_formed");
+    expect_end("GET /healthz HTTP/1.1\r\n\r\n", 400, "not_well_formed");
+    expect_end(head("GET /healthz", "Host: another\r\n"), 400, "not_well_formed");
+    expect_end(head("GET /healthz", " folded\r\n"), 400, "not_well_formed");
+    expect_end("GET /healthz HTTP/1.1\nHost: h\n\n", 400, "not_well_formed");
+}
+
+TEST(Http, RefusesADoubtfulLength) {
+    for (auto const* length : {"-1", "1e3", "0x10", "5, 5"}) {
+        expect_end(head("POST /rois", "Content-Type: text/xml\r\nContent-Length: " + std::string{length} + "\r\n"), 400,
+                   "not_well_formed");
+    }
+    expect_end(head("POST /rois", "Content-Length: 5\r\nContent-Length: 5\r\n"), 400, "not_well_formed");
+}
+
+TEST(Http, WantsALengthInsteadOfATransferEncoding) {
+    expect_end(head("POST /rois", "Transfer-Encoding: chunked\r\n") + "0\r\n\r\n", 411, "length_required");
+    expect_end(head("POST /rois", "Transfer-Encoding: identity\r\nContent-Length: 5\r\n"), 411, "length_required");
+}
+
+TEST(Http, NamesTheMethodsThatItTakes) {
+    HttpClient client;
+    for (auto const* method : {"PUT", "DELETE", "TRACE", "OPTIONS", "PATCH", "get", "Post"}) {
+        auto const reply = client.get("/rois", {}, method);
+        EXPECT_EQ(reply.status, 405) << method;
+        EXPECT_EQ(reply.fault(), "method_not_allowed") << method;
+        EXPECT_EQ(reply.header("Allow"), "GET, HEAD, POST") << method;
+    }
+    auto const reply = client.say(head("POST /rois/profile", "Content-Length: 2\r\n") + "hi");
+    EXPECT_EQ(reply.status, 405);
+    EXPECT_EQ(reply.header("Allow"), "GET, HEAD");
+    EXPECT_EQ(client.get("/healthz").status, 200);  // the connection is good still
+}
+
+TEST(Http, ChecksInTheOrderOfTheContract) {
+    HttpClient client;
+    EXPECT_EQ(client.say(head("PUT /rois", "Content-Length: 2\r\n") + "hi").status, 405);  // before 415
+    EXPECT_EQ(client.say(head("POST /rois", "Content-Type: text/plain\r\nContent-Length: 2\r\n") + "hi").status,
+              415);                                                                        // before 400
+    EXPECT_EQ(client.post("<unknown/>").status, 422);                                      // before 403
+    EXPECT_EQ(client.say(head("POST /rois", "Content-Length: 9999999\r\n")).status, 413);  // before 415
+}
+
+TEST(Http, KnowsNothingElse) {
+    HttpClient client;
+    for (auto const* path : {"/nowhere", "/rois/", "/rois/profile/", "/rois/profile/nobody", "/rois/schemas/../x",
+                             "/rois/schemas/%2e%2e%2fx", "/rois/profile/%0d%0aX:%20y", "/rois/profile/%zz"}) {
+        auto const reply = client.get(path);
+        EXPECT_EQ(reply.status, 404) << path;
+        EXPECT_EQ(reply.fault(), "not_found") << path;
+    }
+}
+
+TEST(Http, BoundsTheBody) {
+    std::string const document = request("connect");
+    auto const padded = [&](std::size_t size) { return document + std::string(size - document.size(), ' '); };
+    HttpClient client;
+    EXPECT_EQ(client.post(padded(1 << 20)).status, 200);
+    auto const reply = client.post(padded((1 << 20) + 1));
+    EXPECT_EQ(reply.status, 413);
+    EXPECT_EQ(reply.fault(), "too_large");
+    EXPECT_THAT(reply.reason(), HasSubstr("1048576"));
+    EXPECT_TRUE(client.line().ends());
+}
+
+TEST(Http, AsksForTheBodyThatIsHeldBack) {
+    HttpClient client;
+    auto const body = request("connect");
+    auto const lines = "Content-Type: text/xml\r\nExpect: 100-continue\r\nContent-Length: ";
+    EXPECT_EQ(client.say(head("POST /rois", lines + std::to_string(body.size()) + "\r\n")).status, 100);
+    EXPECT_EQ(client.say(body).return_code(), "OK");
+    EXPECT_EQ(client.say(head("POST /rois", lines + std::string{"9999999\r\n"})).status, 413);
+}
+
+TEST(Http, TakesXmlOnly) {
+    HttpClient client;
+    for (auto const* type :
+         {"application/xml", "text/xml; charset=utf-8", "application/soap+xml;charset=\"UTF-8\"", "Text/XML;version=1"}) {
+        EXPECT_EQ(client.post(request("connect"), {{"Content-Type", type}}).status, 200) << type;
+    }
+    for (auto const* type : {"text/plain", "application/json", "application/x-www-form-urlencoded",
+                             "application/xml; charset=utf-16", "text/xml;charset=iso-8859-1", "xml", "image/+xml"}) {
+        auto const reply = client.post(request("connect"), {{"Content-Type", type}});
+        EXPECT_EQ(reply.status, 415) << type;
+        EXPECT_EQ(reply.fault(), "unsupported_media_type") << type;
+        EXPECT_THAT(reply.reason(), HasSubstr("Content-Type: application/xml"));
+    }
+    EXPECT_EQ(client.post(request("connect"), {}).status, 415);
+}
+
+TEST(Http, ServesHttp10AndEndsTheConnection) {
+    HttpClient client;
+    EXPECT_EQ(client.say("GET /healthz HTTP/1.0\r\n\r\n").status, 200);
+    EXPECT_TRUE(client.line().ends());
+}
+
+}  // namespace
+}  // namespace rois::test
