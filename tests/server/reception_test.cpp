@@ -82,7 +82,7 @@ std::string printed_by(std::string const& command) {
     return text;
 }
 
-// What each line of the script says, without the time before it, and with every number written N.
+// What each line of the script says, without the time before it, and with every number written N, its sign with it.
 std::vector<std::string> steps(std::string const& text) {
     std::vector<std::string> steps;
     for (std::size_t begin = 0; begin < text.size();) {
@@ -92,6 +92,7 @@ std::vector<std::string> steps(std::string const& text) {
         std::string step;
         for (char const c : line) {
             bool const digit = c >= '0' && c <= '9';
+            if (digit && step.ends_with(" -")) step.pop_back();
             if (!digit || !step.ends_with('N')) step.push_back(digit ? 'N' : c);
         }
         steps.push_back(step);
