@@ -32,7 +32,8 @@ struct KeepDistance {
 struct Line {
     Metres distance = 0;
     Radians turn = 0;
-    std::optional<Seconds> duration = {};  // of the whole motion: slower than usual, but never faster than the limits allow
+    std::optional<Seconds> duration =
+        std::nullopt;  // of the whole motion: slower than usual, but never faster than the limits allow
 };
 
 // Along a circle until the heading has changed by `turn`, to the left when positive. A negative radius goes backwards; 0 turns on
@@ -40,7 +41,7 @@ struct Line {
 struct Curve {
     Metres radius = 0;
     Radians turn = 0;
-    std::optional<Seconds> duration = {};  // as of a Line
+    std::optional<Seconds> duration = std::nullopt;  // as of a Line
 };
 
 using Motion = std::variant<GoTo, KeepDistance, Line, Curve>;

@@ -7,6 +7,8 @@
 #include <string_view>
 
 #include "simulation/basic_components.hpp"
+#include "simulation/component_refs.hpp"
+#include "simulation/faulty_component.hpp"
 #include "types/texts.hpp"
 
 namespace rois::simulation {
@@ -47,8 +49,7 @@ SharedProfile profile_of(Basic const& basic, std::vector<ComponentProfile> const
 Fitting fitting(std::shared_ptr<Simulation> const& simulation, Robot const& robot, Basic const& basic, SharedProfile profile) {
     bool const first = robot.id == simulation->hall().robots().front().id;
     std::string const engine = first ? "" : robot.name;
-    std::string ref = (first ? "" : robot.name + ".") + std::string{basic.ref};
-    Identifier const identifier{.code = std::move(ref),
+    Identifier const identifier{.code = component_ref(basic.ref, engine),
                                 .authority = profile->object.code_space,
                                 .codebook_ref = profile->object.identifier,
                                 .version = {}};
@@ -64,7 +65,7 @@ std::vector<std::unique_ptr<Component>> robot_components(std::shared_ptr<Simulat
     std::vector<std::unique_ptr<Component>> components;
     for (Robot const& robot : simulation->hall().robots())
         for (std::size_t i = 0; i < basics.size(); ++i)
-            components.push_back(basics[i].make(fitting(simulation, robot, basics[i], found[i])));
+            components.push_back(with_faults(basics[i].make(fitting(simulation, robot, basics[i], found[i])), simulation));
     return components;
 }
 

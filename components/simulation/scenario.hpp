@@ -1,6 +1,7 @@
 // Who comes into the hall and what they do there. Plain values; read from a file by scenario_file.hpp.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -80,8 +81,22 @@ struct Arrivals {
     std::size_t at_most = 5;
 };
 
+// Something wrong with a component for some time of the world, whatever people do.
+struct Fault {
+    enum class Kind : std::uint8_t {
+        silent,  // takes commands and begins none, answers no query
+        failed   // its status is ERROR, and whatever it is asked or told ends with an error
+    };
+
+    std::string component;  // its ref
+    Kind kind = Kind::silent;
+    Seconds from = 0;
+    std::optional<Seconds> until;  // absent: for ever
+};
+
 struct Scenario {
     std::string name;
+    std::vector<Fault> faults;
     std::vector<Role> roles;
     std::optional<Seconds> round;  // the roles begin anew after this time, for ever; absent: once
     std::optional<Arrivals> arrivals;

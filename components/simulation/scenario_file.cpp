@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "simulation/component_refs.hpp"
 #include "simulation/person.hpp"
 #include "simulation/wire_units.hpp"
 #include "types/texts.hpp"
@@ -108,6 +109,19 @@ private:
     FloorPlan const& plan_;
 };
 
+Fault fault(xml::Element const& element, FloorPlan const& plan) {
+    auto const refs = component_refs(plan);
+    Fault read{.component = element.attribute("component", ""),
+               .kind = element.attribute("kind", "") == "failed" ? Fault::Kind::failed : Fault::Kind::silent,
+               .from = element.number("from", 0),
+               .until = {}};
+    if (std::ranges::find(refs, read.component) == refs.end())
+        throw element.complain("the robots of the floor plan have no component " + quoted(read.component));
+    if (element.attribute("until")) read.until = element.number("until");
+    if (read.until && *read.until <= read.from) throw element.complain("until is not after from");
+    return read;
+}
+
 Arrivals arrivals(xml::Element const& element) {
     Arrivals read{.gap_least = element.number("gap_least"),
                   .gap_most = element.number("gap_most"),
@@ -126,6 +140,7 @@ Scenario read_scenario(std::shared_ptr<xml::Schemas const> schemas, std::string 
     scenario.name = root.attribute("name", "");
     if (root.attribute("round")) scenario.round = root.number("round");
     if (auto const element = root.child("arrivals")) scenario.arrivals = arrivals(*element);
+    for (auto const& element : root.children("fault")) scenario.faults.push_back(fault(element, plan));
     ScenarioReader const reader{plan};
     for (auto const& person : root.children("person")) {
         auto role = reader.role(person);

@@ -1,14 +1,16 @@
 #include "simulation/simulation.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rois::simulation {
 
 Simulation::Simulation(FloorPlan plan, Scenario scenario, std::uint64_t seed, double speed)
-    : hall_(std::move(plan), std::move(scenario), seed), time_(speed, Hall::step_length) {}
+    : faults_(scenario.faults), hall_(std::move(plan), std::move(scenario), seed), time_(speed, Hall::step_length) {}
 
 void Simulation::advance(Instant now) {
     std::int64_t const steps = time_.steps_due(now.steady);
+    if (!std::exchange(begun_, true)) return step(now);
     for (std::int64_t k = 1; k <= steps; ++k) step(time_.due(k, steps, now));
 }
 

@@ -26,7 +26,7 @@ public:
     // `speed`: simulated seconds per real second, > 0.
     Simulation(FloorPlan, Scenario, std::uint64_t seed, double speed);
 
-    // The first call only sets the clock. A gap longer than SimulatedTime::longest_gap counts as that much.
+    // The first call starts the clock and makes the first step. A gap longer than SimulatedTime::longest_gap counts as that much.
     void advance(Instant now) override;
 
     // One step by hand, seen by the observers at `when`; for tests that hold the clock.
@@ -35,13 +35,16 @@ public:
     Hall& hall() { return hall_; }
     Hall const& hall() const { return hall_; }
     double speed() const { return time_.speed(); }
+    std::vector<Fault> const& faults() const { return faults_; }
 
     void join(Observer&);
     void part(Observer&);  // in the observer's destructor, never from within observe
 
 private:
+    std::vector<Fault> faults_;
     Hall hall_;
     SimulatedTime time_;
+    bool begun_ = false;
     std::vector<Observer*> observers_;
 };
 

@@ -93,7 +93,7 @@ private:
     Executor executor_;
     Details events_;
     Details errors_;
-    Steady details_checked_{};
+    Steady details_checked_;
     bool shutting_down_ = false;
     std::uint64_t events_published_ = 0;
     std::uint64_t errors_published_ = 0;

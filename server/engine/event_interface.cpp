@@ -38,7 +38,7 @@ Reply Engine::Core::perform(Session&, GetEventDetail const& get, Instant now) {
         return refused<GetEventDetail::Reply>(ReturnCode::bad_parameter,
                                               "the details of the event " + quoted(get.event_id.text) + " have expired");
     std::vector<std::string> references;
-    for (auto const& parameter : found.results->parameters) references.push_back(parameter.name);
+    for (auto const& result : found.message->results) references.push_back(result.name);
     if (auto problem = why_unusable(get.condition, references))
         return refused<GetEventDetail::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     GetEventDetail::Reply reply;
@@ -79,7 +79,8 @@ void Engine::Core::publish(EventOccurred said, Instant now) {
     for (auto* subscription : subscriptions_.of(said.event_type)) {
         bool const each = subscription->depends_on_asker;
         if (!each && !matches(subscription->condition, *said.component, *results, nullptr)) continue;
-        if (event_id.empty()) event_id = events_.add(results, now);
+        if (event_id.empty())
+            event_id = events_.add(results, find_message(said.component->profile(), MessageKind::event, said.event_type), now);
         EventNotifications notifications{{.event_id = {event_id},
                                           .event_type = said.event_type,
                                           .subscribe_id = subscription->id,

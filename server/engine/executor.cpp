@@ -207,6 +207,10 @@ void Executor::completed(CommandEnded said, Instant now) {
     }
     auto const command = found->second;
     auto& component = *command->component;
+    if (component.check(MessageKind::command, command->type, said.results) == RegisteredComponent::Answer::wrong) {
+        said.status = CompletedStatus::error;
+        said.results = {};
+    }
     if (said.status == CompletedStatus::ok) component.failed = false;
     if (component.start == command) {
         bool const active = said.afterwards == Afterwards::active && said.status == CompletedStatus::ok;

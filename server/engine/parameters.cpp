@@ -78,7 +78,7 @@ void merge(ParameterList& stored, ParameterList const& arrived, std::vector<Para
     auto const place = [&](Parameter const& p) {
         return std::ranges::find(profiles, p.name, &ParameterProfile::name) - profiles.begin();
     };
-    std::ranges::stable_sort(stored, {}, place);
+    std::ranges::sort(stored, {}, place);
 }
 
 }  // namespace rois

@@ -35,7 +35,7 @@ Reply Engine::Core::answer(Session& session, RegisteredComponent& component, std
     if (query_type == "get_parameter") {
         if (auto parameters = component.all_parameters()) results = Results{std::move(*parameters), {}};
     } else {
-        component.call([&](Component& c) { results = c.query(query_type, now); }, RegisteredComponent::Report::once);
+        results = component.answer(query_type, now);
     }
     if (results) {
         component.failed = false;

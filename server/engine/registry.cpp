@@ -87,10 +87,30 @@ RegisteredComponent::Called RegisteredComponent::call(std::function<void(Compone
     } catch (...) {
         problem = "an unknown exception left the component";
     }
+    report_failure(std::move(problem), report);
+    return Called::failed;
+}
+
+void RegisteredComponent::report_failure(std::string problem, Report report) const {
     bool const known = std::exchange(failed, true);
     if (!known || report == Report::each)
         agenda_.add(ErrorOccurred{this, ErrorType::component_internal_error, std::move(problem)});
-    return Called::failed;
+}
+
+RegisteredComponent::Answer RegisteredComponent::check(MessageKind kind, std::string_view message, Results const& results,
+                                                       Report report) const {
+    auto const* profile = find_message(profile_, kind, message);
+    auto const problem = profile == nullptr ? "it is not in the profile" : why_not(profile->results, results.parameters);
+    if (!problem) return Answer::right;
+    report_failure("wrong results of " + quoted(message) + ": " + *problem, report);
+    return Answer::wrong;
+}
+
+std::optional<Results> RegisteredComponent::answer(std::string_view query_type, Instant now) const {
+    std::optional<Results> results;
+    call([&](Component& c) { results = c.query(query_type, now); }, Report::once);
+    if (results && check(MessageKind::query, query_type, *results, Report::once) == Answer::wrong) return {};
+    return results;
 }
 
 std::optional<ParameterList> RegisteredComponent::all_parameters() const {
@@ -113,6 +133,7 @@ void RegisteredComponent::completed(CommandHandle command, CompletedStatus statu
 }
 
 void RegisteredComponent::event(std::string_view event_type, Results results) {
+    if (check(MessageKind::event, event_type, results, Report::once) == Answer::wrong) return;
     agenda_.add(EventOccurred{this, std::string{event_type}, std::move(results)});
 }
 

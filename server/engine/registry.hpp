@@ -37,6 +37,13 @@ public:
     enum class Report : std::uint8_t { each, once };
     Called call(std::function<void(Component&)> const& what, Report = Report::each) const;
 
+    // Whether these results of a message are what the profile says; wrong ones are reported as an exception is (decision 16).
+    enum class Answer : std::uint8_t { right, wrong };
+    Answer check(MessageKind, std::string_view message, Results const&, Report = Report::each) const;
+
+    // What it answers to a query of its profile; nothing when it failed, cannot answer, or answers wrong.
+    std::optional<Results> answer(std::string_view query_type, Instant now) const;
+
     // Decision 7: as `asker` sees it.
     ComponentStatus status_for(Session const* asker) const;
 
@@ -60,6 +67,8 @@ public:
     void error(ErrorType, std::string text) override;
 
 private:
+    void report_failure(std::string problem, Report) const;
+
     std::unique_ptr<Component> component_;
     Identifier ref_;
     ComponentProfile profile_;

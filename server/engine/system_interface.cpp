@@ -65,8 +65,8 @@ void Engine::Core::publish(ErrorOccurred said, Instant now) {
     auto results = std::make_shared<Results>();
     if (said.component != nullptr) results->parameters.push_back(reference("component_ref", said.component->ref().code));
     results->parameters.push_back(date_time("time", now.utc));
-    results->parameters.push_back(text("text", said.text));
-    ReceiveError error{.error_id = {errors_.add(std::move(results), now)}, .error_type = said.type, .component_ref = {}};
+    results->parameters.push_back(text("text", std::move(said.text)));
+    ReceiveError error{.error_id = {errors_.add(std::move(results), nullptr, now)}, .error_type = said.type, .component_ref = {}};
     if (said.component != nullptr) error.component_ref = said.component->ref();
     auto const notification = std::make_shared<OutgoingNotification const>(std::move(error));
     for (auto const& [id, session] : sessions_) {

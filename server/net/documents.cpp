@@ -48,6 +48,7 @@ std::vector<std::string> names_of(xml::NamedFiles const& files) {
 
 std::vector<std::string> names_of(std::vector<ComponentEntry> const& components) {
     std::vector<std::string> names;
+    names.reserve(components.size());
     for (auto const& component : components) names.push_back(component.ref);
     return names;
 }

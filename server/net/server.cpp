@@ -39,6 +39,7 @@ public:
           loops_{make_loops()},
           acceptor_{loops_.front()->executor()},
           signals_{loops_.front()->executor()} {
+        gateway.tick();  // time begins before anybody can ask
         listen();
         signals_.add(SIGTERM);
         signals_.add(SIGINT);

@@ -13,7 +13,7 @@ namespace rois::net {
 // Always held by a shared_ptr. One coroutine waits at a time; a call that comes while none waits is kept for the next.
 class Signal : public Reader, public std::enable_shared_from_this<Signal> {
 public:
-    explicit Signal(Executor executor) : timer_{executor} {}
+    explicit Signal(Executor const& executor) : timer_{executor} {}
 
     void wake() override;  // from any thread
     void taken_over() override {}

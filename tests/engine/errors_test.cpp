@@ -230,6 +230,45 @@ TEST_F(Errors, OfACommandThatTheProfilePromisesInVain) {
     EXPECT_THAT(in_words(desk.detail_of(desk.last_heard<ReceiveError>().error_id).results.parameters), HasSubstr("'dock'"));
 }
 
+// --- Wrong answers ---
+
+TEST_F(Errors, AnEventThatTheProfileDoesNotKnowIsNotTold) {
+    desk.subscribe("reached_target");
+    robot.fires("fell_over");
+    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
+    EXPECT_THAT(in_words(desk.detail_of(desk.last_heard<ReceiveError>().error_id).results.parameters), HasSubstr("'fell_over'"));
+}
+
+TEST_F(Errors, AnEventWithWrongResultsIsNotToldAndReportedOnce) {
+    desk.subscribe("reached_target");
+    for (auto const& results : {ParameterList{text("target", "desk"), text("colour", "red")}, ParameterList{integer("target", 3)},
+                                ParameterList{value("is_final_target", "bool", {"perhaps"})}})
+        robot.fires("reached_target", results);
+    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
+    EXPECT_THAT(in_words(desk.detail_of(desk.last_heard<ReceiveError>().error_id).results.parameters), HasSubstr("'colour'"));
+    EXPECT_EQ(desk.status_of("navigation"), "ERROR");
+    robot.fires("reached_target", {text("target", "desk")});
+    EXPECT_THAT(desk.heard(), ElementsAre("2 reached_target navigation"));
+}
+
+TEST_F(Errors, WrongResultsOfACommandEndItWithError) {
+    desk.execute(named("dock", command("dock", "navigation")), go("and on"));
+    robot.finishes(CompletedStatus::ok, {{text("charge", "full")}, {}});
+    EXPECT_THAT(desk.heard(),
+                ElementsAre("1 completed dock ERROR", "2 completed and on ABORT", "3 COMPONENT_INTERNAL_ERROR navigation"));
+    EXPECT_EQ(desk.result_of("dock"), "ERROR");
+}
+
+TEST_F(Errors, WrongResultsOfAQueryAreNoAnswer) {
+    robot.throws_in = {"nothing right"};
+    EXPECT_EQ(desk.query("route").return_code, ReturnCode::error);
+    EXPECT_EQ(desk.query("route").return_code, ReturnCode::error);
+    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
+    robot.throws_in = {};
+    EXPECT_EQ(desk.query("route").return_code, ReturnCode::ok);
+    EXPECT_EQ(desk.status_of("navigation"), "READY");
+}
+
 // --- Answers that nobody waits for ---
 
 TEST_F(Errors, ADoubleAnswerIsCountedAndDropped) {

@@ -221,7 +221,7 @@ ParameterList ScriptedComponent::readable_parameters() const {
 std::optional<Results> ScriptedComponent::query(std::string_view query_type, Instant now) {
     called("query");
     if (query_type != "route" || throws_in.contains("nothing known")) return Component::query(query_type, now);
-    return Results{{Parameter{"length", {"double", {}, {}, {}}, {"2.5"}}}, {}};
+    return Results{{Parameter{"length", {"double", {}, {}, {}}, {throws_in.contains("nothing right") ? "far" : "2.5"}}}, {}};
 }
 
 }  // namespace rois

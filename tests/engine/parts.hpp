@@ -48,7 +48,8 @@ public:
     // The script: may be changed at any time.
     OnStart on_start;
     ComponentStatus status_now = ComponentStatus::ready;
-    std::set<std::string> throws_in;   // names of calls that an exception leaves
+    // Names of calls that an exception leaves; or how else they go wrong: "nothing performed", "nothing known", "nothing right".
+    std::set<std::string> throws_in;
     bool throws_no_exception = false;  // but something else
     std::vector<std::string> told;     // the calls that reached it
     ParameterList started_with;

@@ -2,26 +2,10 @@
 
 namespace rois::test {
 
-namespace {
-
-struct EmptyHall {
-    GatewayProcess gateway{
-        {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--sim-speed", "20", "--seed", "1"}};
-
-    // The components are ready after the first step of the world.
-    EmptyHall() {
-        Application application{Way::http, gateway};
-        application.connect();
-        while (application.query("engine_status").values()["status"].at(0) != "READY") {
-        }
-    }
-};
-
-}  // namespace
-
 GatewayProcess& empty_hall() {
-    static EmptyHall hall;
-    return hall.gateway;
+    static GatewayProcess hall{
+        {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--sim-speed", "20", "--seed", "1"}};
+    return hall;
 }
 
 Command speak_long(std::string const& id) {

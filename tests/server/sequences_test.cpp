@@ -150,6 +150,15 @@ TEST_P(Sequences, AnIdIsThereOnce) {
     EXPECT_THAT(desk.execute(halt("a")), IsOk()) << "what was refused left no name behind";
 }
 
+TEST_P(Sequences, OfMoreCommandsThanASessionMayHave) {
+    std::string many = pause(600'000);
+    for (int i = 0; i < 2'000; ++i) many += unit(halt(""));
+    EXPECT_THAT(desk.execute(many), IsOk());
+    EXPECT_THAT(desk.execute(many), IsOk());
+    EXPECT_THAT(desk.execute(many), IsRefused("OUT_OF_RESOURCES", "4096"));
+    EXPECT_THAT(desk.execute(halt("one more")), IsOk());
+}
+
 TEST_P(Sequences, NothingRunsOfWhatIsRefused) {
     desk.execute(unit(halt("first")) + unit({.component = "dishwasher"}));
     EXPECT_THAT(desk.get_command_result("first"), IsRefused("BAD_PARAMETER", "first"));

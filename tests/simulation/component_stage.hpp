@@ -183,9 +183,10 @@ inline Role known(Role role) {
 
 class Stage {
 public:
-    explicit Stage(std::vector<Role> roles = {}, FloorPlan plan = reception()) {
+    explicit Stage(std::vector<Role> roles = {}, FloorPlan plan = reception(), std::vector<Fault> faults = {}) {
         Scenario scenario;
         scenario.name = "test";
+        scenario.faults = std::move(faults);
         scenario.roles = std::move(roles);
         simulation_ = std::make_shared<Simulation>(std::move(plan), std::move(scenario), 7, 1.0);
         for (auto& component : robot_components(simulation_, bare_profiles())) {

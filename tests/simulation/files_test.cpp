@@ -119,6 +119,25 @@ TEST(ScenarioFile, SaysWhereItIsWrong) {
     EXPECT_THAT(complaint_of_scenario(plan_text(places, robots)), HasSubstr("no scenario"));
 }
 
+TEST(ScenarioFile, FaultsAreOfComponentsThatAreThere) {
+    auto unwell = [](std::string const& fault) {
+        return "<scenario xmlns=\"urn:x-rois:simulation:hall:1\" name=\"day\">\n" + fault + "\n</scenario>";
+    };
+    auto const scenario =
+        read_scenario(schemas(), "day.xml", unwell("<fault component=\"move\" kind=\"failed\" from=\"2\" until=\"3.5\"/>"),
+                      read_plan(plan_text(places, robots)));
+    ASSERT_EQ(scenario.faults.size(), 1u);
+    EXPECT_EQ(scenario.faults[0].component, "move");
+    EXPECT_EQ(scenario.faults[0].kind, Fault::Kind::failed);
+    EXPECT_EQ(scenario.faults[0].from, 2);
+    EXPECT_EQ(scenario.faults[0].until, 3.5);
+    EXPECT_THAT(complaint_of_scenario(unwell("<fault component=\"dishwasher\" kind=\"silent\"/>")),
+                AllOf(StartsWith("day.xml:2:1:"), HasSubstr("dishwasher")));
+    EXPECT_THAT(complaint_of_scenario(unwell("<fault component=\"move\" kind=\"silent\" from=\"5\" until=\"5\"/>")),
+                AllOf(StartsWith("day.xml:2:1:"), HasSubstr("until")));
+    EXPECT_THAT(complaint_of_scenario(unwell("<fault component=\"move\" kind=\"tired\"/>")), StartsWith("day.xml:2:"));
+}
+
 TEST(ShippedFiles, AreWithoutFlaw) {
     for (auto name : {"reception-hall.xml", "two-robots.xml"}) {
         FloorPlan const plan = shipped_plan(name);

@@ -86,6 +86,7 @@ protected:
         simulation_ = std::make_shared<Simulation>(
             reception(),
             Scenario{.name = "test",
+                     .faults = {},
                      .roles = {known(visitor("tanaka", {does(Walk{at(4, 4)}), does(Face{at("robot")}), does(Say{"en", "Hello."}),
                                                         does(Gesture{std::string{gestures().front()}}), does(Wait{1000})}))},
                      .round = {},

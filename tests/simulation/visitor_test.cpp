@@ -137,7 +137,7 @@ TEST(Visitor, WaitsOnTheWayForARobotThatComesUp) {
 TEST(Visitor, SharesAPlaceWithOthers) {
     Role first = tanaka({{Walk{{"desk"}}, {}}, {Wait{60}, {}}}), second = first;
     second.id = "suzuki";
-    Hall hall{plain_hall(), {"two", {first, second}, {}, {}}, 1};
+    Hall hall{plain_hall(), {"two", {}, {first, second}, {}, {}}, 1};
     run(hall, 20);
     ASSERT_EQ(hall.people().size(), 2u);
     EXPECT_GE(distance(hall.people()[0].pose.position, hall.people()[1].pose.position), 2 * person_radius);
@@ -148,7 +148,7 @@ TEST(Scenarios, ARoundBeginsAnewAndNobodyIsThereTwice) {
     Role brief = tanaka({{Wait{5}, {}}}), lasting = tanaka({{Walk{{"desk"}}, {}}, {Wait{150}, {}}});
     lasting.id = "suzuki";
     lasting.enters = 10;
-    Hall hall{plain_hall(), {"rounds", {brief, lasting}, 60.0, {}}, 1};
+    Hall hall{plain_hall(), {"rounds", {}, {brief, lasting}, 60.0, {}}, 1};
     run(hall, 301);
     int brief_visits = 0, lasting_visits = 0;
     for (Happening const& happening : hall.chronicle().since(0)) {

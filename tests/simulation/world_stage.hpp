@@ -60,7 +60,7 @@ inline Role tanaka(std::vector<ScriptedAction> actions, std::vector<Answer> answ
     return role;
 }
 
-inline Scenario only(Role role) { return {"only one", {std::move(role)}, {}, {}}; }
+inline Scenario only(Role role) { return {"only one", {}, {std::move(role)}, {}, {}}; }
 
 // Steps the hall until the condition holds; false when it does not within so many seconds of its time.
 template <class Condition>

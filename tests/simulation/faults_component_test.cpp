@@ -1,0 +1,90 @@
+// Components that are not well, as a scenario says.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "simulation/component_refs.hpp"
+#include "simulation/component_stage.hpp"
+
+namespace rois::simulation::stage {
+namespace {
+
+using testing::ElementsAre;
+using testing::UnorderedElementsAreArray;
+
+struct Faults : testing::Test {
+    static constexpr auto failure = "it has failed, as the scenario says";
+
+    static Stage unwell(std::string component, Fault::Kind kind, Seconds from = 0, std::optional<Seconds> until = {}) {
+        return Stage{{}, reception(), {{std::move(component), kind, from, until}}};
+    }
+    static ParameterList speech() { return {text("speech_text", "Good morning, ladies and gentlemen.")}; }
+};
+
+TEST_F(Faults, OfASilentComponentKeepItFromBeginning) {
+    auto stage = unwell("speech_synthesis", Fault::Kind::silent);
+    stage["speech_synthesis"].start(speech());
+    stage.run(20);
+    EXPECT_THAT(stage["speech_synthesis"].log(), testing::IsEmpty());
+    EXPECT_EQ(stage["speech_synthesis"].component().status(), ComponentStatus::ready);
+    EXPECT_FALSE(stage.robot_state().speaking);
+}
+
+TEST_F(Faults, OfASilentComponentLeaveItsQueriesWithoutAnswer) {
+    auto stage = unwell("system_information", Fault::Kind::silent);
+    stage.step();
+    EXPECT_FALSE(stage["system_information"].component().query("robot_position", stage.now()));
+}
+
+TEST_F(Faults, LetASilentComponentGoOnWithWhatItDoes) {
+    auto stage = unwell("speech_synthesis", Fault::Kind::silent, 0.1);
+    stage["speech_synthesis"].start(speech());
+    EXPECT_EQ(stage.outcome("speech_synthesis"), "OK");
+}
+
+TEST_F(Faults, OfAFailedComponentAreItsStatusAndItsExceptions) {
+    auto stage = unwell("speech_synthesis", Fault::Kind::failed);
+    stage.step();
+    auto& component = stage["speech_synthesis"].component();
+    EXPECT_EQ(component.status(), ComponentStatus::error);
+    EXPECT_THROW(stage["speech_synthesis"].start(speech()), std::runtime_error);
+    EXPECT_THROW(component.suspend(stage.now()), std::runtime_error);
+    EXPECT_THROW(component.resume(stage.now()), std::runtime_error);
+    EXPECT_THROW(component.readable_parameters(), std::runtime_error);
+    EXPECT_THROW(component.query("robot_position", stage.now()), std::runtime_error);
+    EXPECT_THROW(component.parameters_changed({}, stage.now()), std::runtime_error);
+    EXPECT_THROW(component.perform(CommandHandle{1}, "sing", {}, stage.now()), std::runtime_error);
+    EXPECT_NO_THROW(component.halt(stage.now()));
+}
+
+TEST_F(Faults, EndWhatAComponentDoesWhenItFails) {
+    auto stage = unwell("speech_synthesis", Fault::Kind::failed, 0.1);
+    stage["speech_synthesis"].start(speech());
+    stage.run(1);
+    EXPECT_THAT(stage["speech_synthesis"].words(), ElementsAre("started", "completed ERROR", std::string{"error "} + failure));
+    EXPECT_FALSE(stage.robot_state().speaking);
+}
+
+TEST_F(Faults, AreToldOnceAndPass) {
+    auto stage = unwell("speech_synthesis", Fault::Kind::failed, 0.1, 0.5);
+    stage.run(1);
+    EXPECT_THAT(stage["speech_synthesis"].words(), ElementsAre(std::string{"error "} + failure));
+    EXPECT_EQ(stage["speech_synthesis"].component().status(), ComponentStatus::ready);
+    stage["speech_synthesis"].start(speech());
+    EXPECT_EQ(stage.outcome("speech_synthesis"), "OK");
+}
+
+TEST_F(Faults, ConcernNoOtherComponent) {
+    auto stage = unwell("navigation", Fault::Kind::failed);
+    stage.step();
+    EXPECT_EQ(stage["move"].component().status(), ComponentStatus::ready);
+}
+
+TEST_F(Faults, AreKnownByTheRefsOfAllComponents) {
+    Stage stage{{}, reception_with_two_robots()};
+    EXPECT_THAT(component_refs(reception_with_two_robots()), UnorderedElementsAreArray(stage.refs()));
+}
+
+}  // namespace
+}  // namespace rois::simulation::stage
