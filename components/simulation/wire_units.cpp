@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "types/texts.hpp"
+
 namespace rois::simulation {
 namespace {
 
@@ -11,12 +13,8 @@ constexpr double mm = 1000.0;
 
 std::string whole(double value) { return std::to_string(std::lround(value)); }
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view space = " \t\r\n";
-    auto first = text.find_first_not_of(space);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(space) - first + 1);
-}
+// To a thousandth: finer than anything here is measured.
+double fine(double value) { return std::round(value * 1000.0) / 1000.0; }
 
 std::optional<double> number(std::string_view text) {
     text = trimmed(text);
@@ -56,14 +54,14 @@ Located located(std::string of, std::string ref, std::string crs, Pose const& po
     made.of = std::move(of);
     made.ref = std::move(ref);
     made.crs = std::move(crs);
-    made.position = {pose.position.x() * mm, pose.position.y() * mm, height * mm};
-    made.orientation = {0, 0, to_degrees(wrapped(pose.heading))};
+    made.position = {fine(pose.position.x() * mm), fine(pose.position.y() * mm), fine(height * mm)};
+    made.orientation = {0, 0, fine(to_degrees(wrapped(pose.heading)))};
     if (!covariance) return made;
     Eigen::Vector3d const units{mm, mm, to_degrees(1.0)};
     Covariance const scaled = units.asDiagonal() * *covariance * units.asDiagonal();
     Located::Covariance rows;
     for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) rows.rows.push_back(scaled(row, column));
+        for (int column = 0; column < 3; ++column) rows.rows.push_back(fine(scaled(row, column)));
     }
     made.certainty = std::move(rows);
     return made;

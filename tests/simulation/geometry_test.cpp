@@ -79,9 +79,9 @@ TEST(WireUnits, CovarianceIsInMillimetresAndDegrees) {
     EXPECT_EQ(made.position, (std::array<double, 3>{1000, 2000, 1700}));
     auto const& rows = std::get<Located::Covariance>(made.certainty).rows;
     ASSERT_EQ(rows.size(), 9u);
-    EXPECT_NEAR(rows[0], 2500, 1e-9);
-    EXPECT_NEAR(rows[2], to_degrees(1.0), 1e-9);
-    EXPECT_NEAR(rows[8], 0.01 * to_degrees(1.0) * to_degrees(1.0), 1e-9);
+    EXPECT_EQ(rows[0], 2500);
+    EXPECT_EQ(rows[2], 57.296) << "a radian, to a thousandth of a degree";
+    EXPECT_EQ(rows[8], 32.828) << "0.01 of its square";
 }
 
 // The numbers that the standard prescribes for its engine, and what ours are made of them.

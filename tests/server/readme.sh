@@ -1,0 +1,52 @@
+#!/bin/bash
+# The README's session with curl, as it stands there, prints what it shows: each line shown, with other numbers, is among the
+# lines printed.
+set -euo pipefail
+export LC_ALL=C
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+work=$(mktemp -d)
+trap 'kill "${gateway:-}" 2>/dev/null || true; wait; rm -rf "$work"' EXIT
+
+# blocks KIND: what the code blocks of this kind hold, in the section that plays the session.
+blocks() {
+    awk -v kind="$1" '/^## / { here = /session with curl/ }
+        here && /^```/ { block = block == "" ? substr($0, 4) : ""; next }
+        here && block == kind' "$root/README.md"
+}
+# Numbers, with their signs and fractions, and so times, are written N.
+without_numbers() { sed -E 's/-?[0-9]+(\.[0-9]+)?(e-?[0-9]+)?/N/g'; }
+
+# The day of the shipped scenario, faster; its first visitor stands before the desk after some ten seconds.
+mkfifo "$work/log"
+"$ROIS_BINARY_DIR/bin/rois-gateway" --listen 127.0.0.1:0 --sim-speed "${ROIS_TEST_SIM_SPEED:-4}" 2>"$work/log" &
+gateway=$!
+exec 3<"$work/log"
+while read -r line <&3; do
+    if [[ $line == *"listening on "* ]]; then break; fi
+done
+url=${line##*listening on }
+
+# Until the visitor stands there.
+names='xmlns="urn:x-rois:psm:xml:message:1" xmlns:rois="http://www.omg.org/spec/RoIS/20240801" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"'
+ask() { curl -sS "$url/rois" -H 'Content-Type: application/xml' -H "RoIS-Session: ${session:-}" -d "$1" | grep 'return_code="OK"'; }
+ref='<component_ref rois:code="person_localization"/>'
+session=$(ask "<connect $names/>" | sed 's/.*<session>//; s/<.*//')
+ask "<bind $names>$ref</bind>" >/dev/null
+ask "<subscribe $names inline_results='true'><event_type>person_localized</event_type></subscribe>" >/dev/null
+ask "<execute $names><rois:CommandUnitSequence><rois:command_unit_list xsi:type='rois:CommandMessageType' rois:command_type='start' rois:command_id='find'>
+    ${ref//component_ref/rois:component_ref}</rois:command_unit_list></rois:CommandUnitSequence></execute>" >/dev/null
+after=0
+until [[ ${news:=} =~ value\>9[3-7]..,\ 7[3-7].. ]]; do
+    news=$(curl -sS "$url/rois/notifications?after=$after&wait=30" -H "RoIS-Session: $session")
+    after=$(sed 's/.* sequence="//; s/".*//' <<<"$news")
+done
+ask "<disconnect $names/>" >/dev/null
+
+blocks sh | sed "s|^GATEWAY=.*|GATEWAY=$url|" >"$work/session.sh"
+bash "$work/session.sh" >"$work/printed" 2>&1
+blocks xml | without_numbers | sort -u >"$work/shown"
+without_numbers <"$work/printed" | sort -u >"$work/lines"
+if missing=$(comm -23 "$work/shown" "$work/lines") && [[ -z $missing && -s $work/shown ]]; then exit 0; fi
+printf 'The README shows what its session did not print:\n%s\n\nIt printed:\n' "$missing"
+cat "$work/printed"
+exit 1
