@@ -43,7 +43,7 @@ private:
         for (auto const& text : targets.values)
             if (!hall().target(text))
                 return "parameter 'target_position': " + quoted(text) +
-                       " is neither \"x, y\" nor \"x, y, th\" (mm, mm, degree) nor " + "one of the places " +
+                       R"( is neither "x, y" nor "x, y, th" (mm, mm, degree) nor one of the places )" +
                        names_of_places(hall().plan());
         return {};
     }

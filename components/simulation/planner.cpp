@@ -225,7 +225,7 @@ std::optional<Point> Planner::beside(Point const& centre, Metres away, Point con
     Radians const towards = direction(centre, from);
     for (int k = 0; k < candidates; ++k) {  // 0, +15, -15, +30, ... degrees from the side of `from`
         int const step = (k + 1) / 2 * (k % 2 == 1 ? 1 : -1);
-        Point const p = centre + away * unit(towards + step * 2 * std::numbers::pi / candidates);
+        Point p = centre + away * unit(towards + step * 2 * std::numbers::pi / candidates);
         if (fits(p, in_the_way) && plan_.can_go_straight(centre, p, 0.02)) return p;
     }
     return std::nullopt;

@@ -42,7 +42,7 @@ std::vector<std::pair<Person const*, std::string>> tracked_people(Hall const& ha
         if (auto track = hall.track(person.id)) tracked.emplace_back(&person, *track);
     }
     Point const here = hall.robot(robot).pose.position;
-    std::ranges::stable_sort(tracked, {}, [&](auto const& each) { return distance(here, each.first->pose.position); });
+    std::ranges::sort(tracked, {}, [&](auto const& each) { return distance(here, each.first->pose.position); });
     return tracked;
 }
 
@@ -92,7 +92,7 @@ std::vector<HeardSound> sounds_heard(Hall const& hall, RobotId robot) {
     Pose const& ears = hall.robot(robot).pose;
     std::vector<HeardSound> heard;
     auto hear = [&](Entity who, std::string ref, Pose const& pose, Metres height, Random random) {
-        Point const at = measured(pose, sensor.sigma, 0, std::move(random)).position;
+        Point const at = measured(pose, sensor.sigma, 0, random).position;
         Metres const apart = std::max(distance(ears.position, pose.position), sensor.sigma);
         heard.push_back(
             {who, std::move(ref), {at, direction(ears.position, at)}, height, covariance(sensor.sigma, sensor.sigma / apart)});
@@ -106,7 +106,7 @@ std::vector<HeardSound> sounds_heard(Hall const& hall, RobotId robot) {
         if (other.id == robot || !other.speaking || !hears(hall.plan(), sensor, ears, other.pose.position)) continue;
         hear(other.id, "sound-" + other.name, other.pose, robot_mouth, noise(hall, robot, Sensor::voice, other.id));
     }
-    std::ranges::stable_sort(heard, {}, [&](HeardSound const& sound) { return distance(ears.position, sound.pose.position); });
+    std::ranges::sort(heard, {}, [&](HeardSound const& sound) { return distance(ears.position, sound.pose.position); });
     return heard;
 }
 

@@ -25,7 +25,7 @@ std::optional<Point> Visitor::whereabouts(Whereabouts const& where, Company cons
 
 // A place that somebody stands at is shared; before a robot one stands in front of it.
 std::optional<Point> Visitor::standing_place(Whereabouts const& where, Company const& company) {
-    auto const wanted = whereabouts(where, company);
+    auto wanted = whereabouts(where, company);
     if (!wanted) return std::nullopt;
     auto const* name = std::get_if<std::string>(&where.at);
     auto const robot = name ? std::ranges::find(company.robots, *name, &Robot::name) : company.robots.end();

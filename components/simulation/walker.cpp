@@ -31,7 +31,10 @@ Walker::Step Walker::step(Person& person, MetresPerSecond speed, std::span<Disc 
         stop();
         return Step::arrived;
     }
-    if (detour_ > 0 && (detour_ -= dt) <= 0) way_.clear();
+    if (detour_ > 0) {
+        detour_ -= dt;
+        if (detour_ <= 0) way_.clear();
+    }
     if (way_.empty() && !plan_way(person.pose, {})) return Step::no_way;
     while (way_.size() > 1 && distance(person.pose.position, way_.front()) < at_corner) way_.erase(way_.begin());
     if (try_steps(person, way_.front(), speed, others, dt)) {

@@ -53,6 +53,7 @@ Disc Hall::World::disc(Person const& who) const { return {who.pose.position, per
 
 std::vector<Disc> Hall::World::bodies(RobotId robot) const {
     std::vector<Disc> discs;
+    discs.reserve(people.size() + drives.size());
     for (Person const& who : people) discs.push_back(disc(who));
     for (Drive const& drive : drives) {
         if (drive.robot() != robot) discs.push_back({drive.pose().position, drive.plan().radius});
@@ -62,6 +63,7 @@ std::vector<Disc> Hall::World::bodies(RobotId robot) const {
 
 std::vector<Disc> Hall::World::others(RobotId robot) const {
     std::vector<Disc> discs;
+    discs.reserve(people.size() + drives.size());
     for (Person const& who : people) discs.push_back(disc(who));
     for (Drive const& drive : drives) {
         if (drive.robot() != robot) discs.push_back(drive.stopping_disc());

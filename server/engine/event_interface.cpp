@@ -38,6 +38,7 @@ Reply Engine::Core::perform(Session&, GetEventDetail const& get, Instant now) {
         return refused<GetEventDetail::Reply>(ReturnCode::bad_parameter,
                                               "the details of the event " + quoted(get.event_id.text) + " have expired");
     std::vector<std::string> references;
+    references.reserve(found.message->results.size());
     for (auto const& result : found.message->results) references.push_back(result.name);
     if (auto problem = why_unusable(get.condition, references))
         return refused<GetEventDetail::Reply>(ReturnCode::bad_parameter, std::move(*problem));

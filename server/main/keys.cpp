@@ -22,7 +22,7 @@ std::string text_of(double number) {
 
 std::optional<double> number_within(std::string const& text, double least, double most) {
     auto const number = to_double(text);
-    if (!number || !(*number >= least && *number <= most)) return {};
+    if (!number || std::isnan(*number) || *number < least || *number > most) return {};
     return number;
 }
 
@@ -40,7 +40,7 @@ T const& read(Member<T> const& member, Settings const& settings) {
 }
 
 template <class T>
-Key whole_number(std::string name, std::string help, Member<T> member, double least, double most) {
+Key whole_number(std::string name, std::string help, Member<T> const& member, double least, double most) {
     Key key{std::move(name), std::move(help), "N", range("a whole number", least, most), Key::Kind::number, {}, {}};
     key.set = [member, least, most](Settings& settings, std::string const& text) {
         T number{};
@@ -54,7 +54,7 @@ Key whole_number(std::string name, std::string help, Member<T> member, double le
     return key;
 }
 
-Key seconds(std::string name, std::string help, Member<milliseconds> member, double least = 0.1, double most = 86'400) {
+Key seconds(std::string name, std::string help, Member<milliseconds> const& member, double least = 0.1, double most = 86'400) {
     Key key{std::move(name), std::move(help), "SECONDS", range("a number of seconds", least, most), Key::Kind::number, {}, {}};
     key.set = [member, least, most](Settings& settings, std::string const& text) {
         auto const number = number_within(text, least, most);
@@ -67,7 +67,7 @@ Key seconds(std::string name, std::string help, Member<milliseconds> member, dou
     return key;
 }
 
-Key file(std::string name, std::string help, Member<std::string> member) {
+Key file(std::string name, std::string help, Member<std::string> const& member) {
     Key key{std::move(name), std::move(help), "FILE", "a text", Key::Kind::text, {}, {}};
     key.set = [member](Settings& settings, std::string const& text) { return member(settings) = text, true; };
     key.show = [member](Settings const& settings) { return read(member, settings); };
@@ -75,7 +75,7 @@ Key file(std::string name, std::string help, Member<std::string> member) {
 }
 
 template <class T>
-Key choice(std::string name, std::string help, Member<T> member, std::vector<std::pair<std::string, T>> const& choices) {
+Key choice(std::string name, std::string help, Member<T> const& member, std::vector<std::pair<std::string, T>> const& choices) {
     std::string all;
     for (auto const& [text, value] : choices) all += (all.empty() ? "" : "|") + text;
     Key key{std::move(name), std::move(help), all, "one of " + all, Key::Kind::text, {}, {}};

@@ -60,6 +60,7 @@ public:
 private:
     std::vector<std::unique_ptr<Loop>> make_loops() const {
         std::vector<std::unique_ptr<Loop>> loops;
+        loops.reserve(shared_.settings.threads);
         for (std::size_t i = 0; i < shared_.settings.threads; ++i) loops.push_back(std::make_unique<Loop>(shared_));
         return loops;
     }

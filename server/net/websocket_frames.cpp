@@ -1,7 +1,5 @@
 #include "net/websocket_frames.hpp"
 
-#include <cstring>
-
 namespace rois::net {
 
 namespace {
@@ -24,9 +22,10 @@ std::size_t sequence_size(std::string_view s) {
     return 0;
 }
 
-bool all_ascii(char const* eight_bytes) {
+bool begins_with_eight_of_ascii(std::string_view text) {
     std::uint64_t word = 0;
-    std::memcpy(&word, eight_bytes, sizeof word);
+    if (text.size() < sizeof word) return false;
+    text.copy(reinterpret_cast<char*>(&word), sizeof word);
     return (word & 0x8080808080808080u) == 0;
 }
 
@@ -68,7 +67,7 @@ struct MessageReader::Head {
 
 bool is_utf8(std::string_view text) {
     while (!text.empty()) {
-        if (text.size() >= 8 && all_ascii(text.data())) {
+        if (begins_with_eight_of_ascii(text)) {
             text.remove_prefix(8);
             continue;
         }
