@@ -22,10 +22,11 @@ std::uint64_t before(Numbered const& entry) {
 }  // namespace
 
 NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotification const> notification) {
-    if (waiting_ >= max_waiting_ && !make_room()) return Pushed::overflow;
+    if (waiting_ >= max_waiting_ && !make_room()) overflowed_ = true;
+    if (overflowed_ && std::holds_alternative<ReceiveEvent>(notification->body)) return Pushed::overflow;
     entries_.push_back({++last_sequence_, std::move(notification)});
     ++waiting_;
-    return Pushed::ok;
+    return overflowed_ ? Pushed::overflow : Pushed::ok;
 }
 
 // Drops the oldest waiting event; a `Lost` takes its place, joined with one that stands right before it.

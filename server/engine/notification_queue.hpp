@@ -47,8 +47,8 @@ public:
 
     enum class Pushed : std::uint8_t { ok, overflow };
 
-    // Numbers and keeps it. When too many wait, the oldest waiting events make room and a `Lost` takes their place; `overflow`
-    // when there is no event to drop: then the session must end.
+    // Numbers and keeps it. When too many wait, the oldest waiting event makes room and a `Lost` takes its place; `overflow`
+    // when there is no event to drop: then the session must end. From then on it keeps what must not be lost, and no event.
     Pushed push(std::shared_ptr<OutgoingNotification const>);
 
     // At most `most` visible entries with a sequence above `after`, oldest first, which count as sent from now on. A position
@@ -69,9 +69,12 @@ public:
     Hold hold() { return holds_.insert(last_sequence_); }
     void release(Hold h) { holds_.erase(h); }
 
-    // No more will come: the session has ended.
+    // No more will come: the session has ended. As what is told, it shows when nothing is held.
     void close() { closed_ = true; }
-    bool closed() const { return closed_; }
+    bool closed() const { return closed_ && holds_.empty(); }
+
+    // Whether the session had to end because too many waited.
+    bool overflowed() const { return overflowed_; }
 
 private:
     std::uint64_t visible_until() const { return holds_.empty() ? last_sequence_ : *holds_.begin(); }
@@ -87,6 +90,7 @@ private:
     std::uint64_t lost_ = 0;
     std::multiset<std::uint64_t> holds_;
     bool closed_ = false;
+    bool overflowed_ = false;
 };
 
 }  // namespace rois

@@ -22,15 +22,14 @@ public:
     }
 
     void tell(Session& session, SharedNotification notification) {
-        if (session.overflowed) return;
-        auto const lost = session.notifications->lost();
-        if (session.notifications->push(std::move(notification)) == NotificationQueue::Pushed::overflow) {
-            session.overflowed = true;
+        auto& queue = *session.notifications;
+        bool const known = queue.overflowed();
+        auto const lost = queue.lost(), last = queue.last_sequence();
+        if (queue.push(std::move(notification)) == NotificationQueue::Pushed::overflow && !known)
             overflowed_.push_back(session.id);
-            return;
-        }
+        if (queue.last_sequence() == last) return;
         ++told_;
-        lost_ += session.notifications->lost() - lost;
+        lost_ += queue.lost() - lost;
         outbox_.notify(session.id);
     }
 

@@ -34,7 +34,6 @@ struct Session {
     std::size_t open_links = 0;
     Steady quiet_until;
     std::optional<Deadlines::Ticket> end_of_window;  // when to look whether the link was lost for good
-    bool overflowed = false;                         // cannot be told everything any more: must end
 };
 
 }  // namespace rois

@@ -11,7 +11,6 @@ enum class OnSessionEnd : std::uint8_t { stop, continue_ };
 
 struct EngineSettings {
     std::size_t max_sessions = 1'000;
-    std::size_t max_live_commands = 4'096;          // waiting or running, a session
     std::size_t max_waiting_notifications = 1'024;  // a session (decision 23)
     std::size_t max_sent_notifications = 1'024;     // kept for resuming, a session
     std::size_t max_command_results = 1'000;        // kept, a session (decision 17)

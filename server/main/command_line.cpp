@@ -64,7 +64,9 @@ void set(Settings& settings, Key const& key, std::string const& where, std::stri
 
 Settings gather(CLI::App const& app, Flags const& flags) {
     Settings settings;
-    auto const file = flags.config.empty() ? variable("ROIS_CONFIG") : flags.config;
+    bool const named = app.count("--config") > 0;
+    if (named && flags.config.empty()) throw BadSettings{"--config must be a FILE, not ''"};
+    auto const file = named ? flags.config : variable("ROIS_CONFIG");
     if (!file.empty()) read_configuration_file(file, settings);
     for (auto const& key : keys()) {
         if (app.count(flag_of(key)) > 0) {

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "main/keys.hpp"
 #include "types/texts.hpp"
@@ -35,11 +36,21 @@ std::size_t line_of(std::string const& text, std::string const& key) {
 }
 
 json parse(std::string const& file, std::string const& text) {
+    std::set<std::string> seen;
+    std::string twice;
+    auto const note = [&](int depth, json::parse_event_t event, json const& key) {
+        if (depth == 1 && event == json::parse_event_t::key && !seen.insert(key.get<std::string>()).second) twice = key;
+        return true;
+    };
     try {
-        auto const parsed = json::parse(text, nullptr, true, true);
+        auto parsed = json::parse(text, note, true, true);
+        if (!twice.empty())
+            throw BadSettings{file + ":" + std::to_string(line_of(text, twice)) + ": " + rois::quoted(twice) + " is there twice"};
         if (parsed.is_object()) return parsed;
     } catch (json::parse_error const& error) {
         throw BadSettings{file + ":" + std::to_string(line_at(text, error.byte)) + ": this is not JSON"};
+    } catch (json::out_of_range const&) {
+        throw BadSettings{file + ": a number in it is too large for any key"};
     }
     throw BadSettings{file + ":1: the file must hold one object, { ... }"};
 }

@@ -55,6 +55,7 @@ std::shared_ptr<simulation::Simulation> make_simulation(std::shared_ptr<xml::Sch
 EngineProfile engine_profile(std::string const& name) {
     EngineProfile profile;
     profile.object.identifier = "urn:x-rois:def:HRIEngine:RoISGateway::" + name;
+    profile.object.code_space = "urn:ietf:rfc:2141";
     profile.object.name = name;
     return profile;
 }

@@ -109,8 +109,8 @@ Task<std::optional<HttpAnswer>> stream(Wire& wire, Gateway& gateway, Telemetry& 
         if (sent != Wire::Outcome::done) break;
         out.clear();
         telemetry.delivered(taken.notifications.size());
-        if (taken.then == Reading::Then::ended) break;
         if (taken.then == Reading::Then::more) continue;
+        if (taken.then != Reading::Then::wait) break;
         auto const next_sign_of_life = std::chrono::steady_clock::now() + settings.ping_interval;
         auto const woken = co_await signal->wait_until(next_sign_of_life);
         if (woken == Signal::Woken::time_passed) out = ":\n\n";

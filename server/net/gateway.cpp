@@ -60,7 +60,7 @@ void Hold::release() {
     std::lock_guard const lock{gateway->mutex_};
     auto const answered_at = *place_;
     queue_->release(place_);
-    if (queue_->last_sequence() > answered_at) gateway->readers_.notify(session_);
+    if (queue_->last_sequence() > answered_at || queue_->closed()) gateway->readers_.notify(session_);
 }
 
 Reading::Reading(Gateway& gateway, SessionId session, Link link, std::uint64_t after, Reader& reader,
@@ -80,7 +80,7 @@ Reading::Taken Reading::take(std::size_t most) {
     if (queue_->has_after(after_)) {
         taken.then = Then::more;
     } else if (queue_->closed()) {
-        taken.then = Then::ended;
+        taken.then = queue_->overflowed() ? Then::overflowed : Then::ended;
     }
     return taken;
 }

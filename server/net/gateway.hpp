@@ -49,7 +49,8 @@ public:
     Reading(Reading const&) = delete;
     Reading& operator=(Reading const&) = delete;
 
-    enum class Then : std::uint8_t { more, wait, ended };  // ended: the session has, and all was taken
+    // ended: the session has, and all was taken; overflowed: as well, because too much waited to be taken
+    enum class Then : std::uint8_t { more, wait, ended, overflowed };
     struct Taken {
         std::vector<Numbered> notifications;
         Then then;

@@ -103,6 +103,8 @@ std::optional<Fault> too_lenient(std::string_view text, RequestHead const& head)
         return broken("a folded header line");
     auto const hosts = head.count("Host");
     if (hosts > 1 || (hosts == 0 && !head.http_1_0)) return broken("exactly one Host header is needed");
+    if (head.field("Host").value_or("").find_first_of(" \t,/\\@\"<>") != std::string_view::npos)
+        return broken("Host is no name or address, perhaps with a port");
     if (head.count("Transfer-Encoding") > 0) return no_transfer_encoding();
     bool const two_in_one = head.field("Content-Length").value_or("").find(',') != std::string_view::npos;
     if (head.count("Content-Length") > 1 || two_in_one) return broken("two lengths in Content-Length");
@@ -126,12 +128,15 @@ std::size_t RequestHead::count(std::string_view name) const {
         std::ranges::count_if(fields, [&](Field const& field) { return equal_ignoring_case(field.name, name); }));
 }
 
-bool RequestHead::lists(std::string_view name, std::string_view member) const {
+bool RequestHead::lists(std::string_view name, std::string_view member, Case letters) const {
+    auto const is_meant = [&](std::string_view each) {
+        return letters == Case::kept ? each == member : equal_ignoring_case(each, member);
+    };
     for (auto const& field : fields) {
         if (!equal_ignoring_case(field.name, name)) continue;
         for (auto rest = field.value; !rest.empty();) {
             auto const comma = std::min(rest.find(','), rest.size());
-            if (equal_ignoring_case(without_blanks(rest.substr(0, comma)), member)) return true;
+            if (is_meant(without_blanks(rest.substr(0, comma)))) return true;
             rest.remove_prefix(std::min(comma + 1, rest.size()));
         }
     }

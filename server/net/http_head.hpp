@@ -31,8 +31,9 @@ struct RequestHead {
     // The value of the field of that name, compared without regard to case; nothing when it is absent or there twice.
     std::optional<std::string_view> field(std::string_view name) const;
     std::size_t count(std::string_view name) const;
-    // Whether the comma-separated list in the fields of that name has this member, without regard to case.
-    bool lists(std::string_view name, std::string_view member) const;
+    // Whether the comma-separated list in the fields of that name has this member.
+    enum class Case : std::uint8_t { ignored, kept };
+    bool lists(std::string_view name, std::string_view member, Case = Case::ignored) const;
     // The parameter's value in the query, undecoded: the first of that name.
     std::optional<std::string_view> parameter(std::string_view name) const;
     // Whether another request may follow on this connection.

@@ -49,7 +49,8 @@ HttpAnswer upgrade(RequestHead const& head, Settings const& settings) {
     if (head.field("Sec-WebSocket-Version") != "13") return wants_upgrade("the version of WebSocket spoken here is 13");
     auto const key = head.field("Sec-WebSocket-Key");
     if (!key || !is_websocket_key(*key)) return broken("Sec-WebSocket-Key is not one text of 16 bytes in base64");
-    if (!head.lists("Sec-WebSocket-Protocol", subprotocol)) return broken("ask for the subprotocol rois.xml.v1");
+    if (!head.lists("Sec-WebSocket-Protocol", subprotocol, RequestHead::Case::kept))
+        return broken("ask for the subprotocol rois.xml.v1");
     if (head.count("Origin") > 0) {
         auto const origin = head.field("Origin");
         if (!origin || !is_welcome(*origin, head.field("Host").value_or(""), settings)) {

@@ -202,7 +202,8 @@ bool WebSocket::gather_notifications(std::string& out) {
         append_frame(out, Opcode::text, document);
     }
     telemetry_.delivered(taken.notifications.size());
-    session_over_ = taken.then == Reading::Then::ended;
+    session_over_ = taken.then == Reading::Then::ended || taken.then == Reading::Then::overflowed;
+    if (taken.then == Reading::Then::overflowed) close({CloseCode::policy_violation, "too many notifications waited"});
     return taken.then == Reading::Then::more;
 }
 

@@ -79,9 +79,18 @@ Fault CheckedReader::refused(FaultCode code, std::string reason, std::size_t off
 }
 
 Fault CheckedReader::not_well_formed(Objection const& objection, Scanned const& scanned) const {
-    auto const end = bytes_.find_last_not_of(" \t\r\n") + 1;
     return refused(FaultCode::not_well_formed, "not well-formed: " + clean(objection.text),
-                   objection.offset >= end ? scanned.last_tag : objection.offset);
+                   tag_to_blame(objection.offset, scanned));
+}
+
+// Where a document ends too early, or an element with another's end tag, it is the start tag that nothing closes.
+std::size_t CheckedReader::tag_to_blame(std::size_t offset, Scanned const& scanned) const {
+    if (offset >= bytes_.find_last_not_of(" \t\r\n") + 1)
+        return open_element_at(bytes_, bytes_.size()).value_or(scanned.last_tag);
+    auto const markup = bytes_.rfind('<', offset);
+    bool const in_end_tag =
+        markup != bytes_.npos && bytes_.compare(markup, 2, "</") == 0 && bytes_.find('>', markup) + 1 >= offset;
+    return in_end_tag ? open_element_at(bytes_, markup).value_or(offset) : offset;
 }
 
 Fault CheckedReader::not_valid(Objection const& objection, Scanned const& scanned) const {

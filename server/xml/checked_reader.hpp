@@ -34,6 +34,7 @@ private:
     Fault refused(FaultCode, std::string reason, std::size_t offset) const;
     Fault not_well_formed(Objection const&, Scanned const&) const;
     Fault not_valid(Objection const&, Scanned const&) const;
+    std::size_t tag_to_blame(std::size_t offset, Scanned const&) const;
 
     std::shared_ptr<Schemas const> schemas_;
     DocumentLimits limits_;

@@ -1,7 +1,10 @@
 #include "xml/scan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <pugixml.hpp>
+#include <utility>
+#include <vector>
 
 #include "types/texts.hpp"
 #include "xml/characters.hpp"
@@ -13,6 +16,11 @@ namespace rois::xml {
 namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+// Elements that hold a list of numbers, of which a parser makes a string each.
+constexpr std::array<std::string_view, 7> lists{"lowerCorner", "upperCorner", "pos",       "posList",
+                                                "position",    "orientation", "covariance"};
+constexpr std::size_t longest_list = 8 << 10;  // bytes
 
 std::string limit(std::string_view what, std::size_t size) {
     return std::string{what} + ": the limit is " + std::to_string(size);
@@ -36,6 +44,7 @@ private:
     Next skip_to(std::string_view end);
     Next end_tag();
     Next start_tag();
+    void end_list();
     void attribute(StartTag const&, std::size_t tag);
     void namespace_declaration(StartTag const&, std::size_t tag);
     void refuse(FaultCode code, std::string reason, std::size_t offset) { refusal_ = Refusal{code, std::move(reason), offset}; }
@@ -48,6 +57,7 @@ private:
     std::size_t at_ = 0;
     std::size_t depth_ = 0;
     std::size_t elements_ = 0;
+    std::optional<std::size_t> list_;  // offset of the tag that began the list we are in
     Scanned scanned_;
     std::optional<Refusal> refusal_;
 };
@@ -121,16 +131,25 @@ Scan::Next Scan::skip_to(std::string_view end) {
     return Next::markup;
 }
 
+void Scan::end_list() {
+    auto const begin = std::exchange(list_, {});
+    if (begin && at_ - *begin > longest_list)
+        refuse(FaultCode::forbidden_xml, limit("a list of numbers is too long", longest_list), *begin);
+}
+
 Scan::Next Scan::end_tag() {
-    if (depth_ == 0) return Next::nothing;
+    end_list();
+    if (depth_ == 0 || refusal_) return Next::nothing;
     --depth_;
     return skip_to(">");
 }
 
 Scan::Next Scan::start_tag() {
+    end_list();
     auto const begin = at_;
     StartTag tag{text_, begin};
     scanned_.last_tag = begin;
+    if (std::ranges::find(lists, local_part(tag.name())) != lists.end()) list_ = begin;
     auto const forbid = [&](std::string reason) {
         refuse(FaultCode::forbidden_xml, std::move(reason), begin);
         return Next::nothing;
@@ -148,7 +167,10 @@ Scan::Next Scan::start_tag() {
         auto const place = tag.offset() < text_.size() ? tag.offset() : begin;
         refuse(FaultCode::not_well_formed, std::string{tag.complaint()}, place);
     }
-    if (step == StartTag::Step::empty_end) --depth_;
+    if (step == StartTag::Step::empty_end) {
+        --depth_;
+        list_.reset();
+    }
     at_ = tag.offset();
     return refusal_ ? Next::nothing : Next::markup;
 }
@@ -178,6 +200,31 @@ std::variant<Scanned, Refusal> scan(std::span<char> document, DocumentLimits con
         return Refusal{FaultCode::not_well_formed, std::string{bad->complaint}, bad->offset};
     }
     return Scan{document, limits, namespaces}.run();
+}
+
+std::optional<std::size_t> open_element_at(std::string_view document, std::size_t offset) {
+    std::vector<std::size_t> open;
+    for (auto at = document.find('<'); at < offset; at = document.find('<', at)) {
+        auto const rest = document.substr(at);
+        auto const skip_past = [&](std::string_view end) { at = std::min(document.find(end, at), document.size()); };
+        if (rest.starts_with("<!--")) {
+            skip_past("-->");
+        } else if (rest.starts_with("<![CDATA[")) {
+            skip_past("]]>");
+        } else if (rest.starts_with("</")) {
+            if (!open.empty()) open.pop_back();
+            ++at;
+        } else if (rest.starts_with("<?") || rest.starts_with("<!")) {
+            ++at;
+        } else {
+            StartTag tag{document, at};
+            auto step = tag.next();
+            while (step == StartTag::Step::attribute) step = tag.next();
+            if (step == StartTag::Step::end) open.push_back(at);
+            at = std::max(tag.offset(), at + 1);
+        }
+    }
+    return open.empty() ? std::nullopt : std::optional{open.back()};
 }
 
 std::string request_id_of(std::string_view document) {

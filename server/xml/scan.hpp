@@ -36,6 +36,9 @@ struct Scanned {
 // Passing says nothing yet of well-formedness beyond characters and start tags.
 std::variant<Scanned, Refusal> scan(std::span<char> document, DocumentLimits const&, std::span<std::string const> namespaces);
 
+// The offset of the start tag of the innermost element that is open at `offset`; nothing when none is.
+std::optional<std::size_t> open_element_at(std::string_view document, std::size_t offset);
+
 // The attribute request_id of the root element as far as it can be read in a document that was refused; else empty.
 std::string request_id_of(std::string_view document);
 

@@ -71,13 +71,20 @@ TEST_F(Queue, NeverDropsWhatMustBeTold) {
     EXPECT_THAT(read(0), ElementsAre("1 c", "2 c", "4 lost 2", "5 c", "6 c"));
 }
 
-TEST_F(Queue, OverflowsWhenOnlyThatFillsIt) {
+TEST_F(Queue, OverflowsWhenOnlyThatFillsItAndKeepsItStill) {
     completed(4);
+    EXPECT_FALSE(queue.overflowed());
+    EXPECT_EQ(push(Completed{}), NotificationQueue::Pushed::overflow);
+    EXPECT_TRUE(queue.overflowed());
     EXPECT_EQ(push(ReceiveEvent{}), NotificationQueue::Pushed::overflow);
     EXPECT_EQ(push(Completed{}), NotificationQueue::Pushed::overflow);
+    EXPECT_THAT(read(0), ElementsAre("1 c", "2 c", "3 c", "4 c", "5 c", "6 c")) << "an event that is not kept has no number";
+}
+
+TEST_F(Queue, OverflowsByAnEventToo) {
+    completed(4);
+    EXPECT_EQ(push(ReceiveEvent{}), NotificationQueue::Pushed::overflow);
     EXPECT_THAT(read(0), ElementsAre("1 c", "2 c", "3 c", "4 c"));
-    completed(1);
-    EXPECT_THAT(read(4), ElementsAre("5 c")) << "what was not taken has no number";
 }
 
 TEST_F(Queue, HasAGapForEachPlaceWhereSomethingIsMissing) {
@@ -181,6 +188,17 @@ TEST_F(Queue, CanBeReadAfterItWasClosed) {
     completed(1);
     EXPECT_FALSE(queue.closed());
     queue.close();
+    EXPECT_TRUE(queue.closed());
+    EXPECT_THAT(read(0), ElementsAre("1 c"));
+}
+
+TEST_F(Queue, ShowsItsEndWhenNothingIsHeld) {
+    auto const answer = queue.hold();
+    completed(1);
+    queue.close();
+    EXPECT_FALSE(queue.closed()) << "the last is still to be seen";
+    EXPECT_THAT(read(0), IsEmpty());
+    queue.release(answer);
     EXPECT_TRUE(queue.closed());
     EXPECT_THAT(read(0), ElementsAre("1 c"));
 }

@@ -83,7 +83,9 @@ TEST(Notifications, ThatMustBeToldEndASessionThatNeverListens) {
     EXPECT_EQ(desk.refusal_of(Search{}), Refusal::no_session);
     EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
     EXPECT_EQ(hall.bind("navigation"), ReturnCode::ok);
-    EXPECT_THAT(desk.heard(), ElementsAre("1 completed 1 OK", "2 completed 2 OK", "3 completed 3 OK"));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed 1 OK", "2 completed 2 OK", "3 completed 3 OK", "4 completed 4 OK",
+                                          "5 completed go ABORT"))
+        << "each command completes, whoever listens";
 }
 
 TEST(Notifications, OfOthersDoNotSufferFromOneThatNeverListens) {

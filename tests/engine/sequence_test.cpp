@@ -281,7 +281,7 @@ TEST_F(Sequence, ThatHasFailedDoesNotWakeAfterItsDelay) {
 // A session cannot pile up commands without end.
 TEST(LiveCommands, OfASessionAreLimited) {
     EngineSettings settings;
-    settings.max_live_commands = 3;
+    settings.max_waiting_notifications = 3;
     World world{{speech}, settings};
     auto desk = world.connect();
     desk.bind("speech");

@@ -94,6 +94,9 @@ TEST(ConfigurationFile, WithAMistakeIsOneClearLine) {
     expect_complaint(check("{\"session_timeout\": -1}"), "FILE:1: session_timeout must be a number of seconds");
     expect_complaint(check("{\n  \"seed\": 1,\n  \"threads\" 2\n}"), "FILE:3: this is not JSON");
     expect_complaint(check("[]"), "FILE:1: the file must hold one object");
+    expect_complaint(check("{\"sim_speed\": 1e999}"), "FILE: a number in it is too large");
+    expect_complaint(check("{\n  \"seed\": 1,\n  \"seed\": 2\n}"), "FILE:2: 'seed' is there twice");
+    expect_complaint(run_gateway({"--config", ""}), "--config must be a FILE");
     expect_complaint(run_gateway({"--config", "/nowhere/at.all"}), "/nowhere/at.all: cannot be read");
     expect_complaint(run_gateway({"--config", "/"}), "/: cannot be read");
 }

@@ -71,9 +71,12 @@ TEST(Page, LinksToAllOfItAndShowsTheRealAddress) {
 
 TEST(Page, ReflectsNoMarkup) {
     HttpClient client;
-    auto const page = client.say("GET / HTTP/1.1\r\nHost: <script>alert(1)</script>\r\n\r\n");
-    EXPECT_THAT(page.body, testing::Not(HasSubstr("<script")));
+    auto const page = client.say("GET / HTTP/1.1\r\nHost: $(reboot)&lt;script&gt;\r\n\r\n");
+    EXPECT_THAT(page.body, testing::Not(HasSubstr("script&gt;")));
     EXPECT_THAT(page.body, HasSubstr("url=http://localhost\n"));
+    auto const refused = client.say("GET / HTTP/1.1\r\nHost: <script>alert(1)</script>\r\n\r\n");
+    EXPECT_EQ(refused.status, 400);
+    EXPECT_THAT(refused.body, testing::Not(HasSubstr("<script")));
 }
 
 TEST(Health, IsGood) {

@@ -71,6 +71,8 @@ TEST(Http, RefusesWhatIsNotHttp) {
     expect_end("GET /healthz HTTP/1.1\r\n\r\n", 400, "not_well_formed");
     expect_end(head("GET /healthz", "Host: another\r\n"), 400, "not_well_formed");
     expect_end(head("GET /healthz", " folded\r\n"), 400, "not_well_formed");
+    for (auto const* host : {"a b", "a,b", "user@a", "a/b"})
+        expect_end("GET /healthz HTTP/1.1\r\nHost: " + std::string{host} + "\r\n\r\n", 400, "not_well_formed");
     expect_end("GET /healthz HTTP/1.1\nHost: h\n\n", 400, "not_well_formed");
 }
 

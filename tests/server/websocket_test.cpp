@@ -31,6 +31,7 @@ TEST(Handshake, IsRefusedWithoutItsParts) {
     EXPECT_EQ(shake_hands(http, {{"Connection", "keep-alive"}}).status, 426);
     EXPECT_EQ(shake_hands(http, {{"Sec-WebSocket-Protocol", ""}}).status, 400);
     EXPECT_EQ(shake_hands(http, {{"Sec-WebSocket-Protocol", "rois.xml.v2"}}).status, 400);
+    EXPECT_EQ(shake_hands(http, {{"Sec-WebSocket-Protocol", "ROIS.XML.V1"}}).status, 400);
     EXPECT_EQ(shake_hands(http, {{"Sec-WebSocket-Key", ""}}).status, 400);
     EXPECT_EQ(shake_hands(http, {{"Sec-WebSocket-Key", "c2hvcnQ="}}).status, 400);
     EXPECT_EQ(shake_hands(http, {{"Sec-WebSocket-Version", ""}}).status, 400);

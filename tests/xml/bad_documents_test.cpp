@@ -1,6 +1,9 @@
 // The documents of bad-input.md, one by one.
 #include <gmock/gmock.h>
 
+#include <pugixml.hpp>
+#include <set>
+
 #include "speaking.hpp"
 
 namespace rois::xml {
@@ -121,6 +124,56 @@ TEST(BadDocument, LongNamesAndManyElements) {
     EXPECT_EQ(fault(document("bind", repeated("<a/>", 4'999))).code, FaultCode::invalid);
     EXPECT_EQ(fault(document("bind", repeated("<a/>", 5'000))).code, FaultCode::forbidden_xml);
     EXPECT_THAT(fault(document("bind", repeated("<a/>", 5'000))).reason, HasSubstr("5000"));
+}
+
+// A condition with a box whose corner has these coordinates.
+std::string within_box(std::string const& corner) {
+    return document(
+        "search",
+        "<condition><fes:Filter><fes:BBOX><fes:ValueReference>location</fes:ValueReference>"
+        "<gml:Envelope xmlns:gml='http://www.opengis.net/gml/3.2'><gml:lowerCorner>" +
+            corner +
+            "</gml:lowerCorner><gml:upperCorner>1 1</gml:upperCorner></gml:Envelope></fes:BBOX></fes:Filter></condition>");
+}
+
+TEST(BadDocument, LongListsOfNumbers) {
+    EXPECT_TRUE(std::holds_alternative<Request>(read(within_box("0 0<!-- in the corner -->"))));
+    for (auto const& corner : {repeated("1 ", 400'000), repeated("1 ", 3'000) + "<!-- -->" + repeated("1 ", 3'000)}) {
+        auto const refused = fault(within_box(corner));
+        EXPECT_EQ(refused.code, FaultCode::forbidden_xml);
+        EXPECT_THAT(refused.reason, HasSubstr("list of numbers"));
+    }
+}
+
+// Every element of the schemas that holds a list is one of those whose length is looked at.
+TEST(BadDocument, ListsAreKnownToTheScan) {
+    std::set<std::string> types;     // whose values are lists
+    std::set<std::string> elements;  // of such a type
+    for (std::size_t before = 1; before != types.size() + elements.size();) {
+        before = types.size() + elements.size();
+        for (auto const& [name, text] : files::schemas()) {
+            pugi::xml_document schema;
+            ASSERT_TRUE(schema.load_buffer(text.data(), text.size())) << name;
+            auto const is_list = [&](pugi::xml_node derivation) {
+                std::string const base = derivation.attribute("base").value();
+                return types.contains(base.substr(base.find(':') + 1));
+            };
+            for (auto const& found : schema.select_nodes("//xsd:list"))
+                types.insert(found.node().parent().attribute("name").value());
+            for (auto const& found : schema.select_nodes("//xsd:restriction | //xsd:extension"))
+                for (auto type = found.node(); is_list(found.node()) && type; type = type.parent())
+                    if (type.attribute("name")) types.insert(type.attribute("name").value());
+            for (auto const& found : schema.select_nodes("//xsd:element[@type]")) {
+                std::string const type = found.node().attribute("type").value();
+                if (types.contains(type.substr(type.find(':') + 1))) elements.insert(found.node().attribute("name").value());
+            }
+        }
+    }
+    EXPECT_THAT(elements, testing::IsSupersetOf({"pos", "lowerCorner", "position", "covariance"}));
+    for (auto const& element : elements)
+        EXPECT_THAT(fault("<" + element + ">" + repeated("1 ", 5'000) + "</" + element + ">").reason,
+                    HasSubstr("list of numbers"))
+            << element;
 }
 
 TEST(BadDocument, AtTheLimitOfBytesAndOneOver) {

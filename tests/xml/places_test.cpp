@@ -87,11 +87,19 @@ TEST(Fault, OfANamespaceThatNobodyKnowsIsAtItsTag) {
     EXPECT_EQ(fault(document("connect", {}, " xmlns:x='urn:&#120;'")).code, FaultCode::invalid);
 }
 
-TEST(Fault, OfADocumentThatIsCutShortIsAtTheLastTag) {
+TEST(Fault, OfAnElementThatAnotherEndTagClosesIsAtItsStartTag) {
+    EXPECT_EQ(place(fault(document("bind", "\n <component_ref rois:code='a'>\n"))), "2:2");
+    EXPECT_EQ(place(fault("<bind>\n <a><!-- <b> --><c/><d x='>'></d>\n</bind>\n")), "2:2");
+    EXPECT_EQ(place(fault("<bind>\n <a>\n</a></bound>")), "1:1");
+    EXPECT_EQ(place(fault("<bind/>\n</bind>")).substr(0, 2), "2:");
+}
+
+TEST(Fault, OfADocumentThatIsCutShortIsAtTheTagThatNothingCloses) {
     auto const refused = fault(document("bind", "\n   <component_ref rois:code='a'>\n\n"));
     EXPECT_EQ(refused.code, FaultCode::not_well_formed);
     auto const cut = fault("<bind xmlns='urn:x-rois:psm:xml:message:1'>\n   <component_ref>\n\n");
     EXPECT_EQ(place(cut), "2:4");
+    EXPECT_EQ(place(fault("<bind>\n <a>\n  <b/>\n")), "2:2");
     EXPECT_EQ(place(fault("<bind>\n <component_ref rois:code='a")), "2:2");
 }
 
