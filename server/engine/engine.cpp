@@ -37,7 +37,8 @@ void Engine::Core::add(std::unique_ptr<Component> component) {
         owner->object = {.identifier = profile_->object.identifier + "." + sub_engine,
                          .code_space = profile_->object.code_space,
                          .name = sub_engine,
-                         .description = {}};
+                         .description = {},
+                         .meta_data = {}};
     }
     owner->components.push_back(entry.ref);
 }

@@ -14,21 +14,6 @@ namespace rois {
 
 namespace {
 
-// The values of a default: one text, but for lists of texts an item each.
-std::vector<std::string> default_values(ParameterProfile const& profile) {
-    auto const type = DataType::of(profile.data_type_ref);
-    bool const items =
-        type.list && type.base != BaseType::integer && type.base != BaseType::real && type.base != BaseType::boolean;
-    if (!items) return {*profile.default_value};
-    std::vector<std::string> values;
-    for (std::string_view rest = trimmed(*profile.default_value); !rest.empty();) {
-        auto const item = rest.substr(0, rest.find(' '));
-        values.emplace_back(item);
-        rest = trimmed(rest.substr(item.size()));
-    }
-    return values;
-}
-
 // Those that set_parameter names, and the profile's parameters beside them.
 std::vector<ParameterProfile> settable_of(ComponentProfile const& profile) {
     std::vector<ParameterProfile> settable;
@@ -66,7 +51,9 @@ RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, C
     ref_ = description.ref;
     entry_ = {.ref = ref_.code, .type = profile_.object.identifier, .engine = std::move(engine), .profile = description.profile};
     for (auto const& parameter : settable_)
-        if (parameter.default_value) parameters.push_back({parameter.name, parameter.data_type_ref, default_values(parameter)});
+        if (parameter.default_value)
+            parameters.push_back(
+                {parameter.name, parameter.data_type_ref, default_values(parameter.data_type_ref, *parameter.default_value)});
     component_->attach(*this);
 }
 

@@ -1,6 +1,7 @@
 // The composition root of rois-gateway.
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "main/command_line.hpp"
 #include "main/configuration_file.hpp"
 #include "main/logging.hpp"
+#include "main/profile_folder.hpp"
 #include "net/documents.hpp"
 #include "net/gateway.hpp"
 #include "net/health_check.hpp"
@@ -21,14 +23,14 @@
 #include "simulation/robot_components.hpp"
 #include "simulation/scenario_file.hpp"
 #include "simulation/simulation.hpp"
-#include "xml/document.hpp"
+#include "xml/profile_document.hpp"
 #include "xml/schemas.hpp"
 
 namespace rois {
 
 namespace {
 
-enum Exit : int { done = 0, could_not_start = 1, bad_configuration = 2 };
+enum Exit : int { done = 0, could_not_start = 1, profile_refused = 1, bad_configuration = 2 };
 
 std::vector<ComponentProfile> read_profiles(std::shared_ptr<xml::Schemas const> const& schemas) {
     std::vector<ComponentProfile> profiles;
@@ -91,6 +93,14 @@ int check_health(Settings const& settings) {
     return could_not_start;
 }
 
+int check_profiles(std::string const& folder) {
+    auto const schemas = std::make_shared<xml::Schemas const>(files::schemas());
+    auto const checked = read_profile_folder(schemas, folder, read_profiles(schemas));
+    std::fputs(report_of(checked).c_str(), stdout);
+    bool const refused = std::ranges::find(checked, ProfileFile::Verdict::refused, &ProfileFile::verdict) != checked.end();
+    return refused ? profile_refused : done;
+}
+
 int run(int argc, char const* const* argv) {
     auto const command = read_command_line(argc, argv);
     switch (command.wish) {
@@ -99,6 +109,8 @@ int run(int argc, char const* const* argv) {
             return done;
         case CommandLine::Wish::check_health:
             return check_health(command.settings);
+        case CommandLine::Wish::check_profiles:
+            return check_profiles(command.folder);
         case CommandLine::Wish::serve:
         case CommandLine::Wish::check_config:
             break;

@@ -37,10 +37,11 @@ MessageProfile event(std::string name, Parameters results) {
 }
 
 ComponentProfile profile(std::string const& name, std::vector<MessageProfile> messages, Parameters parameters = {}) {
-    return {.object = {.identifier = urn(name), .code_space = "urn:ietf:rfc:2141", .name = name, .description = {}},
-            .sub_components = {urn("RoISCommon")},
-            .messages = std::move(messages),
-            .parameters = std::move(parameters)};
+    return {
+        .object = {.identifier = urn(name), .code_space = "urn:ietf:rfc:2141", .name = name, .description = {}, .meta_data = {}},
+        .sub_components = {urn("RoISCommon")},
+        .messages = std::move(messages),
+        .parameters = std::move(parameters)};
 }
 
 ComponentProfile common_profile() {

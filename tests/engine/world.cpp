@@ -89,7 +89,8 @@ std::vector<std::string> Application::heard(std::size_t most) {
 
 World::World(std::vector<Part> const& parts, EngineSettings settings) {
     EngineProfile profile;
-    profile.object = {.identifier = "urn:x-rois:def:HRIEngine:test", .code_space = {}, .name = "main", .description = {}};
+    profile.object = {
+        .identifier = "urn:x-rois:def:HRIEngine:test", .code_space = {}, .name = "main", .description = {}, .meta_data = {}};
     engine = std::make_unique<Engine>(std::move(profile), std::vector<ComponentProfile>{common}, settings, *this,
                                       [this] { return "secret-" + std::to_string(++secrets_); });
     for (auto const& part : parts) {
