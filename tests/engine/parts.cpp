@@ -57,7 +57,8 @@ ComponentProfile navigation_profile() {
     return profile("Navigation",
                    {command("set_parameter", {parameter("target_position", "string[]"), parameter("time_limit", "int"),
                                               parameter("routing_policy", "string")}),
-                    command("dock", {parameter("side", "string")}, {parameter("charge", "int")}, std::chrono::milliseconds{500}),
+                    command("dock", {parameter("side", "string", "left"), parameter("times", "int", "1")},
+                            {parameter("charge", "int")}, std::chrono::milliseconds{500}),
                     query("route", {parameter("length", "double")}),
                     event("reached_target", {parameter("target", "string"), parameter("is_final_target", "bool")})},
                    parameters);

@@ -101,6 +101,20 @@ World::World(std::vector<Part> const& parts, EngineSettings settings) {
     engine->add(stage_);
 }
 
+void World::change(std::vector<std::string> going, std::vector<Part> const& coming) {
+    ComponentChange change{std::move(going), {}, {common}};
+    std::map<std::string, ScriptedComponent*> added;
+    for (auto const& part : coming) {
+        auto component = std::make_unique<ScriptedComponent>(part, [this](auto what) { happen(std::move(what)); });
+        added.emplace(part.ref, component.get());
+        change.coming.push_back(std::move(component));
+    }
+    auto const gone = change.going;
+    engine->change(std::move(change), now);
+    for (auto const& ref : gone) components_.erase(ref);
+    components_.merge(added);
+}
+
 Application World::connect() {
     auto application = connect_without_link();
     engine->link_opened(application.session);
