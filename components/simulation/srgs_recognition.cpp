@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <ranges>
 #include <utility>
 
 #include "simulation/spoken_words.hpp"
@@ -43,8 +44,8 @@ std::shared_ptr<Step const> joined(std::shared_ptr<Step const> const& first, std
     std::vector<Step const*> steps;
     for (auto const* step = then.get(); step != nullptr; step = step->before.get()) steps.push_back(step);
     auto last = first;
-    for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
-        auto copy = **step;
+    for (auto const* step : std::views::reverse(steps)) {
+        auto copy = *step;
         copy.before = std::move(last);
         last = std::make_shared<Step const>(std::move(copy));
     }

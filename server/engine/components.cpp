@@ -78,6 +78,7 @@ void Engine::Core::check(ComponentChange const& change) const {
 void Engine::Core::change(ComponentChange change, Instant now) {
     check(change);
     std::vector<SharedComponent> coming;
+    coming.reserve(change.coming.size());
     for (auto& component : change.coming) coming.push_back(made(std::move(component), change.known_profiles));
     auto profile = *profile_;
     known_profiles_ = std::move(change.known_profiles);

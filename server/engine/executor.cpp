@@ -276,6 +276,7 @@ void Executor::release(Session& session, RegisteredComponent& component, Instant
 
 void Executor::part(RegisteredComponent& component, Instant now) {
     std::vector<SharedCommand> live;
+    live.reserve(live_.size());
     for (auto const& [handle, command] : live_) live.push_back(command);
     std::ranges::sort(live, {}, [](auto const& command) { return command->handle; });
     withdraw(live, component, now);

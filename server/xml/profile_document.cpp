@@ -190,6 +190,7 @@ public:
 
     std::vector<std::string> warnings(std::string const& name, std::string_view text) const {
         std::vector<std::string> all;
+        all.reserve(repairs_.size());
         for (auto const& repair : repairs_) all.push_back(at(name, place_of(text, repair.offset)) + ": " + repair.what);
         return all;
     }
@@ -202,7 +203,8 @@ private:
 
 }  // namespace
 
-ProfileDocument read_profile_document(std::shared_ptr<Schemas const> schemas, std::string const& name, std::string const& text) {
+ProfileDocument read_profile_document(std::shared_ptr<Schemas const> const& schemas, std::string const& name,
+                                      std::string const& text) {
     CheckedReader reader{schemas, {}};
     auto const fault = reader.read(text);
     if (!fault) return ProfileDecoder{name, text}.decode(reader.root());
@@ -214,9 +216,9 @@ ProfileDocument read_profile_document(std::shared_ptr<Schemas const> schemas, st
     return document;
 }
 
-ComponentProfile read_component_profile(std::shared_ptr<Schemas const> schemas, std::string const& name,
+ComponentProfile read_component_profile(std::shared_ptr<Schemas const> const& schemas, std::string const& name,
                                         std::string const& text) {
-    auto document = read_profile_document(std::move(schemas), name, text);
+    auto document = read_profile_document(schemas, name, text);
     if (!document.warnings.empty()) throw BadDocument{document.warnings.front()};
     if (auto* const profile = std::get_if<ComponentProfile>(&document.profile)) return std::move(*profile);
     throw BadDocument{at(name, Place{}) + ": this is an engine profile: expected 'HRIComponentProfile'"};

@@ -19,9 +19,9 @@ struct ProfileDocument {
 };
 
 // Throws BadDocument when it is not well-formed, or not valid and not understood.
-ProfileDocument read_profile_document(std::shared_ptr<Schemas const>, std::string const& name, std::string const& text);
+ProfileDocument read_profile_document(std::shared_ptr<Schemas const> const&, std::string const& name, std::string const& text);
 
 // A component profile that must be valid as it stands (7.5.4). Throws BadDocument.
-ComponentProfile read_component_profile(std::shared_ptr<Schemas const>, std::string const& name, std::string const& text);
+ComponentProfile read_component_profile(std::shared_ptr<Schemas const> const&, std::string const& name, std::string const& text);
 
 }  // namespace rois::xml
