@@ -1,7 +1,10 @@
-// Makers of the basic components (7.6), each defined in the file of its name. For robot_components.cpp.
+// The basic components (7.6) and their makers, each defined in the file of its name.
 #pragma once
 
 #include <memory>
+#include <span>
+#include <string>
+#include <string_view>
 
 #include "simulation/robot_component.hpp"
 
@@ -22,5 +25,17 @@ std::unique_ptr<Component> reaction(Fitting);
 std::unique_ptr<Component> navigation(Fitting);
 std::unique_ptr<Component> follow(Fitting);
 std::unique_ptr<Component> move(Fitting);
+
+struct BasicComponent {
+    std::string_view ref;       // as in table 31
+    std::string_view urn_name;  // the last part of its profile's URN
+    std::unique_ptr<Component> (*make)(Fitting);
+};
+
+// All of them, in the order of the specification.
+std::span<BasicComponent const> basic_components();
+
+// Of its profile.
+inline std::string urn_of(BasicComponent const& basic) { return "urn:x-rois:def:component:OMG::" + std::string{basic.urn_name}; }
 
 }  // namespace rois::simulation

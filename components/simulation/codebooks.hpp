@@ -20,4 +20,7 @@ inline constexpr std::string_view gesture = "urn:x-rois:def:codebook:simulation:
 // The reactions of Annex D: "1" to "50".
 inline constexpr std::string_view reaction = "urn:x-rois:def:codebook:simulation::reaction";
 
+// ISO 5218: 0 not known, 1 male, 2 female, 9 not applicable.
+inline constexpr std::string_view gender = "urn:iso:std:iso:5218";
+
 }  // namespace rois::simulation::codebook

@@ -1,26 +1,22 @@
 #include "simulation/component_refs.hpp"
 
-#include <array>
+#include <algorithm>
+
+#include "simulation/basic_components.hpp"
+#include "types/texts.hpp"
 
 namespace rois::simulation {
 
 namespace {
 
-constexpr std::array<std::string_view, 15> components{"system_information",
-                                                      "person_detection",
-                                                      "person_localization",
-                                                      "person_identification",
-                                                      "face_detection",
-                                                      "face_localization",
-                                                      "sound_detection",
-                                                      "sound_localization",
-                                                      "speech_recognition",
-                                                      "gesture_recognition",
-                                                      "speech_synthesis",
-                                                      "reaction",
-                                                      "navigation",
-                                                      "follow",
-                                                      "move"};
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+bool is_small_or_digit(char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); }
+bool is_big(char c) { return c >= 'A' && c <= 'Z'; }
+
+bool is_name(std::string_view text) {
+    auto const fits = [](char c) { return is_letter(c) || is_small_or_digit(c) || c == '-'; };
+    return !text.empty() && is_letter(text.front()) && std::ranges::all_of(text, fits);
+}
 
 }  // namespace
 
@@ -32,9 +28,20 @@ std::vector<std::string> component_refs(FloorPlan const& plan) {
     std::vector<std::string> refs;
     for (auto const& robot : plan.robots) {
         bool const first = &robot == &plan.robots.front();
-        for (auto const component : components) refs.push_back(component_ref(component, first ? "" : robot.name));
+        for (auto const& basic : basic_components()) refs.push_back(component_ref(basic.ref, first ? "" : robot.name));
     }
     return refs;
+}
+
+std::string component_name(ComponentProfile const& profile) {
+    if (is_name(profile.object.name)) return profile.object.name;
+    auto const& urn = profile.object.identifier;
+    std::string name;
+    for (char const c : urn.substr(urn.rfind(':') + 1)) {
+        if (is_big(c) && !name.empty() && is_small_or_digit(name.back())) name += '_';
+        name += is_letter(c) || is_small_or_digit(c) ? c : '_';
+    }
+    return is_name(name) ? lower_case(name) : "_" + lower_case(name);
 }
 
 }  // namespace rois::simulation

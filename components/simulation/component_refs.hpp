@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "simulation/floor_plan.hpp"
+#include "types/profiles.hpp"
 
 namespace rois::simulation {
 
@@ -15,5 +16,9 @@ std::string component_ref(std::string_view component, std::string_view engine);
 
 // Of every component of every robot.
 std::vector<std::string> component_refs(FloorPlan const&);
+
+// How a component with this profile is named: as the profile (gml:name) when that is a name without dots, else after its URN, in
+// small letters with underscores ("PersonMonitor": "person_monitor").
+std::string component_name(ComponentProfile const&);
 
 }  // namespace rois::simulation

@@ -1,8 +1,8 @@
 #include "simulation/grammar.hpp"
 
 #include <algorithm>
-#include <array>
 
+#include "simulation/spoken_words.hpp"
 #include "types/texts.hpp"
 
 namespace rois::simulation {
@@ -11,31 +11,6 @@ namespace {
 constexpr std::string_view default_name = "default";
 
 bool is_default(std::string_view text) { return text.empty() || text == default_name; }
-
-// Punctuation of full width is three bytes long.
-constexpr std::array<std::string_view, 8> wide_punctuation{"\u3000", "\u3001", "\u3002", "\uFF01",
-                                                           "\uFF0C", "\uFF0E", "\uFF1F", "\u2026"};
-
-bool is_narrow_punctuation(char c) { return std::string_view{".,!?:;\"'()-"}.find(c) != std::string_view::npos; }
-bool is_blank(char c) { return std::string_view{" \t\r\n"}.find(c) != std::string_view::npos; }
-
-std::string words_of(std::string_view text) {
-    std::string words;
-    bool gap = false;
-    while (!text.empty()) {
-        auto const wide = std::ranges::find_if(wide_punctuation, [&](auto p) { return text.starts_with(p); });
-        bool const separates = wide != wide_punctuation.end() || is_narrow_punctuation(text.front()) || is_blank(text.front());
-        if (separates) {
-            gap = true;
-        } else {
-            if (gap && !words.empty()) words += ' ';
-            gap = false;
-            words += text.front();
-        }
-        text.remove_prefix(wide != wide_punctuation.end() ? wide->size() : 1);
-    }
-    return lower_case(words);
-}
 
 // The parts of a text between separators, trimmed.
 std::vector<std::string_view> split(std::string_view text, std::string_view separators) {
@@ -67,7 +42,7 @@ std::variant<Grammar, Grammar::Flaw> Grammar::read(std::string_view grammar, std
         bool const active = is_default(rule) || name == rule;
         found = found || active;
         for (auto phrase : split(named ? text.substr(equals + 1) : text, "|")) {
-            auto words = words_of(phrase);
+            auto words = spoken_words(phrase);
             if (words.empty()) return Flaw{"the rule " + quoted(name) + " of the grammar has an empty phrase"};
             if (active) made.phrases_.push_back({std::string{phrase}, std::move(words)});
         }
@@ -79,7 +54,7 @@ std::variant<Grammar, Grammar::Flaw> Grammar::read(std::string_view grammar, std
 
 std::optional<std::string> Grammar::match(std::string_view speech) const {
     if (anything_) return std::string{speech};
-    auto const found = std::ranges::find(phrases_, words_of(speech), &Phrase::words);
+    auto const found = std::ranges::find(phrases_, spoken_words(speech), &Phrase::words);
     if (found == phrases_.end()) return {};
     return found->text;
 }

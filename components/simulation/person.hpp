@@ -6,6 +6,7 @@
 
 #include "simulation/entity.hpp"
 #include "simulation/pose.hpp"
+#include "simulation/scenario.hpp"
 
 namespace rois::simulation {
 
@@ -32,6 +33,8 @@ struct Person {
     std::string language;
     std::string message;
     Metres height = 1.68;
+    Gender gender = Gender::not_known;
+    std::optional<int> age;          // years; what a robot makes of it is only near
     Pose pose;                       // heading: where body and face look
     Point velocity = Point::Zero();  // m/s in the hall's frame
     std::optional<Speech> speaking;

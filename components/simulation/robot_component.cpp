@@ -2,7 +2,20 @@
 
 #include <utility>
 
+#include "simulation/component_refs.hpp"
+
 namespace rois::simulation {
+
+Fitting fitting(std::shared_ptr<Simulation> const& simulation, Robot const& robot, std::string_view name,
+                std::shared_ptr<ComponentProfile const> profile) {
+    bool const first = robot.id == simulation->hall().robots().front().id;
+    std::string const engine = first ? "" : robot.name;
+    Identifier const identifier{.code = component_ref(name, engine),
+                                .authority = profile->object.code_space,
+                                .codebook_ref = profile->object.identifier,
+                                .version = {}};
+    return {.simulation = simulation, .robot = robot.id, .description = {identifier, engine, std::move(profile)}};
+}
 
 RobotComponent::RobotComponent(Fitting fitting) : fitting_{std::move(fitting)} {}
 

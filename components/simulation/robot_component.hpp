@@ -19,6 +19,9 @@ struct Fitting {
     ComponentDescription description;
 };
 
+// Of a component of the robot that is named `name`, or with the robot's name before it (component_refs.hpp).
+Fitting fitting(std::shared_ptr<Simulation> const&, Robot const&, std::string_view name, std::shared_ptr<ComponentProfile const>);
+
 // Looks at the hall after every step of the world. UNINITIALIZED before the first one.
 class RobotComponent : public Component, private Observer {
 public:

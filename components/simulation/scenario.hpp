@@ -59,6 +59,9 @@ struct Answer {
     bool once = false;    // at most once a visit
 };
 
+// Codes of ISO 5218.
+enum class Gender : std::uint8_t { not_known = 0, male = 1, female = 2, not_applicable = 9 };
+
 // One person of a scenario.
 struct Role {
     std::string id;        // permanent; "tanaka"
@@ -68,6 +71,8 @@ struct Role {
     std::string message;   // what waits for them at the reception; may be empty
     Metres height = 1.68;
     MetresPerSecond speed = 1.1;
+    Gender gender = Gender::not_known;
+    std::optional<int> age;  // years
     std::vector<Answer> answers;
     Seconds enters = 0;  // after the beginning of the round
     std::vector<ScriptedAction> actions;

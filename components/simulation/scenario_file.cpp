@@ -32,6 +32,8 @@ public:
         role.message = element.attribute("message", "");
         role.height = element.number("height", role.height * 1000.0) / 1000.0;
         role.speed = element.number("speed", role.speed * 1000.0) / 1000.0;
+        role.gender = gender(element);
+        if (element.attribute("age")) role.age = static_cast<int>(element.number("age"));
         role.enters = element.number("enters", 0);
         for (auto const& child : element.children()) {
             if (child.name() == "answer") {
@@ -97,6 +99,13 @@ private:
         auto language = element.attribute("language", otherwise);
         if (!is_language(language)) throw element.complain(quoted(language) + " is no language of ISO 639-1, like en or ja");
         return language;
+    }
+
+    static Gender gender(xml::Element const& element) {
+        auto const name = element.attribute("gender", "");
+        if (name == "male") return Gender::male;
+        if (name == "female") return Gender::female;
+        return name == "not_applicable" ? Gender::not_applicable : Gender::not_known;
     }
 
     static void check_gesture(xml::Element const& element, std::string const& id) {

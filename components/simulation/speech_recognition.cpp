@@ -1,13 +1,12 @@
 // Speech recognition (7.6.9): what people say near the robot, as text.
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "simulation/basic_components.hpp"
 #include "simulation/grammar.hpp"
 #include "simulation/languages.hpp"
+#include "simulation/listening.hpp"
 #include "simulation/parameter_reading.hpp"
-#include "simulation/senses.hpp"
 #include "types/texts.hpp"
 
 namespace rois::simulation {
@@ -23,16 +22,13 @@ std::vector<std::string> languages_of(ParameterList const& parameters) {
     return parameter == nullptr ? std::vector<std::string>{"ja", "en"} : parameter->values;
 }
 
-class SpeechRecognition final : public ContinuousFunction {
+class SpeechRecognition final : public Listening {
 public:
-    using ContinuousFunction::ContinuousFunction;
+    using Listening::Listening;
 
     ParameterList readable_parameters() const override { return {texts("recognizable_languages", all_languages())}; }
 
 private:
-    // An utterance that has begun.
-    enum class Heard : std::uint8_t { whole, in_part };
-
     std::optional<std::string> unfit(ParameterList const& parameters) const override {
         auto const wanted = languages_of(parameters);
         if (wanted.empty() || wanted.size() > languages.size())
@@ -63,42 +59,10 @@ private:
         grammar_ = std::get<Grammar>(grammar_of(text_of(parameters, "grammar"), text_of(parameters, "rule")));
     }
 
-    void begin() override {
-        inputs_.clear();
-        read_ = missed_until_ = hall().chronicle().last();
-    }
+    void began(Instant when) override { port().event("speech_input_started", {{date_time("timestamp", when.utc)}, {}}); }
+    void ended(Instant when) override { port().event("speech_input_finished", {{date_time("timestamp", when.utc)}, {}}); }
 
-    void suspended() override {
-        for (auto& [person, heard] : inputs_) heard = Heard::in_part;
-    }
-
-    void resumed() override { missed_until_ = hall().chronicle().last(); }
-
-    void sense(Instant when) override {
-        for (Happening const& happening : hall().chronicle().since(read_)) {
-            read_ = happening.sequence;
-            auto const* person = std::get_if<PersonId>(&happening.who);
-            if (person == nullptr) continue;
-            if (happening.kind == Happening::Kind::speech_started) begins(*person, happening, when);
-            if (happening.kind == Happening::Kind::speech_finished || happening.kind == Happening::Kind::speech_broken ||
-                happening.kind == Happening::Kind::left)
-                ends(*person, happening, when);
-        }
-    }
-
-    void begins(PersonId person, Happening const& speech, Instant when) {
-        if (speech.sequence <= missed_until_ || !hears(hall(), robot(), speech.place)) return;
-        inputs_[person] = Heard::whole;
-        port().event("speech_input_started", {{date_time("timestamp", when.utc)}, {}});
-    }
-
-    void ends(PersonId person, Happening const& speech, Instant when) {
-        auto const input = inputs_.find(person);
-        if (input == inputs_.end()) return;
-        bool const whole = input->second == Heard::whole && speech.kind == Happening::Kind::speech_finished;
-        inputs_.erase(input);
-        port().event("speech_input_finished", {{date_time("timestamp", when.utc)}, {}});
-        if (!whole || !hears(hall(), robot(), speech.place)) return;
+    void heard(HeardSpeech const& speech, Instant when) override {
         if (std::ranges::find(languages_, speech.language) == languages_.end()) return;
         if (auto text = grammar_.match(speech.text))
             port().event("speech_recognized",
@@ -109,9 +73,6 @@ private:
     Grammar grammar_;
     mutable std::pair<std::string, std::string> source_;
     mutable std::variant<Grammar, Grammar::Flaw> read_grammar_;
-    std::map<PersonId, Heard> inputs_;  // whose beginning was told
-    std::uint64_t read_ = 0;
-    std::uint64_t missed_until_ = 0;  // what began by then was not heard
 };
 
 }  // namespace

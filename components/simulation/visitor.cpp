@@ -36,6 +36,8 @@ Visitor::Visitor(PersonId id, Role role, Pose const& pose, WorldTime now, FloorP
     person_.language = role_.language;
     person_.message = role_.message;
     person_.height = role_.height;
+    person_.gender = role_.gender;
+    person_.age = role_.age;
     person_.pose = pose;
 }
 

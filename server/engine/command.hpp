@@ -25,10 +25,10 @@ struct Command {
     CommandHandle handle{};
     CommandId id;
     std::string type;
-    ParameterList arguments;     // with the profile's names
-    Session* session = nullptr;  // who hears of it; null once the session has ended
-    RegisteredComponent* component = nullptr;
-    bool binding_lost = false;  // its component was released before its turn came (decision 13)
+    ParameterList arguments;                         // with the profile's names
+    Session* session = nullptr;                      // who hears of it; null once the session has ended
+    std::shared_ptr<RegisteredComponent> component;  // also when it has gone meanwhile
+    bool binding_lost = false;                       // its component was released before its turn came (decision 13)
 
     State state = State::waiting;
     std::optional<Deadlines::Ticket> start_deadline;  // until the component says that it has started

@@ -25,6 +25,7 @@ public:
          FreshSecret fresh_secret);
 
     void add(std::unique_ptr<Component>);
+    void change(ComponentChange, Instant now);
     void add(std::shared_ptr<Device> device) { devices_.push_back(std::move(device)); }
 
     std::variant<Reply, Refusal> handle(SessionId const&, Operation const&, Instant now);
@@ -42,6 +43,13 @@ public:
     EngineStatistics statistics() const;
 
 private:
+    // Components (components.cpp)
+    using SharedComponent = std::shared_ptr<RegisteredComponent>;
+    SharedComponent made(std::unique_ptr<Component>, std::vector<ComponentProfile> const& known);
+    void enter(SharedComponent, EngineProfile&);
+    void leave(RegisteredComponent&, EngineProfile&, Instant now);
+    void check(ComponentChange const&) const;
+
     // System interface (system_interface.cpp)
     std::variant<Reply, Refusal> connect(SessionId const&, Instant now);
     Reply perform(Session&, Connect const&, Instant now);
@@ -82,7 +90,7 @@ private:
     EngineSettings settings_;
     FreshSecret fresh_secret_;
     std::vector<ComponentProfile> known_profiles_;
-    std::shared_ptr<EngineProfile> profile_;
+    std::shared_ptr<EngineProfile const> profile_;  // never changed: another takes its place
     Agenda agenda_;
     Registry registry_;
     std::vector<std::shared_ptr<Device>> devices_;

@@ -21,17 +21,17 @@ public:
     enum class Found : std::uint8_t { kept, expired, unknown };
     struct Answer {
         Found found;
-        std::shared_ptr<Results const> results;   // when kept
-        MessageProfile const* message = nullptr;  // to which they belong
+        std::shared_ptr<Results const> results;         // when kept
+        std::shared_ptr<MessageProfile const> message;  // to which they belong
     };
 
     Details(std::string prefix, std::chrono::milliseconds kept_for) : prefix_{std::move(prefix)}, kept_for_{kept_for} {}
 
     std::chrono::milliseconds kept_for() const { return kept_for_; }
 
-    // Keeps the results of a message (an event; null for an error) under a new id. The message must live as long as this.
-    std::string add(std::shared_ptr<Results const> results, MessageProfile const* message, Instant now) {
-        kept_.push_back({now.steady + kept_for_, std::move(results), message});
+    // Keeps the results of a message (an event; null for an error) under a new id.
+    std::string add(std::shared_ptr<Results const> results, std::shared_ptr<MessageProfile const> message, Instant now) {
+        kept_.push_back({now.steady + kept_for_, std::move(results), std::move(message)});
         return prefix_ + std::to_string(first_ + kept_.size() - 1);
     }
 
@@ -55,7 +55,7 @@ private:
     struct Entry {
         Steady until;
         std::shared_ptr<Results const> results;
-        MessageProfile const* message;
+        std::shared_ptr<MessageProfile const> message;
     };
 
     std::string prefix_;

@@ -15,32 +15,11 @@ Engine::Core::Core(EngineProfile profile, std::vector<ComponentProfile> known_pr
     : settings_{settings},
       fresh_secret_{std::move(fresh_secret)},
       known_profiles_{std::move(known_profiles)},
-      profile_{std::make_shared<EngineProfile>(std::move(profile))},
+      profile_{std::make_shared<EngineProfile const>(std::move(profile))},
       notifier_{outbox},
       executor_{settings_, registry_, agenda_, deadlines_, notifier_},
       events_{"e-", settings_.event_details},
       errors_{"x-", settings_.error_details} {}
-
-void Engine::Core::add(std::unique_ptr<Component> component) {
-    auto const& description = component->description();
-    auto const sub_engine = description.engine;
-    auto whole = flattened(*description.profile, known_profiles_);
-    auto const& entry =
-        registry_
-            .add(std::make_unique<RegisteredComponent>(std::move(component), std::move(whole),
-                                                       sub_engine.empty() ? profile_->object.name : sub_engine, agenda_))
-            .entry();
-    auto* owner = profile_.get();
-    if (!sub_engine.empty()) {
-        auto const known = std::ranges::find(owner->sub_profiles, sub_engine, [](auto const& sub) { return sub.object.name; });
-        owner = known != owner->sub_profiles.end() ? &*known : &owner->sub_profiles.emplace_back();
-        owner->object = {.identifier = profile_->object.identifier + "." + sub_engine,
-                         .code_space = profile_->object.code_space,
-                         .name = sub_engine,
-                         .description = {}};
-    }
-    owner->components.push_back(entry.ref);
-}
 
 // All refusals, before any operation runs; then the one that it is.
 std::variant<Reply, Refusal> Engine::Core::handle(SessionId const& id, Operation const& operation, Instant now) {
@@ -200,6 +179,7 @@ Engine::Engine(EngineProfile profile, std::vector<ComponentProfile> known_profil
 Engine::~Engine() = default;
 
 void Engine::add(std::unique_ptr<Component> component) { core_->add(std::move(component)); }
+void Engine::change(ComponentChange change, Instant now) { core_->change(std::move(change), now); }
 void Engine::add(std::shared_ptr<Device> device) { core_->add(std::move(device)); }
 
 std::variant<Reply, Refusal> Engine::handle(SessionId const& session, Operation const& operation, Instant now) {

@@ -29,6 +29,13 @@ enum class Refusal : std::uint8_t { no_session, too_many_sessions, shutting_down
 // How a service application is linked to its session (decision 2).
 enum class Link : std::uint8_t { websocket, stream };
 
+// Components that come and go at once (profile_changed).
+struct ComponentChange {
+    std::vector<std::string> going;  // refs
+    std::vector<std::unique_ptr<Component>> coming;
+    std::vector<ComponentProfile> known_profiles;  // among which sub components are looked up from now on
+};
+
 // Numbers for /metrics, counted since the start.
 struct EngineStatistics {
     std::size_t sessions = 0;                  // now
@@ -57,6 +64,11 @@ public:
     // Before the first session. Throws std::runtime_error for a ref that is taken or a sub component profile that is unknown.
     void add(std::unique_ptr<Component>);
     void add(std::shared_ptr<Device>);
+
+    // At any time; all of it or nothing: throws std::runtime_error for a ref that is taken or unknown, or a sub component profile
+    // that is unknown. What runs on a component that goes, or waits for it, completes with ABORT; its bindings are lost;
+    // subscriptions stay, and hear it again should it come back. All sessions are told when any component came or went.
+    void change(ComponentChange, Instant now);
 
     // Performs an operation for the session (an empty id: for nobody yet). The notifications that it causes are in the session's
     // queue when it returns. `Connect` opens a session unless `session` is one already. `Resume` only checks that its session

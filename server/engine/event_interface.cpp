@@ -80,8 +80,10 @@ void Engine::Core::publish(EventOccurred said, Instant now) {
     for (auto* subscription : subscriptions_.of(said.event_type)) {
         bool const each = subscription->depends_on_asker;
         if (!each && !matches(subscription->condition, *said.component, *results, nullptr)) continue;
-        if (event_id.empty())
-            event_id = events_.add(results, find_message(said.component->profile(), MessageKind::event, said.event_type), now);
+        if (event_id.empty()) {
+            auto const& profile = said.component->entry().profile;
+            event_id = events_.add(results, {profile, find_message(*profile, MessageKind::event, said.event_type)}, now);
+        }
         EventNotifications notifications{{.event_id = {event_id},
                                           .event_type = said.event_type,
                                           .subscribe_id = subscription->id,

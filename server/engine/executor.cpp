@@ -21,9 +21,12 @@ std::vector<std::shared_ptr<Command>> live_commands(Session const& session) {
 
 }  // namespace
 
-// A command and its sequence know each other: what still runs is parted here.
+// A command knows its sequence and its component, which know it: what still runs is parted here.
 Executor::~Executor() {
-    for (auto const& [handle, command] : live_) command->execution.reset();
+    for (auto const& [handle, command] : live_) {
+        command->execution.reset();
+        command->component->start.reset();
+    }
 }
 
 CommandId Executor::fresh_id(Session const& session, std::set<CommandId> const& taken) {
@@ -35,13 +38,15 @@ CommandId Executor::fresh_id(Session const& session, std::set<CommandId> const& 
 
 Executor::SharedCommand Executor::make(Session& session, CommandMessage const& message) {
     auto command = std::make_shared<Command>();
-    auto* component = registry_.find(message.component_ref.code);
+    auto const component = registry_.find(message.component_ref.code)->shared_from_this();
+    auto const& profiles = *arguments_of(*component, message.command_type);
     command->handle = CommandHandle{++last_handle_};
     command->id = message.command_id;
     command->type = message.command_type;
     command->session = &session;
     command->component = component;
-    command->arguments = normalized(*arguments_of(*component, message.command_type), message.arguments);
+    command->arguments = normalized(profiles, message.arguments);
+    if (&profiles != &component->settable()) command->arguments = with_defaults(profiles, command->arguments);
     live_.emplace(last_handle_, command);
     session.commands.emplace(command->id, command);
     return command;
@@ -266,8 +271,20 @@ void Executor::forget_old_results(Session& session, Instant now) const {
 }
 
 void Executor::release(Session& session, RegisteredComponent& component, Instant now) {
-    for (auto const& command : live_commands(session)) {
-        if (command->component != &component || command->state == Command::State::ended) continue;
+    withdraw(live_commands(session), component, now);
+}
+
+void Executor::part(RegisteredComponent& component, Instant now) {
+    std::vector<SharedCommand> live;
+    live.reserve(live_.size());
+    for (auto const& [handle, command] : live_) live.push_back(command);
+    std::ranges::sort(live, {}, [](auto const& command) { return command->handle; });
+    withdraw(live, component, now);
+}
+
+void Executor::withdraw(std::vector<SharedCommand> const& live, RegisteredComponent& component, Instant now) {
+    for (auto const& command : live) {
+        if (command->component.get() != &component || command->state == Command::State::ended) continue;
         if (command->state == Command::State::waiting) {
             command->binding_lost = true;
         } else if (component.start != command) {

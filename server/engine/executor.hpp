@@ -44,6 +44,9 @@ public:
     // Ends what the session has running on the component or waiting for it, and what it made active there (decision 6).
     void release(Session&, RegisteredComponent&, Instant now);
 
+    // The same for a component that goes, whoever commanded it.
+    void part(RegisteredComponent&, Instant now);
+
     // Ends all that the session commanded, with ABORT.
     void abort_all(Session&, Instant now);
 
@@ -74,6 +77,7 @@ private:
     void run_suspend(SharedCommand const&, Instant now);
     void run_resume(SharedCommand const&, Instant now);
     void run_function(SharedCommand const&, Instant now);
+    void withdraw(std::vector<SharedCommand> const& live, RegisteredComponent&, Instant now);
     void halt(RegisteredComponent&, CompletedStatus status_of_start, Instant now);
     void await_start(SharedCommand const&, Instant now);
     void start_timed_out(CommandHandle, Instant now);

@@ -66,6 +66,23 @@ ParameterList normalized(std::vector<ParameterProfile> const& profiles, Paramete
     return known;
 }
 
+std::optional<std::string> why_incomplete(std::vector<ParameterProfile> const& profiles, ParameterList const& normalized) {
+    for (auto const& profile : profiles)
+        if (!profile.default_value && find(normalized, profile.name) == nullptr)
+            return "the argument " + quoted(profile.name) + " is missing, and has no default value";
+    return {};
+}
+
+ParameterList with_defaults(std::vector<ParameterProfile> const& profiles, ParameterList const& normalized) {
+    ParameterList defaults;
+    for (auto const& profile : profiles)
+        if (profile.default_value)
+            defaults.push_back(
+                {profile.name, profile.data_type_ref, default_values(profile.data_type_ref, *profile.default_value)});
+    merge(defaults, normalized, profiles);
+    return defaults;
+}
+
 void merge(ParameterList& stored, ParameterList const& arrived, std::vector<ParameterProfile> const& profiles) {
     for (auto const& parameter : arrived) {
         auto const known = std::ranges::find(stored, parameter.name, &Parameter::name);

@@ -19,6 +19,12 @@ std::optional<std::string> why_not(std::vector<ParameterProfile> const&, Paramet
 // The same parameters under the profiles' names and type codes; `list` was checked.
 ParameterList normalized(std::vector<ParameterProfile> const&, ParameterList const& list);
 
+// Why a command cannot do with these arguments: one that has no default value is not there. Nothing when it can.
+std::optional<std::string> why_incomplete(std::vector<ParameterProfile> const&, ParameterList const& normalized);
+
+// The arguments with the default values of those that are not there, in the order of the profiles.
+ParameterList with_defaults(std::vector<ParameterProfile> const&, ParameterList const& normalized);
+
 // Puts what arrived over what is stored, in the order of the profiles.
 void merge(ParameterList& stored, ParameterList const& arrived, std::vector<ParameterProfile> const&);
 

@@ -14,21 +14,6 @@ namespace rois {
 
 namespace {
 
-// The values of a default: one text, but for lists of texts an item each.
-std::vector<std::string> default_values(ParameterProfile const& profile) {
-    auto const type = DataType::of(profile.data_type_ref);
-    bool const items =
-        type.list && type.base != BaseType::integer && type.base != BaseType::real && type.base != BaseType::boolean;
-    if (!items) return {*profile.default_value};
-    std::vector<std::string> values;
-    for (std::string_view rest = trimmed(*profile.default_value); !rest.empty();) {
-        auto const item = rest.substr(0, rest.find(' '));
-        values.emplace_back(item);
-        rest = trimmed(rest.substr(item.size()));
-    }
-    return values;
-}
-
 // Those that set_parameter names, and the profile's parameters beside them.
 std::vector<ParameterProfile> settable_of(ComponentProfile const& profile) {
     std::vector<ParameterProfile> settable;
@@ -60,13 +45,19 @@ void add_parameter_messages(ComponentProfile& profile, std::vector<ParameterProf
 
 RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, ComponentProfile profile, std::string engine,
                                          Agenda& agenda)
-    : component_{std::move(component)}, profile_{std::move(profile)}, settable_{settable_of(profile_)}, agenda_{agenda} {
-    add_parameter_messages(profile_, settable_);
+    : component_{std::move(component)}, settable_{settable_of(profile)}, agenda_{agenda} {
+    add_parameter_messages(profile, settable_);
     auto const& description = component_->description();
     ref_ = description.ref;
-    entry_ = {.ref = ref_.code, .type = profile_.object.identifier, .engine = std::move(engine), .profile = description.profile};
+    auto type = profile.object.identifier;
+    entry_ = {.ref = ref_.code,
+              .type = std::move(type),
+              .engine = std::move(engine),
+              .profile = std::make_shared<ComponentProfile const>(std::move(profile))};
     for (auto const& parameter : settable_)
-        if (parameter.default_value) parameters.push_back({parameter.name, parameter.data_type_ref, default_values(parameter)});
+        if (parameter.default_value)
+            parameters.push_back(
+                {parameter.name, parameter.data_type_ref, default_values(parameter.data_type_ref, *parameter.default_value)});
     component_->attach(*this);
 }
 
@@ -78,6 +69,7 @@ ComponentStatus RegisteredComponent::status_for(Session const* asker) const {
 }
 
 RegisteredComponent::Called RegisteredComponent::call(std::function<void(Component&)> const& what, Report report) const {
+    if (!component_) return Called::failed;
     std::string problem;
     try {
         what(*component_);
@@ -99,7 +91,7 @@ void RegisteredComponent::report_failure(std::string problem, Report report) con
 
 RegisteredComponent::Answer RegisteredComponent::check(MessageKind kind, std::string_view message, Results const& results,
                                                        Report report) const {
-    auto const* profile = find_message(profile_, kind, message);
+    auto const* profile = find_message(this->profile(), kind, message);
     auto const problem = profile == nullptr ? "it is not in the profile" : why_not(profile->results, results.parameters);
     if (!problem) return Answer::right;
     report_failure("wrong results of " + quoted(message) + ": " + *problem, report);
@@ -139,7 +131,7 @@ void RegisteredComponent::event(std::string_view event_type, Results results) {
 
 void RegisteredComponent::error(ErrorType type, std::string text) { agenda_.add(ErrorOccurred{this, type, std::move(text)}); }
 
-RegisteredComponent& Registry::add(std::unique_ptr<RegisteredComponent> component) {
+RegisteredComponent& Registry::add(std::shared_ptr<RegisteredComponent> component) {
     auto const& ref = component->ref().code;
     auto const [place, added] = components_.try_emplace(ref, nullptr);
     if (!added) throw std::runtime_error("there are two components with the ref " + quoted(ref));
@@ -152,6 +144,12 @@ RegisteredComponent& Registry::add(std::unique_ptr<RegisteredComponent> componen
                     &registered);
     }
     return registered;
+}
+
+void Registry::remove(RegisteredComponent const& component) {
+    for (auto const& message : component.profile().messages)
+        std::erase_if(by_message_[{message.kind, message.name}], [&](auto const* each) { return each == &component; });
+    components_.erase(component.ref().code);
 }
 
 RegisteredComponent* Registry::find(std::string_view ref) const {

@@ -19,7 +19,7 @@ namespace rois {
 struct Session;
 
 // A component as the engine has it. It is the component's port.
-class RegisteredComponent final : public ComponentPort {
+class RegisteredComponent final : public ComponentPort, public std::enable_shared_from_this<RegisteredComponent> {
 public:
     // What the component does, as far as commands are concerned.
     enum class Activity : std::uint8_t { idle, running, active };
@@ -29,7 +29,11 @@ public:
 
     Identifier const& ref() const { return ref_; }
     ComponentEntry const& entry() const { return entry_; }
-    ComponentProfile const& profile() const { return profile_; }
+    // With the messages of the sub components, and those that go without saying.
+    ComponentProfile const& profile() const { return *entry_.profile; }
+
+    // The component goes; what knows it still can read its ref and profile, and all calls fail without a word.
+    void depart() { component_.reset(); }
 
     // Asks or tells the component something. An exception that leaves it is reported and makes its status ERROR (decision 16).
     // What anybody may ask at any time is reported `once` only: until something of the component succeeds again.
@@ -71,7 +75,6 @@ private:
 
     std::unique_ptr<Component> component_;
     Identifier ref_;
-    ComponentProfile profile_;
     ComponentEntry entry_;
     std::vector<ParameterProfile> settable_;
     Agenda& agenda_;
@@ -80,10 +83,13 @@ private:
 // All components of the engine, by ref.
 class Registry {
 public:
-    using Components = std::map<std::string, std::unique_ptr<RegisteredComponent>, std::less<>>;
+    using Components = std::map<std::string, std::shared_ptr<RegisteredComponent>, std::less<>>;
 
     // Throws std::runtime_error when the ref is taken.
-    RegisteredComponent& add(std::unique_ptr<RegisteredComponent>);
+    RegisteredComponent& add(std::shared_ptr<RegisteredComponent>);
+
+    // Nobody finds it any more.
+    void remove(RegisteredComponent const&);
 
     RegisteredComponent* find(std::string_view ref) const;  // null when unknown
     Components const& all() const { return components_; }

@@ -97,6 +97,9 @@ std::optional<Objection> SequenceCheck::values(CommandMessage const& message, Re
         auto merged = component.merged(stored->second, parameters);
         if (!merged) return failed(component);
         parameters = stored->second = std::move(*merged);
+    } else {
+        if (auto problem = why_incomplete(*profiles, parameters)) return bad_parameter(std::move(*problem));
+        parameters = with_defaults(*profiles, parameters);
     }
     std::optional<std::string> refusal;
     auto const called = component.call([&](Component& c) { refusal = c.refusal(message.command_type, parameters); });

@@ -22,10 +22,11 @@ constexpr auto examples =
     "  rois-gateway                                      on http://127.0.0.1:8080\n"
     "  rois-gateway --listen [::1]:9000 --sim-speed 20   elsewhere, twenty times as fast\n"
     "  rois-gateway --print-config > rois-gateway.json   a file to begin with\n"
-    "  rois-gateway --config rois-gateway.json --check-config\n\n"
+    "  rois-gateway --config rois-gateway.json --check-config\n"
+    "  rois-gateway --check-profiles profiles            what is right and wrong in profiles of others\n\n"
     "Exit codes:\n"
     "  0  stopped by a signal, or what was asked for was done\n"
-    "  1  could not start, or is not healthy\n"
+    "  1  could not start, is not healthy, or a profile was refused\n"
     "  2  bad configuration";
 
 struct Flags {
@@ -33,12 +34,15 @@ struct Flags {
     bool check_config = false;
     bool print_config = false;
     bool check_health = false;
+    std::string check_profiles;
     bool version = false;
     std::map<std::string, std::string> values;  // by key
 };
 
 void declare(CLI::App& app, Flags& flags) {
     app.set_help_flag("-h,--help", "say this");
+    app.add_option("--check-profiles", flags.check_profiles, "say what is in a folder of component profiles, and stop")
+        ->option_text("DIR");
     app.add_flag("--version", flags.version, "say the version");
     app.add_option("--config", flags.config, "configuration file (ROIS_CONFIG)")->option_text("FILE");
     app.add_flag("--check-config", flags.check_config, "say whether the configuration is good, and stop");
@@ -78,7 +82,7 @@ Settings gather(CLI::App const& app, Flags const& flags) {
     return settings;
 }
 
-CommandLine say(std::string words) { return {CommandLine::Wish::say, std::move(words), {}}; }
+CommandLine say(std::string words) { return {CommandLine::Wish::say, std::move(words), {}, {}}; }
 
 }  // namespace
 
@@ -93,12 +97,13 @@ CommandLine read_command_line(int argc, char const* const* argv) {
     } catch (CLI::ParseError const& error) {
         throw BadSettings{error.what()};
     }
+    if (app.count("--check-profiles") > 0) return {CommandLine::Wish::check_profiles, {}, std::move(flags.check_profiles), {}};
     if (flags.version) return say("rois-gateway " ROIS_VERSION "\n");
     auto settings = gather(app, flags);
     if (flags.print_config) return say(commented_configuration(settings));
-    if (flags.check_config) return {CommandLine::Wish::check_config, {}, std::move(settings)};
-    if (flags.check_health) return {CommandLine::Wish::check_health, {}, std::move(settings)};
-    return {CommandLine::Wish::serve, {}, std::move(settings)};
+    if (flags.check_config) return {CommandLine::Wish::check_config, {}, {}, std::move(settings)};
+    if (flags.check_health) return {CommandLine::Wish::check_health, {}, {}, std::move(settings)};
+    return {CommandLine::Wish::serve, {}, {}, std::move(settings)};
 }
 
 }  // namespace rois

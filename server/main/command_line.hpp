@@ -8,9 +8,10 @@
 namespace rois {
 
 struct CommandLine {
-    enum class Wish : std::uint8_t { serve, say, check_config, check_health } wish = Wish::serve;
-    std::string words;  // to say: help, version, configuration
-    Settings settings;  // from flags, else variables, else the file, else the defaults
+    enum class Wish : std::uint8_t { serve, say, check_config, check_health, check_profiles } wish = Wish::serve;
+    std::string words;   // to say: help, version, configuration
+    std::string folder;  // whose profiles are to be checked
+    Settings settings;   // from flags, else variables, else the file, else the defaults
 };
 
 // Throws BadSettings.

@@ -171,6 +171,9 @@ std::vector<Key> general_keys() {
         file(
             "scenario", "who visits the hall, and when; empty: the one inside the program",
             [](Settings & s) -> auto& { return s.scenario; }),
+        {"profiles", "folder of component profiles that make components, re-read after SIGHUP; empty: none", "DIR", "a text",
+         Key::Kind::text, [](Settings& s, std::string const& text) { return s.profiles = text, true; },
+         [](Settings const& s) { return s.profiles; }},
         {"allowed_origins", "web pages that may open WebSockets beside this server's own, separated by blanks", "ORIGINS",
          "origins such as https://console.example, separated by blanks", Key::Kind::text, set_origins, show_origins},
     };

@@ -1,6 +1,7 @@
 // The composition root of rois-gateway.
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -11,24 +12,28 @@
 #include "files/files.hpp"
 #include "main/command_line.hpp"
 #include "main/configuration_file.hpp"
+#include "main/keys.hpp"
 #include "main/logging.hpp"
+#include "main/profile_folder.hpp"
+#include "main/user_components.hpp"
 #include "net/documents.hpp"
 #include "net/gateway.hpp"
 #include "net/health_check.hpp"
 #include "net/secrets.hpp"
 #include "net/server.hpp"
+#include "simulation/component_refs.hpp"
 #include "simulation/floor_plan_file.hpp"
 #include "simulation/robot_components.hpp"
 #include "simulation/scenario_file.hpp"
 #include "simulation/simulation.hpp"
-#include "xml/document.hpp"
+#include "xml/profile_document.hpp"
 #include "xml/schemas.hpp"
 
 namespace rois {
 
 namespace {
 
-enum Exit : int { done = 0, could_not_start = 1, bad_configuration = 2 };
+enum Exit : int { done = 0, could_not_start = 1, profile_refused = 1, bad_configuration = 2 };
 
 std::vector<ComponentProfile> read_profiles(std::shared_ptr<xml::Schemas const> const& schemas) {
     std::vector<ComponentProfile> profiles;
@@ -52,12 +57,37 @@ std::shared_ptr<simulation::Simulation> make_simulation(std::shared_ptr<xml::Sch
     return std::make_shared<simulation::Simulation>(std::move(plan), std::move(scenario), settings.seed, settings.sim_speed);
 }
 
-EngineProfile engine_profile(std::string const& name) {
+// The value of a configuration key, as a text.
+std::string shown(std::string_view name, Settings const& settings) {
+    return std::ranges::find(keys(), name, &Key::name)->show(settings);
+}
+
+// A parameter of the engine; what it is now is its default value.
+ParameterProfile engine_parameter(std::string name, std::string type, std::string value, std::string description) {
+    return {.name = std::move(name),
+            .data_type_ref = {.code = std::move(type), .authority = {}, .codebook_ref = {}, .version = {}},
+            .default_value = std::move(value),
+            .description = std::move(description)};
+}
+
+EngineProfile engine_profile(Settings const& settings, simulation::FloorPlan const& plan) {
     EngineProfile profile;
-    profile.object.identifier = "urn:x-rois:def:HRIEngine:RoISGateway::" + name;
+    profile.object.identifier = "urn:x-rois:def:HRIEngine:RoISGateway::" + settings.engine_name;
     profile.object.code_space = "urn:ietf:rfc:2141";
-    profile.object.name = name;
+    profile.object.name = settings.engine_name;
+    profile.parameters = {engine_parameter("sim_speed", "double", shown("sim_speed", settings), "Simulated seconds in a second."),
+                          engine_parameter("crs", "string", plan.crs, "The frame in which positions are told and taken.")};
     return profile;
+}
+
+// Reads the folder of profiles again; what is wrong with it is told, and changes nothing.
+void read_again(UserComponents& components, net::Gateway& gateway) {
+    try {
+        spdlog::info("profiles: reading them again after SIGHUP");
+        gateway.change(components.read());
+    } catch (std::exception const& error) {
+        spdlog::warn("profiles: all stay as they are: {}", error.what());
+    }
 }
 
 // Builds all parts in order of need, and serves until a signal ends it.
@@ -67,18 +97,23 @@ int serve(CommandLine const& command) {
     auto const profiles = read_profiles(schemas);
     auto const simulation = make_simulation(schemas, settings);
     if (command.wish == CommandLine::Wish::check_config) {
+        if (!settings.profiles.empty()) read_profile_folder(schemas, settings.profiles, profiles);
         std::puts("configuration ok");
         return done;
     }
     set_up_logging(settings.log_format, settings.log_level);
     net::Readers readers;
-    Engine engine{engine_profile(settings.engine_name), profiles, settings.engine, readers, net::fresh_secret};
+    Engine engine{engine_profile(settings, simulation->hall().plan()), profiles, settings.engine, readers, net::fresh_secret};
     engine.add(simulation);
     for (auto& component : simulation::robot_components(simulation, profiles)) engine.add(std::move(component));
     net::Telemetry telemetry;
     net::Gateway gateway{engine, readers, telemetry};
+    UserComponents user_components{
+        schemas, {simulation, schemas}, profiles, simulation::component_refs(simulation->hall().plan()), settings.profiles};
+    if (!settings.profiles.empty()) gateway.change(user_components.read());
     net::Documents const documents{gateway, telemetry, *schemas, files::web().at("index.html")};
     net::Server server{settings.net, gateway, telemetry, documents, schemas};
+    if (!settings.profiles.empty()) server.on_hang_up([&] { read_again(user_components, gateway); });
     spdlog::info("listening on {}", server.url());
     server.run();
     spdlog::info("stopped");
@@ -92,6 +127,14 @@ int check_health(Settings const& settings) {
     return could_not_start;
 }
 
+int check_profiles(std::string const& folder) {
+    auto const schemas = std::make_shared<xml::Schemas const>(files::schemas());
+    auto const checked = read_profile_folder(schemas, folder, read_profiles(schemas));
+    std::fputs(report_of(checked).c_str(), stdout);
+    bool const refused = std::ranges::find(checked, ProfileFile::Verdict::refused, &ProfileFile::verdict) != checked.end();
+    return refused ? profile_refused : done;
+}
+
 int run(int argc, char const* const* argv) {
     auto const command = read_command_line(argc, argv);
     switch (command.wish) {
@@ -100,6 +143,8 @@ int run(int argc, char const* const* argv) {
             return done;
         case CommandLine::Wish::check_health:
             return check_health(command.settings);
+        case CommandLine::Wish::check_profiles:
+            return check_profiles(command.folder);
         case CommandLine::Wish::serve:
         case CommandLine::Wish::check_config:
             break;

@@ -21,6 +21,7 @@ struct Settings {
     std::uint64_t seed = 1;
     std::string floor_plan;  // a file; empty: the reception hall that comes with the program
     std::string scenario;
+    std::string profiles;  // a folder of component profiles; empty: none
     LogFormat log_format = LogFormat::text;
     LogLevel log_level = LogLevel::info;
 

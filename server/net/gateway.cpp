@@ -158,6 +158,12 @@ void Gateway::tick() {
     engine_.tick(now);
 }
 
+void Gateway::change(ComponentChange change) {
+    auto const now = present();
+    std::lock_guard const lock{mutex_};
+    engine_.change(std::move(change), now);
+}
+
 void Gateway::shut_down() {
     auto const now = present();
     std::lock_guard const lock{mutex_};

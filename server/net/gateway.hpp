@@ -103,6 +103,9 @@ public:
     // To be called every few milliseconds: lets the engine do what is due.
     void tick();
 
+    // Components come and go. Throws what the engine throws.
+    void change(ComponentChange);
+
     // Ends all sessions; what comes later is refused.
     void shut_down();
     bool shutting_down() const { return shutting_down_; }

@@ -38,7 +38,8 @@ public:
         : shared_{std::move(settings), gateway, telemetry, documents, std::move(schemas)},
           loops_{make_loops()},
           acceptor_{loops_.front()->executor()},
-          signals_{loops_.front()->executor()} {
+          signals_{loops_.front()->executor()},
+          hang_ups_{loops_.front()->executor()} {
         gateway.tick();  // time begins before anybody can ask
         listen();
         signals_.add(SIGTERM);
@@ -47,11 +48,17 @@ public:
 
     std::string url() const { return "http://" + text_of(shared_.settings.host, port_); }
 
+    void on_hang_up(std::function<void()> what) {
+        on_hang_up_ = std::move(what);
+        hang_ups_.add(SIGHUP);
+    }
+
     void run() {
         auto const first = loops_.front()->executor();
         asio::co_spawn(first, accept(), asio::detached);
         asio::co_spawn(first, tick(), asio::detached);
         asio::co_spawn(first, wait_for_signal(), asio::detached);
+        if (on_hang_up_) asio::co_spawn(first, wait_for_hang_ups(), asio::detached);
         std::vector<std::jthread> threads;
         for (std::size_t i = 1; i < loops_.size(); ++i) threads.emplace_back([loop = loops_[i].get()] { loop->run(); });
         loops_.front()->run();
@@ -117,6 +124,13 @@ private:
         }
     }
 
+    Task<> wait_for_hang_ups() {
+        while (true) {
+            co_await hang_ups_.async_wait(asio::use_awaitable_t<Executor>{});
+            on_hang_up_();
+        }
+    }
+
     Task<> wait_for_signal() {
         auto const signal = co_await signals_.async_wait(asio::use_awaitable_t<Executor>{});
         spdlog::info("shutting down after {}", signal == SIGTERM ? "SIGTERM" : "SIGINT");
@@ -131,6 +145,8 @@ private:
     std::vector<std::unique_ptr<Loop>> loops_;
     Acceptor acceptor_;
     Signals signals_;
+    Signals hang_ups_;
+    std::function<void()> on_hang_up_;
     std::uint16_t port_ = 0;
 };
 
@@ -141,6 +157,8 @@ Server::Server(Settings settings, Gateway& gateway, Telemetry& telemetry, Docume
 Server::~Server() = default;
 
 std::string Server::url() const { return running_->url(); }
+
+void Server::on_hang_up(std::function<void()> what) { running_->on_hang_up(std::move(what)); }
 
 void Server::run() { running_->run(); }
 

@@ -1,6 +1,7 @@
 // The gateway on the network: one port, one thread for each of its loops.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -21,6 +22,10 @@ public:
 
     // "http://127.0.0.1:8080"
     std::string url() const;
+
+    // To be done after each SIGHUP, on one of the I/O threads; it throws nothing. Without it SIGHUP does what it usually does.
+    // Before `run`.
+    void on_hang_up(std::function<void()>);
 
     // Serves until SIGTERM or SIGINT: then clients are told, and cut when they do not go within the shutdown timeout. A second
     // signal cuts them at once.

@@ -156,4 +156,16 @@ std::optional<std::string> why_not(DataType const& type, std::span<std::string c
     return {};
 }
 
+std::vector<std::string> default_values(Identifier const& data_type_ref, std::string_view text) {
+    auto const type = DataType::of(data_type_ref);
+    if (!type.list || is_packed(type.base)) return {std::string{text}};
+    std::vector<std::string> values;
+    for (std::string_view rest = trimmed(text); !rest.empty();) {
+        auto const item = rest.substr(0, rest.find_first_of(" \t\r\n"));
+        values.emplace_back(item);
+        rest = trimmed(rest.substr(item.size()));
+    }
+    return values;
+}
+
 }  // namespace rois

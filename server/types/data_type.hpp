@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "types/values.hpp"
 
@@ -27,5 +28,8 @@ std::string to_text(DataType const&);
 
 // Why these texts are not of the type (wrong count, not a number, ...), or nothing when they are. A type `other` takes any text.
 std::optional<std::string> why_not(DataType const&, std::span<std::string const> values);
+
+// The values that a default of a profile stands for: one text, but for lists of texts an item each, separated by white space.
+std::vector<std::string> default_values(Identifier const& data_type_ref, std::string_view text);
 
 }  // namespace rois

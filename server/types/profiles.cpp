@@ -9,10 +9,22 @@ namespace rois {
 
 namespace {
 
+// "PersonDetection" of "urn:x-rois:def:component:OMG::PersonDetection".
+std::string_view last_part(std::string_view urn) { return urn.substr(urn.rfind(':') + 1); }
+
+std::string without_underscores(std::string_view name) {
+    std::string letters{name};
+    std::erase(letters, '_');
+    return letters;
+}
+
+bool same_name(std::string_view a, std::string_view b) {
+    return equal_ignoring_case(without_underscores(a), without_underscores(b));
+}
+
 ComponentProfile const& look_up(std::string const& urn, std::vector<ComponentProfile> const& known) {
-    auto const found = std::ranges::find_if(
-        known, [&](ComponentProfile const& p) { return equal_ignoring_case(p.object.identifier, trimmed(urn)); });
-    if (found == known.end()) throw std::runtime_error("no component profile " + quoted(urn, 200) + " is known");
+    auto const* const found = find_profile(known, urn);
+    if (found == nullptr) throw std::runtime_error("no component profile " + quoted(urn, 200) + " is known");
     return *found;
 }
 
@@ -37,6 +49,16 @@ ComponentProfile flattened(ComponentProfile const& profile, std::vector<Componen
     std::vector<ComponentProfile const*> path;
     add_all(whole, profile, known, path);
     return whole;
+}
+
+ComponentProfile const* find_profile(std::vector<ComponentProfile> const& known, std::string_view urn_or_name) {
+    auto const wanted = trimmed(urn_or_name);
+    auto found = std::ranges::find_if(known, [&](auto const& p) { return equal_ignoring_case(p.object.identifier, wanted); });
+    if (found == known.end() && wanted.find(':') == wanted.npos && !wanted.empty())
+        found = std::ranges::find_if(known, [&](auto const& p) {
+            return same_name(p.object.name, wanted) || same_name(last_part(p.object.identifier), wanted);
+        });
+    return found == known.end() ? nullptr : &*found;
 }
 
 MessageProfile const* find_message(ComponentProfile const& profile, MessageKind kind, std::string_view name) {

@@ -18,6 +18,8 @@ struct ParameterProfile {
     Identifier data_type_ref;
     std::optional<std::string> default_value;
     std::string description;
+
+    bool operator==(ParameterProfile const&) const = default;
 };
 
 enum class MessageKind : std::uint8_t { command, query, event };
@@ -29,6 +31,8 @@ struct MessageProfile {
     std::vector<ParameterProfile> results;
     std::vector<ParameterProfile> arguments;
     std::optional<std::chrono::milliseconds> timeout;  // in which the component must have started
+
+    bool operator==(MessageProfile const&) const = default;
 };
 
 // What IO_IdentifiedObject [ISO 19111] gives to profiles.
@@ -37,14 +41,19 @@ struct IdentifiedObject {
     std::string code_space;
     std::string name;
     std::string description;
+    std::string meta_data;  // where metaDataProperty leads to; of a component profile: its adapter
+
+    bool operator==(IdentifiedObject const&) const = default;
 };
 
 // Table 29. The messages of the sub components belong to it, too: see `flattened`.
 struct ComponentProfile {
     IdentifiedObject object;
-    std::vector<std::string> sub_components;  // URNs
+    std::vector<std::string> sub_components;  // URNs, or names
     std::vector<MessageProfile> messages;
     std::vector<ParameterProfile> parameters;
+
+    bool operator==(ComponentProfile const&) const = default;
 };
 
 // Table 30. `components` are refs (codes of instances).
@@ -56,9 +65,13 @@ struct EngineProfile {
 };
 
 // The profile with the messages and parameters of all its sub components, its own first; a name is there once.
-// `known` are the profiles among which sub components are looked up, by URN without regard to case.
+// `known` are the profiles among which sub components are looked up (see below).
 // Throws std::runtime_error naming the URN when one is unknown or includes itself.
 ComponentProfile flattened(ComponentProfile const&, std::vector<ComponentProfile> const& known);
+
+// The profile that this text means: a URN, compared without regard to case; or what has no colon, the name of a profile or the
+// last part of its URN, without regard to case and underscores. Null when there is none.
+ComponentProfile const* find_profile(std::vector<ComponentProfile> const& known, std::string_view urn_or_name);
 
 // Null when the profile has no such message or parameter. Names of messages are compared to the letter, names of parameters
 // without regard to case (decision 26).

@@ -82,6 +82,20 @@ std::string_view Element::type() const {
 
 std::string Element::text() const { return text_of(node_->node); }
 
+std::vector<std::variant<std::string, Element>> Element::content() const {
+    std::vector<std::variant<std::string, Element>> parts;
+    for (auto const each : node_->node.children()) {
+        if (each.type() == pugi::node_element) {
+            Element element;
+            element.node_ = std::make_shared<Node const>(Node{node_->document, each});
+            parts.emplace_back(std::move(element));
+        } else if (each.type() == pugi::node_pcdata || each.type() == pugi::node_cdata) {
+            parts.emplace_back(std::string{each.value()});
+        }
+    }
+    return parts;
+}
+
 BadDocument Element::complain(std::string_view reason) const {
     auto const& document = *node_->document;
     auto const fault = document.reader.complain(node_->node, std::string{reason});

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
-#include "types/profiles.hpp"
 #include "xml/schemas.hpp"
 
 namespace rois::xml {
@@ -34,6 +34,9 @@ public:
     std::string_view type() const;  // the local name of its xsi:type; empty when it has none
     std::string text() const;       // all character data directly inside, untrimmed
 
+    // What stands inside, in order: texts, untrimmed, and elements.
+    std::vector<std::variant<std::string, Element>> content() const;
+
     // An error about this element: "name:line:column: reason".
     BadDocument complain(std::string_view reason) const;
 
@@ -54,8 +57,5 @@ public:
 private:
     Element root_;
 };
-
-// A component profile document (namespaces of 2.0; 7.5.4). Throws BadDocument.
-ComponentProfile read_component_profile(std::shared_ptr<Schemas const>, std::string name, std::string text);
 
 }  // namespace rois::xml

@@ -12,6 +12,11 @@ constexpr std::string_view declaration = "<?xml version=\"1.0\" encoding=\"UTF-8
 
 void write_object(Writer& out, IdentifiedObject const& object, std::string_view gml_id) {
     out.attribute("gml:id", gml_id);
+    if (!object.meta_data.empty())
+        out.start("gml:metaDataProperty")
+            .attribute("xmlns:xlink", xlink_namespace)
+            .attribute("xlink:href", object.meta_data)
+            .end();
     if (!object.description.empty()) out.element("gml:description", object.description);
     out.start("gml:identifier").attribute("codeSpace", object.code_space).text(object.identifier).end();
     if (!object.name.empty()) out.element("gml:name", object.name);

@@ -137,8 +137,8 @@ TEST_F(Commands, AFunctionThatFailsToStartIsNotActive) {
 }
 
 TEST_F(Commands, OfTheComponentsOwnProfileHaveArgumentsAndResults) {
-    desk.execute(named("dock", command("dock", "navigation", {text("side", "left")})));
-    EXPECT_EQ(in_words(world["navigation"].started_with), "side=left");
+    desk.execute(named("dock", command("dock", "navigation", {text("side", "right")})));
+    EXPECT_EQ(in_words(world["navigation"].started_with), "side=right times=1") << "what is left out has its default value";
     EXPECT_EQ(desk.result_of("dock"), "RUNNING");
     world["navigation"].finishes(CompletedStatus::ok, {{integer("charge", 80)}, {}});
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock OK"));

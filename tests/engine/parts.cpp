@@ -37,10 +37,11 @@ MessageProfile event(std::string name, Parameters results) {
 }
 
 ComponentProfile profile(std::string const& name, std::vector<MessageProfile> messages, Parameters parameters = {}) {
-    return {.object = {.identifier = urn(name), .code_space = "urn:ietf:rfc:2141", .name = name, .description = {}},
-            .sub_components = {urn("RoISCommon")},
-            .messages = std::move(messages),
-            .parameters = std::move(parameters)};
+    return {
+        .object = {.identifier = urn(name), .code_space = "urn:ietf:rfc:2141", .name = name, .description = {}, .meta_data = {}},
+        .sub_components = {urn("RoISCommon")},
+        .messages = std::move(messages),
+        .parameters = std::move(parameters)};
 }
 
 ComponentProfile common_profile() {
@@ -56,7 +57,8 @@ ComponentProfile navigation_profile() {
     return profile("Navigation",
                    {command("set_parameter", {parameter("target_position", "string[]"), parameter("time_limit", "int"),
                                               parameter("routing_policy", "string")}),
-                    command("dock", {parameter("side", "string")}, {parameter("charge", "int")}, std::chrono::milliseconds{500}),
+                    command("dock", {parameter("side", "string", "left"), parameter("times", "int", "1")},
+                            {parameter("charge", "int")}, std::chrono::milliseconds{500}),
                     query("route", {parameter("length", "double")}),
                     event("reached_target", {parameter("target", "string"), parameter("is_final_target", "bool")})},
                    parameters);

@@ -90,8 +90,8 @@ private:
 // What nearly all profiles include.
 extern ComponentProfile const common;
 
-// Drives: target_position is mandatory; tells `reached_target`; has the command `dock` (side; within 500 ms; results charge) and
-// the query `route` (length).
+// Drives: target_position is mandatory; tells `reached_target`; has the command `dock` (side, left by default; times, 1; within
+// 500 ms; results charge) and the query `route` (length).
 extern Part const navigation;
 // Speaks: speech_text or SSML_text, of which the later replaces the earlier; `start` within 2 s.
 extern Part const speech;

@@ -89,7 +89,8 @@ std::vector<std::string> Application::heard(std::size_t most) {
 
 World::World(std::vector<Part> const& parts, EngineSettings settings) {
     EngineProfile profile;
-    profile.object = {.identifier = "urn:x-rois:def:HRIEngine:test", .code_space = {}, .name = "main", .description = {}};
+    profile.object = {
+        .identifier = "urn:x-rois:def:HRIEngine:test", .code_space = {}, .name = "main", .description = {}, .meta_data = {}};
     engine = std::make_unique<Engine>(std::move(profile), std::vector<ComponentProfile>{common}, settings, *this,
                                       [this] { return "secret-" + std::to_string(++secrets_); });
     for (auto const& part : parts) {
@@ -98,6 +99,20 @@ World::World(std::vector<Part> const& parts, EngineSettings settings) {
         engine->add(std::move(component));
     }
     engine->add(stage_);
+}
+
+void World::change(std::vector<std::string> going, std::vector<Part> const& coming) {
+    ComponentChange change{std::move(going), {}, {common}};
+    std::map<std::string, ScriptedComponent*> added;
+    for (auto const& part : coming) {
+        auto component = std::make_unique<ScriptedComponent>(part, [this](auto what) { happen(std::move(what)); });
+        added.emplace(part.ref, component.get());
+        change.coming.push_back(std::move(component));
+    }
+    auto const gone = change.going;
+    engine->change(std::move(change), now);
+    for (auto const& ref : gone) components_.erase(ref);
+    components_.merge(added);
 }
 
 Application World::connect() {

@@ -93,6 +93,9 @@ public:
     ScriptedComponent& operator[](std::string_view ref) { return *components_.at(std::string{ref}); }
     void advance(std::chrono::milliseconds);
 
+    // Components come and go at once.
+    void change(std::vector<std::string> going, std::vector<Part> const& coming);
+
     // Somebody sets the machine's calendar; no time passes.
     void set_calendar(std::chrono::hours by) { now.utc += by; }
 

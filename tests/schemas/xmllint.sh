@@ -36,7 +36,7 @@ judge() {
     done
 }
 
-judge rois.xsd validates profiles/*.xml
+judge rois.xsd validates profiles/*.xml ../components/simulation/profiles/*.xml
 judge messages.xsd validates profiles/*.xml samples/valid/*.xml
 judge messages.xsd "fails to validate" samples/invalid/*.xml
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -11,8 +13,11 @@
 #include <string_view>
 #include <vector>
 
+#include "files/files.hpp"
+#include "simulation/adapters.hpp"
 #include "simulation/robot_components.hpp"
 #include "types/texts.hpp"
+#include "xml/profile_document.hpp"
 
 namespace rois::simulation::stage {
 
@@ -48,6 +53,11 @@ public:
         stored_ = merged(arrived);
         runs_ = true;
         component_->start(CommandHandle{++last_}, stored_, now_());
+    }
+
+    // A command of the component's own profile.
+    void perform(std::string_view command_type, ParameterList const& arguments) {
+        component_->perform(CommandHandle{++last_}, command_type, arguments, now_());
     }
 
     void stop() {
@@ -149,6 +159,26 @@ inline std::vector<ComponentProfile> bare_profiles() {
     return profiles;
 }
 
+inline std::shared_ptr<xml::Schemas const> schemas() {
+    static xml::Platform const platform;
+    static auto const compiled = std::make_shared<xml::Schemas const>(files::schemas());
+    return compiled;
+}
+
+// The profiles inside the program.
+inline std::vector<ComponentProfile> own_profiles() {
+    std::vector<ComponentProfile> profiles;
+    for (auto const& [name, text] : files::profiles())
+        profiles.push_back(xml::read_component_profile(schemas(), name, std::string{text}));
+    return profiles;
+}
+
+// An example of a user-defined component (components/simulation/profiles).
+inline ComponentProfile shipped_profile(std::string const& file) {
+    std::ifstream in{std::string{ROIS_SOURCE_DIR "/components/simulation/profiles/"} + file};
+    return xml::read_component_profile(schemas(), file, {std::istreambuf_iterator<char>{in}, {}});
+}
+
 // An identifier that has a code only.
 inline Identifier coded(std::string code) {
     return {.code = std::move(code), .authority = {}, .codebook_ref = {}, .version = {}};
@@ -189,11 +219,13 @@ public:
         scenario.faults = std::move(faults);
         scenario.roles = std::move(roles);
         simulation_ = std::make_shared<Simulation>(std::move(plan), std::move(scenario), 7, 1.0);
-        for (auto& component : robot_components(simulation_, bare_profiles())) {
-            std::string const ref = component->description().ref.code;
-            operated_.emplace(ref, std::make_unique<Operated>(
-                                       std::move(component), [this] { return now_; }, [this] { return hall().now(); }));
-        }
+        for (auto& component : robot_components(simulation_, bare_profiles())) operate(std::move(component));
+    }
+
+    // The first robot's component with the profile of this file.
+    Operated& add(std::string const& profile) {
+        auto components = Adapters{simulation_, schemas()}.components(shipped_profile(profile), own_profiles());
+        return operate(std::move(components.at(0)));
     }
 
     Operated& operator[](std::string const& ref) { return *operated_.at(ref); }
@@ -229,6 +261,13 @@ public:
     }
 
 private:
+    Operated& operate(std::unique_ptr<Component> component) {
+        std::string const ref = component->description().ref.code;
+        auto operated = std::make_unique<Operated>(
+            std::move(component), [this] { return now_; }, [this] { return hall().now(); });
+        return *operated_.emplace(ref, std::move(operated)).first->second;
+    }
+
     std::shared_ptr<Simulation> simulation_;
     Instant now_{Steady{}, Utc{std::chrono::seconds{1'800'000'000}}};
     std::map<std::string, std::unique_ptr<Operated>, std::less<>> operated_;

@@ -8,7 +8,7 @@
 #include "files/files.hpp"
 #include "simulation/component_stage.hpp"
 #include "types/data_type.hpp"
-#include "xml/document.hpp"
+#include "xml/profile_document.hpp"
 #include "xml/schemas.hpp"
 
 namespace rois::simulation::stage {

@@ -50,18 +50,22 @@ Results results() {
 
 ComponentProfile component_profile() {
     ParameterProfile const parameter{"p", {"int", {}, {}, {}}, "5", "a \"number\""};
+    ParameterProfile const other{"q", {"String[]", {}, {}, {}}, {}, {}};
     ComponentProfile profile{
-        {"urn:x-rois:def:component:OMG::Navigation", "urn:ietf:rfc:2141", "Navigation", "goes"}, {"urn:sub"}, {}, {parameter}};
+        {"urn:x-rois:def:component:OMG::Navigation", "urn:ietf:rfc:2141", "Navigation", "goes", "urn:adapter"},
+        {"urn:sub"},
+        {},
+        {parameter}};
     profile.messages.push_back(
-        {MessageKind::command, "start", {parameter}, {parameter, parameter}, std::chrono::milliseconds{500}});
+        {MessageKind::command, "start", {parameter}, {parameter, other}, std::chrono::milliseconds{500}});
     profile.messages.push_back({MessageKind::query, "where", {parameter}, {}, {}});
     profile.messages.push_back({MessageKind::event, "reached", {}, {}, {}});
     return profile;
 }
 
 EngineProfile engine_profile() {
-    EngineProfile const sub{{"urn:sub", "cs", "sub 1", ""}, {}, {"sub1.a"}, {}};
-    return {{"urn:main", "cs", "main", "the <main> one"}, {sub}, {"a", "urn:x:b"}, {{"p", {"int", {}, {}, {}}, {}, ""}}};
+    EngineProfile const sub{{"urn:sub", "cs", "sub 1", "", ""}, {}, {"sub1.a"}, {}};
+    return {{"urn:main", "cs", "main", "the <main> one", ""}, {sub}, {"a", "urn:x:b"}, {{"p", {"int", {}, {}, {}}, {}, ""}}};
 }
 
 GetProfile::Reply profile_reply() {

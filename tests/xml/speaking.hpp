@@ -15,6 +15,7 @@
 #include "files/files.hpp"
 #include "xml/codec.hpp"
 #include "xml/document.hpp"
+#include "xml/profile_document.hpp"
 #include "xml/schemas.hpp"
 
 namespace rois::xml {

@@ -1,0 +1,75 @@
+#include "simulation/adapters.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "simulation/basic_components.hpp"
+#include "simulation/component_refs.hpp"
+#include "simulation/example_components.hpp"
+#include "types/texts.hpp"
+
+namespace rois::simulation {
+namespace {
+
+constexpr std::string_view adapter_urn = "urn:x-rois:def:adapter:simulation::";
+
+// Makes the component of one robot; the profile has the messages of its sub components.
+using Make = std::function<std::unique_ptr<Component>(Fitting, ComponentProfile const&)>;
+
+std::map<std::string, Make, std::less<>> adapters(std::shared_ptr<xml::Schemas const> const& schemas) {
+    std::map<std::string, Make, std::less<>> all;
+    for (auto const& basic : basic_components())
+        all.emplace(basic.ref, [make = basic.make](Fitting fitting, auto const&) { return make(std::move(fitting)); });
+    all.emplace("srgs_speech_recognition",
+                [schemas](Fitting fitting, auto const&) { return srgs_speech_recognition(std::move(fitting), schemas); });
+    all.emplace("person_gender_identification",
+                [](Fitting fitting, auto const&) { return person_gender_identification(std::move(fitting)); });
+    all.emplace("person_age_recognition",
+                [](Fitting fitting, auto const&) { return person_age_recognition(std::move(fitting)); });
+    all.emplace("stand_in", [](Fitting fitting, ComponentProfile const& whole) { return stand_in(std::move(fitting), whole); });
+    return all;
+}
+
+// The adapter of the first basic component among the profile and those that it includes; empty when there is none.
+std::string_view included(ComponentProfile const& profile, std::vector<ComponentProfile> const& known) {
+    for (auto const& basic : basic_components())
+        if (equal_ignoring_case(profile.object.identifier, urn_of(basic))) return basic.ref;
+    for (auto const& urn : profile.sub_components)
+        if (auto const* sub = find_profile(known, urn))
+            if (auto const name = included(*sub, known); !name.empty()) return name;
+    return {};
+}
+
+// Empty when the profile asks for none.
+std::string adapter_name(ComponentProfile const& profile, std::vector<ComponentProfile> const& known) {
+    auto const& said = profile.object.meta_data;
+    if (said.size() > adapter_urn.size() && equal_ignoring_case(said.substr(0, adapter_urn.size()), adapter_urn))
+        return lower_case(said.substr(adapter_urn.size()));
+    return std::string{included(profile, known)};
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<Component>> Adapters::components(ComponentProfile const& profile,
+                                                             std::vector<ComponentProfile> const& known) const {
+    auto const name = adapter_name(profile, known);
+    if (name.empty()) return {};
+    auto const all = adapters(schemas_);
+    auto const found = all.find(name);
+    if (found == all.end()) {
+        std::string names;
+        for (auto const& [each, make] : all) names += (names.empty() ? "" : ", ") + each;
+        throw std::runtime_error("there is no adapter " + quoted(name) + "; there are " + names);
+    }
+    auto const whole = flattened(profile, known);
+    auto const shared = std::make_shared<ComponentProfile const>(profile);
+    std::vector<std::unique_ptr<Component>> made;
+    for (Robot const& robot : simulation_->hall().robots())
+        made.push_back(found->second(fitting(simulation_, robot, component_name(profile), shared), whole));
+    return made;
+}
+
+}  // namespace rois::simulation

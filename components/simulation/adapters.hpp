@@ -1,0 +1,29 @@
+// Adapters: what of the simulation fulfils the components that users bring a profile of (docs/profiles.md).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/component.hpp"
+#include "simulation/simulation.hpp"
+#include "xml/schemas.hpp"
+
+namespace rois::simulation {
+
+class Adapters {
+public:
+    Adapters(std::shared_ptr<Simulation> simulation, std::shared_ptr<xml::Schemas const> schemas)
+        : simulation_{std::move(simulation)}, schemas_{std::move(schemas)} {}
+
+    // The components that a profile makes, one for each robot: fulfilled by the adapter that its metaDataProperty refers to,
+    // urn:x-rois:def:adapter:simulation::<name>, else by that of the first basic component whose profile it includes. None when
+    // it asks for no adapter. `known` are the profiles among which sub components are looked up. Throws std::runtime_error for an
+    // adapter that there is not.
+    std::vector<std::unique_ptr<Component>> components(ComponentProfile const&, std::vector<ComponentProfile> const& known) const;
+
+private:
+    std::shared_ptr<Simulation> simulation_;
+    std::shared_ptr<xml::Schemas const> schemas_;
+};
+
+}  // namespace rois::simulation

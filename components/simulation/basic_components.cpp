@@ -1,0 +1,26 @@
+#include "simulation/basic_components.hpp"
+
+#include <array>
+
+namespace rois::simulation {
+
+std::span<BasicComponent const> basic_components() {
+    static constexpr std::array<BasicComponent, 15> all{{{"system_information", "SystemInformation", system_information},
+                                                         {"person_detection", "PersonDetection", person_detection},
+                                                         {"person_localization", "PersonLocalization", person_localization},
+                                                         {"person_identification", "PersonIdentification", person_identification},
+                                                         {"face_detection", "FaceDetection", face_detection},
+                                                         {"face_localization", "FaceLocalization", face_localization},
+                                                         {"sound_detection", "SoundDetection", sound_detection},
+                                                         {"sound_localization", "SoundLocalization", sound_localization},
+                                                         {"speech_recognition", "SpeechRecognition", speech_recognition},
+                                                         {"gesture_recognition", "GestureRecognition", gesture_recognition},
+                                                         {"speech_synthesis", "SpeechSynthesis", speech_synthesis},
+                                                         {"reaction", "Reaction", reaction},
+                                                         {"navigation", "Navigation", navigation},
+                                                         {"follow", "Follow", follow},
+                                                         {"move", "Move", move}}};
+    return all;
+}
+
+}  // namespace rois::simulation

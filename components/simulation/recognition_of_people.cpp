@@ -1,0 +1,113 @@
+// Person gender identification and person age recognition (Annex C.2, C.3): told of everybody who is near enough and turned to
+// the robot, once for each time that they are tracked.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "simulation/codebooks.hpp"
+#include "simulation/example_components.hpp"
+#include "simulation/random.hpp"
+#include "simulation/senses.hpp"
+
+namespace rois::simulation {
+namespace {
+
+// Tells of people when they are first recognized.
+class RecognitionOfPeople : public ContinuousFunction {
+public:
+    using ContinuousFunction::ContinuousFunction;
+
+protected:
+    // Whether anything can be told of this person.
+    virtual bool can_tell(Person const&) const = 0;
+    virtual void tell(std::vector<Person const*> const& people, Results results) = 0;
+
+private:
+    void begin() final { told_.clear(); }
+
+    void sense(Instant when) final {
+        std::erase_if(told_, [&](PersonId person) { return !hall().track(person); });
+        std::vector<Person const*> news;
+        std::vector<std::string> refs;
+        Results results;
+        auto const seen = people_seen(hall(), robot());
+        for (auto const& recognized : people_recognized(hall(), robot())) {
+            auto const* person = hall().person(recognized.person);
+            if (person == nullptr || !can_tell(*person) || !told_.insert(recognized.person).second) continue;
+            news.push_back(person);
+            refs.push_back(recognized.track);
+            auto const sighting = std::ranges::find(seen, recognized.person, &SeenPerson::person);
+            if (sighting != seen.end())
+                results.located.push_back(
+                    located("person_ref", recognized.track, hall().plan().crs, sighting->pose, 0, sighting->covariance));
+        }
+        if (news.empty()) return;
+        results.parameters = {date_time("timestamp", when.utc),
+                              references("person_ref", std::move(refs), std::string{codebook::track})};
+        tell(news, std::move(results));
+    }
+
+    std::set<PersonId> told_;
+};
+
+// A list of numbers, as it is written.
+template <class NumberOf>
+Parameter numbers(std::string name, std::vector<Person const*> const& people, NumberOf number_of) {
+    std::string text;
+    for (auto const* person : people) text += (text.empty() ? "" : " ") + std::to_string(number_of(*person));
+    return {.name = std::move(name),
+            .data_type_ref = {.code = "int[]", .authority = {}, .codebook_ref = {}, .version = {}},
+            .values = {std::move(text)}};
+}
+
+class GenderIdentification final : public RecognitionOfPeople {
+public:
+    using RecognitionOfPeople::RecognitionOfPeople;
+
+private:
+    bool can_tell(Person const&) const override { return true; }
+
+    void tell(std::vector<Person const*> const& people, Results results) override {
+        results.parameters.push_back(
+            numbers("person_gender_code", people, [](Person const& person) { return static_cast<int>(person.gender); }));
+        results.parameters.back().data_type_ref.codebook_ref = codebook::gender;
+        port().event("person_gender_identified", std::move(results));
+    }
+};
+
+class AgeRecognition final : public RecognitionOfPeople {
+public:
+    using RecognitionOfPeople::RecognitionOfPeople;
+
+private:
+    static constexpr double sigma = 3;  // years
+    static constexpr int margin = 6;    // to either side of the estimate
+
+    bool can_tell(Person const& person) const override { return person.age.has_value(); }
+
+    // What the robot takes somebody's age for: the same for each look at one visit.
+    int estimate(Person const& person) const {
+        Random random{mixed({hall().seed(), 7, static_cast<std::uint64_t>(robot()), static_cast<std::uint64_t>(person.id)})};
+        return static_cast<int>(std::lround(*person.age + random.gaussian() * sigma));
+    }
+
+    void tell(std::vector<Person const*> const& people, Results results) override {
+        results.parameters.push_back(
+            numbers("lower_age_limit", people, [&](Person const& person) { return std::max(0, estimate(person) - margin); }));
+        results.parameters.push_back(
+            numbers("upper_age_limit", people, [&](Person const& person) { return std::max(0, estimate(person) + margin); }));
+        port().event("person_age_recognized", std::move(results));
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<Component> person_gender_identification(Fitting fitting) {
+    return std::make_unique<GenderIdentification>(std::move(fitting));
+}
+
+std::unique_ptr<Component> person_age_recognition(Fitting fitting) {
+    return std::make_unique<AgeRecognition>(std::move(fitting));
+}
+
+}  // namespace rois::simulation

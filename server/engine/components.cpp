@@ -1,0 +1,95 @@
+// Components come and go (7.5.3; decisions 12, 13).
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "engine/core.hpp"
+#include "types/texts.hpp"
+
+namespace rois {
+
+namespace {
+
+void list(EngineProfile& engine, std::string const& sub_engine, std::string const& ref) {
+    auto* owner = &engine;
+    if (sub_engine != engine.object.name) {
+        auto const known = std::ranges::find(engine.sub_profiles, sub_engine, [](auto const& sub) { return sub.object.name; });
+        owner = known != engine.sub_profiles.end() ? &*known : &engine.sub_profiles.emplace_back();
+        owner->object = {.identifier = engine.object.identifier + "." + sub_engine,
+                         .code_space = engine.object.code_space,
+                         .name = sub_engine,
+                         .description = {},
+                         .meta_data = {}};
+    }
+    owner->components.push_back(ref);
+}
+
+// A sub engine without components is none.
+void unlist(EngineProfile& engine, std::string const& ref) {
+    std::erase(engine.components, ref);
+    for (auto& sub : engine.sub_profiles) std::erase(sub.components, ref);
+    std::erase_if(engine.sub_profiles, [](EngineProfile const& sub) { return sub.components.empty(); });
+}
+
+}  // namespace
+
+Engine::Core::SharedComponent Engine::Core::made(std::unique_ptr<Component> component,
+                                                 std::vector<ComponentProfile> const& known) {
+    auto const& description = component->description();
+    auto whole = flattened(*description.profile, known);
+    auto engine = description.engine.empty() ? profile_->object.name : description.engine;
+    return std::make_shared<RegisteredComponent>(std::move(component), std::move(whole), std::move(engine), agenda_);
+}
+
+void Engine::Core::enter(SharedComponent component, EngineProfile& profile) {
+    auto const& entry = registry_.add(std::move(component)).entry();
+    list(profile, entry.engine, entry.ref);
+}
+
+void Engine::Core::leave(RegisteredComponent& component, EngineProfile& profile, Instant now) {
+    executor_.part(component, now);
+    if (auto* session = std::exchange(component.bound_to, nullptr)) session->bound.erase(&component);
+    settle(now);
+    unlist(profile, component.ref().code);
+    auto const last = component.shared_from_this();
+    registry_.remove(component);
+    component.depart();
+}
+
+void Engine::Core::add(std::unique_ptr<Component> component) {
+    auto profile = *profile_;
+    enter(made(std::move(component), known_profiles_), profile);
+    profile_ = std::make_shared<EngineProfile const>(std::move(profile));
+}
+
+void Engine::Core::check(ComponentChange const& change) const {
+    std::vector<std::string> refs;
+    for (auto const& ref : change.going)
+        if (registry_.find(ref) == nullptr) throw std::runtime_error("there is no component " + quoted(ref) + " that could go");
+    for (auto const& component : change.coming) {
+        auto const& ref = component->description().ref.code;
+        bool const stays = registry_.find(ref) != nullptr && std::ranges::find(change.going, ref) == change.going.end();
+        if (stays || std::ranges::find(refs, ref) != refs.end())
+            throw std::runtime_error("there are two components with the ref " + quoted(ref));
+        refs.push_back(ref);
+    }
+}
+
+void Engine::Core::change(ComponentChange change, Instant now) {
+    check(change);
+    std::vector<SharedComponent> coming;
+    coming.reserve(change.coming.size());
+    for (auto& component : change.coming) coming.push_back(made(std::move(component), change.known_profiles));
+    auto profile = *profile_;
+    known_profiles_ = std::move(change.known_profiles);
+    settle(now);
+    for (auto const& ref : change.going) leave(*registry_.find(ref), profile, now);
+    for (auto& component : coming) enter(std::move(component), profile);
+    profile_ = std::make_shared<EngineProfile const>(std::move(profile));
+    if (change.going.empty() && coming.empty()) return;
+    auto const notification = std::make_shared<OutgoingNotification const>(ProfileChanged{});
+    for (auto const& [id, session] : sessions_) notifier_.tell(*session, notification);
+    settle(now);
+}
+
+}  // namespace rois

@@ -1,0 +1,163 @@
+#include "main/profile_folder.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "main/configuration_file.hpp"
+#include "main/settings.hpp"
+#include "types/texts.hpp"
+#include "xml/profile_document.hpp"
+
+namespace rois {
+
+namespace {
+
+using Verdict = ProfileFile::Verdict;
+
+std::vector<std::filesystem::path> documents_in(std::string const& folder) {
+    std::error_code error;
+    std::vector<std::filesystem::path> documents;
+    for (std::filesystem::directory_iterator at{folder, error}, end; !error && at != end; at.increment(error))
+        if (at->path().extension() == ".xml") documents.push_back(at->path());
+    if (error) throw BadSettings{folder + ": cannot be read: " + error.message()};
+    std::ranges::sort(documents);
+    return documents;
+}
+
+// A file with what its document says beside the profile.
+struct Read {
+    ProfileFile file;
+    std::vector<std::string> sub_component_places;
+};
+
+void refuse(ProfileFile& file, std::string why) {
+    file.verdict = Verdict::refused;
+    file.findings = {std::move(why)};
+    file.profile.reset();
+}
+
+void warn(ProfileFile& file, std::string what) {
+    file.verdict = Verdict::warning;
+    file.findings.push_back(std::move(what));
+}
+
+Read read(std::shared_ptr<xml::Schemas const> const& schemas, std::filesystem::path const& path) {
+    Read read;
+    read.file.name = path.filename();
+    try {
+        std::error_code error;
+        if (!std::filesystem::is_regular_file(path, error)) throw BadSettings{path.string() + ": is no file"};
+        auto document = xml::read_profile_document(schemas, read.file.name, text_of_file(path));
+        if (!document.warnings.empty()) read.file.verdict = Verdict::warning;
+        read.file.findings = std::move(document.warnings);
+        read.sub_component_places = std::move(document.sub_component_places);
+        if (auto* const profile = std::get_if<ComponentProfile>(&document.profile)) read.file.profile = std::move(*profile);
+    } catch (xml::BadDocument const& bad) {
+        refuse(read.file, bad.what());
+    } catch (BadSettings const& bad) {
+        refuse(read.file, bad.what());
+    }
+    return read;
+}
+
+std::string first_place(ProfileFile const& file) { return file.name + ":1:1: "; }
+
+// A profile is there once; that of a basic component is the program's own.
+void refuse_doubles(std::vector<Read>& all, std::vector<ComponentProfile> const& known) {
+    for (auto each = all.begin(); each != all.end(); ++each) {
+        if (!each->file.profile) continue;
+        auto const& urn = each->file.profile->object.identifier;
+        auto const same = [&](ComponentProfile const& p) { return equal_ignoring_case(p.object.identifier, urn); };
+        auto const before =
+            std::find_if(all.begin(), each, [&](Read const& r) { return r.file.profile && same(*r.file.profile); });
+        if (before != each) {
+            refuse(each->file,
+                   first_place(each->file) + "the profile " + quoted(urn, 200) + " is in " + before->file.name + " already");
+        } else if (std::ranges::any_of(known, same)) {
+            warn(each->file,
+                 first_place(each->file) + "the gateway has a profile " + quoted(urn, 200) + " of its own and keeps to it");
+        }
+    }
+}
+
+std::vector<ComponentProfile> with_known(std::vector<Read> const& all, std::vector<ComponentProfile> const& known) {
+    auto together = known;
+    for (auto const& each : all)
+        if (each.file.profile) together.push_back(*each.file.profile);
+    return together;
+}
+
+// Why the profile cannot be put together with those that it includes; nothing when it can.
+using Objection = std::optional<std::string> (*)(Read const&, std::vector<ComponentProfile> const& known);
+
+std::optional<std::string> includes_unknown(Read const& read, std::vector<ComponentProfile> const& known) {
+    auto const& parts = read.file.profile->sub_components;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (find_profile(known, parts[i]) == nullptr)
+            return read.sub_component_places[i] + ": no component profile " + quoted(parts[i], 200) + " is known";
+    return {};
+}
+
+std::optional<std::string> includes_itself(Read const& read, std::vector<ComponentProfile> const& known) {
+    try {
+        flattened(*read.file.profile, known);
+        return {};
+    } catch (std::runtime_error const& error) {
+        return read.sub_component_places.front() + ": " + error.what();
+    }
+}
+
+enum class Refused : std::uint8_t { none, some };
+
+Refused refuse(std::vector<Read>& all, std::vector<ComponentProfile> const& known, Objection objection) {
+    auto refused = Refused::none;
+    auto const together = with_known(all, known);
+    for (auto& each : all) {
+        auto why = each.file.profile ? objection(each, together) : std::nullopt;
+        if (!why) continue;
+        refuse(each.file, std::move(*why));
+        refused = Refused::some;
+    }
+    return refused;
+}
+
+// Until nobody includes what was refused.
+void refuse_incomplete(std::vector<Read>& all, std::vector<ComponentProfile> const& known) {
+    do {
+        while (refuse(all, known, includes_unknown) == Refused::some) {
+        }
+    } while (refuse(all, known, includes_itself) == Refused::some);
+}
+
+}  // namespace
+
+std::vector<ProfileFile> read_profile_folder(std::shared_ptr<xml::Schemas const> const& schemas, std::string const& folder,
+                                             std::vector<ComponentProfile> const& known) {
+    std::vector<Read> all;
+    for (auto const& path : documents_in(folder)) all.push_back(read(schemas, path));
+    refuse_doubles(all, known);
+    refuse_incomplete(all, known);
+    std::vector<ProfileFile> files;
+    files.reserve(all.size());
+    for (auto& each : all) files.push_back(std::move(each.file));
+    return files;
+}
+
+std::string report_of(std::vector<ProfileFile> const& files) {
+    std::string text;
+    std::size_t counts[3] = {};
+    for (auto const& file : files) {
+        ++counts[static_cast<std::size_t>(file.verdict)];
+        if (file.verdict == Verdict::ok) text += file.name + ": ok\n";
+        for (auto const& finding : file.findings)
+            text += (file.verdict == Verdict::refused ? "refused: " : "warning: ") + finding + "\n";
+    }
+    auto const number = [&](Verdict verdict) { return std::to_string(counts[static_cast<std::size_t>(verdict)]); };
+    return text + std::to_string(files.size()) + " files: " + number(Verdict::ok) + " ok, " + number(Verdict::warning) +
+           " with warnings, " + number(Verdict::refused) + " refused\n";
+}
+
+}  // namespace rois

@@ -1,0 +1,105 @@
+#include "main/user_components.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+namespace rois {
+
+namespace {
+
+bool is_refused(ProfileFile const& file) { return file.verdict == ProfileFile::Verdict::refused; }
+
+void log(ProfileFile const& file, bool stays) {
+    for (auto const& finding : file.findings)
+        spdlog::warn("profiles: {}{}{}", is_refused(file) ? "refused: " : "", finding,
+                     is_refused(file) && stays ? "; what it was before stays" : "");
+}
+
+}  // namespace
+
+UserComponents::UserComponents(std::shared_ptr<xml::Schemas const> schemas, simulation::Adapters adapters,
+                               std::vector<ComponentProfile> own, std::vector<std::string> const& refs, std::string folder)
+    : schemas_{std::move(schemas)},
+      adapters_{std::move(adapters)},
+      own_{std::move(own)},
+      refs_{refs.begin(), refs.end()},
+      folder_{std::move(folder)} {}
+
+// The program's own come first, and are found first.
+std::vector<ComponentProfile> UserComponents::with_own(std::vector<ProfileFile> const& found) const {
+    auto all = own_;
+    for (auto const& file : found) {
+        if (file.profile) all.push_back(*file.profile);
+        auto const before = files_.find(file.name);
+        if (is_refused(file) && before != files_.end()) all.push_back(before->second.profile);
+    }
+    return all;
+}
+
+// Those of before that are as they were, or that are refused now.
+UserComponents::Files UserComponents::stay(std::vector<ProfileFile> const& found,
+                                           std::vector<ComponentProfile> const& known) const {
+    Files staying;
+    for (auto const& file : found) {
+        auto const before = files_.find(file.name);
+        if (before == files_.end()) continue;
+        bool const same =
+            file.profile && *file.profile == before->second.profile && flattened(*file.profile, known) == before->second.whole;
+        if (same || is_refused(file)) staying.insert(*before);
+    }
+    return staying;
+}
+
+// None when the profile asks for none, or they would have the refs of others.
+std::vector<std::unique_ptr<Component>> UserComponents::components(ProfileFile const& file,
+                                                                   std::vector<ComponentProfile> const& known,
+                                                                   std::set<std::string>& taken) const {
+    auto const& profile = *file.profile;
+    auto const* const meant = find_profile(known, profile.object.identifier);
+    if (meant == nullptr || *meant != profile) return {};
+    try {
+        auto made = adapters_.components(profile, known);
+        if (made.empty())
+            spdlog::info("profiles: {}: {} asks for no adapter, and makes no component", file.name, profile.object.identifier);
+        for (auto const& component : made) {
+            auto const& ref = component->description().ref.code;
+            if (taken.insert(ref).second) continue;
+            spdlog::warn("profiles: {}: there is a component {} already: none is made", file.name, ref);
+            return {};
+        }
+        return made;
+    } catch (std::exception const& error) {
+        spdlog::warn("profiles: {}: {}", file.name, error.what());
+        return {};
+    }
+}
+
+ComponentChange UserComponents::read() {
+    auto const found = read_profile_folder(schemas_, folder_, own_);
+    ComponentChange change;
+    change.known_profiles = with_own(found);
+    auto next = stay(found, change.known_profiles);
+    auto taken = refs_;
+    for (auto const& [name, made] : next) taken.insert(made.refs.begin(), made.refs.end());
+    for (auto const& [name, made] : files_)
+        if (!next.contains(name)) change.going.insert(change.going.end(), made.refs.begin(), made.refs.end());
+    for (auto const& file : found) {
+        log(file, next.contains(file.name));
+        if (!file.profile || next.contains(file.name)) continue;
+        Made made{*file.profile, flattened(*file.profile, change.known_profiles), {}};
+        for (auto& component : components(file, change.known_profiles, taken)) {
+            made.refs.push_back(component->description().ref.code);
+            spdlog::info("profiles: {}: the component {}", file.name, made.refs.back());
+            change.coming.push_back(std::move(component));
+        }
+        next.emplace(file.name, std::move(made));
+    }
+    for (auto const& ref : change.going) spdlog::info("profiles: the component {} goes", ref);
+    files_ = std::move(next);
+    return change;
+}
+
+}  // namespace rois

@@ -1,0 +1,231 @@
+// Components come and go while sessions are open; and components that are what a profile of their own says.
+#include <gmock/gmock.h>
+
+#include <stdexcept>
+
+#include "world.hpp"
+
+namespace rois {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+namespace {
+
+// A lamp that blinks: a user-defined component with messages of its own.
+Part blinking_lamp() {
+    auto const parameter = [](std::string name, std::string type, std::optional<std::string> default_value) {
+        return ParameterProfile{.name = std::move(name),
+                                .data_type_ref = {.code = std::move(type), .authority = {}, .codebook_ref = {}, .version = {}},
+                                .default_value = std::move(default_value),
+                                .description = {}};
+    };
+    Part lamp = named("blinker", desk_lamp);
+    lamp.profile.object.identifier = "urn:x-rois:def:component:test::Blinker";
+    lamp.profile.parameters = {parameter("colours", "String[]", "red green")};
+    lamp.profile.messages = {{.kind = MessageKind::command,
+                              .name = "blink",
+                              .results = {parameter("times", "int", {})},
+                              .arguments = {parameter("pattern", "int[]", {}), parameter("brightness", "double", "0.5")},
+                              .timeout = {}},
+                             {.kind = MessageKind::event,
+                              .name = "blinked",
+                              .results = {parameter("times", "Integer", {})},
+                              .arguments = {},
+                              .timeout = {}}};
+    return lamp;
+}
+
+Parameter pattern(std::string numbers) { return value("pattern", "INT[]", {std::move(numbers)}); }
+
+}  // namespace
+
+TEST(UserDefined, CommandsAreHeldAgainstTheirProfile) {
+    World world{blinking_lamp()};
+    auto desk = world.connect();
+    desk.bind("blinker");
+    auto const reason = [&](ParameterList const& arguments) {
+        return desk.execute(command("blink", "blinker", arguments)).reason;
+    };
+    EXPECT_THAT(reason({}), HasSubstr("the argument 'pattern' is missing"));
+    EXPECT_THAT(reason({value("pattern", "string", {"1"})}), HasSubstr("'pattern' is declared as 'string', its type is int[]"));
+    EXPECT_THAT(reason({pattern("1 x")}), HasSubstr("'x' is not of the type int"));
+    EXPECT_THAT(reason({pattern("1"), pattern("2")}), HasSubstr("'pattern' is there twice"));
+    EXPECT_THAT(reason({pattern("1"), integer("speed", 3)}),
+                HasSubstr("unknown parameter 'speed'; known are pattern, brightness"));
+    EXPECT_THAT(desk.execute(command("burn", "blinker")).reason, HasSubstr("it has blink, start, stop"));
+    EXPECT_THAT(desk.heard(), IsEmpty());
+}
+
+TEST(UserDefined, CommandsGetTheDefaultsOfTheirProfile) {
+    World world{blinking_lamp()};
+    auto desk = world.connect();
+    desk.bind("blinker");
+    desk.execute(named("b", command("blink", "blinker", {value("PATTERN", "INT[]", {"1 2"})})));
+    EXPECT_EQ(in_words(world["blinker"].started_with), "pattern=1 2 brightness=0.5");
+    world["blinker"].finishes(CompletedStatus::ok, {{integer("times", 2)}, {}});
+    EXPECT_EQ(desk.result_of("b"), "OK times=2");
+    EXPECT_EQ(in_words(desk.get_parameter("blinker").parameters), "colours=red|green");
+}
+
+TEST(UserDefined, EventsAndResultsAreHeldAgainstTheirProfile) {
+    World world{blinking_lamp()};
+    auto desk = world.connect();
+    desk.bind("blinker");
+    desk.subscribe("blinked");
+    world["blinker"].fires("blinked", {integer("times", 3)});
+    world["blinker"].fires("blinked", {text("times", "often")});
+    desk.execute(named("b", command("blink", "blinker", {pattern("1")})));
+    world["blinker"].finishes(CompletedStatus::ok, {{text("times", "often")}, {}});
+    EXPECT_THAT(desk.heard(), ElementsAre("1 blinked blinker", "2 COMPONENT_INTERNAL_ERROR blinker", "3 completed b ERROR",
+                                          "4 COMPONENT_INTERNAL_ERROR blinker"));
+}
+
+TEST(UserDefined, ProfilesAreServedWithTheMessagesThatTheyInclude) {
+    World world{blinking_lamp()};
+    auto desk = world.connect();
+    auto const profile = desk.ask(GetProfile{}).components.at(0).profile;
+    EXPECT_THAT(profile->sub_components, ElementsAre("urn:x-rois:def:component:OMG::RoISCommon"));
+    for (auto const* name : {"blink", "start", "stop", "suspend", "resume", "set_parameter"})
+        EXPECT_NE(find_message(*profile, MessageKind::command, name), nullptr) << name;
+    EXPECT_NE(find_message(*profile, MessageKind::query, "component_status"), nullptr);
+    EXPECT_NE(find_message(*profile, MessageKind::query, "get_parameter"), nullptr);
+}
+
+class ComingAndGoing : public testing::Test {
+protected:
+    World world{navigation, speech};
+    Application desk = world.connect();
+};
+
+TEST_F(ComingAndGoing, IsToldToAllSessionsOnce) {
+    auto hall = world.connect();
+    world.change({"speech"}, {detection, named("lamp2", desk_lamp)});
+    EXPECT_THAT(desk.heard(), ElementsAre("1 profile_changed"));
+    EXPECT_THAT(hall.heard(), ElementsAre("1 profile_changed"));
+    EXPECT_THAT(desk.search(), ElementsAre("detection", "lamp2", "navigation"));
+    auto const profile = desk.ask(GetProfile{}).profile;
+    EXPECT_THAT(profile->components, ElementsAre("navigation", "detection", "lamp2"));
+    world.change({}, {});
+    EXPECT_THAT(desk.heard(), IsEmpty()) << "nothing came or went";
+}
+
+TEST_F(ComingAndGoing, LeavesTheProfileThatSomebodyReadsAsItWas) {
+    auto const before = world.engine->profile();
+    world.change({"speech"}, {});
+    EXPECT_THAT(before->components, ElementsAre("navigation", "speech"));
+    EXPECT_THAT(world.engine->profile()->components, ElementsAre("navigation"));
+}
+
+TEST_F(ComingAndGoing, OfTheLastComponentOfASubEngineEndsIt) {
+    world.change({}, {in_engine("sub1", detection)});
+    ASSERT_EQ(world.engine->profile()->sub_profiles.size(), 1U);
+    EXPECT_EQ(world.engine->profile()->sub_profiles.front().object.name, "sub1");
+    world.change({"sub1.detection"}, {});
+    EXPECT_THAT(world.engine->profile()->sub_profiles, IsEmpty());
+}
+
+TEST_F(ComingAndGoing, EndsWhatRunsAndWhatWaitsWithAbort) {
+    desk.bind("navigation");
+    desk.bind("speech");
+    desk.execute(in_parallel({in_sequence({go("go"), say("greet")}), in_sequence({say("wait"), go("back")})}));
+    EXPECT_THAT(desk.heard(), IsEmpty());
+    world.change({"navigation"}, {});
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT", "2 completed greet ABORT", "3 profile_changed"));
+    world["speech"].finishes();
+    EXPECT_THAT(desk.heard(), ElementsAre("4 completed wait OK", "5 completed back ABORT"));
+    EXPECT_EQ(desk.result_of("go"), "ABORT") << "what it did is still known";
+}
+
+TEST_F(ComingAndGoing, EndsCommandsOfTheComponentsOwnProfileToo) {
+    desk.bind("navigation");
+    desk.execute(named("dock", command("dock", "navigation")));
+    world.change({"navigation"}, {});
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock ABORT", "2 profile_changed"));
+    world.advance(std::chrono::seconds{2});
+    EXPECT_THAT(desk.heard(), IsEmpty()) << "nobody waits for it any more";
+}
+
+TEST_F(ComingAndGoing, EndsWhatRunsForNobody) {
+    EngineSettings settings;
+    settings.on_session_end = OnSessionEnd::continue_;
+    World lasting{{navigation}, settings};
+    auto visitor = lasting.connect();
+    visitor.bind("navigation");
+    visitor.execute(go("go"));
+    visitor.leave();
+    auto stays = lasting.connect();
+    lasting.change({"navigation"}, {});
+    EXPECT_EQ(lasting.engine->statistics().commands_completed[static_cast<std::size_t>(CompletedStatus::abort)], 1U);
+    EXPECT_THAT(stays.heard(), ElementsAre("1 profile_changed"));
+}
+
+TEST_F(ComingAndGoing, LosesBindingsAndKeepsSubscriptions) {
+    world.change({}, {detection});
+    desk.bind("detection");
+    auto const subscription = desk.subscribe("person_detected");
+    ParameterList const one{date_time("timestamp", world.now.utc), integer("number", 1)};
+    world["detection"].fires("person_detected", one);
+    world.change({"detection"}, {});
+    EXPECT_EQ(desk.bind("detection"), ReturnCode::bad_parameter);
+    EXPECT_EQ(desk.subscribe("person_detected").return_code, ReturnCode::unsupported);
+    world.change({}, {detection});
+    auto hall = world.connect();
+    EXPECT_EQ(hall.bind("detection"), ReturnCode::ok) << "nobody has it bound";
+    world["detection"].fires("person_detected", one);
+    EXPECT_THAT(desk.heard(), ElementsAre("1 profile_changed", "2 person_detected detection", "3 profile_changed",
+                                          "4 profile_changed", "5 person_detected detection"));
+    EXPECT_EQ(desk.last_heard<ReceiveEvent>().subscribe_id, subscription.subscribe_id);
+}
+
+TEST_F(ComingAndGoing, LeavesTheDetailsOfEventsThatWereTold) {
+    world.change({}, {detection});
+    desk.subscribe("person_detected");
+    world["detection"].fires("person_detected", {date_time("timestamp", world.now.utc), integer("number", 1)});
+    desk.heard();
+    auto const event = desk.last_heard<ReceiveEvent>().event_id;
+    world.change({"detection"}, {});
+    EXPECT_EQ(desk.detail_of(event, equal("number", "1")).results.parameters.size(), 2U);
+    EXPECT_EQ(desk.detail_of(event, equal("colour", "red")).return_code, ReturnCode::bad_parameter);
+}
+
+TEST_F(ComingAndGoing, GivesACommandOfAnotherTimeNoNewComponent) {
+    desk.bind("navigation");
+    desk.bind("speech");
+    desk.execute(in_sequence({say("greet"), go("go")}));
+    world.change({"navigation"}, {navigation});
+    desk.bind("navigation");
+    world["speech"].finishes();
+    EXPECT_THAT(desk.heard(), ElementsAre("1 profile_changed", "2 completed greet OK", "3 completed go ABORT"));
+    EXPECT_THAT(world["navigation"].told, IsEmpty());
+}
+
+TEST_F(ComingAndGoing, HappensWholeOrNotAtAll) {
+    auto const try_to = [&](std::vector<std::string> const& going, std::vector<Part> const& coming) {
+        try {
+            world.change(going, coming);
+            return std::string{"it was done"};
+        } catch (std::runtime_error const& error) {
+            return std::string{error.what()};
+        }
+    };
+    Part lost = detection;
+    lost.profile.sub_components = {"urn:nowhere"};
+    EXPECT_THAT(try_to({"speech"}, {lost}), HasSubstr("'urn:nowhere'"));
+    EXPECT_THAT(try_to({"speech", "lamp"}, {}), HasSubstr("no component 'lamp'"));
+    EXPECT_THAT(try_to({"speech"}, {navigation}), HasSubstr("two components with the ref 'navigation'"));
+    EXPECT_THAT(try_to({}, {detection, detection}), HasSubstr("two components with the ref 'detection'"));
+    EXPECT_THAT(desk.search(), ElementsAre("navigation", "speech"));
+    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_EQ(try_to({"speech"}, {speech}), "it was done");
+}
+
+TEST_F(ComingAndGoing, EndsWellInTheMiddleOfAll) {
+    desk.bind("navigation");
+    desk.execute(go("go"));
+    world.engine.reset();
+    SUCCEED() << "what runs is freed with the engine";
+}
+
+}  // namespace rois

@@ -1,0 +1,228 @@
+// Profiles that users bring: checked, made components of, and re-read while the gateway runs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <signal.h>
+
+#include "server/application.hpp"
+#include "server/http_client.hpp"
+#include "server/profile_folder.hpp"
+
+namespace rois::test {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string const includes_common =
+    "<rois:SubComponentProfile>urn:x-rois:def:Component:OMG::RoISCommon</rois:SubComponentProfile>";
+
+TEST(CheckProfiles, SaysOfEachFileWhatIsInIt) {
+    ProfileFolder const folder;
+    folder.put("a_good.xml", profile_document("urn:a", includes_common));
+    folder.put("b_hasty.xml", profile_document("urn:b",
+                                               "<rois:ParameterProfile name='p'><rois:data_type_ref rois:code='int'/>"
+                                               "</rois:ParameterProfile>"));
+    folder.put("c_broken.xml", profile_document("urn:c", "\n<rois:Nonsense/>"));
+    folder.put("d_lost.xml", profile_document("urn:d", "<rois:SubComponentProfile>urn:nowhere</rois:SubComponentProfile>"));
+    folder.put("e_twice.xml", profile_document("URN:A", ""));
+    folder.put("f_lost_too.xml", profile_document("urn:f", "<rois:SubComponentProfile>urn:d</rois:SubComponentProfile>"));
+    folder.put("f_round.xml", profile_document("urn:r", "\n<rois:SubComponentProfile>urn:r</rois:SubComponentProfile>"));
+    folder.put("g_theirs.xml", profile_document("urn:x-rois:def:component:OMG::Move", ""));
+    folder.put("h_not_xml.xml", "Dear reader,");
+    folder.put("readme.txt", "not looked at");
+    auto const ended = run_gateway({"--check-profiles", folder.name()});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_EQ(ended.error, "");
+    EXPECT_THAT(ended.out, StartsWith("a_good.xml: ok\nwarning: b_hasty.xml:3:1: the attribute 'name' has no prefix"));
+    for (auto const* line :
+         {"\nrefused: c_broken.xml:4:1: unknown element 'rois:Nonsense'",
+          "\nrefused: d_lost.xml:3:1: no component profile 'urn:nowhere' is known\n",
+          "\nrefused: e_twice.xml:1:1: the profile 'URN:A' is in a_good.xml already\n",
+          "\nrefused: f_lost_too.xml:3:1: no component profile 'urn:d' is known\n",
+          "\nrefused: f_round.xml:4:1: the component profile 'urn:r' includes itself\n",
+          "\nwarning: g_theirs.xml:1:1: the gateway has a profile 'urn:x-rois:def:component:OMG::Move' of its own",
+          "\nrefused: h_not_xml.xml:1:1: not well-formed", "\n9 files: 1 ok, 2 with warnings, 6 refused\n"})
+        EXPECT_THAT(ended.out, HasSubstr(line));
+}
+
+TEST(CheckProfiles, IsContentWithWarnings) {
+    ProfileFolder const folder;
+    EXPECT_EQ(run_gateway({"--check-profiles", folder.name()}).out, "0 files: 0 ok, 0 with warnings, 0 refused\n");
+    folder.put("b.xml", profile_document("urn:b", "<rois:SubComponentProfile>urn:a</rois:SubComponentProfile>"));
+    folder.put("z.xml", profile_document("urn:a",
+                                         "<rois:ParameterProfile name='p'><rois:data_type_ref rois:code='int'/>"
+                                         "</rois:ParameterProfile>"));
+    auto const ended = run_gateway({"--check-profiles", folder.name()});
+    EXPECT_EQ(ended.exit_code, 0) << ended.out;
+    EXPECT_THAT(ended.out, HasSubstr("2 files: 1 ok, 1 with warnings, 0 refused\n"));
+}
+
+TEST(CheckProfiles, WithoutAFolderIsBadUse) {
+    auto const ended = run_gateway({"--check-profiles", "/nowhere/at.all"});
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_THAT(ended.error, AllOf(StartsWith("rois-gateway: /nowhere/at.all: cannot be read: "), HasSubstr("No such file")));
+    EXPECT_EQ(run_gateway({"--check-profiles"}).exit_code, 2);
+}
+
+std::string const stand_in = "<gml:metaDataProperty xlink:href=\"urn:x-rois:def:adapter:simulation::stand_in\"/>";
+
+// A lamp that nobody has built: its query `light` answers this.
+std::string lamp(std::string const& colour) {
+    return profile_document("urn:test::Lamp",
+                            includes_common +
+                                "<rois:MessageProfile xsi:type='rois:QueryMessageProfileType' rois:name='light'><rois:Results "
+                                "rois:name='colour' rois:default_value='" +
+                                colour + "'><rois:data_type_ref rois:code='String'/></rois:Results></rois:MessageProfile>",
+                            stand_in);
+}
+
+std::string fan() { return profile_document("urn:test::Fan", includes_common, stand_in); }
+
+class ProfilesOfUsers : public testing::TestWithParam<Way> {
+protected:
+    ProfileFolder folder_;
+};
+
+INSTANTIATE_TEST_SUITE_P(BothWays, ProfilesOfUsers, testing::ValuesIn(all_ways), testing::PrintToStringParamName());
+
+TEST_P(ProfilesOfUsers, MakeComponents) {
+    GatewayProcess gateway{{"--profiles", ROIS_SOURCE_DIR "/components/simulation/profiles"}};
+    Application desk{GetParam(), gateway};
+    desk.connect();
+    EXPECT_THAT(desk.search(where(equal("component_type", "urn:x-rois:def:component:RoISGateway::PersonMonitor"))),
+                ElementsAre("person_monitor"));
+    EXPECT_EQ(desk.search().size(), 20U);
+    EXPECT_THAT(desk.query("wc_status_change").values(), testing::Contains(testing::Pair("wc_status", ElementsAre("stopped"))));
+    EXPECT_EQ(desk.bind("wheelchair_robot").return_code(), "OK");
+    auto const brake = [&](std::vector<Argument> const& arguments) {
+        return desk.execute(Command{"wheelchair_robot", "brake", "b", arguments});
+    };
+    EXPECT_THAT(brake({}).reason(), HasSubstr("the argument 'status' is missing"));
+    EXPECT_THAT(brake({{"status", "int", {"1"}}}).reason(), HasSubstr("its type is bool"));
+    EXPECT_EQ(brake({{"status", "Boolean", {"true"}}}).return_code(), "OK");
+    EXPECT_EQ(desk.status_of("b"), "OK");
+}
+
+TEST_P(ProfilesOfUsers, MayListenWithAGrammar) {
+    GatewayProcess gateway{{"--profiles", ROIS_SOURCE_DIR "/components/simulation/profiles", "--scenario",
+                            ROIS_SOURCE_DIR "/tests/server/data/greeting.xml", "--sim-speed", "20"}};
+    Application desk{GetParam(), gateway};
+    desk.connect();
+    desk.bind("srgs_speech_recognition");
+    desk.subscribe("speech_recognized", where(equal("component_ref", "srgs_speech_recognition")), true);
+    auto const start = [&](std::string const& rule) {
+        return desk.execute(Command{"srgs_speech_recognition",
+                                    "start",
+                                    "",
+                                    {{"grammar",
+                                      "string",
+                                      {"&lt;grammar xmlns='http://www.w3.org/2001/06/grammar' version='1.0' xml:lang='en' "
+                                       "root='" +
+                                       rule + "'>&lt;rule id='hello'>hello&lt;tag>greeting&lt;/tag>&lt;/rule>&lt;/grammar>"}}}});
+    };
+    EXPECT_THAT(start("bye").reason(), HasSubstr("grammar:1:1: there is no rule 'bye'"));
+    EXPECT_EQ(start("hello").return_code(), "OK");
+    auto const values = desk.hear_event("speech_recognized").values();
+    EXPECT_THAT(values.at("nbest"), ElementsAre("1.000 en hello"));
+    EXPECT_THAT(values.at("meaning"), ElementsAre("greeting"));
+}
+
+TEST_P(ProfilesOfUsers, AreReadAgainAfterAHangUp) {
+    folder_.put("lamp.xml", lamp("red"));
+    GatewayProcess gateway{{"--profiles", folder_.name()}};
+    HttpClient client{gateway};
+    auto const engine_before = client.get("/rois/profile").header("ETag");
+    auto const lamp_before = client.get("/rois/profile/lamp").header("ETag");
+    Application desk{GetParam(), gateway};
+    desk.connect();
+    EXPECT_EQ(desk.bind("lamp").return_code(), "OK");
+
+    folder_.put("fan.xml", fan());
+    gateway.signal(SIGHUP);
+    EXPECT_EQ(desk.hear().name(), "profile_changed");
+    EXPECT_THAT(desk.search(), AllOf(testing::Contains("fan"), testing::Contains("lamp")));
+    EXPECT_EQ(desk.execute(Command{"lamp", "start", "still mine"}).return_code(), "OK") << "the lamp has not changed";
+    EXPECT_EQ(desk.status_of("still mine"), "OK");
+    EXPECT_NE(client.get("/rois/profile").header("ETag"), engine_before);
+    EXPECT_EQ(client.get("/rois/profile/lamp").header("ETag"), lamp_before);
+
+    folder_.put("lamp.xml", lamp("green"));
+    gateway.signal(SIGHUP);
+    EXPECT_EQ(desk.hear().name(), "profile_changed");
+    EXPECT_EQ(desk.execute(Command{"lamp"}).return_code(), "ERROR") << "another lamp is not bound";
+    EXPECT_THAT(desk.query("light").values().at("colour"), ElementsAre("green"));
+    EXPECT_NE(client.get("/rois/profile/lamp").header("ETag"), lamp_before);
+
+    folder_.remove("lamp.xml");
+    folder_.remove("fan.xml");
+    gateway.signal(SIGHUP);
+    EXPECT_EQ(desk.hear().name(), "profile_changed");
+    EXPECT_EQ(desk.bind("lamp").return_code(), "BAD_PARAMETER");
+    EXPECT_EQ(client.get("/rois/profile/lamp").status, 404);
+}
+
+TEST_P(ProfilesOfUsers, ThatAreBrokenLeaveWhatWas) {
+    folder_.put("lamp.xml", lamp("red"));
+    folder_.put("broken.xml", "<rois");
+    GatewayProcess gateway{{"--profiles", folder_.name()}};
+    Application desk{GetParam(), gateway};
+    desk.connect();
+    EXPECT_EQ(desk.bind("lamp").return_code(), "OK");
+    folder_.put("lamp.xml", lamp("red") + "<and/>");
+    folder_.put("broken.xml", fan());
+    gateway.signal(SIGHUP);
+    EXPECT_EQ(desk.hear().name(), "profile_changed");
+    EXPECT_EQ(desk.execute(Command{"lamp", "start", "on"}).return_code(), "OK") << "it is still there and bound";
+    EXPECT_EQ(desk.bind("fan").return_code(), "OK");
+    desk.disconnect();
+    gateway.signal(SIGTERM);
+    auto const log = gateway.wait().error;
+    EXPECT_THAT(log, HasSubstr("profiles: refused: broken.xml:1:1: "));
+    EXPECT_THAT(log, HasSubstr("; what it was before stays"));
+}
+
+TEST(ProfilesOfUsersSay, InTheLogWhatComesOfThem) {
+    ProfileFolder const folder;
+    folder.put("a.xml", profile_document("urn:test::Idle", includes_common));
+    folder.put("b.xml", profile_document("urn:test::Navigation", includes_common, stand_in));
+    folder.put("c.xml", profile_document("urn:test::Lost", includes_common,
+                                         "<gml:metaDataProperty xlink:href=\"urn:x-rois:def:adapter:simulation::magic\"/>"));
+    folder.put("d.xml", lamp("red"));
+    GatewayProcess gateway{{"--profiles", folder.name()}};
+    gateway.signal(SIGTERM);
+    auto const log = gateway.wait().error;
+    for (auto const* line : {"a.xml: urn:test::Idle asks for no adapter, and makes no component",
+                             "b.xml: there is a component navigation already: none is made", "c.xml: there is no adapter 'magic'",
+                             "d.xml: the component lamp\n"})
+        EXPECT_THAT(log, HasSubstr(line));
+}
+
+TEST(ProfilesOfUsersSay, ThatTheFolderIsGone) {
+    auto const ended = run_gateway({"--profiles", "/nowhere/at.all"});
+    EXPECT_EQ(ended.exit_code, 2);
+    EXPECT_THAT(ended.error, HasSubstr("/nowhere/at.all: cannot be read"));
+    EXPECT_EQ(run_gateway({"--check-config"}, {{"ROIS_PROFILES", "/nowhere/at.all"}}).exit_code, 2);
+}
+
+TEST(HangUp, EndsAGatewayThatHasNothingToRead) {
+    GatewayProcess gateway;
+    gateway.signal(SIGHUP);
+    EXPECT_EQ(gateway.wait().exit_code, -SIGHUP);
+}
+
+TEST(EngineParameters, AreInItsProfile) {
+    GatewayProcess gateway{{"--sim-speed", "2.5"}};
+    HttpClient client{gateway};
+    auto const document = client.get("/rois/profile").body;
+    EXPECT_THAT(document, HasSubstr("<rois:ParameterProfile rois:name=\"sim_speed\" rois:default_value=\"2.5\""));
+    EXPECT_THAT(document, HasSubstr("rois:name=\"crs\" rois:default_value=\"urn:x-rois:def:crs:simulation::hall\""));
+    Application desk{Way::http, gateway};
+    desk.connect();
+    EXPECT_THAT(desk.ask("get_profile").whole(), HasSubstr("rois:name=\"sim_speed\""));
+}
+
+}  // namespace
+}  // namespace rois::test
