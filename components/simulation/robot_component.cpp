@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "simulation/wire_units.hpp"
+
 namespace rois::simulation {
 
 RobotComponent::RobotComponent(Fitting fitting) : fitting_{std::move(fitting)} {}
@@ -14,6 +16,12 @@ void RobotComponent::attach(ComponentPort& port) {
 }
 
 ComponentStatus RobotComponent::status() const { return last_step_ ? condition() : ComponentStatus::uninitialized; }
+
+// Where the robot is.
+std::optional<Located> RobotComponent::location() const {
+    Robot const& self = hall().robot(robot());
+    return located("location", self.name, hall().plan().crs, self.pose, 0, {});
+}
 
 std::optional<std::string> RobotComponent::refusal(std::string_view command_type, ParameterList const& parameters) const {
     bool const starts = command_type == "start";

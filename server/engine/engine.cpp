@@ -201,6 +201,7 @@ Engine::~Engine() = default;
 
 void Engine::add(std::unique_ptr<Component> component) { core_->add(std::move(component)); }
 void Engine::add(std::shared_ptr<Device> device) { core_->add(std::move(device)); }
+void Engine::describe(Places places) { core_->describe(std::move(places)); }
 
 std::variant<Reply, Refusal> Engine::handle(SessionId const& session, Operation const& operation, Instant now) {
     return core_->handle(session, operation, now);

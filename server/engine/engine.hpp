@@ -10,6 +10,7 @@
 
 #include "engine/component.hpp"
 #include "engine/notification_queue.hpp"
+#include "engine/places.hpp"
 #include "engine/settings.hpp"
 #include "types/messages.hpp"
 
@@ -57,6 +58,9 @@ public:
     // Before the first session. Throws std::runtime_error for a ref that is taken or a sub component profile that is unknown.
     void add(std::unique_ptr<Component>);
     void add(std::shared_ptr<Device>);
+
+    // The space that conditions speak of; none is known before. Once, before the first session.
+    void describe(Places);
 
     // Performs an operation for the session (an empty id: for nobody yet). The notifications that it causes are in the session's
     // queue when it returns. `Connect` opens a session unless `session` is one already. `Resume` only checks that its session
