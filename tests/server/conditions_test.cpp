@@ -1,4 +1,6 @@
 // Conditions (ISO 19143) of the operations, spoken to the program: the reception hall, its places and its robots.
+#include <algorithm>
+
 #include "server/conversation.hpp"
 
 namespace rois::test {
@@ -159,6 +161,55 @@ TEST_P(Visitor, IsHeardOfOnlyWithinTheBox) {
     std::string const text = event.root().child("results").child("located").child("position").text().get();
     EXPECT_GE(std::stod(text), 8000) << text;
     EXPECT_GE(std::stod(text.substr(text.find(' '))), 3500) << "on the way there, nothing was told: " << text;
+}
+
+TEST_P(Visitor, IsDetectedOnlyWhenThereIsOne) {
+    desk.bind("person_detection");
+    desk.subscribe("person_detected", where(compared("GreaterThan", "number", "0")), true);
+    desk.execute(Command{.component = "person_detection"});
+    EXPECT_THAT(desk.hear_event("person_detected").values()["number"], ElementsAre("1"));
+}
+
+// How often the visitor is localized on the way in, for as long as the robot speaks.
+std::size_t localized_while_speaking(Application& desk, Argument const& parameter) {
+    desk.subscribe("person_localized");
+    desk.set_parameter("person_localization", {parameter});
+    desk.execute(Command{.component = "person_localization"});
+    desk.hear_event("person_localized");
+    desk.bind("speech_synthesis");
+    desk.execute(speak("Welcome to the reception. Please come in, and tell me whom you would like to see today.", "greet"));
+    EXPECT_EQ(desk.status_of("greet"), "OK");
+    return static_cast<std::size_t>(std::ranges::count(lines(desk.history()), "person_localized"));
+}
+
+TEST_P(Visitor, IsLocalizedOnceInAnInterval) {
+    EXPECT_EQ(localized_while_speaking(desk, {"minimum_interval", "int", {"3600000"}}), 1U);
+}
+
+TEST_P(Visitor, IsLocalizedOnceInAThreshold) {
+    EXPECT_EQ(localized_while_speaking(desk, {"detection_threshold", "int", {"100000"}}), 1U);
+}
+
+TEST_P(Visitor, IsLocalizedOftenWithoutThem) {
+    EXPECT_GT(localized_while_speaking(desk, {"detection_threshold", "int", {"0"}}), 3U);
+}
+
+struct TalkingVisitor : testing::TestWithParam<Way> {
+    GatewayProcess hall{
+        {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/talking_visitor.xml", "--sim-speed", "20", "--seed", "3"}};
+    Application desk{GetParam(), hall};
+};
+ROIS_OVER_BOTH_WAYS(TalkingVisitor);
+
+TEST_P(TalkingVisitor, IsHeardOnlyWhenAskingForHelp) {
+    desk.connect();
+    desk.bind("speech_recognition");
+    auto const asks =
+        "<fes:PropertyIsLike wildCard=\"*\" singleChar=\"?\" escapeChar=\"!\" matchCase=\"false\">"
+        "<fes:ValueReference>recognized_text</fes:ValueReference><fes:Literal>*help*</fes:Literal></fes:PropertyIsLike>";
+    EXPECT_THAT(desk.subscribe("speech_recognized", where(asks), true), IsOk());
+    desk.execute(Command{.component = "speech_recognition"});
+    EXPECT_THAT(desk.hear_event("speech_recognized").values()["recognized_text"], ElementsAre("Can you HELP me, please?"));
 }
 
 }  // namespace
