@@ -69,6 +69,7 @@ public:
         if (!is(Fault::Kind::silent)) component_->perform(command, command_type, arguments, now);
     }
 
+    std::optional<Located> location() const override { return component_->location(); }
     CompletedStatus status_when_stopped() const override { return component_->status_when_stopped(); }
 
     ParameterList readable_parameters() const override {

@@ -11,10 +11,12 @@
 
 namespace rois::simulation {
 
-// A position with a name, and how one stands there.
+// A position with a name, and how one stands there; around it, the area that conditions mean by the name.
 struct Place {
     std::string name;
     Pose pose;
+    Metres width = 2.0;  // along x
+    Metres depth = 2.0;  // along y
 };
 
 // What a robot's sensors can do. Ranges in metres; a field of view is the whole angle, centred on the heading; sigmas are

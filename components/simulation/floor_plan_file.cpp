@@ -65,6 +65,13 @@ Sensors sensors(xml::Element const& robot) {
     return all;
 }
 
+Place place(xml::Element const& element) {
+    Place place{.name = element.attribute("name", ""), .pose = pose(element)};
+    read_length(element, "width", place.width);
+    read_length(element, "depth", place.depth);
+    return place;
+}
+
 RobotPlan robot(xml::Element const& element) {
     RobotPlan plan;
     plan.name = element.attribute("name", "");
@@ -103,7 +110,7 @@ FloorPlan read_floor_plan(std::shared_ptr<xml::Schemas const> schemas, std::stri
     plan.bounds = box(*root.child("bounds"));
     for (auto const& wall : root.children("wall")) plan.walls.push_back({point(wall, "x1", "y1"), point(wall, "x2", "y2")});
     for (auto const& furniture : root.children("furniture")) plan.desks.push_back(box(furniture));
-    for (auto const& place : root.children("place")) plan.places.push_back({place.attribute("name", ""), pose(place)});
+    for (auto const& element : root.children("place")) plan.places.push_back(place(element));
     for (auto const& element : root.children("robot")) plan.robots.push_back(robot(element));
     if (auto const found = flaw(plan)) throw culprit(root, *found).complain(found->reason);
     return plan;

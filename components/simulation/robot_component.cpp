@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "simulation/component_refs.hpp"
+#include "simulation/wire_units.hpp"
 
 namespace rois::simulation {
 
@@ -27,6 +28,12 @@ void RobotComponent::attach(ComponentPort& port) {
 }
 
 ComponentStatus RobotComponent::status() const { return last_step_ ? condition() : ComponentStatus::uninitialized; }
+
+// Where the robot is.
+std::optional<Located> RobotComponent::location() const {
+    Robot const& self = hall().robot(robot());
+    return located("location", self.name, hall().plan().crs, self.pose, 0, {});
+}
 
 std::optional<std::string> RobotComponent::refusal(std::string_view command_type, ParameterList const& parameters) const {
     bool const starts = command_type == "start";

@@ -33,6 +33,7 @@ public:
     ComponentDescription const& description() const final { return fitting_.description; }
     void attach(ComponentPort&) final;
     ComponentStatus status() const final;
+    std::optional<Located> location() const final;
     std::optional<std::string> refusal(std::string_view command_type, ParameterList const&) const final;
 
 protected:

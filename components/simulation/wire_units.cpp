@@ -67,4 +67,12 @@ Located located(std::string of, std::string ref, std::string crs, Pose const& po
     return made;
 }
 
+Geometry area(std::string crs, Box const& box) {
+    Point const low = box.low * mm, high = box.high * mm;
+    return {.crs = std::move(crs),
+            .low = {fine(low.x()), fine(low.y()), 0},
+            .high = {fine(high.x()), fine(high.y()), 0},
+            .dimensions = 2};
+}
+
 }  // namespace rois::simulation

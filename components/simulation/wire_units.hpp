@@ -5,7 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "simulation/geometry.hpp"
 #include "simulation/pose.hpp"
+#include "types/condition.hpp"
 #include "types/values.hpp"
 
 namespace rois::simulation {
@@ -24,5 +26,8 @@ std::optional<Target> target_from_wire(std::string_view);
 
 // The structured form of one position: `height` becomes z, the covariance (when there is one) x, y, th in mm and degrees.
 Located located(std::string of, std::string ref, std::string crs, Pose const&, Metres height, std::optional<Covariance> const&);
+
+// A box of the floor as conditions have it.
+Geometry area(std::string crs, Box const&);
 
 }  // namespace rois::simulation

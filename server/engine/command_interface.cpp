@@ -1,8 +1,8 @@
 // Command interface (7.4.2, table 3): finding, binding and commanding components.
+#include <algorithm>
 #include <utility>
 
 #include "engine/core.hpp"
-#include "engine/matching.hpp"
 #include "engine/sequence_check.hpp"
 #include "types/texts.hpp"
 
@@ -43,11 +43,12 @@ private:
 }  // namespace
 
 Reply Engine::Core::perform(Session& session, Search const& search, Instant) {
-    if (auto problem = why_unusable(search.condition, component_references()))
+    auto selection = Selection::compile(search.condition, vocabulary());
+    if (auto* problem = std::get_if<std::string>(&selection))
         return refused<Search::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     Search::Reply reply;
-    for (auto const& [ref, component] : registry_.all())
-        if (matches(search.condition, *component, &session)) reply.component_ref_list.push_back(component->ref());
+    for (auto const* component : select(std::get<Selection>(selection), everyone(), session))
+        reply.component_ref_list.push_back(component->ref());
     return reply;
 }
 
@@ -64,26 +65,23 @@ Reply Engine::Core::perform(Session& session, Bind const& bind, Instant) {
                                 "the component " + quoted(component->ref().code) + " is bound by another session");
 }
 
-// Decisions 4 and 6: the lowest free match, else one that is already mine.
+// Decisions 4 and 6: the first free match, else one that is already mine.
 Reply Engine::Core::perform(Session& session, BindAny const& bind, Instant) {
-    if (auto problem = why_unusable(bind.condition, component_references()))
+    auto compiled = Selection::compile(bind.condition, vocabulary());
+    if (auto* problem = std::get_if<std::string>(&compiled))
         return refused<BindAny::Reply>(ReturnCode::bad_parameter, std::move(*problem));
-    RegisteredComponent* mine = nullptr;
-    RegisteredComponent* free = nullptr;
-    bool possible = false;
-    for (auto const& [ref, component] : registry_.all()) {
-        possible = possible || could_match(bind.condition, *component);
-        if (!matches(bind.condition, *component, &session)) continue;
-        if (component->bound_to == nullptr && free == nullptr) free = component.get();
-        if (component->bound_to == &session && mine == nullptr) mine = component.get();
-    }
-    if (!possible) return refused<BindAny::Reply>(ReturnCode::unsupported, "no component of this engine can match the condition");
-    auto* chosen = free != nullptr ? free : mine;
-    if (chosen == nullptr)
+    auto const& selection = std::get<Selection>(compiled);
+    Perspective ever{registry_, places_, &session, Perspective::Of::ever};
+    if (std::ranges::none_of(everyone(), [&](auto const* c) { return selection.match(ever.candidate(*c)) != Match::no; }))
+        return refused<BindAny::Reply>(ReturnCode::unsupported, "no component of this engine can match the condition");
+    auto const matches = select(selection, everyone(), session);
+    auto found = std::ranges::find(matches, nullptr, &RegisteredComponent::bound_to);
+    if (found == matches.end()) found = std::ranges::find(matches, &session, &RegisteredComponent::bound_to);
+    if (found == matches.end())
         return refused<BindAny::Reply>(ReturnCode::out_of_resources, "no component that matches the condition is free now");
-    Registry::bind(*chosen, session);
+    Registry::bind(**found, session);
     BindAny::Reply reply;
-    reply.component_ref = chosen->ref();
+    reply.component_ref = (*found)->ref();
     return reply;
 }
 
@@ -152,7 +150,6 @@ Reply Engine::Core::perform(Session& session, GetCommandResult const& get, Insta
             ReturnCode::bad_parameter, "unknown command_id " + quoted(get.command_id.text) + ", or its results have aged out");
     auto const& command = *found->second;
     Results results;
-    std::vector<std::string> references{"status"};
     switch (command.state) {
         case Command::State::waiting:
             results.parameters.push_back(text("status", "WAITING"));
@@ -166,11 +163,13 @@ Reply Engine::Core::perform(Session& session, GetCommandResult const& get, Insta
             break;
     }
     auto const* message = find_message(command.component->profile(), MessageKind::command, command.type);
-    for (auto const& result : message->results) references.push_back(result.name);
-    if (auto problem = why_unusable(get.condition, references))
+    Declarations known;
+    known.add({.name = "status", .data_type_ref = {"string", {}, {}, {}}, .default_value = {}, .description = {}});
+    known.add(message->results);
+    if (auto problem = choose(results, get.condition, known, get.command_id.text))
         return refused<GetCommandResult::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     GetCommandResult::Reply reply;
-    if (matches(get.condition, results)) reply.results = std::move(results);
+    reply.results = std::move(results);
     return reply;
 }
 

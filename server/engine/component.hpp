@@ -93,6 +93,9 @@ public:
     // How a `start` that is ended by `stop` completes: ABORT, but for Follow (decision 8).
     virtual CompletedStatus status_when_stopped() const { return CompletedStatus::abort; }
 
+    // Where it is now: `ref` names the robot that it belongs to. Nothing when that is not known.
+    virtual std::optional<Located> location() const { return {}; }
+
     // What get_parameter answers beside the stored parameters: those that can only be read (recognizable languages, ...).
     virtual ParameterList readable_parameters() const { return {}; }
 

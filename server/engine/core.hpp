@@ -12,6 +12,7 @@
 #include "engine/details.hpp"
 #include "engine/engine.hpp"
 #include "engine/executor.hpp"
+#include "engine/filter.hpp"
 #include "engine/notifier.hpp"
 #include "engine/registry.hpp"
 #include "engine/session.hpp"
@@ -27,6 +28,7 @@ public:
     void add(std::unique_ptr<Component>);
     void change(ComponentChange, Instant now);
     void add(std::shared_ptr<Device> device) { devices_.push_back(std::move(device)); }
+    void describe(Places places) { places_ = std::move(places); }
 
     std::variant<Reply, Refusal> handle(SessionId const&, Operation const&, Instant now);
     void tick(Instant now);
@@ -79,6 +81,15 @@ private:
     void publish(EventOccurred, Instant now);
     void publish(ErrorOccurred, Instant now);
 
+    // Conditions (conditions.cpp)
+    Vocabulary vocabulary(Declarations const* results = nullptr) const { return {&places_, &registry_.parameters(), results}; }
+    std::vector<RegisteredComponent*> everyone() const;
+    // Those that the selection lets through, in its order.
+    std::vector<RegisteredComponent*> select(Selection const&, std::vector<RegisteredComponent*> const& among,
+                                             Session const& asker) const;
+    // Leaves all results or none. Why the condition cannot be used, or nothing.
+    std::optional<std::string> choose(Results&, QueryExpression const&, Declarations const& known, std::string_view id) const;
+
     // Sessions (engine.cpp)
     void end(Session&, Instant now);
     void await_end_of_window(Session&);
@@ -93,6 +104,7 @@ private:
     std::shared_ptr<EngineProfile const> profile_;  // never changed: another takes its place
     Agenda agenda_;
     Registry registry_;
+    Places places_;
     std::vector<std::shared_ptr<Device>> devices_;
     std::unordered_map<SessionId, std::unique_ptr<Session>, IdHash> sessions_;
     Subscriptions subscriptions_;

@@ -181,6 +181,7 @@ Engine::~Engine() = default;
 void Engine::add(std::unique_ptr<Component> component) { core_->add(std::move(component)); }
 void Engine::change(ComponentChange change, Instant now) { core_->change(std::move(change), now); }
 void Engine::add(std::shared_ptr<Device> device) { core_->add(std::move(device)); }
+void Engine::describe(Places places) { core_->describe(std::move(places)); }
 
 std::variant<Reply, Refusal> Engine::handle(SessionId const& session, Operation const& operation, Instant now) {
     return core_->handle(session, operation, now);

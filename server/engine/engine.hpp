@@ -10,6 +10,7 @@
 
 #include "engine/component.hpp"
 #include "engine/notification_queue.hpp"
+#include "engine/places.hpp"
 #include "engine/settings.hpp"
 #include "types/messages.hpp"
 
@@ -69,6 +70,9 @@ public:
     // that is unknown. What runs on a component that goes, or waits for it, completes with ABORT; its bindings are lost;
     // subscriptions stay, and hear it again should it come back. All sessions are told when any component came or went.
     void change(ComponentChange, Instant now);
+
+    // The space that conditions speak of; none is known before. Once, before the first session.
+    void describe(Places);
 
     // Performs an operation for the session (an empty id: for nobody yet). The notifications that it causes are in the session's
     // queue when it returns. `Connect` opens a session unless `session` is one already. `Resume` only checks that its session

@@ -3,25 +3,26 @@
 #include <utility>
 
 #include "engine/core.hpp"
-#include "engine/matching.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
 
 Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instant) {
     auto const& components = registry_.with(MessageKind::event, subscribe.event_type);
-    auto references = component_references();
-    for (auto const* component : components)
-        for (auto const& result : find_message(component->profile(), MessageKind::event, subscribe.event_type)->results)
-            references.push_back(result.name);
     if (components.empty())
         return refused<Subscribe::Reply>(ReturnCode::unsupported, "no component has the event " + quoted(subscribe.event_type));
-    if (auto problem = why_unusable(subscribe.condition, references))
+    Declarations results;
+    for (auto const* component : components)
+        results.add(find_message(component->profile(), MessageKind::event, subscribe.event_type)->results);
+    auto filter = Filter::compile(subscribe.condition, vocabulary(&results));
+    if (auto* problem = std::get_if<std::string>(&filter))
         return refused<Subscribe::Reply>(ReturnCode::bad_parameter, std::move(*problem));
-    if (std::ranges::none_of(components, [&](auto const* c) { return could_match(subscribe.condition, *c); }))
+    auto& wanted = std::get<Filter>(filter);
+    Perspective ever{registry_, places_, &session, Perspective::Of::ever};
+    if (std::ranges::none_of(components, [&](auto const* c) { return wanted.match(ever.candidate(*c)) != Match::no; }))
         return refused<Subscribe::Reply>(ReturnCode::unsupported, "no component that has the event can match the condition");
     Subscribe::Reply reply;
-    reply.subscribe_id = subscriptions_.add(session, subscribe.event_type, subscribe.condition, subscribe.inline_results).id;
+    reply.subscribe_id = subscriptions_.add(session, subscribe.event_type, std::move(wanted), subscribe.inline_results).id;
     return reply;
 }
 
@@ -37,13 +38,12 @@ Reply Engine::Core::perform(Session&, GetEventDetail const& get, Instant now) {
     if (found.found == Details::Found::expired)
         return refused<GetEventDetail::Reply>(ReturnCode::bad_parameter,
                                               "the details of the event " + quoted(get.event_id.text) + " have expired");
-    std::vector<std::string> references;
-    references.reserve(found.message->results.size());
-    for (auto const& result : found.message->results) references.push_back(result.name);
-    if (auto problem = why_unusable(get.condition, references))
-        return refused<GetEventDetail::Reply>(ReturnCode::bad_parameter, std::move(*problem));
+    Declarations known;
+    known.add(found.message->results);
     GetEventDetail::Reply reply;
-    if (matches(get.condition, *found.results)) reply.results = *found.results;
+    reply.results = *found.results;
+    if (auto problem = choose(reply.results, get.condition, known, get.event_id.text))
+        return refused<GetEventDetail::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     return reply;
 }
 
@@ -77,9 +77,15 @@ void Engine::Core::publish(EventOccurred said, Instant now) {
     ++events_published_;
     auto const results = std::make_shared<Results const>(std::move(said.results));
     std::string event_id;  // given when somebody hears of it
+    Perspective anybodys{registry_, places_, nullptr, Perspective::Of::present};
+    EventCandidate const candidate{anybodys.candidate(*said.component), *results};
+    auto const matches = [&](Subscription const& subscription, Session const& asker) {
+        Perspective askers{registry_, places_, &asker, Perspective::Of::present};
+        return subscription.filter.match(EventCandidate{askers.candidate(*said.component), *results}) == Match::yes;
+    };
     for (auto* subscription : subscriptions_.of(said.event_type)) {
-        bool const each = subscription->depends_on_asker;
-        if (!each && !matches(subscription->condition, *said.component, *results, nullptr)) continue;
+        bool const each = subscription->filter.depends_on_asker();
+        if (!each && subscription->filter.match(candidate) != Match::yes) continue;
         if (event_id.empty()) {
             auto const& profile = said.component->entry().profile;
             event_id = events_.add(results, {profile, find_message(*profile, MessageKind::event, said.event_type)}, now);
@@ -92,8 +98,7 @@ void Engine::Core::publish(EventOccurred said, Instant now) {
                                           .results = nullptr},
                                          results};
         for (auto const& [session, inline_results] : subscription->sessions)
-            if (!each || matches(subscription->condition, *said.component, *results, session))
-                notifier_.tell(*session, notifications.of(inline_results));
+            if (!each || matches(*subscription, *session)) notifier_.tell(*session, notifications.of(inline_results));
     }
 }
 

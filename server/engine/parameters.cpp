@@ -39,9 +39,13 @@ std::optional<std::string> why_not(ParameterProfile const& profile, Parameter co
 
 ParameterProfile const* profile_for(std::vector<ParameterProfile> const& profiles, std::string_view name) {
     if (auto const* found = find_parameter(profiles, name)) return found;
+    return find_parameter(profiles, seed_spelling(name));
+}
+
+std::string_view seed_spelling(std::string_view name) {
     for (auto const& spelling : spellings)
-        if (equal_ignoring_case(spelling.published, name)) return find_parameter(profiles, spelling.seed);
-    return nullptr;
+        if (equal_ignoring_case(spelling.published, name)) return spelling.seed;
+    return name;
 }
 
 std::optional<std::string> why_not(std::vector<ParameterProfile> const& profiles, ParameterList const& list) {

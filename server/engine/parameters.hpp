@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "types/profiles.hpp"
@@ -12,6 +13,9 @@ namespace rois {
 
 // The profile that an application's name means: without regard to case, other versions' spellings included. Null when none.
 ParameterProfile const* profile_for(std::vector<ParameterProfile> const&, std::string_view name);
+
+// The seed's name for what published profiles spell otherwise; any other name as it is.
+std::string_view seed_spelling(std::string_view name);
 
 // Why these parameters are not what the profiles say: unknown, twice, of another type. Nothing when they are.
 std::optional<std::string> why_not(std::vector<ParameterProfile> const&, ParameterList const&);

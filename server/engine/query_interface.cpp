@@ -2,18 +2,21 @@
 #include <utility>
 
 #include "engine/core.hpp"
-#include "engine/matching.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
 
-// Decision 18: the one component that knows the query type, preferring READY, then the lowest ref.
+// Decision 18: the one component that knows the query type, preferring READY, then the lowest ref or what SortBy says.
 Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
-    if (auto problem = why_unusable(query.condition, component_references()))
+    auto compiled = Selection::compile(query.condition, vocabulary());
+    if (auto* problem = std::get_if<std::string>(&compiled))
         return refused<Query::Reply>(ReturnCode::bad_parameter, std::move(*problem));
+    auto const& selection = std::get<Selection>(compiled);
+    auto const& able = registry_.with(MessageKind::query, query.query_type);
+    Perspective looked_at{registry_, places_, &session, Perspective::Of::present};
     RegisteredComponent* chosen = nullptr;
-    for (auto* component : registry_.with(MessageKind::query, query.query_type)) {
-        if (!matches(query.condition, *component, &session)) continue;
+    for (auto* component : selection.sorts() ? select(selection, able, session) : able) {
+        if (selection.match(looked_at.candidate(*component)) != Match::yes) continue;
         bool const ready = component->status_for(&session) == ComponentStatus::ready;
         if (chosen == nullptr || ready) chosen = component;
         if (ready) break;

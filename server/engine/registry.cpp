@@ -112,6 +112,24 @@ std::optional<ParameterList> RegisteredComponent::all_parameters() const {
     return all;
 }
 
+bool RegisteredComponent::has_parameter(std::string_view name) const {
+    if (profile_for(settable_, name) != nullptr) return true;
+    auto const* message = find_message(profile_, MessageKind::query, "get_parameter");
+    return message != nullptr && find_parameter(message->results, name) != nullptr;
+}
+
+bool RegisteredComponent::has_event_result(std::string_view name) const {
+    return std::ranges::any_of(profile_.messages, [&](MessageProfile const& message) {
+        return message.kind == MessageKind::event && find_parameter(message.results, name) != nullptr;
+    });
+}
+
+std::optional<Located> RegisteredComponent::location() const {
+    std::optional<Located> where;
+    call([&](Component& c) { where = c.location(); }, Report::once);
+    return where;
+}
+
 std::optional<ParameterList> RegisteredComponent::merged(ParameterList stored, ParameterList const& arrived) const {
     merge(stored, arrived, settable_);
     if (call([&](Component& c) { c.reconcile(stored, arrived); }) == Called::failed) return {};
@@ -137,6 +155,9 @@ RegisteredComponent& Registry::add(std::shared_ptr<RegisteredComponent> componen
     if (!added) throw std::runtime_error("there are two components with the ref " + quoted(ref));
     place->second = std::move(component);
     auto& registered = *place->second;
+    parameters_.add(registered.settable());
+    if (auto const* message = find_message(registered.profile(), MessageKind::query, "get_parameter"))
+        parameters_.add(message->results);
     for (auto const& message : registered.profile().messages) {
         auto& list = by_message_[{message.kind, message.name}];
         list.insert(std::ranges::upper_bound(

@@ -12,6 +12,7 @@
 #include "engine/agenda.hpp"
 #include "engine/command.hpp"
 #include "engine/component.hpp"
+#include "engine/vocabulary.hpp"
 #include "types/messages.hpp"
 
 namespace rois {
@@ -55,6 +56,12 @@ public:
     std::vector<ParameterProfile> const& settable() const { return settable_; }
     std::optional<ParameterList> all_parameters() const;
 
+    // What conditions ask: whether it has such a parameter, be it only to be read, or an event with such a result; and where it
+    // is, nothing also when it failed.
+    bool has_parameter(std::string_view name) const;
+    bool has_event_result(std::string_view name) const;
+    std::optional<Located> location() const;
+
     // `stored` with what arrived, as the component reconciles the two; nothing when it failed.
     std::optional<ParameterList> merged(ParameterList stored, ParameterList const& arrived) const;
 
@@ -97,11 +104,15 @@ public:
     // The components whose profile has this message, ordered by ref.
     std::vector<RegisteredComponent*> const& with(MessageKind, std::string_view message) const;
 
+    // The parameters of all components: what conditions may speak of.
+    Declarations const& parameters() const { return parameters_; }
+
     enum class Bound : std::uint8_t { ok, taken };
     static Bound bind(RegisteredComponent&, Session&);
 
 private:
     Components components_;
+    Declarations parameters_;
     std::map<std::pair<MessageKind, std::string>, std::vector<RegisteredComponent*>> by_message_;
 };
 

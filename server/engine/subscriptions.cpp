@@ -3,25 +3,21 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/matching.hpp"
 #include "engine/registry.hpp"
 #include "engine/session.hpp"
 
 namespace rois {
 
-Subscription& Subscriptions::add(Session& session, std::string const& event_type, MaybeCondition const& condition,
-                                 bool inline_results) {
-    auto meaning = canonical(condition);
+Subscription& Subscriptions::add(Session& session, std::string const& event_type, Filter filter, bool inline_results) {
     auto& alike = by_type_[event_type];
-    auto const known = std::ranges::find(alike, meaning, &Subscription::meaning);
+    auto const known =
+        std::ranges::find_if(alike, [&](Subscription const* s) { return s->filter.meaning() == filter.meaning(); });
     Subscription* subscription = known == alike.end() ? nullptr : *known;
     if (subscription == nullptr) {
         auto made = std::make_unique<Subscription>();
         made->id.text = "s-" + std::to_string(++last_);
         made->event_type = event_type;
-        made->condition = condition;
-        made->meaning = std::move(meaning);
-        made->depends_on_asker = rois::depends_on_asker(condition);
+        made->filter = std::move(filter);
         subscription = made.get();
         alike.push_back(subscription);
         by_id_.emplace(subscription->id, std::move(made));
@@ -53,10 +49,10 @@ std::vector<Subscription*> const& Subscriptions::of(std::string_view event_type)
     return found == by_type_.end() ? none : found->second;
 }
 
-bool Subscriptions::hears(Session const& session, RegisteredComponent const& component) {
+bool Subscriptions::hears(Session const& session, RegisteredComponent const& component, Perspective& ever) {
     return std::ranges::any_of(session.subscriptions, [&](Subscription const* subscription) {
         return find_message(component.profile(), MessageKind::event, subscription->event_type) != nullptr &&
-               could_match(subscription->condition, component);
+               subscription->filter.match(ever.candidate(component)) != Match::no;
     });
 }
 

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "types/condition.hpp"
+#include "engine/filter.hpp"
 #include "types/ids.hpp"
 #include "types/messages.hpp"
 
@@ -22,9 +22,7 @@ struct Session;
 struct Subscription {
     SubscribeId id;
     std::string event_type;
-    MaybeCondition condition;
-    std::string meaning;                          // the condition's canonical text
-    bool depends_on_asker = false;                // the condition may hold for one session and not for another
+    Filter filter;
     std::unordered_map<Session*, bool> sessions;  // with inline_results or not
 };
 
@@ -32,7 +30,7 @@ struct Subscription {
 class Subscriptions {
 public:
     // The same type and condition give the same subscription; the last `inline_results` wins.
-    Subscription& add(Session&, std::string const& event_type, MaybeCondition const&, bool inline_results);
+    Subscription& add(Session&, std::string const& event_type, Filter, bool inline_results);
 
     // Nothing happens when the session has none of that id.
     void remove(Session&, SubscribeId const&);
@@ -41,8 +39,8 @@ public:
     // Those of an event type.
     std::vector<Subscription*> const& of(std::string_view event_type) const;
 
-    // Whether the session has subscribed to an event that this component has and may match.
-    static bool hears(Session const&, RegisteredComponent const&);
+    // Whether the session has subscribed to an event that this component has and may match, whatever happens.
+    static bool hears(Session const&, RegisteredComponent const&, Perspective& ever);
 
     std::size_t size() const { return by_id_.size(); }
 

@@ -1,6 +1,5 @@
 // System interface (7.4.1, table 2): connection, profiles, details of errors.
 #include "engine/core.hpp"
-#include "engine/matching.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -36,14 +35,27 @@ Reply Engine::Core::perform(Session& session, Disconnect const&, Instant now) {
 }
 
 Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
-    if (auto problem = why_unusable(get.condition, component_references()))
+    auto selection = Selection::compile(get.condition, vocabulary());
+    if (auto* problem = std::get_if<std::string>(&selection))
         return refused<GetProfile::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     GetProfile::Reply reply;
     reply.profile = profile_;
-    for (auto const& [ref, component] : registry_.all())
-        if (matches(get.condition, *component, &session)) reply.components.push_back(component->entry());
+    for (auto const* component : select(std::get<Selection>(selection), everyone(), session))
+        reply.components.push_back(component->entry());
     return reply;
 }
+
+namespace {
+
+// The results that get_error_detail answers.
+Declarations error_details() {
+    Declarations known;
+    for (auto const& [name, type] : {std::pair{"component_ref", "RoISIdentifier"}, {"time", "DateTime"}, {"text", "string"}})
+        known.add({.name = name, .data_type_ref = {type, {}, {}, {}}, .default_value = {}, .description = {}});
+    return known;
+}
+
+}  // namespace
 
 Reply Engine::Core::perform(Session&, GetErrorDetail const& get, Instant now) {
     auto const found = errors_.find(get.error_id.text, now);
@@ -52,10 +64,10 @@ Reply Engine::Core::perform(Session&, GetErrorDetail const& get, Instant now) {
     if (found.found == Details::Found::expired)
         return refused<GetErrorDetail::Reply>(ReturnCode::bad_parameter,
                                               "the details of the error " + quoted(get.error_id.text) + " have expired");
-    if (auto problem = why_unusable(get.condition, {"component_ref", "time", "text"}))
-        return refused<GetErrorDetail::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     GetErrorDetail::Reply reply;
-    if (matches(get.condition, *found.results)) reply.results = *found.results;
+    reply.results = *found.results;
+    if (auto problem = choose(reply.results, get.condition, error_details(), get.error_id.text))
+        return refused<GetErrorDetail::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     return reply;
 }
 
@@ -69,9 +81,10 @@ void Engine::Core::publish(ErrorOccurred said, Instant now) {
     ReceiveError error{.error_id = {errors_.add(std::move(results), nullptr, now)}, .error_type = said.type, .component_ref = {}};
     if (said.component != nullptr) error.component_ref = said.component->ref();
     auto const notification = std::make_shared<OutgoingNotification const>(std::move(error));
+    Perspective ever{registry_, places_, nullptr, Perspective::Of::ever};
     for (auto const& [id, session] : sessions_) {
         bool const concerns = said.component == nullptr || said.component->bound_to == session.get() ||
-                              Subscriptions::hears(*session, *said.component);
+                              Subscriptions::hears(*session, *said.component, ever);
         if (concerns) notifier_.tell(*session, notification);
     }
 }

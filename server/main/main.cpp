@@ -23,6 +23,7 @@
 #include "net/server.hpp"
 #include "simulation/component_refs.hpp"
 #include "simulation/floor_plan_file.hpp"
+#include "simulation/named_places.hpp"
 #include "simulation/robot_components.hpp"
 #include "simulation/scenario_file.hpp"
 #include "simulation/simulation.hpp"
@@ -105,6 +106,7 @@ int serve(CommandLine const& command) {
     net::Readers readers;
     Engine engine{engine_profile(settings, simulation->hall().plan()), profiles, settings.engine, readers, net::fresh_secret};
     engine.add(simulation);
+    engine.describe(simulation::named_places(simulation->hall().plan()));
     for (auto& component : simulation::robot_components(simulation, profiles)) engine.add(std::move(component));
     net::Telemetry telemetry;
     net::Gateway gateway{engine, readers, telemetry};

@@ -1,12 +1,25 @@
-// Conditions (ISO 19143 QueryExpression): the parsed form of the fes:Filter that many operations take.
+// Conditions (QueryExpression of ISO 19143): the parsed form of what many operations take. docs/conditions.md says what it means.
 #pragma once
 
-#include <memory>
+#include <array>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
+#include "types/instant.hpp"
+
 namespace rois {
+
+// Well-formed and valid, but not understood: what it says goes back to the application as BAD_PARAMETER.
+struct NotUnderstood {
+    std::string reason;
+    bool operator==(NotUnderstood const&) const = default;
+};
+
+// --- Expressions ---
 
 struct ValueReference {
     std::string path;
@@ -18,39 +31,164 @@ struct Literal {
     bool operator==(Literal const&) const = default;
 };
 
-using Expression = std::variant<ValueReference, Literal>;
+// A point, or a box along the axes of its frame; coordinates in mm. A point has two equal corners.
+struct Geometry {
+    std::string crs;  // empty: the frame of whatever it is related to
+    std::array<double, 3> low{};
+    std::array<double, 3> high{};
+    std::uint8_t dimensions = 2;  // 2 or 3; in the plane, z is 0 and means nothing
+    bool operator==(Geometry const&) const = default;
+};
 
-struct PropertyIsEqualTo {
+struct Expression;
+
+// A value that is made of others.
+struct Function {
+    std::string name;
+    std::vector<Expression> arguments;
+    bool operator==(Function const&) const;
+};
+
+struct Expression {
+    std::variant<ValueReference, Literal, Geometry, Period, Function, NotUnderstood> value;
+    bool operator==(Expression const&) const = default;
+};
+
+inline bool Function::operator==(Function const&) const = default;
+
+// --- Predicates ---
+
+// How many of several values must meet a comparison.
+enum class MatchAction : std::uint8_t { any, all, one };
+
+enum class Comparator : std::uint8_t { equal, not_equal, less, greater, less_or_equal, greater_or_equal };
+
+struct PropertyComparison {
+    Comparator comparator = Comparator::equal;
     Expression left;
     Expression right;
     bool match_case = true;
-    bool operator==(PropertyIsEqualTo const&) const = default;
+    MatchAction match_action = MatchAction::any;
+    bool operator==(PropertyComparison const&) const = default;
+};
+
+struct PropertyIsLike {
+    Expression left;
+    Expression right;
+    std::string wild_card;    // stands for any text
+    std::string single_char;  // stands for one character
+    std::string escape_char;  // takes the meaning of what follows away
+    bool match_case = true;
+    bool operator==(PropertyIsLike const&) const = default;
+};
+
+struct PropertyIsNull {
+    Expression value;
+    bool operator==(PropertyIsNull const&) const = default;
+};
+
+struct PropertyIsNil {
+    Expression value;
+    std::string nil_reason;  // empty: any
+    bool operator==(PropertyIsNil const&) const = default;
+};
+
+struct PropertyIsBetween {
+    Expression value;
+    Expression lower;
+    Expression upper;
+    bool operator==(PropertyIsBetween const&) const = default;
+};
+
+// BBOX says what Intersects says.
+enum class SpatialRelation : std::uint8_t { within, intersects, disjoint };
+
+struct SpatialComparison {
+    SpatialRelation relation = SpatialRelation::within;
+    std::vector<Expression> operands;  // two, or one that is held against the candidate's own position
+    bool operator==(SpatialComparison const&) const = default;
+};
+
+enum class DistanceRelation : std::uint8_t { d_within, beyond };
+
+struct DistanceComparison {
+    DistanceRelation relation = DistanceRelation::d_within;
+    std::vector<Expression> operands;  // as above
+    double distance = 0;
+    std::string uom;
+    bool operator==(DistanceComparison const&) const = default;
+};
+
+enum class TemporalRelation : std::uint8_t { after, before, during, t_equals };
+
+struct TemporalComparison {
+    TemporalRelation relation = TemporalRelation::after;
+    std::vector<Expression> operands;  // two, or one that is held against the candidate's own time
+    bool operator==(TemporalComparison const&) const = default;
+};
+
+struct ResourceId {
+    std::string rid;
+    bool operator==(ResourceId const&) const = default;
 };
 
 struct Condition;
 
 struct And {
-    std::vector<Condition> operands;  // two or more
+    std::vector<Condition> operands;
     bool operator==(And const&) const;
 };
 
 struct Or {
-    std::vector<Condition> operands;  // two or more
+    std::vector<Condition> operands;
     bool operator==(Or const&) const;
 };
 
-// Well-formed and valid, but not understood: what it says goes back to the application as BAD_PARAMETER.
-struct NotUnderstood {
-    std::string reason;
-    bool operator==(NotUnderstood const&) const = default;
+struct Not {
+    std::vector<Condition> operand;  // one
+    bool operator==(Not const&) const;
+};
+
+// unr:ComponentGroupCondition: components of one robot.
+struct ComponentGroup {
+    std::vector<std::string> types;
+    std::vector<std::string> aliases;  // no more than types
+    std::vector<Condition> filter;     // none or one: on the robot
+    std::vector<Condition> members;    // each is met by a component of the robot
+    bool operator==(ComponentGroup const&) const;
 };
 
 struct Condition {
-    std::variant<PropertyIsEqualTo, And, Or, NotUnderstood> predicate;
+    std::variant<PropertyComparison, PropertyIsLike, PropertyIsNull, PropertyIsNil, PropertyIsBetween, SpatialComparison,
+                 DistanceComparison, TemporalComparison, ResourceId, And, Or, Not, ComponentGroup, NotUnderstood>
+        predicate;
     bool operator==(Condition const&) const = default;
 };
 
 inline bool And::operator==(And const&) const = default;
 inline bool Or::operator==(Or const&) const = default;
+inline bool Not::operator==(Not const&) const = default;
+inline bool ComponentGroup::operator==(ComponentGroup const&) const = default;
+
+// --- The whole ---
+
+enum class SortOrder : std::uint8_t { ascending, descending };
+
+struct SortProperty {
+    Expression by;
+    SortOrder order = SortOrder::ascending;
+    bool operator==(SortProperty const&) const = default;
+};
+
+// What is meant, and in which order. An empty one restricts nothing.
+struct QueryExpression {
+    QueryExpression() = default;
+    QueryExpression(Condition condition, std::vector<SortProperty> order = {})
+        : filter{std::move(condition)}, sort_by{std::move(order)} {}
+
+    std::optional<Condition> filter;
+    std::vector<SortProperty> sort_by;  // the first one first
+    bool operator==(QueryExpression const&) const = default;
+};
 
 }  // namespace rois

@@ -1,12 +1,128 @@
 #include "types/instant.hpp"
 
 #include <array>
+#include <charconv>
 #include <cstdio>
+
+#include "types/texts.hpp"
 
 namespace rois {
 
+namespace {
+
+using namespace std::chrono;
+
+// Takes numbers and signs from the front of a text.
+class Taker {
+public:
+    explicit Taker(std::string_view text) : rest_{text} {}
+
+    // A number of exactly so many digits.
+    std::optional<int> number(std::size_t digits) {
+        if (rest_.size() < digits) return {};
+        int value = 0;
+        auto const end = rest_.data() + digits;
+        auto const [stop, problem] = std::from_chars(rest_.data(), end, value);
+        if (problem != std::errc{} || stop != end || rest_.front() == '-') return {};
+        rest_.remove_prefix(digits);
+        return value;
+    }
+
+    // "-05": the sign and a number of two digits, up to `most`.
+    std::optional<int> part(char sign, int most) {
+        if (!sign_is(sign)) return {};
+        auto const value = number(2);
+        return value && *value <= most ? value : std::nullopt;
+    }
+
+    bool sign_is(char sign) {
+        if (!rest_.starts_with(sign)) return false;
+        rest_.remove_prefix(1);
+        return true;
+    }
+
+    // ".123": any number of digits after the point; none at all is none of a second.
+    std::optional<nanoseconds> fraction() {
+        if (!sign_is('.')) return nanoseconds{0};
+        nanoseconds sum{0};
+        auto unit = nanoseconds{100'000'000};
+        std::size_t digits = 0;
+        for (; !rest_.empty() && rest_.front() >= '0' && rest_.front() <= '9'; rest_.remove_prefix(1), ++digits, unit /= 10)
+            sum += unit * (rest_.front() - '0');
+        return digits > 0 ? std::optional{sum} : std::nullopt;
+    }
+
+    // "Z", "+09:00" or nothing: what is to be taken away to get to UTC.
+    std::optional<minutes> offset() {
+        if (at_end() || sign_is('Z')) return minutes{0};
+        int const sign = rest_.front() == '-' ? -1 : 1;
+        auto const hours = part(sign < 0 ? '-' : '+', 14);
+        auto const rest = hours ? part(':', *hours == 14 ? 0 : 59) : std::nullopt;
+        if (!rest) return {};
+        return sign * minutes{*hours * 60 + *rest};
+    }
+
+    bool at_end() const { return rest_.empty(); }
+
+private:
+    std::string_view rest_;
+};
+
+Utc moment(sys_days day, nanoseconds time) {
+    year const shown{year_month_day{day}.year()};
+    if (shown < year{1678}) return Utc::min();
+    if (shown > year{2261}) return Utc::max();
+    return Utc{day} + duration_cast<Utc::duration>(time);
+}
+
+std::optional<sys_days> day_of(int year, int month, int day) {
+    year_month_day const date{std::chrono::year{year}, std::chrono::month{static_cast<unsigned>(month)},
+                              std::chrono::day{static_cast<unsigned>(day)}};
+    return date.ok() ? std::optional{sys_days{date}} : std::nullopt;
+}
+
+std::optional<Period> whole_days(year_month_day const& first, year_month_day const& next) {
+    if (!first.ok()) return {};
+    return Period{moment(sys_days{first}, nanoseconds{0}), moment(sys_days{next}, nanoseconds{0})};
+}
+
+}  // namespace
+
+std::optional<Utc> to_utc(std::string_view text) {
+    Taker taker{trimmed(text)};
+    auto const year = taker.number(4);
+    auto const month = year ? taker.part('-', 12) : std::nullopt;
+    auto const day = month ? taker.part('-', 31) : std::nullopt;
+    if (!day || !taker.sign_is('T')) return {};
+    auto const hour = taker.number(2);
+    auto const minute = hour && *hour <= 23 ? taker.part(':', 59) : std::nullopt;
+    auto const second = minute ? taker.part(':', 59) : std::nullopt;
+    auto const fraction = second ? taker.fraction() : std::nullopt;
+    auto const offset = fraction ? taker.offset() : std::nullopt;
+    auto const date = offset ? day_of(*year, *month, *day) : std::nullopt;
+    if (!date || !taker.at_end()) return {};
+    return moment(*date, hours{*hour} + minutes{*minute} + seconds{*second} + *fraction - *offset);
+}
+
+std::optional<Period> to_period(std::string_view text) {
+    if (auto const time = to_utc(text)) return Period{*time, *time};
+    Taker taker{trimmed(text)};
+    auto const number = taker.number(4);
+    if (!number) return {};
+    std::chrono::year const year{*number};
+    if (taker.at_end()) return whole_days(year / January / 1, (year + years{1}) / January / 1);
+    auto const month = taker.part('-', 12);
+    if (!month) return {};
+    auto const days = year / std::chrono::month{static_cast<unsigned>(*month)};
+    if (taker.at_end()) return whole_days(days / 1, (days + months{1}) / 1);
+    auto const day = taker.part('-', 31);
+    if (!day || !taker.at_end()) return {};
+    auto const date = day_of(*number, *month, *day);
+    if (!date) return {};
+    return whole_days(year_month_day{*date}, year_month_day{*date + std::chrono::days{1}});
+}
+
 std::string to_text(Utc time) {
-    using namespace std::chrono;
     auto const day = floor<days>(time);
     year_month_day const date{day};
     hh_mm_ss const clock{floor<milliseconds>(time - day)};

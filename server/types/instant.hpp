@@ -2,7 +2,9 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace rois {
 
@@ -21,5 +23,21 @@ struct Instant {
 
 // "2026-11-20T12:00:00.123Z" (W3C-DT, UTC, milliseconds).
 std::string to_text(Utc);
+
+// "2026-11-20T12:00:00.123Z", also with an offset ("+09:00"), or without any, which is UTC (decision 28). White space at the ends
+// is allowed; digits below a nanosecond are dropped, and years that no clock here can show (before 1678, after 2261) are taken as
+// the nearest that it can. Nothing when it is no such text.
+std::optional<Utc> to_utc(std::string_view);
+
+// The time from `begin` to `end`; a moment when they are the same.
+struct Period {
+    Utc begin;
+    Utc end;
+    bool operator==(Period const&) const = default;
+};
+
+// A moment as `to_utc` reads it; or "2026-11-20", "2026-11", "2026": the day, month or year from its first moment to that of the
+// next one, in UTC. Nothing when it is none of them.
+std::optional<Period> to_period(std::string_view);
 
 }  // namespace rois

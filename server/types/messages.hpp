@@ -25,8 +25,6 @@ struct Outcome {
     std::string reason;  // empty when OK
 };
 
-using MaybeCondition = std::optional<Condition>;
-
 // --- System interface (table 2) ---
 
 struct Connect {
@@ -55,7 +53,7 @@ struct ComponentEntry {
 };
 
 struct GetProfile {
-    MaybeCondition condition;
+    QueryExpression condition;
     struct Reply : Outcome {
         std::shared_ptr<EngineProfile const> profile;
         std::vector<ComponentEntry> components;
@@ -64,7 +62,7 @@ struct GetProfile {
 
 struct GetErrorDetail {
     ErrorId error_id;
-    MaybeCondition condition;
+    QueryExpression condition;
     struct Reply : Outcome {
         Results results;
     };
@@ -73,7 +71,7 @@ struct GetErrorDetail {
 // --- Command interface (table 3) ---
 
 struct Search {
-    MaybeCondition condition;
+    QueryExpression condition;
     struct Reply : Outcome {
         std::vector<Identifier> component_ref_list;
     };
@@ -85,7 +83,7 @@ struct Bind {
 };
 
 struct BindAny {
-    MaybeCondition condition;
+    QueryExpression condition;
     struct Reply : Outcome {
         Identifier component_ref;
     };
@@ -120,7 +118,7 @@ struct Execute {
 
 struct GetCommandResult {
     CommandId command_id;
-    MaybeCondition condition;
+    QueryExpression condition;
     struct Reply : Outcome {
         Results results;
     };
@@ -130,7 +128,7 @@ struct GetCommandResult {
 
 struct Query {
     std::string query_type;
-    MaybeCondition condition;
+    QueryExpression condition;
     struct Reply : Outcome {
         Identifier component_ref;  // who answered
         Results results;
@@ -141,7 +139,7 @@ struct Query {
 
 struct Subscribe {
     std::string event_type;
-    MaybeCondition condition;
+    QueryExpression condition;
     bool inline_results = false;
     struct Reply : Outcome {
         SubscribeId subscribe_id;
@@ -155,7 +153,7 @@ struct Unsubscribe {
 
 struct GetEventDetail {
     EventId event_id;
-    MaybeCondition condition;
+    QueryExpression condition;
     struct Reply : Outcome {
         Results results;
     };

@@ -1,6 +1,7 @@
 #include "types/texts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace rois {
@@ -13,6 +14,26 @@ constexpr char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c
 std::string_view without_plus(std::string_view text) {
     if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
     return text;
+}
+
+constexpr bool between(char32_t c, char32_t first, char32_t last) { return c >= first && c <= last; }
+
+// In these blocks capital and small letters take turns, capitals on even places or on odd ones.
+constexpr bool alternates_from_even(char32_t c) {
+    return between(c, 0x100, 0x137) || between(c, 0x14A, 0x177) || between(c, 0x460, 0x481) || between(c, 0x48A, 0x4BF) ||
+           between(c, 0x4D0, 0x52F) || between(c, 0x1E00, 0x1E95) || between(c, 0x1EA0, 0x1EFF);
+}
+constexpr bool alternates_from_odd(char32_t c) { return between(c, 0x139, 0x148) || between(c, 0x179, 0x17E); }
+
+void append(std::string& text, char32_t c) {
+    if (c < 0x80) {
+        text += static_cast<char>(c);
+        return;
+    }
+    int const more = c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
+    constexpr std::array<unsigned, 4> marks{0, 0xC0, 0xE0, 0xF0};
+    text += static_cast<char>(marks.at(static_cast<std::size_t>(more)) | c >> (6 * more));
+    for (int i = more - 1; i >= 0; --i) text += static_cast<char>(0x80U | (c >> (6 * i) & 0x3FU));
 }
 
 // The largest length at or below `longest` that does not cut a UTF-8 character.
@@ -31,6 +52,58 @@ std::string lower_case(std::string_view text) {
     std::string lowered{text};
     std::ranges::transform(lowered, lowered.begin(), lower);
     return lowered;
+}
+
+std::optional<char32_t> take_character(std::string_view& text) {
+    if (text.empty()) return {};
+    auto const byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    char32_t const first = byte(0);
+    std::size_t const length = first < 0xC0 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+    char32_t character = length == 1 ? first : first & (0x7FU >> length);
+    for (std::size_t i = 1; i < length; ++i) {
+        if (i >= text.size() || (byte(i) & 0xC0U) != 0x80U) {
+            text.remove_prefix(1);
+            return first;
+        }
+        character = character << 6U | (byte(i) & 0x3FU);
+    }
+    text.remove_prefix(length);
+    return character;
+}
+
+char32_t folded_case(char32_t c) {
+    if (between(c, 'A', 'Z')) return c + 0x20;
+    if (c < 0x80) return c;
+    if ((between(c, 0xC0, 0xDE) && c != 0xD7) || between(c, 0x391, 0x3AB) || between(c, 0x410, 0x42F) ||
+        between(c, 0xFF21, 0xFF3A))
+        return c == 0x3A2 ? c : c + 0x20;
+    if (c == 0x3C2) return 0x3C3;  // the final sigma
+    if (c == 0x386) return 0x3AC;  // Greek letters with an accent
+    if (between(c, 0x388, 0x38A)) return c + 0x25;
+    if (c == 0x38C || c == 0x38E || c == 0x38F) return c + (c == 0x38C ? 0x40 : 0x3F);
+    if (c == 0x1E9E) return 0xDF;  // the sharp s
+    if (between(c, 0x400, 0x40F)) return c + 0x50;
+    if (between(c, 0x531, 0x556)) return c + 0x30;
+    if (alternates_from_even(c) && c != 0x130 && c != 0x131) return c | 1U;
+    if (alternates_from_odd(c)) return c % 2 == 1 ? c + 1 : c;
+    return c == 0x178 ? 0xFF : c;
+}
+
+std::string folded_case(std::string_view text) {
+    std::string folded;
+    folded.reserve(text.size());
+    while (!text.empty()) {
+        auto const byte = text.front();
+        auto const before = text.size();
+        auto const character = *take_character(text);
+        bool const stray = before - text.size() == 1 && character >= 0x80;
+        if (stray) {
+            folded += byte;
+        } else {
+            append(folded, folded_case(character));
+        }
+    }
+    return folded;
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -13,6 +13,13 @@ namespace rois {
 bool equal_ignoring_case(std::string_view, std::string_view);
 std::string lower_case(std::string_view);
 
+// Takes the first character from a text in UTF-8; a byte that belongs to none is one by itself. Nothing when the text is empty.
+std::optional<char32_t> take_character(std::string_view&);
+
+// Letters without the difference of case, for texts that people write: Latin (also full-width), Greek, Cyrillic and Armenian.
+char32_t folded_case(char32_t);
+std::string folded_case(std::string_view);
+
 // Without the white space of XML at both ends.
 std::string_view trimmed(std::string_view);
 

@@ -22,7 +22,7 @@ Id<Tag> child_id(pugi::xml_node node, std::string_view name) {
 
 Identifier component_ref(pugi::xml_node node) { return decode_identifier(child(node, "component_ref")); }
 
-MaybeCondition condition(pugi::xml_node node) { return decode_condition(child(node, "condition")); }
+QueryExpression condition(pugi::xml_node node) { return decode_condition(child(node, "condition")); }
 
 Operation decode_resume(pugi::xml_node node) {
     return Resume{SessionId{attribute_text(node, "session")}, decode_unsigned(attribute(node, "last_sequence").value())};

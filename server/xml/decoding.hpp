@@ -20,7 +20,7 @@ std::optional<Request> decode(pugi::xml_node root);
 Identifier decode_identifier(pugi::xml_node);
 ParameterList decode_parameters(pugi::xml_node list);
 CommandUnitSequence decode_sequence(pugi::xml_node command_unit_sequence);
-MaybeCondition decode_condition(pugi::xml_node condition);  // a null node is no condition
+QueryExpression decode_condition(pugi::xml_node condition);  // a null node restricts nothing
 
 // "true" and "1", with white space around them.
 bool decode_boolean(std::string_view);

@@ -27,11 +27,14 @@ TEST_F(Conditions, EqualHoldsInBothOrders) {
 }
 
 TEST_F(Conditions, EqualComparesTwoReferencesOrTwoLiterals) {
-    EXPECT_THAT(found({PropertyIsEqualTo{ValueReference{"component_ref"}, ValueReference{"name"}}}),
+    auto const equal_sides = [](Expression left, Expression right) {
+        return Condition{PropertyComparison{Comparator::equal, std::move(left), std::move(right)}};
+    };
+    EXPECT_THAT(found(equal_sides({ValueReference{"component_ref"}}, {ValueReference{"name"}})),
                 ElementsAre("navigation", "speech", "sub1.speech"));
-    EXPECT_THAT(found({PropertyIsEqualTo{ValueReference{"component_ref"}, ValueReference{"engine"}}}), IsEmpty());
-    EXPECT_THAT(found({PropertyIsEqualTo{Literal{"a"}, Literal{"b"}}}), IsEmpty());
-    EXPECT_THAT(found({PropertyIsEqualTo{Literal{"a"}, Literal{" a "}}}), testing::SizeIs(3));
+    EXPECT_THAT(found(equal_sides({ValueReference{"component_ref"}}, {ValueReference{"engine"}})), IsEmpty());
+    EXPECT_THAT(found(equal_sides({Literal{"a"}}, {Literal{"b"}})), IsEmpty());
+    EXPECT_THAT(found(equal_sides({Literal{"a"}}, {Literal{" a "}})), testing::SizeIs(3));
 }
 
 TEST_F(Conditions, EqualMindsTheCaseOfValuesButNotOfReferences) {
@@ -72,8 +75,9 @@ TEST_F(Conditions, NestFreely) {
 
 TEST_F(Conditions, WithAnUnknownReferenceAreRefusedWithTheKnownOnes) {
     EXPECT_EQ(reason(equal("colour", "red")),
-              "the condition refers to 'colour', which is not known here; known are component_ref, component_type, name, "
-              "engine, status, bound");
+              "the condition refers to 'colour', which is not known here; known are component_ref, component_type, name, engine, "
+              "status, bound, location, Identifier, RobotId, Property/language, Property/routing_policy, Property/speech_text, "
+              "Property/SSML_text, Property/target_position, Property/time_limit, Property/volume");
     EXPECT_THAT(reason(equal_reversed("red", "colour")), HasSubstr("'colour'"));
     EXPECT_THAT(reason(either({equal("name", "speech"), both({equal("name", "x"), equal("colour", "red")})})),
                 HasSubstr("'colour'"));

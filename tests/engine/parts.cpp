@@ -75,6 +75,12 @@ ComponentProfile detection_profile() {
                    {event("person_detected", {parameter("timestamp", "DateTime"), parameter("number", "int")})});
 }
 
+ComponentProfile localization_profile() {
+    return profile("PersonLocalization",
+                   {event("person_localized", {parameter("timestamp", "DateTime"), parameter("person_ref", "RoISIdentifier[]"),
+                                               parameter("position_data", "string[]")})});
+}
+
 ComponentProfile lamp_profile() {
     return profile("Lamp", {},
                    {parameter("count", "int"), parameter("ratio", "urn:x-rois:def:DataType:ATR::Real"), parameter("lit", "bool"),
@@ -89,6 +95,7 @@ ComponentProfile const common = common_profile();
 Part const navigation{"navigation", navigation_profile(), OnStart::acts, {{"target_position"}}, CompletedStatus::abort, {}};
 Part const speech{"speech", speech_profile(), OnStart::acts, {{"speech_text", "SSML_text"}}, CompletedStatus::abort, {}};
 Part const detection{"detection", detection_profile(), OnStart::becomes_active, {}, CompletedStatus::abort, {}};
+Part const localization{"localization", localization_profile(), OnStart::becomes_active, {}, CompletedStatus::abort, {}};
 Part const desk_lamp{"lamp", lamp_profile(), OnStart::is_done, {}, CompletedStatus::abort, {}};
 
 Part named(std::string ref, Part part) {
@@ -131,8 +138,8 @@ void ScriptedComponent::answers(CommandHandle command, CompletedStatus status) {
     happen_([this, command, status] { port_->completed(command, status); });
 }
 
-void ScriptedComponent::fires(std::string const& event_type, ParameterList results) {
-    happen_([this, event_type, results] { port_->event(event_type, {results, {}}); });
+void ScriptedComponent::fires(std::string const& event_type, ParameterList results, std::vector<Located> located) {
+    happen_([this, event_type, results, located] { port_->event(event_type, {results, located}); });
 }
 
 void ScriptedComponent::reports(ErrorType type, std::string const& text) {
@@ -212,6 +219,11 @@ void ScriptedComponent::perform(CommandHandle command, std::string_view command_
 CompletedStatus ScriptedComponent::status_when_stopped() const {
     called("status_when_stopped");
     return part_.status_when_stopped;
+}
+
+std::optional<Located> ScriptedComponent::location() const {
+    called("location");
+    return where;
 }
 
 ParameterList ScriptedComponent::readable_parameters() const {

@@ -53,12 +53,13 @@ public:
     bool throws_no_exception = false;  // but something else
     std::vector<std::string> told;     // the calls that reached it
     ParameterList started_with;
+    std::optional<Located> where;  // nothing: nobody knows
 
     // What it says by itself; the engine has heard it when the call returns.
     void begins();
     void finishes(CompletedStatus = CompletedStatus::ok, Results = {}, Afterwards = Afterwards::idle);
     void answers(CommandHandle, CompletedStatus = CompletedStatus::ok);
-    void fires(std::string const& event_type, ParameterList results = {});
+    void fires(std::string const& event_type, ParameterList results = {}, std::vector<Located> located = {});
     void reports(ErrorType, std::string const& text);
     CommandHandle latest() const { return latest_; }  // the command that it was told last
 
@@ -74,6 +75,7 @@ public:
     void parameters_changed(ParameterList const& parameters, Instant now) override;
     void perform(CommandHandle, std::string_view command_type, ParameterList const& arguments, Instant now) override;
     CompletedStatus status_when_stopped() const override;
+    std::optional<Located> location() const override;
     ParameterList readable_parameters() const override;
     std::optional<Results> query(std::string_view query_type, Instant now) override;
 
@@ -97,6 +99,8 @@ extern Part const navigation;
 extern Part const speech;
 // Detects people, continuously; has no parameters.
 extern Part const detection;
+// Finds people, continuously; tells `person_localized` (timestamp, person_ref, position_data).
+extern Part const localization;
 // Has a parameter of each type.
 extern Part const desk_lamp;
 

@@ -32,12 +32,12 @@ std::optional<Refusal> Application::refusal_of(Operation const& operation) {
     return refusal == nullptr ? std::nullopt : std::optional{*refusal};
 }
 
-std::string Application::bind_any(MaybeCondition condition) {
+std::string Application::bind_any(QueryExpression condition) {
     auto const reply = ask(BindAny{std::move(condition)});
     return reply.return_code == ReturnCode::ok ? reply.component_ref.code : std::string{to_text(reply.return_code)};
 }
 
-std::vector<std::string> Application::search(MaybeCondition condition) {
+std::vector<std::string> Application::search(QueryExpression condition) {
     auto const reply = ask(Search{std::move(condition)});
     if (reply.return_code != ReturnCode::ok) return {std::string{to_text(reply.return_code)}};
     std::vector<std::string> refs;
@@ -49,7 +49,7 @@ SetParameter::Reply Application::set_parameter(std::string const& ref, Parameter
     return ask(SetParameter{identifier(ref), std::move(parameters)});
 }
 
-std::string Application::result_of(std::string const& command_id, MaybeCondition condition) {
+std::string Application::result_of(std::string const& command_id, QueryExpression condition) {
     auto const reply = ask(GetCommandResult{{command_id}, std::move(condition)});
     if (reply.return_code != ReturnCode::ok) return std::string{to_text(reply.return_code)};
     return in_words(reply.results.parameters);
@@ -61,19 +61,19 @@ std::string Application::status_of(std::string const& ref) {
     return reply.results.parameters.front().values.front();
 }
 
-Query::Reply Application::query(std::string const& query_type, MaybeCondition condition) {
+Query::Reply Application::query(std::string const& query_type, QueryExpression condition) {
     return ask(Query{query_type, std::move(condition)});
 }
 
-Subscribe::Reply Application::subscribe(std::string const& event_type, MaybeCondition condition, bool inline_results) {
+Subscribe::Reply Application::subscribe(std::string const& event_type, QueryExpression condition, bool inline_results) {
     return ask(Subscribe{event_type, std::move(condition), inline_results});
 }
 
-GetEventDetail::Reply Application::detail_of(EventId const& id, MaybeCondition condition) {
+GetEventDetail::Reply Application::detail_of(EventId const& id, QueryExpression condition) {
     return ask(GetEventDetail{id, std::move(condition)});
 }
 
-GetErrorDetail::Reply Application::detail_of(ErrorId const& id, MaybeCondition condition) {
+GetErrorDetail::Reply Application::detail_of(ErrorId const& id, QueryExpression condition) {
     return ask(GetErrorDetail{id, std::move(condition)});
 }
 
@@ -206,15 +206,15 @@ std::vector<std::string> ids_of(std::vector<CommandUnit> const& units) {
 }
 
 Condition equal(std::string path, std::string literal) {
-    return {PropertyIsEqualTo{ValueReference{std::move(path)}, Literal{std::move(literal)}}};
+    return {PropertyComparison{Comparator::equal, {ValueReference{std::move(path)}}, {Literal{std::move(literal)}}}};
 }
 
 Condition equal_reversed(std::string literal, std::string path) {
-    return {PropertyIsEqualTo{Literal{std::move(literal)}, ValueReference{std::move(path)}}};
+    return {PropertyComparison{Comparator::equal, {Literal{std::move(literal)}}, {ValueReference{std::move(path)}}}};
 }
 
 Condition alike(std::string path, std::string literal) {
-    return {PropertyIsEqualTo{ValueReference{std::move(path)}, Literal{std::move(literal)}, false}};
+    return {PropertyComparison{Comparator::equal, {ValueReference{std::move(path)}}, {Literal{std::move(literal)}}, false}};
 }
 
 Condition both(std::vector<Condition> operands) { return {And{std::move(operands)}}; }

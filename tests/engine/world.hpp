@@ -34,8 +34,8 @@ public:
 
     ReturnCode bind(std::string const& ref) { return ask(Bind{identifier(ref)}).return_code; }
     ReturnCode release(std::string const& ref) { return ask(Release{identifier(ref)}).return_code; }
-    std::string bind_any(MaybeCondition condition = {});  // the ref, or the return code
-    std::vector<std::string> search(MaybeCondition condition = {});
+    std::string bind_any(QueryExpression condition = {});  // the ref, or the return code
+    std::vector<std::string> search(QueryExpression condition = {});
     void leave() { ask(Disconnect{}); }
 
     SetParameter::Reply set_parameter(std::string const& ref, ParameterList parameters);
@@ -47,14 +47,14 @@ public:
     }
 
     // What get_command_result says: "RUNNING", "OK charge=80", or the return code when it says no.
-    std::string result_of(std::string const& command_id, MaybeCondition condition = {});
+    std::string result_of(std::string const& command_id, QueryExpression condition = {});
 
     std::string status_of(std::string const& ref);
-    Query::Reply query(std::string const& query_type, MaybeCondition condition = {});
-    Subscribe::Reply subscribe(std::string const& event_type, MaybeCondition condition = {}, bool inline_results = false);
+    Query::Reply query(std::string const& query_type, QueryExpression condition = {});
+    Subscribe::Reply subscribe(std::string const& event_type, QueryExpression condition = {}, bool inline_results = false);
     ReturnCode unsubscribe(SubscribeId const& id) { return ask(Unsubscribe{id}).return_code; }
-    GetEventDetail::Reply detail_of(EventId const& id, MaybeCondition condition = {});
-    GetErrorDetail::Reply detail_of(ErrorId const& id, MaybeCondition condition = {});
+    GetEventDetail::Reply detail_of(EventId const& id, QueryExpression condition = {});
+    GetErrorDetail::Reply detail_of(ErrorId const& id, QueryExpression condition = {});
 
     // What was told since it last listened, in words: "3 completed go OK", "4 reached_target navigation",
     // "5 COMPONENT_INTERNAL_ERROR speech", "9 lost 5". Heard also after the session's end.

@@ -58,7 +58,7 @@ TEST_P(Errors, HaveDetails) {
     EXPECT_EQ(detail_of(id, where(equal("component_ref", "navigation"))).values(), detail.values());
     EXPECT_THAT(detail_of(id, where(equal("component_ref", "move"))).values(), IsEmpty());
     EXPECT_THAT(detail_of(id, where(equal("colour", "red"))), IsRefused("BAD_PARAMETER", "colour"));
-    EXPECT_THAT(detail_of(id, where(like("text", "*"))), IsRefused("BAD_PARAMETER", "PropertyIsLike"));
+    EXPECT_THAT(detail_of(id, where(touching("text"))), IsRefused("BAD_PARAMETER", "Touches"));
 }
 
 TEST_P(Errors, AreHeardByThoseWhoHaveTheComponentBoundOrSubscribed) {

@@ -88,9 +88,46 @@ std::string like(std::string const& path, std::string const& pattern) {
            "</fes:PropertyIsLike>";
 }
 
-std::string where(std::string const& filter) {
-    return "<condition><fes:Filter xmlns:fes=\"http://www.opengis.net/fes/2.0\">" + filter + "</fes:Filter></condition>";
+std::string compared(std::string const& comparison, std::string const& path, std::string const& text) {
+    return element("fes:PropertyIs" + comparison, reference(path) + literal(text));
 }
+
+std::string is_null(std::string const& path) { return element("fes:PropertyIsNull", reference(path)); }
+
+std::string contrary(std::string const& filter) { return element("fes:Not", filter); }
+
+std::string related(std::string const& relation, std::string const& path, std::string const& other) {
+    return element("fes:" + relation, reference(path) + other);
+}
+
+std::string box(std::string const& lower, std::string const& upper, std::string const& frame) {
+    auto const name = frame.empty() ? "" : " srsName=\"" + frame + "\"";
+    return "<gml:Envelope xmlns:gml=\"http://www.opengis.net/gml/3.2\"" + name + ">" + element("gml:lowerCorner", lower) +
+           element("gml:upperCorner", upper) + "</gml:Envelope>";
+}
+
+std::string place(std::string const& name) { return literal(name); }
+
+std::string distance(std::string const& millimetres) { return "<fes:Distance uom=\"mm\">" + millimetres + "</fes:Distance>"; }
+
+std::string touching(std::string const& path) { return related("Touches", path, place("desk")); }
+
+std::string nearest(std::string const& name) {
+    return "<fes:SortBy><fes:SortProperty><fes:Function name=\"distance\">" + reference("location") + place(name) +
+           "</fes:Function></fes:SortProperty></fes:SortBy>";
+}
+
+std::string sorted_by(std::string const& path, std::string const& order) {
+    return "<fes:SortBy><fes:SortProperty>" + reference(path) + element("fes:SortOrder", order) +
+           "</fes:SortProperty></fes:SortBy>";
+}
+
+std::string ordered(std::string const& filter, std::string const& sort_by) {
+    auto const whole = filter.empty() ? "" : element("fes:Filter", filter);
+    return "<condition xmlns:fes=\"http://www.opengis.net/fes/2.0\">" + whole + sort_by + "</condition>";
+}
+
+std::string where(std::string const& filter) { return ordered(filter, ""); }
 
 Argument speech_text(std::string const& text) { return {"speech_text", "string", {text}}; }
 

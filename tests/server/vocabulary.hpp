@@ -41,7 +41,18 @@ std::string equal(std::string const& reference, std::string const& literal);
 std::string literal_first(std::string const& literal, std::string const& reference);
 std::string both(std::string const& one, std::string const& other);
 std::string either(std::string const& one, std::string const& other);
-std::string like(std::string const& reference, std::string const& pattern);  // nothing that a gateway understands yet
+std::string like(std::string const& reference, std::string const& pattern);  // "*" and "?"; "!" before them as they are
+std::string compared(std::string const& comparison, std::string const& reference, std::string const& literal);  // PropertyIs...
+std::string is_null(std::string const& reference);
+std::string contrary(std::string const& filter);
+std::string related(std::string const& relation, std::string const& reference, std::string const& other);  // Within, During, ...
+std::string box(std::string const& lower, std::string const& upper, std::string const& frame = "");
+std::string place(std::string const& name);
+std::string distance(std::string const& millimetres);
+std::string touching(std::string const& reference);  // nothing that a gateway understands
+std::string nearest(std::string const& place);       // `<fes:SortBy>`, by the component's distance to it
+std::string sorted_by(std::string const& reference, std::string const& order);
+std::string ordered(std::string const& filter, std::string const& sort_by);  // `<condition>`; the filter may be empty
 std::string where(std::string const& filter);                                // `<condition>`
 
 // --- Parameters and commands ---

@@ -75,6 +75,12 @@ TEST_F(Faults, AreToldOnceAndPass) {
     EXPECT_EQ(stage.outcome("speech_synthesis"), "OK");
 }
 
+TEST_F(Faults, DoNotMoveTheRobot) {
+    auto stage = unwell("navigation", Fault::Kind::failed);
+    stage.step();
+    EXPECT_EQ(stage["navigation"].component().location(), stage["move"].component().location());
+}
+
 TEST_F(Faults, ConcernNoOtherComponent) {
     auto stage = unwell("navigation", Fault::Kind::failed);
     stage.step();

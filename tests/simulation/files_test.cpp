@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "simulation/named_places.hpp"
+
 namespace rois::simulation {
 namespace {
 
@@ -53,6 +55,25 @@ TEST(FloorPlanFile, IsReadIntoMetresAndRadians) {
     EXPECT_DOUBLE_EQ(robot.max_speed, RobotPlan{}.max_speed) << "what is left out is as usual";
     EXPECT_DOUBLE_EQ(robot.sensors.faces.range, 4);
     EXPECT_NEAR(robot.sensors.faces.turned_within, from_degrees(30), 1e-12);
+}
+
+TEST(FloorPlanFile, HasAreasForConditions) {
+    FloorPlan const plan =
+        read_plan(plan_text("<place name=\"entrance\" x=\"9000\" y=\"4000\"/>\n"
+                            "<place name=\"desk\" x=\"7000\" y=\"7000\" width=\"4000\" depth=\"1000\"/>\n",
+                            robots));
+    auto const known = named_places(plan);
+    EXPECT_EQ(known.crs, plan.crs);
+    auto const area_of = [&](std::string const& name) {
+        auto const* place = known.find(name);
+        return place == nullptr ? Geometry{} : place->area;
+    };
+    EXPECT_EQ(area_of("desk"), (Geometry{.crs = plan.crs, .low = {5'000, 6'500, 0}, .high = {9'000, 7'500, 0}, .dimensions = 2}));
+    EXPECT_EQ(area_of("entrance"),
+              (Geometry{.crs = plan.crs, .low = {8'000, 3'000, 0}, .high = {10'000, 5'000, 0}, .dimensions = 2}))
+        << "2 m by 2 m when nothing is said";
+    EXPECT_EQ(area_of(plan.name).low, (std::array<double, 3>{0, 0, 0})) << "the hall is a place, too";
+    EXPECT_EQ(known.find("attic"), nullptr);
 }
 
 TEST(FloorPlanFile, SaysWhereItIsWrong) {

@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulation/component_stage.hpp"
 
@@ -94,6 +96,28 @@ TEST(Localization, HasAnIntervalAtLeast) {
     auto const events = stage["person_localization"].events("person_localized");
     ASSERT_THAT(events.size(), AllOf(Ge(4U), Le(7U)));
     for (std::size_t i = 1; i < events.size(); ++i) EXPECT_GE(events[i].at - events[i - 1].at, WorldTime{1000});
+}
+
+// The shortest time between two events of a kind about somebody who comes up and talks at length.
+WorldTime shortest_gap(std::string const& kind, std::int64_t minimum_interval) {
+    std::string words;
+    for (int i = 0; i < 20; ++i) words += "Good morning. ";
+    Stage stage{{visitor("guest", {does(Walk{at(6, 4)}), does(Face{at("robot")}), does(Say{"en", words}), does(Wait{1000})})}};
+    auto& localization = stage[kind + "_localization"];
+    localization.start({integer("minimum_interval", minimum_interval), integer("detection_threshold", 0)});
+    stage.run(20);
+    auto const events = localization.events(kind + "_localized");
+    EXPECT_GE(events.size(), 2U) << kind;
+    WorldTime shortest{60'000};
+    for (std::size_t i = 1; i < events.size(); ++i) shortest = std::min(shortest, events[i].at - events[i - 1].at);
+    return shortest;
+}
+
+TEST(Localization, OfEachKindHasAnIntervalAtLeast) {
+    for (auto const& [kind, interval] : {std::pair{"person", 1000}, {"face", 1000}, {"sound", 3000}}) {
+        EXPECT_LT(shortest_gap(kind, 0), WorldTime{interval}) << kind;
+        EXPECT_GE(shortest_gap(kind, interval), WorldTime{interval}) << kind;
+    }
 }
 
 TEST(Localization, HasAThresholdOfMovement) {

@@ -34,4 +34,34 @@ TEST(Instant, MovesBothItsReadings) {
     EXPECT_EQ(to_text(later.utc), "2026-11-20T12:00:00.250Z");
 }
 
+TEST(Instant, IsReadInUtcOrWithAnOffset) {
+    EXPECT_EQ(to_utc("2026-11-20T12:00:00.123Z"), at(2026, 11, 20, 12h + 123ms));
+    EXPECT_EQ(to_utc(" 2026-11-20T12:00:00\n"), at(2026, 11, 20, 12h)) << "without an offset it is UTC";
+    EXPECT_EQ(to_utc("2026-11-20T12:00:00+09:00"), at(2026, 11, 20, 3h));
+    EXPECT_EQ(to_utc("2026-11-20T23:30:00.5-00:45"), at(2026, 11, 21, 15min + 500ms));
+    EXPECT_EQ(to_utc("2026-11-20T12:00:00.1234567891Z"), at(2026, 11, 20, 12h + 123'456'789ns));
+}
+
+TEST(Instant, BeyondWhatAClockShowsIsTheNearest) {
+    EXPECT_EQ(to_utc("9999-12-31T23:59:59Z"), Utc::max());
+    EXPECT_EQ(to_utc("0001-01-01T00:00:00Z"), Utc::min());
+}
+
+TEST(Instant, IsNotReadFromAnythingElse) {
+    for (auto const* text :
+         {"", "now", "2026-11-20", "2026-11-20T12:00", "2026-11-20T24:00:00Z", "2026-02-30T12:00:00Z", "2026-11-20 12:00:00Z",
+          "2026-11-20T12:00:00.Z", "2026-11-20T12:00:00+15:00", "2026-11-20T12:00:00Zx", "-026-11-20T12:00:00Z",
+          "2026-11-20T12:00:00+14:01", "2026-13-20T12:00:00Z"})
+        EXPECT_EQ(to_utc(text), std::nullopt) << text;
+}
+
+TEST(Period, IsAMomentADayAMonthOrAYear) {
+    EXPECT_EQ(to_period("2026-11-20T12:00:00Z"), (Period{at(2026, 11, 20, 12h), at(2026, 11, 20, 12h)}));
+    EXPECT_EQ(to_period("2026-12-31"), (Period{at(2026, 12, 31), at(2027, 1, 1)}));
+    EXPECT_EQ(to_period("2026-12"), (Period{at(2026, 12, 1), at(2027, 1, 1)}));
+    EXPECT_EQ(to_period(" 2026 "), (Period{at(2026, 1, 1), at(2027, 1, 1)}));
+    for (auto const* text : {"", "12:00:00", "2026-00", "2026-02-29", "2026-1", "20261120"})
+        EXPECT_EQ(to_period(text), std::nullopt) << text;
+}
+
 }  // namespace rois

@@ -55,4 +55,24 @@ TEST(Texts, AreQuotedAtABearableLength) {
     EXPECT_EQ(quoted("\xE3\x81\x82", 1), "'...'");
 }
 
+TEST(Texts, FoldTheCaseOfManyScripts) {
+    EXPECT_EQ(folded_case("Hello, WORLD 42"), "hello, world 42");
+    EXPECT_EQ(folded_case("GRÜẞE ÉCOLE ŁÓDŹ Ÿ"), folded_case("grüße école łódź ÿ"));
+    EXPECT_EQ(folded_case("ΑΘΉΝΑΣ ΈΊΌΎΏ"), folded_case("αθήνας έίόύώ"));
+    EXPECT_EQ(folded_case("МОСКВА Ёлка"), "москва ёлка");
+    EXPECT_EQ(folded_case("ＲｏＩＳ"), "ｒｏｉｓ") << "full-width, as Japanese texts have it";
+    EXPECT_EQ(folded_case("受付はこちらです ×÷"), "受付はこちらです ×÷") << "what has no case stays";
+    EXPECT_EQ(folded_case("a\xFFZ\xC3"), "a\xFFz\xC3") << "and so do bytes that are no text";
+}
+
+TEST(Texts, AreTakenApartIntoCharacters) {
+    std::string_view text = "a\u00E9\u3042\U0001F600\xFF";
+    EXPECT_EQ(take_character(text), U'a');
+    EXPECT_EQ(take_character(text), U'\u00E9');
+    EXPECT_EQ(take_character(text), U'\u3042');
+    EXPECT_EQ(take_character(text), U'\U0001F600');
+    EXPECT_EQ(take_character(text), char32_t{0xFF}) << "a stray byte";
+    EXPECT_EQ(take_character(text), std::nullopt);
+}
+
 }  // namespace rois

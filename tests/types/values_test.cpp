@@ -67,8 +67,8 @@ TEST(Codes, HaveTheTextsOfTheSpecification) {
 }
 
 TEST(Conditions, AreEqualWhenTheirPartsAre) {
-    Condition const a{PropertyIsEqualTo{ValueReference{"name"}, Literal{"x"}}};
-    Condition const b{PropertyIsEqualTo{Literal{"x"}, ValueReference{"name"}}};
+    Condition const a{PropertyComparison{Comparator::equal, {ValueReference{"name"}}, {Literal{"x"}}}};
+    Condition const b{PropertyComparison{Comparator::equal, {Literal{"x"}}, {ValueReference{"name"}}}};
     EXPECT_EQ(a, a);
     EXPECT_NE(a, b);
     EXPECT_EQ((Condition{And{{a, b}}}), (Condition{And{{a, b}}}));

@@ -1,4 +1,4 @@
-// Conditions: what is understood, and what is given back as not understood.
+// Conditions: every operator, geometry and time as it is written, and what is given back as not understood.
 #include <gmock/gmock.h>
 
 #include "speaking.hpp"
@@ -6,72 +6,273 @@
 namespace rois::xml {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
 
-constexpr std::string_view is_ready =
-    "<fes:PropertyIsEqualTo><fes:ValueReference> "
-    "status\n</fes:ValueReference><fes:Literal>READY</fes:Literal></fes:PropertyIsEqualTo>";
-constexpr std::string_view is_one =
-    "<fes:PropertyIsEqualTo matchCase='false'><fes:Literal> 1 "
-    "</fes:Literal><fes:ValueReference>Property/x</fes:ValueReference></fes:PropertyIsEqualTo>";
+std::string const status = "<fes:ValueReference> status\n</fes:ValueReference>";
+std::string const ready = "<fes:Literal>READY</fes:Literal>";
+std::string const is_ready = "<fes:PropertyIsEqualTo>" + status + ready + "</fes:PropertyIsEqualTo>";
+std::string const where = "<fes:ValueReference>location</fes:ValueReference>";
+std::string const box =
+    "<gml:Envelope srsName='hall'><gml:lowerCorner>0 -1</gml:lowerCorner><gml:upperCorner>5e3 "
+    "8000.5</gml:upperCorner></gml:Envelope>";
+std::string const spot = "<gml:Point><gml:pos>1 2 3</gml:pos></gml:Point>";
+std::string const noon = "<gml:TimeInstant><gml:timePosition>2026-11-20T12:00:00Z</gml:timePosition></gml:TimeInstant>";
 
-PropertyIsEqualTo const ready{ValueReference{"status"}, Literal{"READY"}, true};
-PropertyIsEqualTo const one{Literal{" 1 "}, ValueReference{"Property/x"}, false};
-
-MaybeCondition condition(std::string_view inside) {
-    return operation<Search>(document("search", "<condition>" + std::string{inside} + "</condition>")).condition;
+QueryExpression query(std::string const& inside) {
+    return operation<Search>(document("search", "<condition>" + inside + "</condition>")).condition;
 }
 
-MaybeCondition filter(std::string_view predicate) { return condition("<fes:Filter>" + std::string{predicate} + "</fes:Filter>"); }
+std::optional<Condition> condition(std::string const& inside) { return query(inside).filter; }
 
-std::string not_understood(MaybeCondition const& given) {
-    auto const* told = given ? std::get_if<NotUnderstood>(&given->predicate) : nullptr;
-    return told == nullptr ? "" : told->reason;
+Condition filter(std::string const& predicate) { return condition("<fes:Filter>" + predicate + "</fes:Filter>").value(); }
+
+template <class Kind>
+Kind the(Condition const& given) {
+    return std::get<Kind>(given.predicate);
 }
 
-TEST(Condition, Equality) {
-    EXPECT_EQ(filter(is_ready), Condition{ready});
-    EXPECT_EQ(filter(is_one), Condition{one});
-    EXPECT_EQ(filter("<fes:PropertyIsEqualTo matchAction='Any' "
-                     "matchCase='1'><fes:ValueReference>status</fes:ValueReference><fes:Literal>READY</fes:Literal></"
-                     "fes:PropertyIsEqualTo>"),
-              Condition{ready});
+Expression reference(std::string path) { return {ValueReference{std::move(path)}}; }
+Expression literal(std::string text) { return {Literal{std::move(text)}}; }
+
+Condition equal(std::string path, std::string text) {
+    return {PropertyComparison{Comparator::equal, reference(std::move(path)), literal(std::move(text))}};
 }
 
-TEST(Condition, AndWithOr) {
-    auto const both = std::string{is_ready} + std::string{is_one};
-    EXPECT_EQ(filter("<fes:And>" + both + "</fes:And>"), (Condition{And{{Condition{ready}, Condition{one}}}}));
-    EXPECT_EQ(filter("<fes:Or>" + both + "<fes:And>" + both + "</fes:And></fes:Or>"),
-              (Condition{Or{{Condition{ready}, Condition{one}, Condition{And{{Condition{ready}, Condition{one}}}}}}}));
+Geometry const the_box{.crs = "hall", .low = {0, -1, 0}, .high = {5000, 8000.5, 0}, .dimensions = 2};
+Geometry const the_spot{.crs = "", .low = {1, 2, 3}, .high = {1, 2, 3}, .dimensions = 3};
+Utc const twelve = *to_utc("2026-11-20T12:00:00Z");
+
+std::string reason_in(Expression const& expression) { return std::get<NotUnderstood>(expression.value).reason; }
+std::string reason_in(Condition const& given) { return the<NotUnderstood>(given).reason; }
+
+// What an operand of a spatial operator is read as.
+Expression geometry(std::string const& gml) {
+    return the<SpatialComparison>(filter("<fes:Within>" + where + gml + "</fes:Within>")).operands.at(1);
 }
 
-TEST(Condition, AnEmptySearchConditionIsNone) {
+Expression time(std::string const& gml) {
+    return the<TemporalComparison>(filter("<fes:During>" + where + gml + "</fes:During>")).operands.at(1);
+}
+
+TEST(Condition, ComparesInSixWays) {
+    auto const read = [](std::string const& name) {
+        return the<PropertyComparison>(filter("<fes:" + name + ">" + status + ready + "</fes:" + name + ">")).comparator;
+    };
+    EXPECT_EQ(read("PropertyIsEqualTo"), Comparator::equal);
+    EXPECT_EQ(read("PropertyIsNotEqualTo"), Comparator::not_equal);
+    EXPECT_EQ(read("PropertyIsLessThan"), Comparator::less);
+    EXPECT_EQ(read("PropertyIsGreaterThan"), Comparator::greater);
+    EXPECT_EQ(read("PropertyIsLessThanOrEqualTo"), Comparator::less_or_equal);
+    EXPECT_EQ(read("PropertyIsGreaterThanOrEqualTo"), Comparator::greater_or_equal);
+}
+
+TEST(Condition, KeepsTheOrderOfSidesAndTheTextOfLiterals) {
+    EXPECT_EQ(filter(is_ready), equal("status", "READY"));
+    EXPECT_EQ(filter("<fes:PropertyIsLessThan><fes:Literal> 1 </fes:Literal>" + status + "</fes:PropertyIsLessThan>"),
+              (Condition{PropertyComparison{Comparator::less, literal(" 1 "), reference("status")}}));
+}
+
+TEST(Condition, SaysHowCaseAndSeveralValuesCount) {
+    auto const read = [](std::string const& attributes) {
+        return the<PropertyComparison>(
+            filter("<fes:PropertyIsEqualTo " + attributes + ">" + status + ready + "</fes:PropertyIsEqualTo>"));
+    };
+    EXPECT_TRUE(read("").match_case);
+    EXPECT_TRUE(read("matchCase='1'").match_case);
+    EXPECT_FALSE(read("matchCase=' false'").match_case);
+    EXPECT_EQ(read("").match_action, MatchAction::any);
+    EXPECT_EQ(read("matchAction='Any'").match_action, MatchAction::any);
+    EXPECT_EQ(read("matchAction='All'").match_action, MatchAction::all);
+    EXPECT_EQ(read("matchAction='One'").match_action, MatchAction::one);
+}
+
+TEST(Condition, HasThePatternsCharacters) {
+    auto const like =
+        the<PropertyIsLike>(filter("<fes:PropertyIsLike wildCard='*' singleChar='?' escapeChar='\\' matchCase='false'>" + status +
+                                   "<fes:Literal>R*</fes:Literal></fes:PropertyIsLike>"));
+    EXPECT_EQ(like, (PropertyIsLike{reference("status"), literal("R*"), "*", "?", "\\", false}));
+}
+
+TEST(Condition, AsksForWhatIsNotThere) {
+    EXPECT_EQ(filter("<fes:PropertyIsNull>" + status + "</fes:PropertyIsNull>"), Condition{PropertyIsNull{reference("status")}});
+    EXPECT_EQ(filter("<fes:PropertyIsNil nilReason='missing'>" + status + "</fes:PropertyIsNil>"),
+              (Condition{PropertyIsNil{reference("status"), "missing"}}));
+}
+
+TEST(Condition, HasBoundaries) {
+    EXPECT_EQ(filter("<fes:PropertyIsBetween>" + status +
+                     "<fes:LowerBoundary><fes:Literal>1</fes:Literal></fes:LowerBoundary>"
+                     "<fes:UpperBoundary><fes:Literal>2</fes:Literal></fes:UpperBoundary></fes:PropertyIsBetween>"),
+              (Condition{PropertyIsBetween{reference("status"), literal("1"), literal("2")}}));
+}
+
+TEST(Condition, NestsAndOrNot) {
+    auto const ready_now = equal("status", "READY");
+    EXPECT_EQ(filter("<fes:And>" + is_ready + is_ready + "</fes:And>"), (Condition{And{{ready_now, ready_now}}}));
+    EXPECT_EQ(filter("<fes:Or>" + is_ready + "<fes:Not>" + is_ready + "</fes:Not></fes:Or>"),
+              (Condition{Or{{ready_now, Condition{Not{{ready_now}}}}}}));
+}
+
+TEST(Condition, NamesResources) {
+    EXPECT_EQ(filter("<fes:ResourceId rid='a'/>"), Condition{ResourceId{"a"}});
+    EXPECT_EQ(filter("<fes:ResourceId rid='a'/><fes:ResourceId rid='b'/>"),
+              (Condition{Or{{Condition{ResourceId{"a"}}, Condition{ResourceId{"b"}}}}}));
+    for (auto const* version : {"version='LAST'", "previousRid='b'", "startDate='2026-11-20T12:00:00Z'"})
+        EXPECT_THAT(reason_in(filter("<fes:ResourceId rid='a' " + std::string{version} + "/>")),
+                    HasSubstr(std::string{version}.substr(0, std::string{version}.find('='))));
+}
+
+TEST(Condition, RelatesPlaces) {
+    auto const read = [](std::string const& name) {
+        return the<SpatialComparison>(filter("<fes:" + name + ">" + where + box + "</fes:" + name + ">"));
+    };
+    EXPECT_EQ(read("Within").relation, SpatialRelation::within);
+    EXPECT_EQ(read("Intersects").relation, SpatialRelation::intersects);
+    EXPECT_EQ(read("BBOX").relation, SpatialRelation::intersects);
+    EXPECT_EQ(read("Disjoint").relation, SpatialRelation::disjoint);
+    EXPECT_THAT(read("Within").operands, ElementsAre(reference("location"), Expression{the_box}));
+    EXPECT_THAT(the<SpatialComparison>(filter("<fes:BBOX>" + box + "</fes:BBOX>")).operands, ElementsAre(Expression{the_box}));
+}
+
+TEST(Condition, RelatesDistances) {
+    auto const read = [](std::string const& name) {
+        return the<DistanceComparison>(
+            filter("<fes:" + name + ">" + where + spot + "<fes:Distance uom='m'>1.5</fes:Distance></fes:" + name + ">"));
+    };
+    EXPECT_EQ(read("DWithin"), (DistanceComparison{DistanceRelation::d_within, {reference("location"), {the_spot}}, 1.5, "m"}));
+    EXPECT_EQ(read("Beyond").relation, DistanceRelation::beyond);
+}
+
+TEST(Condition, ReadsBoxesAndPoints) {
+    EXPECT_EQ(geometry(box), Expression{the_box});
+    EXPECT_EQ(geometry(spot), Expression{the_spot});
+    EXPECT_EQ(geometry("<fes:Literal>" + spot + "</fes:Literal>"), Expression{the_spot});
+    EXPECT_EQ(geometry("<gml:Envelope srsName='hall'><gml:pos>5000 -1</gml:pos><gml:pos>0 8000.5</gml:pos></gml:Envelope>"),
+              Expression{the_box})
+        << "any two opposite corners";
+    EXPECT_EQ(geometry("<gml:Envelope><gml:lowerCorner srsName='hall' srsDimension='2' uomLabels='mm mm' axisLabels='x y'>0 -1"
+                       "</gml:lowerCorner><gml:upperCorner>5000 8000.5</gml:upperCorner></gml:Envelope>"),
+              Expression{the_box});
+    EXPECT_EQ(geometry("<fes:Literal>desk</fes:Literal>"), literal("desk"));
+}
+
+TEST(Condition, NamesTheGeometriesThatItDoesNotRead) {
+    EXPECT_THAT(reason_in(geometry("<gml:LineString><gml:posList>0 0 1 1</gml:posList></gml:LineString>")),
+                HasSubstr("'LineString'"));
+    EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos>1</gml:pos></gml:Point>")), HasSubstr("neither two nor three"));
+    EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos>1 2 3 4</gml:pos></gml:Point>")), HasSubstr("neither two nor three"));
+    EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos>1 NaN</gml:pos></gml:Point>")), HasSubstr("'NaN'"));
+    EXPECT_THAT(reason_in(geometry("<gml:Point uomLabels='m m'><gml:pos>1 2</gml:pos></gml:Point>")), HasSubstr("uomLabels"));
+    EXPECT_THAT(reason_in(geometry("<gml:Point axisLabels='y x'><gml:pos>1 2</gml:pos></gml:Point>")), HasSubstr("axisLabels"));
+    EXPECT_THAT(reason_in(geometry("<gml:Envelope><gml:pos>1 2</gml:pos><gml:pos>1 2 3</gml:pos></gml:Envelope>")),
+                HasSubstr("neither two nor three"));
+    EXPECT_THAT(
+        reason_in(geometry("<gml:Envelope><gml:pos srsName='a'>1 2</gml:pos><gml:pos srsName='b'>1 2</gml:pos></gml:Envelope>")),
+        HasSubstr("two frames"));
+}
+
+TEST(Condition, RelatesTimes) {
+    auto const read = [](std::string const& name) {
+        return the<TemporalComparison>(filter("<fes:" + name + ">" + where + noon + "</fes:" + name + ">"));
+    };
+    EXPECT_EQ(read("After"), (TemporalComparison{TemporalRelation::after, {reference("location"), {Period{twelve, twelve}}}}));
+    EXPECT_EQ(read("Before").relation, TemporalRelation::before);
+    EXPECT_EQ(read("During").relation, TemporalRelation::during);
+    EXPECT_EQ(read("TEquals").relation, TemporalRelation::t_equals);
+}
+
+TEST(Condition, ReadsMomentsAndPeriods) {
+    Expression const morning{Period{*to_utc("2026-11-20T00:00:00Z"), twelve}};
+    EXPECT_EQ(time("<gml:TimePeriod><gml:beginPosition>2026-11-20T09:00:00+09:00</gml:beginPosition>"
+                   "<gml:endPosition>2026-11-20T12:00:00</gml:endPosition></gml:TimePeriod>"),
+              morning);
+    EXPECT_EQ(time("<gml:TimePeriod><gml:begin><gml:TimeInstant><gml:timePosition>2026-11-20</gml:timePosition></gml:TimeInstant>"
+                   "</gml:begin><gml:end>" +
+                   noon + "</gml:end></gml:TimePeriod>"),
+              morning);
+    EXPECT_EQ(time("<gml:TimeInstant><gml:timePosition>2026-11</gml:timePosition></gml:TimeInstant>"),
+              (Expression{Period{*to_utc("2026-11-01T00:00:00Z"), *to_utc("2026-12-01T00:00:00Z")}}));
+    EXPECT_THAT(reason_in(time("<gml:TimeInstant><gml:timePosition indeterminatePosition='now'/></gml:TimeInstant>")),
+                HasSubstr("'indeterminatePosition'"));
+    EXPECT_THAT(reason_in(time("<gml:TimeInstant><gml:timePosition>12:00:00</gml:timePosition></gml:TimeInstant>")),
+                HasSubstr("'12:00:00'"));
+    EXPECT_THAT(
+        reason_in(time("<gml:TimePeriod><gml:beginPosition>2026</gml:beginPosition><gml:endPosition>2025</gml:endPosition>"
+                       "</gml:TimePeriod>")),
+        HasSubstr("before it begins"));
+}
+
+TEST(Condition, ReadsFunctions) {
+    auto const compared =
+        the<PropertyComparison>(filter("<fes:PropertyIsLessThan><fes:Function name='distance'>" + where + "<fes:Literal>" + spot +
+                                       "</fes:Literal></fes:Function>" + ready + "</fes:PropertyIsLessThan>"));
+    EXPECT_EQ(compared.left, (Expression{Function{"distance", {reference("location"), {the_spot}}}}));
+}
+
+TEST(Condition, NamesOperatorsThatItDoesNotKnow) {
+    EXPECT_THAT(reason_in(filter("<fes:Touches>" + where + box + "</fes:Touches>")), HasSubstr("'Touches'"));
+    EXPECT_THAT(reason_in(filter("<fes:AnyInteracts>" + where + noon + "</fes:AnyInteracts>")), HasSubstr("'AnyInteracts'"));
+    EXPECT_THAT(reason_in(filter("<fes:Function name='is_free'/>")), HasSubstr("'Function'"));
+}
+
+TEST(SortBy, FollowsAFilterOrStandsAlone) {
+    std::string const sort_by =
+        "<fes:SortBy><fes:SortProperty><fes:ValueReference>name</fes:ValueReference><fes:SortOrder>DESC</fes:SortOrder></"
+        "fes:SortProperty>"
+        "<fes:SortProperty><fes:Function name='distance'>" +
+        where +
+        "<fes:Literal>desk</fes:Literal></fes:Function></fes:SortProperty>"
+        "</fes:SortBy>";
+    auto const alone = query(sort_by);
+    EXPECT_FALSE(alone.filter);
+    EXPECT_THAT(alone.sort_by, ElementsAre(SortProperty{reference("name"), SortOrder::descending},
+                                           SortProperty{{Function{"distance", {reference("location"), literal("desk")}}}}));
+    auto const both = query("<fes:Filter>" + is_ready + "</fes:Filter>" + sort_by);
+    EXPECT_EQ(both.filter, equal("status", "READY"));
+    EXPECT_EQ(both.sort_by, alone.sort_by);
+    EXPECT_THAT(query("<unr:SearchCondition/>" + sort_by).sort_by, SizeIs(2));
+}
+
+TEST(SearchCondition, WithoutConditionsRestrictsNothing) {
     EXPECT_FALSE(condition("<unr:SearchCondition/>"));
     EXPECT_FALSE(condition("<unr:SearchCondition><!-- nothing --></unr:SearchCondition>"));
     EXPECT_FALSE(condition("<unr:SearchCondition>\n</unr:SearchCondition>"));
 }
 
-TEST(Condition, WhatIsNotUnderstoodIsNamed) {
-    auto const two = "<fes:ValueReference>a</fes:ValueReference><fes:Literal>b</fes:Literal>";
-    EXPECT_THAT(not_understood(filter(std::string{"<fes:PropertyIsLessThan>"} + two + "</fes:PropertyIsLessThan>")),
-                HasSubstr("'PropertyIsLessThan'"));
-    EXPECT_THAT(not_understood(filter("<fes:Not>" + std::string{is_ready} + "</fes:Not>")), HasSubstr("'Not'"));
-    EXPECT_THAT(not_understood(filter("<fes:ResourceId rid='a'/>")), HasSubstr("'ResourceId'"));
-    EXPECT_THAT(not_understood(filter(
-                    "<fes:PropertyIsEqualTo><fes:Function name='f'/><fes:Literal>b</fes:Literal></fes:PropertyIsEqualTo>")),
-                HasSubstr("'Function'"));
-    EXPECT_THAT(
-        not_understood(filter("<fes:PropertyIsEqualTo matchAction='All'>" + std::string{two} + "</fes:PropertyIsEqualTo>")),
-        HasSubstr("'matchAction'"));
-    EXPECT_THAT(not_understood(condition("<unr:SearchCondition><unr:ComponentCondition type='t'/></unr:SearchCondition>")),
-                HasSubstr("'SearchCondition'"));
+TEST(SearchCondition, OfAComponentIsItsTypeItsModeAndItsFilter) {
+    auto const component = [](std::string const& attributes, std::string const& inside) {
+        return condition("<unr:SearchCondition><unr:ComponentCondition " + attributes + ">" + inside +
+                         "</unr:ComponentCondition></unr:SearchCondition>");
+    };
+    auto const any_of = [](std::vector<Condition> all) { return Condition{Or{{Condition{And{std::move(all)}}}}}; };
+    auto const type = equal("component_type", "urn:x-rois:def:component:OMG::Move");
+    EXPECT_EQ(component("id='a' type='urn:x-rois:def:component:OMG::Move'", ""), any_of({type}));
+    EXPECT_EQ(component("type='unr:x-rois:def:component:OMG::Move'", ""), any_of({type})) << "as the published example spells it";
+    EXPECT_EQ(component("mode='exclusive'", ""), any_of({Condition{Not{{equal("status", "BUSY")}}}}));
+    EXPECT_EQ(component("mode='shared'", ""), any_of({}));
+    for (auto const& written :
+         {is_ready, "<fes:Filter>" + is_ready + "</fes:Filter>", "<fes:filter>" + is_ready + "</fes:filter>"})
+        EXPECT_EQ(component("", written), any_of({equal("status", "READY")}));
+    EXPECT_EQ(component("", "<fes:filter/>"), any_of({}));
+    EXPECT_THAT(reason_in(the<Or>(*component("mode='quiet'", "")).operands.front()), HasSubstr("the mode quiet"));
 }
 
-TEST(Condition, WhatIsNotUnderstoodInsideMakesTheWholeSo) {
-    EXPECT_THAT(not_understood(filter(
-                    "<fes:And>" + std::string{is_ready} + "<fes:Or>" + std::string{is_ready} +
-                    "<fes:PropertyIsNull><fes:ValueReference>a</fes:ValueReference></fes:PropertyIsNull></fes:Or></fes:And>")),
-                HasSubstr("'PropertyIsNull'"));
+TEST(SearchCondition, OfAGroupHasTypesAliasesAFilterAndMembers) {
+    auto const read = [](std::string const& inside) {
+        return the<Or>(*condition("<unr:SearchCondition>" + inside + "</unr:SearchCondition>")).operands.front();
+    };
+    auto const group =
+        the<ComponentGroup>(read("<unr:ComponentGroupCondition types=' Robot  unr:a:Move' aliases='a b'>" + is_ready +
+                                 "<unr:ComponentCondition/><unr:ComponentCondition type='t'/></unr:ComponentGroupCondition>"));
+    EXPECT_THAT(group.types, ElementsAre("Robot", "urn:a:Move"));
+    EXPECT_THAT(group.aliases, ElementsAre("a", "b"));
+    EXPECT_THAT(group.filter, ElementsAre(equal("status", "READY")));
+    EXPECT_THAT(group.members, ElementsAre(Condition{And{}}, Condition{And{{equal("component_type", "t")}}}));
+    EXPECT_THAT(the<ComponentGroup>(read("<unr:ComponentGroupCondition/>")).members, IsEmpty());
+    EXPECT_THAT(reason_in(read("<unr:ComponentGroupCondition types='a' aliases='b c'/>")), HasSubstr("aliases"));
 }
 
 }  // namespace

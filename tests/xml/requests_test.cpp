@@ -17,9 +17,9 @@ Identifier const navigation{"navigation", "OMG", "cb", "1"};
 TEST(Request, EveryOperationIsRead) {
     operation<Connect>(document("connect"));
     operation<Disconnect>(document("disconnect"));
-    EXPECT_FALSE(operation<GetProfile>(document("get_profile")).condition);
-    EXPECT_FALSE(operation<Search>(document("search")).condition);
-    EXPECT_FALSE(operation<BindAny>(document("bind_any")).condition);
+    EXPECT_FALSE(operation<GetProfile>(document("get_profile")).condition.filter);
+    EXPECT_FALSE(operation<Search>(document("search")).condition.filter);
+    EXPECT_FALSE(operation<BindAny>(document("bind_any")).condition.filter);
     EXPECT_EQ(operation<GetErrorDetail>(document("get_error_detail", "<error_id>e1</error_id>")).error_id, ErrorId{"e1"});
     EXPECT_EQ(operation<Bind>(document("bind", reference)).component_ref, navigation);
     EXPECT_EQ(operation<Release>(document("release", reference)).component_ref, navigation);

@@ -23,6 +23,7 @@ namespace rois::xml {
 inline constexpr std::string_view prefixes =
     R"( xmlns="urn:x-rois:psm:xml:message:1" xmlns:rois="http://www.omg.org/spec/RoIS/20240801")"
     R"( xmlns:fes="http://www.opengis.net/fes/2.0" xmlns:unr="http://www.irc.atr.jp/std/unr/0.1")"
+    R"( xmlns:gml="http://www.opengis.net/gml/3.2")"
     R"( xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance")";
 
 // `<bind ...>` with all the prefixes that requests need, around what is inside.

@@ -1,0 +1,12 @@
+// The floor plan as conditions speak of it.
+#pragma once
+
+#include "engine/places.hpp"
+#include "simulation/floor_plan.hpp"
+
+namespace rois::simulation {
+
+// The hall under its own name, and its places, in the hall's frame.
+Places named_places(FloorPlan const&);
+
+}  // namespace rois::simulation

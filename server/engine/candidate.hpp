@@ -1,0 +1,117 @@
+// What a condition is held against: a component, an event of one, or the results of something.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/places.hpp"
+#include "engine/vocabulary.hpp"
+#include "types/values.hpp"
+
+namespace rois {
+
+class RegisteredComponent;
+class Registry;
+struct Session;
+
+// How far something is from fulfilling a condition. `maybe`: what it depends on is not known yet or may change.
+enum class Match : std::uint8_t { no, maybe, yes };
+
+using Texts = std::vector<std::string>;
+using Positions = std::vector<Geometry>;
+
+class Candidate {
+public:
+    virtual ~Candidate() = default;
+
+    // The values that a reference stands for, none when it has no value here; nothing while that is open.
+    virtual std::optional<Texts> texts(Reference const&) const = 0;
+    virtual std::optional<Positions> positions(Reference const&) const = 0;
+
+    // Whether it has such a property at all, be it without a value.
+    virtual bool has(Reference const&) const = 0;
+
+    // What ResourceId names; empty for what has no name.
+    virtual std::string_view rid() const = 0;
+
+    // All components of its robot (its engine); none for what belongs to none.
+    virtual std::vector<Candidate const*> robot() const = 0;
+
+    // Where it is kept what a condition on a group makes of this one's robot, for as long as the robots are looked at; null for
+    // what belongs to none.
+    virtual std::optional<Match>* verdict(void const* group) const = 0;
+};
+
+class ComponentCandidate;
+
+// How all components look to one asker at one moment (`present`), or whatever becomes of their status, binding, place and parameters
+// (`ever`). Lives no longer than the engine's one step.
+class Perspective {
+public:
+    enum class Of : std::uint8_t { present, ever };
+
+    Perspective(Registry const&, Places const&, Session const* asker, Of);
+    ~Perspective();
+    Perspective(Perspective const&) = delete;
+    Perspective& operator=(Perspective const&) = delete;
+
+    Candidate const& candidate(RegisteredComponent const&);
+
+    Places const& places() const { return places_; }
+    Session const* asker() const { return asker_; }
+    Of of() const { return of_; }
+
+private:
+    friend class ComponentCandidate;
+    std::vector<Candidate const*> const& robot(std::string_view engine);
+
+    Registry const& registry_;
+    Places const& places_;
+    Session const* asker_;
+    Of of_;
+    std::map<RegisteredComponent const*, std::unique_ptr<ComponentCandidate>> components_;
+    std::map<std::string, std::vector<Candidate const*>, std::less<>> robots_;
+    std::map<std::pair<void const*, std::string>, std::optional<Match>> verdicts_;  // of groups on robots
+};
+
+// A component together with the results of an event of it. What it refers to lives longer.
+class EventCandidate final : public Candidate {
+public:
+    EventCandidate(Candidate const& component, Results const& results) : component_{component}, results_{results} {}
+
+    std::optional<Texts> texts(Reference const&) const override;
+    std::optional<Positions> positions(Reference const&) const override;
+    bool has(Reference const&) const override;
+    std::string_view rid() const override { return component_.rid(); }
+    std::vector<Candidate const*> robot() const override { return component_.robot(); }
+    std::optional<Match>* verdict(void const* group) const override { return component_.verdict(group); }
+
+private:
+    Candidate const& component_;
+    Results const& results_;
+};
+
+// Results alone, with the id that they were asked by.
+class ResultsCandidate final : public Candidate {
+public:
+    ResultsCandidate(Results const& results, std::string_view id) : results_{results}, id_{id} {}
+
+    std::optional<Texts> texts(Reference const&) const override;
+    std::optional<Positions> positions(Reference const&) const override;
+    bool has(Reference const&) const override;
+    std::string_view rid() const override { return id_; }
+    std::vector<Candidate const*> robot() const override { return {}; }
+    std::optional<Match>* verdict(void const*) const override { return nullptr; }
+
+private:
+    Results const& results_;
+    std::string_view id_;
+};
+
+}  // namespace rois

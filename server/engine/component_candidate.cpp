@@ -1,0 +1,126 @@
+#include "engine/component_candidate.hpp"
+
+#include <utility>
+
+#include "engine/referred.hpp"
+#include "engine/registry.hpp"
+#include "engine/space.hpp"
+
+namespace rois {
+
+using To = Reference::To;
+using Part = Reference::Part;
+
+// Whatever becomes of the component: an event's results come one day, its status, binding, place and parameters may change; but a
+// parameter that it does not have stays away, and so does a result that none of its events has.
+bool ComponentCandidate::is_open(Reference const& reference) const {
+    if (perspective_.of() == Perspective::Of::present) return false;
+    switch (reference.to) {
+        case To::status:
+        case To::bound:
+        case To::location:
+        case To::located:
+            return true;
+        case To::parameter:
+        case To::result:
+            return has(reference);
+        default:
+            return false;
+    }
+}
+
+std::optional<Texts> ComponentCandidate::texts(Reference const& reference) const {
+    if (is_open(reference)) return {};
+    switch (reference.to) {
+        case To::component_ref:
+            return identifier_texts(reference.part);
+        case To::component_type:
+            return Texts{component_.entry().type};
+        case To::engine:
+            return Texts{component_.entry().engine};
+        case To::robot_id:
+            return Texts{location() ? location()->ref : component_.entry().engine};
+        case To::status:
+            return Texts{std::string{to_text(component_.status_for(perspective_.asker()))}};
+        case To::bound:
+            return Texts{component_.bound_to != nullptr ? "true" : "false"};
+        case To::location:
+            return at_its_place(location_texts(reference.part), reference);
+        case To::parameter:
+            return texts_in(parameter(reference.name), reference);
+        case To::result:
+        case To::located:
+            break;
+    }
+    return Texts{};
+}
+
+std::optional<Positions> ComponentCandidate::positions(Reference const& reference) const {
+    if (is_open(reference)) return {};
+    if (reference.to == To::parameter) return positions_in(parameter(reference.name), reference);
+    if (reference.to != To::location || !location()) return Positions{};
+    return at_its_place(Positions{point(*location())}, reference);
+}
+
+bool ComponentCandidate::has(Reference const& reference) const {
+    switch (reference.to) {
+        case To::parameter:
+            return component_.has_parameter(reference.name);
+        case To::result:
+            return component_.has_event_result(reference.name);
+        case To::located:
+            return false;
+        case To::location:
+            return perspective_.of() == Perspective::Of::ever || location().has_value();
+        default:
+            return true;
+    }
+}
+
+std::string_view ComponentCandidate::rid() const { return component_.entry().ref; }
+
+std::vector<Candidate const*> ComponentCandidate::robot() const { return perspective_.robot(component_.entry().engine); }
+
+std::optional<Match>* ComponentCandidate::verdict(void const* group) const {
+    return &perspective_.verdicts_[{group, component_.entry().engine}];
+}
+
+Texts ComponentCandidate::identifier_texts(Part part) const {
+    auto const& ref = component_.ref();
+    switch (part) {
+        case Part::authority:
+            return {ref.authority};
+        case Part::codebook_ref:
+            return {ref.codebook_ref};
+        case Part::version:
+            return {ref.version};
+        default:
+            return {ref.code};
+    }
+}
+
+// As a text, a place is the names of those that it lies in.
+Texts ComponentCandidate::location_texts(Part part) const {
+    if (!location()) return {};
+    if (part == Part::ref) return {location()->ref};
+    if (part == Part::crs) return {location()->crs};
+    Texts names;
+    auto const here = point(*location());
+    for (auto const& place : perspective_.places().all)
+        if (share_a_frame(here, place.area) && is_within(here, place.area)) names.push_back(place.name);
+    return names;
+}
+
+Parameter const* ComponentCandidate::parameter(std::string_view name) const {
+    if (auto const* stored = find(component_.parameters, name)) return stored;
+    if (!component_.has_parameter(name)) return nullptr;
+    if (!all_parameters_) all_parameters_ = component_.all_parameters().value_or(ParameterList{});
+    return find(*all_parameters_, name);
+}
+
+std::optional<Located> const& ComponentCandidate::location() const {
+    if (!location_) location_ = component_.location();
+    return *location_;
+}
+
+}  // namespace rois

@@ -1,0 +1,36 @@
+// A component as conditions see it.
+#pragma once
+
+#include <optional>
+
+#include "engine/candidate.hpp"
+
+namespace rois {
+
+// Asks the component for what a condition wants to know, and for nothing twice.
+class ComponentCandidate final : public Candidate {
+public:
+    ComponentCandidate(RegisteredComponent const& component, Perspective& perspective)
+        : component_{component}, perspective_{perspective} {}
+
+    std::optional<Texts> texts(Reference const&) const override;
+    std::optional<Positions> positions(Reference const&) const override;
+    bool has(Reference const&) const override;
+    std::string_view rid() const override;
+    std::vector<Candidate const*> robot() const override;
+    std::optional<Match>* verdict(void const* group) const override;
+
+private:
+    bool is_open(Reference const&) const;
+    Texts identifier_texts(Reference::Part) const;
+    Texts location_texts(Reference::Part) const;
+    Parameter const* parameter(std::string_view name) const;
+    std::optional<Located> const& location() const;
+
+    RegisteredComponent const& component_;
+    Perspective& perspective_;
+    mutable std::optional<ParameterList> all_parameters_;
+    mutable std::optional<std::optional<Located>> location_;
+};
+
+}  // namespace rois

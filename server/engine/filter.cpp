@@ -1,0 +1,83 @@
+#include "engine/filter.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/filter_compiler.hpp"
+
+namespace rois {
+
+Filter::Filter() = default;
+Filter::~Filter() = default;
+Filter::Filter(Filter&&) noexcept = default;
+Filter& Filter::operator=(Filter&&) noexcept = default;
+
+std::variant<Filter, std::string> Filter::compile(QueryExpression const& query, Vocabulary const& vocabulary) {
+    if (!query.sort_by.empty())
+        return "the condition has SortBy, which puts what get_profile, search, bind_any and query find in order, and means "
+               "nothing here";
+    return compile(query.filter, vocabulary);
+}
+
+std::variant<Filter, std::string> Filter::compile(std::optional<Condition> const& condition, Vocabulary const& vocabulary) {
+    Filter filter;
+    if (!condition) return filter;
+    FilterCompiler compiler{vocabulary};
+    filter.predicate_ = compiler.compile(*condition);
+    if (compiler.problem()) return *compiler.problem();
+    filter.meaning_ = filter.predicate_->canonical();
+    filter.depends_on_asker_ = compiler.depends_on_asker();
+    return filter;
+}
+
+Match Filter::match(Candidate const& candidate) const { return predicate_ ? predicate_->match(candidate) : Match::yes; }
+
+Selection::Selection() = default;
+Selection::~Selection() = default;
+Selection::Selection(Selection&&) noexcept = default;
+Selection& Selection::operator=(Selection&&) noexcept = default;
+
+std::variant<Selection, std::string> Selection::compile(QueryExpression const& query, Vocabulary const& vocabulary) {
+    auto filter = Filter::compile(query.filter, vocabulary);
+    if (auto* problem = std::get_if<std::string>(&filter)) return std::move(*problem);
+    Selection selection;
+    selection.filter_ = std::get<Filter>(std::move(filter));
+    FilterCompiler compiler{vocabulary};
+    for (auto const& property : query.sort_by) {
+        auto const* function = std::get_if<Function>(&property.by.value);
+        auto const* reference = std::get_if<ValueReference>(&property.by.value);
+        if (auto const* not_understood = std::get_if<NotUnderstood>(&property.by.value)) return not_understood->reason;
+        if (function != nullptr) {
+            if (auto distance = compiler.distance(*function))
+                selection.keys_.push_back(std::make_unique<SortKey const>(std::move(*distance), property.order));
+        } else if (reference != nullptr) {
+            if (auto resolved = compiler.resolve(reference->path))
+                selection.keys_.push_back(std::make_unique<SortKey const>(std::move(*resolved), property.order));
+        }
+    }
+    if (compiler.problem()) return *compiler.problem();
+    return selection;
+}
+
+void Selection::sort(std::vector<Candidate const*>& candidates) const {
+    if (keys_.empty()) return;
+    struct Row {
+        Candidate const* candidate;
+        std::vector<std::optional<SortKey::Value>> values;
+    };
+    std::vector<Row> rows;
+    rows.reserve(candidates.size());
+    for (auto const* candidate : candidates) {
+        auto& row = rows.emplace_back(Row{candidate, {}});
+        row.values.reserve(keys_.size());
+        for (auto const& key : keys_) row.values.push_back(key->value(*candidate));
+    }
+    std::ranges::stable_sort(rows, [&](Row const& a, Row const& b) {
+        for (std::size_t i = 0; i < keys_.size(); ++i)
+            if (int const order = keys_[i]->compare(a.values[i], b.values[i]); order != 0) return order < 0;
+        return false;
+    });
+    std::ranges::transform(rows, candidates.begin(), &Row::candidate);
+}
+
+}  // namespace rois

@@ -1,0 +1,72 @@
+// Conditions made ready (ISO 19143): references resolved, numbers, times, geometries and patterns read, so that holding them
+// against something only compares. docs/conditions.md says what they mean.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/candidate.hpp"
+#include "engine/vocabulary.hpp"
+#include "types/condition.hpp"
+
+namespace rois {
+
+class Predicate;
+class SortKey;
+
+// What is true or false of candidates.
+class Filter {
+public:
+    Filter();  // restricts nothing
+    ~Filter();
+    Filter(Filter&&) noexcept;
+    Filter& operator=(Filter&&) noexcept;
+
+    // The filter, or why the condition cannot be used: what is not understood, or not known in the vocabulary, is named. SortBy
+    // is refused: it has a meaning only where a Selection is made.
+    static std::variant<Filter, std::string> compile(QueryExpression const&, Vocabulary const&);
+
+    Match match(Candidate const&) const;
+
+    // The condition's canonical text: the same for conditions that mean the same (decision 20).
+    std::string const& meaning() const { return meaning_; }
+
+    // Whether the answer may differ from asker to asker (`status` does, decision 7).
+    bool depends_on_asker() const { return depends_on_asker_; }
+
+private:
+    friend class Selection;
+    static std::variant<Filter, std::string> compile(std::optional<Condition> const&, Vocabulary const&);
+
+    std::unique_ptr<Predicate const> predicate_;  // null: restricts nothing
+    std::string meaning_;
+    bool depends_on_asker_ = false;
+};
+
+// A filter, and the order in which those that it lets through come.
+class Selection {
+public:
+    ~Selection();
+    Selection(Selection&&) noexcept;
+    Selection& operator=(Selection&&) noexcept;
+
+    static std::variant<Selection, std::string> compile(QueryExpression const&, Vocabulary const&);
+
+    Match match(Candidate const& candidate) const { return filter_.match(candidate); }
+
+    bool sorts() const { return !keys_.empty(); }
+
+    // Puts them in order; those that SortBy does not tell apart stay as they are. What has no value comes last.
+    void sort(std::vector<Candidate const*>&) const;
+
+private:
+    Selection();
+
+    Filter filter_;
+    std::vector<std::unique_ptr<SortKey const>> keys_;
+};
+
+}  // namespace rois

@@ -1,0 +1,117 @@
+#include "engine/filter_compiler.hpp"
+
+#include <algorithm>
+
+#include "engine/space.hpp"
+#include "types/texts.hpp"
+
+namespace rois {
+
+namespace {
+
+std::string names_of(Places const& places) {
+    std::string names;
+    for (auto const& place : places.all) names += (names.empty() ? "" : ", ") + quoted(place.name);
+    return names.empty() ? "none are" : names;
+}
+
+bool may_be_a_position(Reference const& reference) {
+    if (reference.part != Reference::Part::value) return false;
+    switch (reference.to) {
+        case Reference::To::location:
+        case Reference::To::located:
+            return true;
+        case Reference::To::parameter:
+        case Reference::To::result:
+            return reference.kind == ValueKind::any;
+        default:
+            return false;
+    }
+}
+
+}  // namespace
+
+std::optional<Positions> Whereabouts::of(Candidate const& candidate) const {
+    if (auto const* known = std::get_if<Geometry>(&where_)) return Positions{*known};
+    return candidate.positions(std::get<Reference>(where_));
+}
+
+std::string Whereabouts::canonical() const {
+    return std::visit([](auto const& where) { return rois::canonical(where); }, where_);
+}
+
+std::optional<std::vector<double>> Distance::of(Candidate const& candidate) const {
+    auto const one = from.of(candidate), other = to.of(candidate);
+    if (!one || !other) return {};
+    std::vector<double> nearest;
+    for (auto const& a : *one)
+        for (auto const& b : *other)
+            if (share_a_frame(a, b)) nearest = {nearest.empty() ? distance(a, b) : std::min(nearest.front(), distance(a, b))};
+    return nearest;
+}
+
+std::string Distance::canonical() const {
+    auto const one = from.canonical(), other = to.canonical();
+    return "distance(" + std::min(one, other) + "," + std::max(one, other) + ")";
+}
+
+PredicatePtr FilterCompiler::compile(Condition const& condition) {
+    if (problem_) return nullptr;
+    return std::visit(*this, condition.predicate);
+}
+
+std::optional<Reference> FilterCompiler::resolve(std::string_view path) {
+    auto resolved = vocabulary_.resolve(path, aliases_);
+    if (auto* problem = std::get_if<std::string>(&resolved)) return refuse(std::move(*problem));
+    auto& reference = std::get<Reference>(resolved);
+    depends_on_asker_ = depends_on_asker_ || reference.to == Reference::To::status;
+    return std::move(reference);
+}
+
+std::optional<Whereabouts> FilterCompiler::whereabouts(Expression const& expression) {
+    auto const& places = *vocabulary_.places;
+    if (auto const* not_understood = std::get_if<NotUnderstood>(&expression.value)) return refuse(not_understood->reason);
+    if (auto const* geometry = std::get_if<Geometry>(&expression.value)) {
+        Geometry here = *geometry;
+        if (here.crs.empty()) here.crs = places.crs;
+        if (!places.crs.empty() && !equal_ignoring_case(here.crs, places.crs))
+            return refuse("the condition has the frame " + quoted(here.crs) + ", which is not known here; known is " +
+                          quoted(places.crs));
+        return here;
+    }
+    if (auto const* reference = std::get_if<ValueReference>(&expression.value)) {
+        auto resolved = resolve(reference->path);
+        if (!resolved) return {};
+        if (!may_be_a_position(*resolved))
+            return refuse("the condition takes " + quoted(reference->path) + " for a position, which it is not");
+        return std::move(*resolved);
+    }
+    auto const* literal = std::get_if<Literal>(&expression.value);
+    if (literal == nullptr) return refuse("the condition relates something to a place that is none");
+    auto const text = trimmed(literal->text);
+    if (auto const* place = places.find(text)) return place->area;
+    if (auto read = point(text, places.crs)) return std::move(*read);
+    return refuse("the condition has the place " + quoted(text) + ", which is not known here; known are " + names_of(places));
+}
+
+std::optional<Distance> FilterCompiler::distance(Function const& function) {
+    if (!equal_ignoring_case(function.name, "distance"))
+        return refuse("the condition has the function " + quoted(function.name) + ", which is not known here; known is distance");
+    if (function.arguments.size() != 2) return refuse("the function distance of the condition has not two arguments");
+    auto from = whereabouts(function.arguments[0]);
+    auto to = from ? whereabouts(function.arguments[1]) : std::nullopt;
+    if (!to) return {};
+    return Distance{std::move(*from), std::move(*to)};
+}
+
+std::nullopt_t FilterCompiler::refuse(std::string reason) {
+    if (!problem_) problem_ = std::move(reason);
+    return std::nullopt;
+}
+
+PredicatePtr FilterCompiler::operator()(NotUnderstood const& what) {
+    refuse(what.reason);
+    return nullptr;
+}
+
+}  // namespace rois

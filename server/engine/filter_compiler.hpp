@@ -1,0 +1,113 @@
+// How conditions are made ready; the parts of Filter and Selection. Each kind of predicate has a file of its own: filter_*.cpp.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "engine/candidate.hpp"
+#include "engine/vocabulary.hpp"
+#include "types/condition.hpp"
+
+namespace rois {
+
+// A condition made ready.
+class Predicate {
+public:
+    virtual ~Predicate() = default;
+    virtual Match match(Candidate const&) const = 0;
+    virtual std::string canonical() const = 0;
+};
+
+using PredicatePtr = std::unique_ptr<Predicate const>;
+
+// Where something is: known beforehand, or told by a candidate.
+class Whereabouts {
+public:
+    Whereabouts(Geometry geometry) : where_{std::move(geometry)} {}
+    Whereabouts(Reference reference) : where_{std::move(reference)} {}
+
+    bool is_known() const { return std::holds_alternative<Geometry>(where_); }
+    std::optional<Positions> of(Candidate const&) const;
+    std::string canonical() const;
+
+private:
+    std::variant<Geometry, Reference> where_;
+};
+
+// The function `distance`: mm between the nearest of two things; nothing while open, and none when either has no place or they
+// have no frame in common.
+struct Distance {
+    Whereabouts from;
+    Whereabouts to;
+
+    std::optional<std::vector<double>> of(Candidate const&) const;
+    std::string canonical() const;
+};
+
+// Goes through a condition once. What cannot be used is refused with its reason; the first one counts, and what is returned then
+// means nothing.
+class FilterCompiler {
+public:
+    explicit FilterCompiler(Vocabulary vocabulary) : vocabulary_{vocabulary} {}
+
+    PredicatePtr compile(Condition const&);
+
+    // Nothing when refused.
+    std::optional<Reference> resolve(std::string_view path);
+    std::optional<Whereabouts> whereabouts(Expression const&);
+    std::optional<Distance> distance(Function const&);
+
+    // Always nothing.
+    std::nullopt_t refuse(std::string reason);
+
+    std::optional<std::string> const& problem() const { return problem_; }
+    bool depends_on_asker() const { return depends_on_asker_; }
+    Vocabulary const& vocabulary() const { return vocabulary_; }
+
+    PredicatePtr operator()(PropertyComparison const&);
+    PredicatePtr operator()(PropertyIsLike const&);
+    PredicatePtr operator()(PropertyIsNull const&);
+    PredicatePtr operator()(PropertyIsNil const&);
+    PredicatePtr operator()(PropertyIsBetween const&);
+    PredicatePtr operator()(SpatialComparison const&);
+    PredicatePtr operator()(DistanceComparison const&);
+    PredicatePtr operator()(TemporalComparison const&);
+    PredicatePtr operator()(ResourceId const&);
+    PredicatePtr operator()(And const&);
+    PredicatePtr operator()(Or const&);
+    PredicatePtr operator()(Not const&);
+    PredicatePtr operator()(ComponentGroup const&);
+    PredicatePtr operator()(NotUnderstood const&);
+
+private:
+    Vocabulary vocabulary_;
+    std::vector<std::string> aliases_;  // of the group whose filter is compiled
+    std::optional<std::string> problem_;
+    bool depends_on_asker_ = false;
+};
+
+// What a SortProperty sorts by.
+class SortKey {
+public:
+    SortKey(std::variant<Reference, Distance> by, SortOrder order) : by_{std::move(by)}, order_{order} {}
+
+    // A value to sort by; nothing when the candidate has none.
+    struct Value {
+        std::optional<double> number;
+        std::string text;
+    };
+    std::optional<Value> value(Candidate const&) const;
+
+    // Less than 0 when a comes before b.
+    int compare(std::optional<Value> const& a, std::optional<Value> const& b) const;
+
+private:
+    std::variant<Reference, Distance> by_;
+    SortOrder order_;
+};
+
+}  // namespace rois

@@ -1,0 +1,165 @@
+// Conditions on components that belong together (the published examples' ComponentGroupCondition; docs/conditions.md).
+#include <algorithm>
+
+#include "engine/filter_compiler.hpp"
+#include "types/texts.hpp"
+
+namespace rois {
+
+namespace {
+
+using Members = std::vector<Candidate const*>;
+
+// The first text that a component has for something that every component has.
+std::string text_of(Candidate const& component, Reference::To to) {
+    auto const texts = component.texts(Reference{.to = to, .name = {}, .entity = {}});
+    return texts && !texts->empty() ? texts->front() : std::string{};
+}
+
+std::string_view last_part(std::string_view urn) { return urn.substr(urn.rfind(':') + 1); }
+
+// Whether a robot goes by this name: the one that it has, its engine's, or the engine's URN.
+bool is_robot(std::string_view type, std::string_view engine, std::string_view robot) {
+    if (equal_ignoring_case(type, "Robot") || equal_ignoring_case(type, robot)) return true;
+    auto const name = last_part(type);
+    return equal_ignoring_case(name, engine) || equal_ignoring_case(name.substr(name.rfind('.') + 1), engine);
+}
+
+// Whether a component is of the type, or of a robot that is.
+bool is_of(std::string_view type, Candidate const& component) {
+    auto const own = text_of(component, Reference::To::component_type);
+    if (equal_ignoring_case(type, own) || equal_ignoring_case(type, last_part(own))) return true;
+    return is_robot(type, text_of(component, Reference::To::engine), text_of(component, Reference::To::robot_id));
+}
+
+// A robot as its group's filter sees it: a reference stands for the values of all its components that are of the types, with an
+// alias for those of one type.
+class Robot final : public Candidate {
+public:
+    Robot(Members const& all, std::vector<std::string> const& types) {
+        for (auto const& type : types) {
+            auto& holders = by_type_.emplace_back();
+            std::ranges::copy_if(all, std::back_inserter(holders),
+                                 [&](auto const* component) { return is_of(type, *component); });
+        }
+        for (auto const* component : all) {
+            bool const meant =
+                types.empty() || std::ranges::any_of(types, [&](auto const& type) { return is_of(type, *component); });
+            if (meant) members_.push_back(component);
+        }
+    }
+
+    bool has_all_types() const {
+        return std::ranges::none_of(by_type_, [](Members const& holders) { return holders.empty(); });
+    }
+
+    std::optional<Texts> texts(Reference const& reference) const override {
+        return united<Texts>(reference, [&](Candidate const& component) { return component.texts(reference); });
+    }
+    std::optional<Positions> positions(Reference const& reference) const override {
+        return united<Positions>(reference, [&](Candidate const& component) { return component.positions(reference); });
+    }
+    bool has(Reference const& reference) const override {
+        return std::ranges::any_of(meant(reference), [&](auto const* component) { return component->has(reference); });
+    }
+    std::string_view rid() const override { return {}; }
+    std::vector<Candidate const*> robot() const override { return members_; }
+    std::optional<Match>* verdict(void const*) const override { return nullptr; }
+
+private:
+    Members const& meant(Reference const& reference) const {
+        return reference.alias < by_type_.size() ? by_type_[reference.alias] : members_;
+    }
+
+    // Open when it is for one of them.
+    template <class Values, class Ask>
+    std::optional<Values> united(Reference const& reference, Ask const& ask) const {
+        Values all;
+        for (auto const* component : meant(reference)) {
+            auto const values = ask(*component);
+            if (!values) return {};
+            all.insert(all.end(), values->begin(), values->end());
+        }
+        return all;
+    }
+
+    std::vector<Members> by_type_;
+    Members members_;
+};
+
+class Group final : public Predicate {
+public:
+    Group(std::vector<std::string> types, PredicatePtr filter, std::vector<PredicatePtr> members)
+        : types_{std::move(types)}, filter_{std::move(filter)}, members_{std::move(members)} {}
+
+    Match match(Candidate const& candidate) const override {
+        auto const own = match_itself(candidate);
+        if (own == Match::no) return own;
+        auto* verdict = candidate.verdict(this);
+        if (verdict == nullptr) return Match::no;
+        if (!*verdict) *verdict = match_robot(candidate.robot());
+        return std::min(own, **verdict);
+    }
+
+    std::string canonical() const override {
+        std::string text = "group(";
+        for (auto const& type : types_) text += std::to_string(type.size()) + ":" + lower_case(type) + ",";
+        text += ";" + (filter_ ? filter_->canonical() : "");
+        for (auto const& member : members_) text += ";" + member->canonical();
+        return text + ")";
+    }
+
+private:
+    // What is looked for: its members; without any, the components of its types.
+    Match match_itself(Candidate const& candidate) const {
+        if (!members_.empty()) return best(members_, candidate);
+        bool const meant =
+            types_.empty() || std::ranges::any_of(types_, [&](auto const& type) { return is_of(type, candidate); });
+        return meant ? Match::yes : Match::no;
+    }
+
+    // Each member is there, each type is, and the whole meets the filter.
+    Match match_robot(Members const& all) const {
+        Robot const robot{all, types_};
+        if (!robot.has_all_types()) return Match::no;
+        auto worst = filter_ ? filter_->match(robot) : Match::yes;
+        for (auto const& member : members_) {
+            auto met = Match::no;
+            for (auto const* component : all) met = std::max(met, member->match(*component));
+            worst = std::min(worst, met);
+        }
+        return worst;
+    }
+
+    static Match best(std::vector<PredicatePtr> const& predicates, Candidate const& candidate) {
+        auto met = Match::no;
+        for (auto const& predicate : predicates) met = std::max(met, predicate->match(candidate));
+        return met;
+    }
+
+    std::vector<std::string> types_;
+    PredicatePtr filter_;
+    std::vector<PredicatePtr> members_;
+};
+
+}  // namespace
+
+// A group speaks of robots and components, never of results.
+PredicatePtr FilterCompiler::operator()(ComponentGroup const& group) {
+    if (vocabulary_.parameters == nullptr) {
+        refuse("the condition has 'ComponentGroupCondition', which means nothing where results are chosen");
+        return nullptr;
+    }
+    auto const around = vocabulary_;
+    vocabulary_.results = nullptr;
+    std::vector<PredicatePtr> members;
+    for (auto const& member : group.members) members.push_back(compile(member));
+    aliases_ = group.aliases;
+    auto filter = group.filter.empty() ? nullptr : compile(group.filter.front());
+    aliases_.clear();
+    vocabulary_ = around;
+    if (problem_) return nullptr;
+    return std::make_unique<Group>(group.types, std::move(filter), std::move(members));
+}
+
+}  // namespace rois

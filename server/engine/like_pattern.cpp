@@ -1,0 +1,100 @@
+#include "engine/like_pattern.hpp"
+
+#include <utility>
+
+#include "types/texts.hpp"
+
+namespace rois {
+
+namespace {
+
+constexpr char32_t any_one = 0x110000;  // beyond Unicode
+constexpr std::size_t word = 64;
+
+std::optional<char32_t> only_character(std::string_view text) {
+    auto const first = take_character(text);
+    return first && text.empty() ? first : std::nullopt;
+}
+
+bool has(std::vector<std::uint64_t> const& bits, std::size_t at) { return (bits[at / word] >> (at % word) & 1U) != 0; }
+void put(std::vector<std::uint64_t>& bits, std::size_t at) { bits[at / word] |= std::uint64_t{1} << (at % word); }
+
+}  // namespace
+
+std::variant<LikePattern, std::string> LikePattern::compile(std::string_view pattern, PropertyIsLike const& characters) {
+    auto const wild = only_character(characters.wild_card);
+    auto const single = only_character(characters.single_char);
+    auto const escape = only_character(characters.escape_char);
+    for (auto const& [name, character] : {std::pair{"wildCard", wild}, {"singleChar", single}, {"escapeChar", escape}})
+        if (!character) return std::string{name} + " of PropertyIsLike is not one character";
+    if (wild == single || wild == escape || single == escape)
+        return std::string{"wildCard, singleChar and escapeChar of PropertyIsLike are not three different characters"};
+    LikePattern made;
+    made.wild_card_before_.push_back(false);
+    for (std::string_view rest = pattern; !rest.empty();) {
+        if (made.elements_.size() == longest)
+            return "the pattern of PropertyIsLike is longer than " + std::to_string(longest) + " characters";
+        auto character = take_character(rest);
+        if (character == wild) {
+            made.wild_card_before_.back() = true;
+            continue;
+        }
+        if (character == single) {
+            made.add(any_one);
+            continue;
+        }
+        if (character == escape && !rest.empty()) character = take_character(rest);
+        made.add(characters.match_case ? character : folded_case(character.value_or(0)));
+    }
+    auto const words = made.elements_.size() / word + 1;
+    made.loops_.resize(words);
+    made.any_.resize(words);
+    for (std::size_t i = 0; i < made.wild_card_before_.size(); ++i)
+        if (made.wild_card_before_[i]) put(made.loops_, i);
+    for (std::size_t i = 0; i < made.elements_.size(); ++i)
+        if (made.elements_[i] == any_one) put(made.any_, i);
+    for (std::size_t i = 0; i < made.elements_.size(); ++i)
+        if (made.elements_[i] != any_one) put(made.takers_.try_emplace(made.elements_[i], made.any_).first->second, i);
+    return made;
+}
+
+void LikePattern::add(std::optional<char32_t> character) {
+    elements_.push_back(character.value_or(0));
+    wild_card_before_.push_back(false);
+}
+
+LikePattern::Bits const& LikePattern::that_take(char32_t character) const {
+    auto const found = takers_.find(character);
+    return found == takers_.end() ? any_ : found->second;
+}
+
+// A bit for each element that may come next, and one for the end.
+bool LikePattern::matches(std::string_view text) const {
+    Bits next(loops_.size());
+    put(next, 0);
+    while (!text.empty()) {
+        auto const& takers = that_take(take_character(text).value_or(0));
+        std::uint64_t carried = 0;
+        std::uint64_t alive = 0;
+        for (std::size_t i = 0; i < next.size(); ++i) {
+            auto const taken = next[i] & takers[i];
+            next[i] = (next[i] & loops_[i]) | (taken << 1U) | carried;
+            carried = taken >> (word - 1);
+            alive |= next[i];
+        }
+        if (alive == 0) return false;
+    }
+    return has(next, elements_.size());
+}
+
+std::string LikePattern::canonical() const {
+    std::string text;
+    for (std::size_t i = 0; i < wild_card_before_.size(); ++i) {
+        if (wild_card_before_[i]) text += "*,";
+        if (i < elements_.size())
+            text += (elements_[i] == any_one ? "?" : std::to_string(static_cast<std::uint32_t>(elements_[i]))) + ",";
+    }
+    return text;
+}
+
+}  // namespace rois

@@ -1,0 +1,30 @@
+// The space that the engine's components share, as whoever knows the floor plan tells it: its frame, and places with names.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "types/condition.hpp"
+
+namespace rois {
+
+// An area that conditions mean by a name.
+struct NamedPlace {
+    std::string name;
+    Geometry area;
+};
+
+struct Places {
+    std::string crs;  // of all areas, and of coordinates that say none; empty: any frame is taken as it is
+    std::vector<NamedPlace> all;
+
+    // Null when there is none of that name, to the letter.
+    NamedPlace const* find(std::string_view name) const {
+        auto const found = std::ranges::find(all, name, &NamedPlace::name);
+        return found == all.end() ? nullptr : &*found;
+    }
+};
+
+}  // namespace rois

@@ -1,0 +1,216 @@
+// Conditions (ISO 19143) of the operations, spoken to the program: the reception hall, its places and its robots.
+#include <algorithm>
+
+#include "server/conversation.hpp"
+
+namespace rois::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+struct Conditions : Conversation {};
+ROIS_OVER_BOTH_WAYS(Conditions);
+
+TEST_P(Conditions, CompareParameters) {
+    EXPECT_THAT(desk.search(where(compared("GreaterThan", "Property/volume", "9"))), ElementsAre("speech_synthesis"))
+        << "50 as a number: as a text it is less";
+    EXPECT_THAT(desk.ask("search", where(compared("LessThan", "Property/volume", "loud"))), IsRefused("BAD_PARAMETER", "'loud'"));
+}
+
+TEST_P(Conditions, FindByPattern) {
+    EXPECT_THAT(desk.search(where(like("name", "face_*"))), ElementsAre("face_detection", "face_localization"));
+    EXPECT_THAT(desk.search(where(like("component_type", "*::mov?"))), ElementsAre("move")) << "types have no case";
+}
+
+TEST_P(Conditions, FindWhatHasAParameter) {
+    EXPECT_THAT(desk.search(where(contrary(is_null("Property/routing_policy")))), ElementsAre("navigation"));
+}
+
+TEST_P(Conditions, FindByThePublishedExamplesNames) {
+    EXPECT_THAT(desk.search(where(both(equal("RobotId", "robot1"), equal("Identifier", "move")))), ElementsAre("move"));
+    EXPECT_THAT(desk.search(where(equal("Name", "move"))), ElementsAre("move"));
+}
+
+TEST_P(Conditions, FindByPlace) {
+    EXPECT_THAT(desk.search(where(related("Within", "Property/location", place("Reception hall")))), SizeIs(15));
+    EXPECT_THAT(desk.search(where(related("Within", "location", place("cloakroom")))), IsEmpty());
+    EXPECT_THAT(desk.search(where(related("BBOX", "location", box("0 0", "20000 12000")))), SizeIs(15));
+    EXPECT_THAT(desk.search(where(related("Beyond", "location", place("cloakroom") + distance("500")))), SizeIs(15));
+}
+
+TEST_P(Conditions, NameWhatIsNotKnown) {
+    EXPECT_THAT(desk.ask("search", where(related("Within", "location", place("attic")))), IsRefused("BAD_PARAMETER", "'attic'"));
+    EXPECT_THAT(desk.ask("search", where(related("Within", "location", box("0 0", "1 1", "urn:atr:def:crs:IDK::01")))),
+                IsRefused("BAD_PARAMETER", "'urn:atr:def:crs:IDK::01'"));
+    EXPECT_THAT(
+        desk.ask("search", where(related("DWithin", "location", place("desk") + "<fes:Distance uom='ft'>3</fes:Distance>"))),
+        IsRefused("BAD_PARAMETER", "'ft'"));
+    EXPECT_THAT(desk.ask("search", where(touching("location"))), IsRefused("BAD_PARAMETER", "Touches"));
+    EXPECT_THAT(desk.ask("search", where(equal("//name", "move"))), IsRefused("BAD_PARAMETER", "XPath"));
+}
+
+TEST_P(Conditions, SortWhatIsFound) {
+    EXPECT_THAT(desk.search(ordered(like("name", "face_*"), sorted_by("name", "DESC"))),
+                ElementsAre("face_localization", "face_detection"));
+    EXPECT_THAT(desk.subscribe("person_detected", ordered("", sorted_by("name", "ASC"))), IsRefused("BAD_PARAMETER", "SortBy"));
+}
+
+TEST_P(Conditions, OfTheWrapperOfThePublishedExamples) {
+    auto const wrapped = [](std::string const& inside) {
+        return "<condition xmlns:fes=\"http://www.opengis.net/fes/2.0\" xmlns:unr=\"http://www.irc.atr.jp/std/unr/0.1\">"
+               "<unr:SearchCondition>" +
+               inside + "</unr:SearchCondition></condition>";
+    };
+    std::string const group =
+        "<unr:ComponentGroupCondition types=\"Robot\" aliases=\"a\">" +
+        related("Within", "a/Property/location", place("Reception hall")) +
+        "<unr:ComponentCondition type=\"unr:x-rois:def:component:OMG::Move\" "
+        "mode=\"exclusive\"><fes:filter/></unr:ComponentCondition>"
+        "<unr:ComponentCondition type=\"urn:x-rois:def:component:OMG::Follow\"/></unr:ComponentGroupCondition>";
+    EXPECT_THAT(desk.search(wrapped(group)), ElementsAre("follow", "move"));
+    EXPECT_THAT(desk.search(wrapped("<unr:ComponentCondition>" + equal("Name", "reaction") + "</unr:ComponentCondition>")),
+                ElementsAre("reaction"));
+    Application rival{GetParam(), empty_hall()};
+    rival.connect();
+    rival.bind("move");
+    EXPECT_THAT(desk.search(wrapped(group)), IsEmpty()) << "the robot has none that is free";
+}
+
+TEST_P(Conditions, ThatMeanTheSameAreOneSubscription) {
+    auto const id = [&](std::string const& filter) {
+        return desk.subscribe("person_detected", where(filter)).text("subscribe_id");
+    };
+    auto const more_than_none = id(compared("GreaterThan", "number", "0"));
+    EXPECT_EQ(id("<fes:PropertyIsLessThan><fes:Literal>0.0</fes:Literal><fes:ValueReference>Result/number</fes:ValueReference>"
+                 "</fes:PropertyIsLessThan>"),
+              more_than_none);
+    EXPECT_EQ(id(contrary(contrary(compared("GreaterThan", "number", "0")))), more_than_none);
+    EXPECT_NE(id(compared("GreaterThanOrEqualTo", "number", "0")), more_than_none);
+}
+
+TEST_P(Conditions, ChooseAmongTheResults) {
+    desk.subscribe("person_detected");
+    desk.bind("person_detection");
+    desk.execute(Command{.component = "person_detection"});
+    auto const id = desk.hear_event("person_detected").text("event_id");
+    auto const period = [](std::string const& begin, std::string const& end) {
+        return "<gml:TimePeriod xmlns:gml=\"http://www.opengis.net/gml/3.2\"><gml:beginPosition>" + begin +
+               "</gml:beginPosition><gml:endPosition>" + end + "</gml:endPosition></gml:TimePeriod>";
+    };
+    EXPECT_THAT(desk.get_event_detail(id, where(related("During", "timestamp", period("2020-01-01", "2200-01-01")))).values(),
+                SizeIs(2));
+    EXPECT_THAT(desk.get_event_detail(id, where(related("During", "timestamp", period("2020-01-01", "2020-01-02")))).values(),
+                IsEmpty());
+    EXPECT_THAT(desk.get_event_detail(id, where("<fes:ResourceId rid=\"" + id + "\"/>")).values(), SizeIs(2));
+}
+
+struct Robots : testing::TestWithParam<Way> {
+    static GatewayProcess& hall() {
+        static GatewayProcess two{{"--floor-plan", ROIS_SOURCE_DIR "/components/simulation/data/two-robots.xml", "--scenario",
+                                   ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--sim-speed", "20", "--seed", "1"}};
+        return two;
+    }
+
+    Robots() {
+        desk.connect();
+        rival.connect();
+    }
+
+    Application desk{GetParam(), hall()};
+    Application rival{GetParam(), hall()};
+    std::string drives = equal("component_type", "urn:x-rois:def:component:OMG::Navigation");
+};
+ROIS_OVER_BOTH_WAYS(Robots);
+
+TEST_P(Robots, TheNearestIsFoundFirst) {
+    EXPECT_THAT(desk.search(ordered(drives, nearest("exhibit"))), ElementsAre("robot2.navigation", "navigation"));
+    EXPECT_THAT(desk.search(ordered(drives, nearest("waiting_area"))), ElementsAre("navigation", "robot2.navigation"));
+    EXPECT_EQ(desk.query("component_status", ordered(drives, nearest("exhibit"))).ref(), "robot2.navigation");
+}
+
+TEST_P(Robots, TheNearestFreeOneIsBound) {
+    auto const bind_nearest = [&](Application& who) { return who.ask("bind_any", ordered(drives, nearest("exhibit"))); };
+    EXPECT_EQ(bind_nearest(desk).ref(), "robot2.navigation");
+    EXPECT_EQ(bind_nearest(rival).ref(), "navigation");
+    EXPECT_THAT(bind_nearest(rival), IsOk());
+}
+
+// One visitor walks in from the entrance to (9000, 4500) and stays there.
+struct Visitor : testing::TestWithParam<Way> {
+    Visitor() {
+        desk.connect();
+        desk.bind("person_localization");
+    }
+
+    void localize() { desk.execute(Command{.component = "person_localization"}); }
+
+    GatewayProcess hall{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/one_visitor.xml", "--sim-speed", "20", "--seed", "3"}};
+    Application desk{GetParam(), hall};
+};
+ROIS_OVER_BOTH_WAYS(Visitor);
+
+TEST_P(Visitor, IsHeardOfOnlyWithinTheBox) {
+    auto const there =
+        desk.subscribe("person_localized", where(related("Within", "position_data", box("8000 3500", "10000 5500"))), true);
+    EXPECT_THAT(there, IsOk());
+    localize();
+    auto const event = desk.hear_event("person_localized");
+    EXPECT_EQ(event.text("subscribe_id"), there.text("subscribe_id"));
+    std::string const text = event.root().child("results").child("located").child("position").text().get();
+    EXPECT_GE(std::stod(text), 8000) << text;
+    EXPECT_GE(std::stod(text.substr(text.find(' '))), 3500) << "on the way there, nothing was told: " << text;
+}
+
+TEST_P(Visitor, IsDetectedOnlyWhenThereIsOne) {
+    desk.bind("person_detection");
+    desk.subscribe("person_detected", where(compared("GreaterThan", "number", "0")), true);
+    desk.execute(Command{.component = "person_detection"});
+    EXPECT_THAT(desk.hear_event("person_detected").values()["number"], ElementsAre("1"));
+}
+
+// How often the visitor is localized on the way in, for as long as the robot speaks.
+std::size_t localized_while_speaking(Application& desk, Argument const& parameter) {
+    desk.subscribe("person_localized");
+    desk.set_parameter("person_localization", {parameter});
+    desk.execute(Command{.component = "person_localization"});
+    desk.hear_event("person_localized");
+    desk.bind("speech_synthesis");
+    desk.execute(speak("Welcome to the reception. Please come in, and tell me whom you would like to see today.", "greet"));
+    EXPECT_EQ(desk.status_of("greet"), "OK");
+    return static_cast<std::size_t>(std::ranges::count(lines(desk.history()), "person_localized"));
+}
+
+TEST_P(Visitor, IsLocalizedOnceInAnInterval) {
+    EXPECT_EQ(localized_while_speaking(desk, {"minimum_interval", "int", {"3600000"}}), 1U);
+}
+
+TEST_P(Visitor, IsLocalizedOnceInAThreshold) {
+    EXPECT_EQ(localized_while_speaking(desk, {"detection_threshold", "int", {"100000"}}), 1U);
+}
+
+TEST_P(Visitor, IsLocalizedOftenWithoutThem) {
+    EXPECT_GT(localized_while_speaking(desk, {"detection_threshold", "int", {"0"}}), 3U);
+}
+
+struct TalkingVisitor : testing::TestWithParam<Way> {
+    GatewayProcess hall{
+        {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/talking_visitor.xml", "--sim-speed", "20", "--seed", "3"}};
+    Application desk{GetParam(), hall};
+};
+ROIS_OVER_BOTH_WAYS(TalkingVisitor);
+
+TEST_P(TalkingVisitor, IsHeardOnlyWhenAskingForHelp) {
+    desk.connect();
+    desk.bind("speech_recognition");
+    auto const asks =
+        "<fes:PropertyIsLike wildCard=\"*\" singleChar=\"?\" escapeChar=\"!\" matchCase=\"false\">"
+        "<fes:ValueReference>recognized_text</fes:ValueReference><fes:Literal>*help*</fes:Literal></fes:PropertyIsLike>";
+    EXPECT_THAT(desk.subscribe("speech_recognized", where(asks), true), IsOk());
+    desk.execute(Command{.component = "speech_recognition"});
+    EXPECT_THAT(desk.hear_event("speech_recognized").values()["recognized_text"], ElementsAre("Can you HELP me, please?"));
+}
+
+}  // namespace
+}  // namespace rois::test
