@@ -15,7 +15,7 @@ struct Order {
     client::Address address;
     std::vector<client::Way> ways{client::Way::http, client::Way::websocket};
     std::string only{};               // checks whose name has this within; empty: all
-    std::chrono::seconds limit{600};  // for all; what has not been played then is not played
+    std::chrono::seconds limit{600};  // for all; when it is over, the report says so and is not good
 };
 
 // Throws client::LineEnded when the gateway is not there or does not open a session.

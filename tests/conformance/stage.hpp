@@ -59,9 +59,11 @@ public:
     void take(Component const&);
     // Executes one command, and gives its id.
     std::string order(Command const&);
-    // The status with which the command completes.
+    // The status with which a command completes that an answer has named; passes over others until then.
+    std::string status_of(std::string const& command_id);
+    // The same of a command that is executed now.
     std::string ending(Command const& command) { return status_of(order(command)); }
-    // The command completes with OK; NotPlayed when the component has failed (decisions 7, 16).
+    // The command completes with OK; NotPlayed when the component has failed, which an error tells (decision 16).
     void require_success(std::string const& command_id, Component const&);
     // Waits until all that was caused before has been told. The component is bound and not suspended, so that `resume` does
     // nothing but complete at once.
