@@ -1,5 +1,6 @@
 // Parameters, commands and their sequences.
 #include <memory>
+#include <set>
 
 #include "broken/breaking.hpp"
 #include "broken/rules.hpp"
@@ -35,10 +36,18 @@ Breaking forgets_the_fifth_completion() {
     }};
 }
 
+// Everywhere in the same way.
 Breaking names_commands_itself() {
-    return edits_answers("execute", in_all("rois:command_id", [](pugi::xml_attribute id) {
-                             id.set_value((std::string{"c-"} + id.value()).c_str());
-                         }));
+    auto named = std::make_shared<std::set<std::string>>();
+    auto breaking = edits_answers("execute", in_all("rois:command_id", [named](pugi::xml_attribute id) {
+                                      named->insert(id.value());
+                                      id.set_value((std::string{"c-"} + id.value()).c_str());
+                                  }));
+    breaking.notification = edits_notifications("completed", [named](pugi::xml_node root) {
+                                auto id = root.child("command_id").text();
+                                if (named->contains(id.get())) id.set((std::string{"c-"} + id.get()).c_str());
+                            }).notification;
+    return breaking;
 }
 
 Breaking leaves_ids_empty() {
