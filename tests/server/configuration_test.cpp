@@ -129,7 +129,7 @@ TEST(Listening, FailsInOneLineWhenThePortIsTaken) {
 TEST(Listening, TakesIpv6) {
     GatewayProcess gateway{{"--listen", "[::1]:0"}};
     EXPECT_EQ(gateway.url(), "http://[::1]:" + std::to_string(gateway.port()));
-    Line line{gateway.port(), "::1"};
+    Line line{{.host = "::1", .port = gateway.port()}};
     line.send("GET /healthz HTTP/1.1\r\nHost: [::1]\r\n\r\n");
     EXPECT_EQ(line.take(12), "HTTP/1.1 200");
 }

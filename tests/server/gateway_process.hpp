@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "client/address.hpp"
+
 namespace rois::test {
 
 using Variables = std::map<std::string, std::string>;
@@ -33,6 +35,7 @@ public:
 
     std::uint16_t port() const { return port_; }
     std::string const& url() const { return url_; }
+    client::Address address() const { return {.port = port_}; }
 
     void signal(int number);
     // Waits for its end.

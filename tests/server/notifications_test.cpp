@@ -26,7 +26,7 @@ struct Event {
 class Stream {
 public:
     explicit Stream(std::string const& session, std::string const& lines = "", GatewayProcess const& gateway = shared_gateway())
-        : line_{gateway.port()} {
+        : line_{gateway.address()} {
         line_.send("GET /rois/notifications HTTP/1.1\r\nHost: h\r\nAccept: text/event-stream\r\nRoIS-Session: " + session +
                    "\r\n" + lines + "\r\n");
         head = line_.take_until("\r\n\r\n");
@@ -140,7 +140,7 @@ TEST(EventStream, ShowsThatItLives) {
     GatewayProcess gateway{{"--ping-interval", "0.1"}};
     HttpClient client{gateway};
     client.call("connect");
-    Line line{gateway.port()};
+    Line line{gateway.address()};
     line.send("GET /rois/notifications HTTP/1.1\r\nHost: h\r\nAccept: text/event-stream\r\nRoIS-Session: " + client.session +
               "\r\n\r\n");
     line.take_until("\r\n\r\n");

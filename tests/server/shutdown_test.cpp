@@ -40,7 +40,7 @@ TEST(Shutdown, EndsStreamsPollsAndIdleConnections) {
     GatewayProcess gateway;
     HttpClient client{gateway};
     bind_and_complete(client, 1);
-    Line stream{gateway.port()}, poll{gateway.port()};
+    Line stream{gateway.address()}, poll{gateway.address()};
     auto const session = "RoIS-Session: " + client.session + "\r\n\r\n";
     stream.send("GET /rois/notifications HTTP/1.1\r\nHost: h\r\nAccept: text/event-stream\r\n" + session);
     stream.take_until("\n\n");

@@ -1,56 +1,14 @@
-// A WebSocket client that can break every rule.
+// The WebSocket client, for the gateways of these tests.
 #pragma once
 
-#include <optional>
-#include <pugixml.hpp>
-#include <string>
-#include <string_view>
-
+#include "client/websocket_client.hpp"
 #include "server/http_client.hpp"
 
 namespace rois::test {
 
-inline constexpr auto good_key = "dGhlIHNhbXBsZSBub25jZQ==";
-inline constexpr auto its_accept = "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=";  // RFC 6455, 1.3
-
-// The handshake, with these header fields beside or instead of the right ones; an empty value leaves one out.
-HttpReply shake_hands(HttpClient&, Headers const& other = {});
-
-enum class Kind : unsigned { continuation = 0, text = 1, binary = 2, close = 8, ping = 9, pong = 10 };
-
-struct Frame {
-    Kind kind;
-    std::string payload;
-
-    int close_code() const;  // 0 when it is no close frame
-};
-
-class WebSocketClient {
+class WebSocketClient : public client::WebSocketClient {
 public:
-    explicit WebSocketClient(GatewayProcess const& gateway = shared_gateway());
-
-    Line& line() { return http_.line(); }
-
-    // A whole masked frame. `first_byte` overrides FIN, RSV and opcode.
-    void send(std::string_view payload, Kind = Kind::text);
-    void send_raw(unsigned first_byte, std::string_view payload);
-    void ask(std::string const& operation, std::string const& children = "", std::string const& attributes = "");
-
-    Frame next();
-    // The next text frame's root element; pings are passed over.
-    pugi::xml_node next_document();
-    // Asks, and gives the answer; notifications that come before it are a failure.
-    pugi::xml_node call(std::string const& operation, std::string const& children = "", std::string const& attributes = "");
-    // The code with which the server closes, after which it must end the connection; other frames are passed over.
-    int closes();
-
-    std::string const& session() const { return http_.session; }
-    // Keeps its session when it goes: closes without a word.
-    void vanish() { http_.session.clear(); }
-
-private:
-    HttpClient http_;
-    pugi::xml_document document_;
+    explicit WebSocketClient(GatewayProcess const& gateway = shared_gateway()) : client::WebSocketClient{gateway.address()} {}
 };
 
 void bind_and_complete(WebSocketClient&, int count);

@@ -1,9 +1,9 @@
-#include "server/vocabulary.hpp"
+#include "client/vocabulary.hpp"
 
 #include <sstream>
 #include <stdexcept>
 
-namespace rois::test {
+namespace rois::client {
 
 namespace {
 
@@ -44,7 +44,8 @@ void collect_ids(pugi::xml_node node, std::vector<std::string>& ids) {
 
 }  // namespace
 
-Document::Document(std::string const& text) : document_{std::make_shared<pugi::xml_document>()} {
+Document::Document(std::string const& text)
+    : text_{std::make_shared<std::string const>(text)}, document_{std::make_shared<pugi::xml_document>()} {
     if (!document_->load_buffer(text.data(), text.size())) throw std::runtime_error{"no XML document: " + text};
 }
 
@@ -170,4 +171,4 @@ std::vector<std::string> command_ids(Document const& answer) {
     return ids;
 }
 
-}  // namespace rois::test
+}  // namespace rois::client

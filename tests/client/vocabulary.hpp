@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace rois::test {
+namespace rois::client {
 
 using Values = std::map<std::string, std::vector<std::string>>;  // of results or parameters, by name
 
@@ -24,6 +24,7 @@ public:
     std::vector<std::string> children() const;  // their names, in order
     Values values(char const* list = "results") const;
     std::string whole() const;
+    std::string const& as_received() const { return *text_; }
 
     std::string return_code() const { return attribute("return_code"); }
     std::string reason() const { return text("reason"); }
@@ -32,6 +33,7 @@ public:
     pugi::xml_node root() const { return document_->document_element(); }
 
 private:
+    std::shared_ptr<std::string const> text_;
     std::shared_ptr<pugi::xml_document> document_;
 };
 
@@ -86,4 +88,4 @@ std::string side_by_side(std::string const& units);            // the seed's par
 std::string sequence(std::string const& units);                // what execute takes
 std::vector<std::string> command_ids(Document const& answer);  // of an answer of execute, in document order
 
-}  // namespace rois::test
+}  // namespace rois::client

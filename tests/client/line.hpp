@@ -1,12 +1,14 @@
-// A TCP connection on which a test can say anything, right or wrong.
+// A TCP connection on which a client can say anything, right or wrong.
 #pragma once
 
-#include <cstdint>
+#include <chrono>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
-namespace rois::test {
+#include "client/address.hpp"
+
+namespace rois::client {
 
 // The peer closed the connection, or nothing came for far too long.
 class LineEnded : public std::runtime_error {
@@ -16,7 +18,8 @@ public:
 
 class Line {
 public:
-    explicit Line(std::uint16_t port, std::string const& address = "127.0.0.1");
+    // Throws LineEnded when nobody takes the connection.
+    explicit Line(Address const&);
     ~Line();
     Line(Line const&) = delete;
     Line& operator=(Line const&) = delete;
@@ -27,7 +30,7 @@ public:
     std::size_t send_now(std::string_view bytes);
     void finish();  // nothing more will be sent
 
-    // The next bytes, exactly so many. Throws LineEnded.
+    // The next bytes, exactly so many. Throws LineEnded, also when they do not come within the address's patience.
     std::string take(std::size_t size);
     // Up to and with the mark.
     std::string take_until(std::string_view mark);
@@ -37,10 +40,14 @@ public:
     std::string rest();
 
 private:
-    bool receive();
+    using Clock = std::chrono::steady_clock;
+
+    bool receive(Clock::time_point deadline);
+    Clock::time_point deadline() const { return Clock::now() + patience_; }
 
     int socket_ = -1;
+    std::chrono::milliseconds patience_;
     std::string received_;
 };
 
-}  // namespace rois::test
+}  // namespace rois::client

@@ -1,0 +1,80 @@
+// What is seen over HTTP alone.
+#include <algorithm>
+
+#include "broken/breaking.hpp"
+#include "broken/rules.hpp"
+
+namespace rois::broken {
+
+namespace {
+
+void replace(std::string& text, std::string_view part, std::string_view by) {
+    if (auto const at = text.find(part); at != std::string::npos) text.replace(at, part.size(), by);
+}
+
+Breaking answers_with_status(std::string const& due, std::string const& status) {
+    return {
+        .http_reply = [=](Message const&, Message& reply) { replace(reply.first_line, " " + due + " ", " " + status + " "); }};
+}
+
+Breaking leaves_out(std::string const& header) {
+    return {.http_reply = [=](Message const&, Message& reply) {
+        std::erase_if(reply.headers, [&](auto const& line) { return line.starts_with(header + ":"); });
+    }};
+}
+
+Breaking says_no_place() {
+    return {.http_reply = [](Message const&, Message& reply) {
+        if (is(reply.body, "fault")) reply.body = edited(reply.body, [](pugi::xml_node root) { root.remove_attribute("line"); });
+    }};
+}
+
+Breaking knows_no_etag() {
+    return {.http_request = [](Message& request) {
+        std::erase_if(request.headers, [](auto const& line) { return line.starts_with("If-None-Match"); });
+    }};
+}
+
+Breaking tells_all_notifications() {
+    return {.http_request = [](Message& request) { replace(request.first_line, "after=2", "after=0"); }};
+}
+
+Breaking takes_any_text() {
+    return {.http_request = [](Message& request) {
+        for (auto& line : request.headers) replace(line, "text/plain", "text/xml");
+    }};
+}
+
+Breaking names_profiles_otherwise() {
+    return {.http_reply = [](Message const& request, Message& reply) {
+        if (request.first_line.starts_with("GET /rois/profile/")) replace(reply.body, "gml:id=\"profile.", "gml:id=\"a.");
+    }};
+}
+
+Breaking reads_document_types() {
+    return {.http_request = [](Message& request) {
+        if (auto const end = request.body.find("]>"); request.body.starts_with("<!DOCTYPE")) request.body.erase(0, end + 2);
+    }};
+}
+
+}  // namespace
+
+std::vector<BrokenRule> rules_of_http() {
+    auto const http = Over::http;
+    return {{"what is not valid is answered with 400", "what_is_not_valid_is_refused_with_its_place",
+             [] { return answers_with_status("422", "400"); }, http},
+            {"faults have no line", "a_fault_says_where", says_no_place, http},
+            {"document types are read", "document_types_and_instructions_are_refused", reads_document_types, http},
+            {"any text is taken for XML", "other_content_types_are_refused", takes_any_text, http},
+            {"methods are not named", "other_methods_are_refused", [] { return leaves_out("Allow"); }, http},
+            {"a missing session is answered with 401", "an_unknown_session_is_refused",
+             [] { return answers_with_status("403", "401"); }, http},
+            {"resume works over HTTP", "resume_is_for_websockets", [] { return says("resume", "not_allowed", "OK"); }, http},
+            {"a plain GET is answered with 404", "a_plain_get_is_asked_to_upgrade",
+             [] { return answers_with_status("426", "404"); }, http},
+            {"documents are sent again", "documents_are_told_apart_by_etag", knows_no_etag, http},
+            {"profiles are named otherwise", "profiles_are_served_as_documents", names_profiles_otherwise, http},
+            {"a long poll begins anew", "reading_discards_nothing", tells_all_notifications, http}};
+}
+
+}  // namespace rois::broken

@@ -1,0 +1,89 @@
+// Profiles, queries and events.
+#include <memory>
+
+#include "broken/breaking.hpp"
+#include "broken/rules.hpp"
+
+namespace rois::broken {
+
+namespace {
+
+Breaking forgets_a_profile() {
+    return edits_answers("get_profile", [](pugi::xml_node root) {
+        if (std::string_view{root.last_child().name()} == "rois:HRIComponentProfile") root.remove_child(root.last_child());
+    });
+}
+
+Breaking tells_no_times() {
+    return edits_answers("query", [](pugi::xml_node root) {
+        auto const result = root.child("results").find_child_by_attribute("result", "rois:name", "timestamp");
+        if (result) result.child("rois:value").text().set("yesterday");
+    });
+}
+
+Breaking tells_no_structure() {
+    return edits_answers("query", [](pugi::xml_node root) {
+        auto results = root.child("results");
+        while (results.remove_child("located")) {
+        }
+    });
+}
+
+Breaking subscribes_anew() {
+    auto subscriptions = std::make_shared<int>(0);
+    return edits_answers("subscribe", [subscriptions](pugi::xml_node root) {
+        auto text = root.child("subscribe_id").text();
+        if (text) text.set((std::string{text.get()} + "-" + std::to_string(++*subscriptions)).c_str());
+    });
+}
+
+Breaking never_inlines() {
+    return edits_requests("subscribe", [](pugi::xml_node root) { root.remove_attribute("inline_results"); });
+}
+
+Breaking names_another_subscription() {
+    return edits_notifications("receive_event", [](pugi::xml_node root) { root.child("subscribe_id").text().set("s-0"); });
+}
+
+Breaking tells_local_time() {
+    return edits_notifications("receive_event", [](pugi::xml_node root) {
+        auto expire = root.child("expire").text();
+        std::string const text = expire.get();
+        expire.set(text.substr(0, text.size() - 1).c_str());
+    });
+}
+
+std::string const no_results = "<results/>";
+std::string const nobody = "<component_ref rois:code=\"nobody\"/>";
+
+}  // namespace
+
+std::vector<BrokenRule> rules_of_information() {
+    return {{"a profile is missing", "each_component_has_a_profile", forgets_a_profile},
+            {"get_profile tells all, whatever is asked for", "get_profile_chooses_by_condition",
+             [] { return edits_requests("get_profile", remove_condition); }},
+            {"details of unknown errors are told", "details_of_an_unknown_error_are_refused",
+             [] { return says("get_error_detail", "BAD_PARAMETER", "OK", no_results); }},
+            {"unknown queries have an empty answer", "a_query_that_nobody_knows_is_unsupported",
+             [] { return says("query", "UNSUPPORTED", "OK", nobody + no_results); }},
+            {"any component answers a query", "every_query_of_every_component_is_answered",
+             [] { return edits_requests("query", remove_condition); }},
+            {"results are not of their type", "every_query_of_every_component_is_answered", tells_no_times},
+            {"positions have no structure", "located_results_have_their_structure", tells_no_structure},
+            {"the same subscription has another id", "the_same_subscription_again_changes_nothing", subscribes_anew},
+            {"unsubscribe does nothing", "after_unsubscribe_nothing_is_heard", [] { return does_nothing_at("unsubscribe"); }},
+            {"events come twice", "the_same_subscription_again_changes_nothing", [] { return repeats("receive_event"); }},
+            {"results are never inline", "results_come_inline_when_asked_for", never_inlines},
+            {"events name another subscription", "events_are_those_that_were_subscribed", names_another_subscription},
+            {"details are not chosen", "details_are_chosen_by_condition",
+             [] { return edits_requests("get_event_detail", remove_condition); }},
+            {"details of unknown events are told", "details_of_an_unknown_event_are_refused",
+             [] { return says("get_event_detail", "BAD_PARAMETER", "OK", no_results); }},
+            {"what cannot happen is subscribed", "what_cannot_happen_is_unsupported",
+             [] { return says("subscribe", "UNSUPPORTED", "OK", "<subscribe_id>s-0</subscribe_id>"); }},
+            {"all events are sent, whatever is asked for", "only_events_that_match_are_heard",
+             [] { return edits_requests("subscribe", remove_condition); }},
+            {"times are local", "times_are_utc", tells_local_time}};
+}
+
+}  // namespace rois::broken

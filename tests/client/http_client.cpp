@@ -1,0 +1,122 @@
+#include "client/http_client.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+
+namespace rois::client {
+
+namespace {
+
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+Headers read_headers(std::string const& head) {
+    Headers headers;
+    for (auto begin = head.find("\r\n") + 2; begin < head.size() - 2;) {
+        auto const end = head.find("\r\n", begin);
+        auto const colon = head.find(": ", begin);
+        if (end == std::string::npos || colon > end) break;
+        headers[lower(head.substr(begin, colon - begin))] = head.substr(colon + 2, end - colon - 2);
+        begin = end + 2;
+    }
+    return headers;
+}
+
+std::string lines_of(Headers const& headers) {
+    std::string lines;
+    for (auto const& [name, value] : headers) lines += name + ": " + value + "\r\n";
+    return lines;
+}
+
+}  // namespace
+
+pugi::xml_node HttpReply::root() const {
+    if (!document_.document_element()) document_.load_buffer(body.data(), body.size());
+    return document_.document_element();
+}
+
+std::string HttpReply::fault() const {
+    return std::string_view{root().name()} == "fault" ? root().attribute("code").value() : "";
+}
+
+std::string HttpReply::reason() const { return text("reason"); }
+
+std::string HttpReply::return_code() const { return root().attribute("return_code").value(); }
+
+std::string HttpReply::text(char const* child) const { return root().child(child).text().get(); }
+
+std::string HttpReply::header(std::string const& name) const {
+    auto const found = headers.find(lower(name));
+    return found == headers.end() ? "" : found->second;
+}
+
+std::string request(std::string const& operation, std::string const& children, std::string const& attributes) {
+    return "<" + operation + " xmlns=\"urn:x-rois:psm:xml:message:1\" xmlns:rois=\"http://www.omg.org/spec/RoIS/20240801\" " +
+           attributes + ">" + children + "</" + operation + ">";
+}
+
+std::string component_ref(std::string const& code) { return "<component_ref rois:code=\"" + code + "\"/>"; }
+
+std::string parameters(std::string const& name, int value) {
+    return "<parameters><parameter rois:name=\"" + name + "\"><rois:data_type_ref rois:code=\"int\"/><rois:value>" +
+           std::to_string(value) + "</rois:value></parameter></parameters>";
+}
+
+HttpClient::~HttpClient() {
+    if (session.empty()) return;
+    try {
+        Line line{address_};
+        auto const body = request("disconnect");
+        line.send("POST /rois HTTP/1.1\r\nConnection: close\r\nContent-Type: text/xml\r\n" + always() +
+                  "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
+        line.rest();
+    } catch (LineEnded const&) {
+        // The gateway has gone, and the session with it.
+    }
+}
+
+std::string HttpClient::always() const {
+    return "Host: " + address_.authority + "\r\n" + (session.empty() ? "" : "RoIS-Session: " + session + "\r\n") +
+           (address_.token.empty() ? "" : "Authorization: Bearer " + address_.token + "\r\n");
+}
+
+HttpReply HttpClient::say(std::string_view bytes, std::string_view method) {
+    line_.send(bytes);
+    return read(method);
+}
+
+HttpReply HttpClient::read(std::string_view method) {
+    HttpReply reply;
+    auto const head = line_.take_until("\r\n\r\n");
+    if (!head.starts_with("HTTP/1.1 ") || head.size() < 12) throw LineEnded{"this is no HTTP answer: " + head};
+    reply.status = std::atoi(head.substr(9, 3).c_str());
+    reply.headers = read_headers(head);
+    auto const length = reply.header("content-length");
+    if (method != "HEAD" && reply.status != 304 && !length.empty())
+        reply.body = line_.take(std::strtoul(length.c_str(), nullptr, 10));
+    return reply;
+}
+
+HttpReply HttpClient::get(std::string const& target, Headers const& headers, std::string const& method) {
+    return say(method + " " + target + " HTTP/1.1\r\n" + always() + lines_of(headers) + "\r\n", method);
+}
+
+HttpReply HttpClient::post(std::string const& body, Headers const& headers) {
+    return say("POST /rois HTTP/1.1\r\n" + always() + lines_of(headers) + "Content-Length: " + std::to_string(body.size()) +
+               "\r\n\r\n" + body);
+}
+
+HttpReply HttpClient::call(std::string const& operation, std::string const& children, std::string const& attributes) {
+    auto const reply = post(request(operation, children, attributes));
+    if (operation == "connect" && reply.return_code() == "OK") session = reply.text("session");
+    return reply;
+}
+
+HttpReply HttpClient::notifications(unsigned after, unsigned wait) {
+    return get("/rois/notifications?after=" + std::to_string(after) + "&wait=" + std::to_string(wait));
+}
+
+}  // namespace rois::client

@@ -1,0 +1,164 @@
+// Finding, binding and releasing components (7.4.2, figures 8, 9 and 11; table 3; decisions 4 to 7).
+#include <algorithm>
+
+#include "conformance/stage.hpp"
+
+namespace rois::conformance {
+
+namespace {
+
+using client::equal;
+using client::where;
+
+void search_finds_all(Stage& stage) {
+    Guest guest{stage};
+    auto found = guest.search();
+    std::ranges::sort(found);
+    std::vector<std::string> all;
+    for (auto const& component : stage.catalogue().components) all.push_back(component.ref);
+    require(found == all, "search without a condition finds " + list(found) + ", the profile has " + list(all));
+}
+
+void search_finds_what_was_asked_for(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest guest{stage};
+    auto const by_ref = guest.search(only(component));
+    require(by_ref == std::vector{component.ref}, "only " + component.ref + " was asked for; found " + list(by_ref));
+    for (auto const& ref : guest.search(where(equal("component_type", component.type)))) {
+        auto const* const found = stage.catalogue().find(ref);
+        require(found && found->basic() == component.basic(), ref + " is not of the type " + component.type);
+    }
+}
+
+void search_without_a_match_is_an_empty_list(Stage& stage) {
+    Guest guest{stage};
+    auto const answer = ok(guest.ask("search", where(equal("component_ref", "nobody"))));
+    require(!answer.root().child("component_ref_list").first_child(), "the list should be empty: " + answer.whole());
+}
+
+void bind_of_what_is_mine_is_ok(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest guest{stage};
+    guest.take(component);
+    ok(guest.bind(component.ref));
+}
+
+void a_binding_is_exclusive(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest first{stage}, second{stage};
+    first.take(component);
+    refused(second.bind(component.ref), "OUT_OF_RESOURCES");
+    ok(first.get_parameter(component.ref));
+    refused(second.get_parameter(component.ref), "ERROR");
+}
+
+void bind_of_an_unknown_component_is_refused(Stage& stage) {
+    Guest guest{stage};
+    refused(guest.bind("nobody"), "BAD_PARAMETER", "nobody");
+    refused(guest.release("nobody"), "BAD_PARAMETER", "nobody");
+    refused(guest.get_parameter("nobody"), "BAD_PARAMETER", "nobody");
+    refused(guest.set_parameter("nobody", {}), "BAD_PARAMETER", "nobody");
+}
+
+void bind_any_binds_what_matches(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest guest{stage}, rival{stage};
+    auto const answer = guest.ask("bind_any", only(component));
+    if (answer.return_code() == "OUT_OF_RESOURCES") throw NotPlayed{"another application uses " + component.ref};
+    same("the component", component.ref, ok(answer).ref());
+    ok(guest.get_parameter(component.ref));
+    refused(rival.bind(component.ref), "OUT_OF_RESOURCES");
+}
+
+void bind_any_takes_a_free_one_before_mine(Stage& stage) {
+    auto const [one, other] = stage.two_common();
+    Guest guest{stage};
+    auto const either = where(client::either(equal("component_ref", one->ref), equal("component_ref", other->ref)));
+    auto const bound = [&] { return ok(guest.ask("bind_any", either)).ref(); };
+    guest.take(*one);
+    guest.take(*other);
+    ok(guest.release(one->ref));
+    ok(guest.release(other->ref));
+    same("the lowest of two that are free", std::min(one->ref, other->ref), bound());
+    same("the one that is free", std::max(one->ref, other->ref), bound());
+    same("the lowest when both are mine", std::min(one->ref, other->ref), bound());
+}
+
+void bind_any_says_why_not(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest guest{stage}, rival{stage};
+    refused(guest.ask("bind_any", where(equal("component_ref", "nobody"))), "UNSUPPORTED");
+    rival.take(component);
+    refused(guest.ask("bind_any", only(component)), "OUT_OF_RESOURCES");
+}
+
+void commands_need_the_binding(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest guest{stage};
+    refused(guest.get_parameter(component.ref), "ERROR", component.ref);
+    refused(guest.set_parameter(component.ref, {}), "ERROR", component.ref);
+    refused(guest.execute(command(component, "stop")), "ERROR", component.ref);
+}
+
+void after_release_nothing_is_allowed(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest guest{stage}, next{stage};
+    guest.take(component);
+    ok(guest.release(component.ref));
+    refused(guest.get_parameter(component.ref), "ERROR");
+    refused(guest.set_parameter(component.ref, {}), "ERROR");
+    refused(guest.execute(command(component, "stop")), "ERROR");
+    ok(next.bind(component.ref));
+}
+
+void release_of_what_is_not_mine_does_nothing(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest owner{stage}, other{stage};
+    ok(other.release(component.ref));
+    owner.take(component);
+    ok(other.release(component.ref));
+    ok(owner.get_parameter(component.ref));
+}
+
+void release_stops_what_runs(Stage& stage) {
+    auto const& speaker = stage.speaker();
+    Guest guest{stage};
+    guest.take(speaker);
+    auto const id = guest.order(long_speech(speaker, ""));
+    ok(guest.release(speaker.ref));
+    same("the status of the speech", "ABORT", guest.status_of(id));
+    ok(guest.bind(speaker.ref));
+    same("the status of what is suspended when nothing runs", "ERROR", guest.ending(command(speaker, "suspend")));
+}
+
+void a_bound_component_is_busy_for_others(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest owner{stage}, other{stage};
+    owner.take(component);
+    same("the status for another application", "BUSY", other.component_status(component.ref));
+    require(owner.component_status(component.ref) != "BUSY", "a component is BUSY for the one that has it bound");
+    ok(owner.release(component.ref));
+    require(other.component_status(component.ref) != "BUSY", "a component is BUSY that nobody has bound");
+}
+
+}  // namespace
+
+Clause binding_clause() {
+    return {"7.4.2 Command interface: search, bind, release",
+            {{"search_finds_all", "figure 9; table 3", search_finds_all},
+             {"search_finds_what_was_asked_for", "figure 9; table 3; decision 25", search_finds_what_was_asked_for},
+             {"search_without_a_match_is_an_empty_list", "table 3; decision 4", search_without_a_match_is_an_empty_list},
+             {"bind_of_what_is_mine_is_ok", "figure 9; decision 4", bind_of_what_is_mine_is_ok},
+             {"a_binding_is_exclusive", "figure 8; decision 4", a_binding_is_exclusive},
+             {"bind_of_an_unknown_component_is_refused", "table 3; decisions 4, 6", bind_of_an_unknown_component_is_refused},
+             {"bind_any_binds_what_matches", "figure 9; decision 4", bind_any_binds_what_matches},
+             {"bind_any_takes_a_free_one_before_mine", "figure 9; decision 6", bind_any_takes_a_free_one_before_mine},
+             {"bind_any_says_why_not", "table 1; decision 4", bind_any_says_why_not},
+             {"commands_need_the_binding", "figure 8; table 3; decision 5", commands_need_the_binding},
+             {"after_release_nothing_is_allowed", "figures 8, 11; decision 6", after_release_nothing_is_allowed},
+             {"release_of_what_is_not_mine_does_nothing", "figure 11; decision 6", release_of_what_is_not_mine_does_nothing},
+             {"release_stops_what_runs", "figure 11; decision 6", release_stops_what_runs},
+             {"a_bound_component_is_busy_for_others", "table 33; decision 7", a_bound_component_is_busy_for_others}}};
+}
+
+}  // namespace rois::conformance

@@ -1,0 +1,114 @@
+#include "conformance/catalogue.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <regex>
+#include <string_view>
+
+namespace rois::conformance {
+
+namespace {
+
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+TypedName typed_name(pugi::xml_node node) {
+    return {node.attribute("rois:name").value(), node.child("rois:data_type_ref").attribute("rois:code").value()};
+}
+
+std::vector<TypedName> typed_names(pugi::xml_node parent, char const* child) {
+    std::vector<TypedName> names;
+    for (auto const node : parent.children(child)) names.push_back(typed_name(node));
+    return names;
+}
+
+void read_profile(Component& component, pugi::xml_node profile) {
+    for (auto const message : profile.children("rois:MessageProfile")) {
+        Message const read{message.attribute("rois:name").value(), typed_names(message, "rois:Results"),
+                           typed_names(message, "rois:Arguments")};
+        std::string_view const type = message.attribute("xsi:type").value();
+        if (type.ends_with("CommandMessageProfileType")) component.commands.push_back(read);
+        if (type.ends_with("QueryMessageProfileType")) component.queries.push_back(read);
+        if (type.ends_with("EventMessageProfileType")) component.events.push_back(read);
+    }
+    component.parameters = typed_names(profile, "rois:ParameterProfile");
+    for (auto const sub : profile.children("rois:SubComponentProfile")) {
+        if (!lower(sub.text().get()).ends_with("::roiscommon")) continue;
+        component.is_common = true;
+        if (!component.query("component_status"))
+            component.queries.push_back({"component_status", {{"status", "Component_Status"}}, {}});
+    }
+}
+
+// The last part of a type's URN, without `[]`.
+std::string item_type(std::string const& type) {
+    auto const colon = type.rfind(':');
+    auto name = lower(colon == std::string::npos ? type : type.substr(colon + 1));
+    if (name.ends_with("[]")) name.resize(name.size() - 2);
+    return name;
+}
+
+bool is_item(std::string const& type, std::string const& text) {
+    static std::regex const whole_number{"[+-]?[0-9]{1,10}"};
+    static std::regex const number{"[+-]?([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][+-]?[0-9]+)?|[+-]?INF|NaN"};
+    static std::regex const truth{"true|false|0|1"};
+    static std::regex const time{"[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}([.][0-9]+)?Z"};
+    static std::regex const status{"UNINITIALIZED|READY|BUSY|WARNING|ERROR"};
+    if (type == "int" || type == "integer") return std::regex_match(text, whole_number);
+    if (type == "double") return std::regex_match(text, number);
+    if (type == "bool" || type == "boolean") return std::regex_match(text, truth);
+    if (type == "datetime") return std::regex_match(text, time);
+    if (type == "component_status") return std::regex_match(text, status);
+    return type != "roisidentifier" || !text.empty();
+}
+
+}  // namespace
+
+std::string Component::basic() const {
+    auto const type_name = lower(type);
+    auto const mark = type_name.find(":component:omg::");
+    return mark == std::string::npos ? "" : type_name.substr(mark + std::string_view{":component:omg::"}.size());
+}
+
+Message const* Component::query(std::string const& name) const {
+    auto const found = std::ranges::find(queries, name, &Message::name);
+    return found == queries.end() ? nullptr : &*found;
+}
+
+Catalogue Catalogue::read(client::Document const& answer) {
+    Catalogue catalogue;
+    auto const root = answer.root();
+    catalogue.engine = root.child("rois:HRIEngineProfile").child("gml:name").text().get();
+    for (auto const node : root.child("components").children("component")) {
+        Component component;
+        component.ref = node.attribute("ref").value();
+        component.type = node.attribute("type").value();
+        auto const id = "profile." + component.ref;
+        read_profile(component, root.find_child_by_attribute("rois:HRIComponentProfile", "gml:id", id.c_str()));
+        catalogue.components.push_back(std::move(component));
+    }
+    std::ranges::sort(catalogue.components, {}, &Component::ref);
+    return catalogue;
+}
+
+Component const* Catalogue::find(std::string const& ref) const {
+    auto const found = std::ranges::find(components, ref, &Component::ref);
+    return found == components.end() ? nullptr : &*found;
+}
+
+bool is_of_type(std::string const& type, std::vector<std::string> const& values) {
+    auto const item = item_type(type);
+    if (!type.ends_with("[]")) return values.size() == 1 && is_item(item, values.front());
+    if (item != "int" && item != "double" && item != "bool")
+        return std::ranges::all_of(values, [&](auto const& value) { return is_item(item, value); });
+    for (auto const& value : values) {
+        static std::regex const space{"\\s+"};
+        for (std::sregex_token_iterator word{value.begin(), value.end(), space, -1}, end; word != end; ++word)
+            if (word->length() > 0 && !is_item(item, *word)) return false;
+    }
+    return true;
+}
+
+}  // namespace rois::conformance

@@ -1,0 +1,166 @@
+// How commands end (7.4.2, figure 10; tables 8, 20, 32; decisions 8, 9, 12 and 17).
+#include <algorithm>
+
+#include "conformance/stage.hpp"
+
+namespace rois::conformance {
+
+namespace {
+
+using client::unit;
+using client::where;
+
+void require_once(Guest const& guest, std::string const& id, std::string const& status) {
+    auto const endings = guest.endings(id);
+    require(endings == std::vector{status},
+            "the command " + id + " should complete once with " + status + ", and did with " + list(endings));
+}
+
+void an_action_completes_at_its_end(Stage& stage) {
+    auto const& speaker = stage.speaker();
+    Guest guest{stage};
+    guest.take(speaker);
+    auto const id = guest.order(short_speech(speaker, ""));
+    guest.require_success(id, speaker);
+    guest.settle(speaker);
+    require_once(guest, id, "OK");
+}
+
+void a_function_completes_start_when_it_is_active(Stage& stage) {
+    auto const& detector = stage.detector();
+    Guest guest{stage};
+    guest.take(detector);
+    guest.require_success(guest.order(command(detector, "start")), detector);
+    same("the status of stop", "OK", guest.ending(command(detector, "stop")));
+}
+
+void every_command_of_a_sequence_completes_once(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest guest{stage};
+    guest.take(component);
+    std::string units;
+    for (int i = 0; i < 10; ++i) units += unit(command(component, "stop"));
+    auto const ids = client::command_ids(ok(guest.execute(units)));
+    guest.status_of(ids.back());
+    guest.settle(component);
+    for (auto const& id : ids) require_once(guest, id, "OK");
+}
+
+void stop_ends_the_action(Stage& stage) {
+    auto const& speaker = stage.speaker();
+    Guest guest{stage};
+    guest.take(speaker);
+    auto const speech = guest.order(long_speech(speaker, ""));
+    auto const stop = guest.order(command(speaker, "stop"));
+    same("the status of stop", "OK", guest.status_of(stop));
+    guest.settle(speaker);
+    require_once(guest, speech, "ABORT");
+    same("the status of stop when idle", "OK", guest.ending(command(speaker, "stop")));
+}
+
+void a_new_start_replaces_the_old_one(Stage& stage) {
+    auto const& speaker = stage.speaker();
+    Guest guest{stage};
+    guest.take(speaker);
+    auto const first = guest.order(long_speech(speaker, ""));
+    auto const second = guest.order(short_speech(speaker, ""));
+    guest.require_success(second, speaker);
+    require_once(guest, first, "ABORT");
+}
+
+void suspend_holds_and_resume_goes_on(Stage& stage) {
+    auto const& speaker = stage.speaker();
+    Guest guest{stage};
+    guest.take(speaker);
+    auto const speech = guest.order(long_speech(speaker, ""));
+    same("the status of suspend", "OK", guest.ending(command(speaker, "suspend")));
+    same("the status of suspend again", "ERROR", guest.ending(command(speaker, "suspend")));
+    same("the state of the speech", "RUNNING", guest.state_of(speech));
+    same("the status of resume", "OK", guest.ending(command(speaker, "resume")));
+    same("the status of resume again", "ERROR", guest.ending(command(speaker, "resume")));
+    require(guest.endings(speech).empty(), "the speech has completed while it was held");
+    same("the status of stop", "OK", guest.ending(command(speaker, "stop")));
+    require_once(guest, speech, "ABORT");
+}
+
+void in_a_wrong_state_there_is_an_error(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest guest{stage};
+    guest.take(component);
+    same("the status of suspend when idle", "ERROR", guest.ending(command(component, "suspend")));
+    same("the status of resume when idle", "ERROR", guest.ending(command(component, "resume")));
+}
+
+void results_tell_how_far_a_command_is(Stage& stage) {
+    auto const& speaker = stage.speaker();
+    Guest guest{stage};
+    guest.take(speaker);
+    auto const ids = client::command_ids(ok(guest.execute(unit(long_speech(speaker, "")) + unit(command(speaker, "stop")))));
+    same("the state of what runs", "RUNNING", guest.state_of(ids[0]));
+    same("the state of what waits", "WAITING", guest.state_of(ids[1]));
+    auto const stop = guest.order(command(speaker, "stop"));
+    same("the status of stop", "OK", guest.status_of(stop));
+    same("the state of what was stopped", "ABORT", guest.state_of(ids[0]));
+    same("the state of what followed it", "ABORT", guest.state_of(ids[1]));
+    same("the state of stop", "OK", guest.state_of(stop));
+}
+
+void results_are_chosen_by_condition(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest guest{stage};
+    guest.take(component);
+    auto const id = guest.order(command(component, "stop"));
+    guest.status_of(id);
+    require(!ok(guest.get_command_result(id, where(client::equal("status", "OK")))).values().empty(),
+            "the condition status = OK holds, but there are no results");
+    require(ok(guest.get_command_result(id, where(client::equal("status", "ABORT")))).values().empty(),
+            "the condition status = ABORT does not hold, but there are results");
+}
+
+void results_of_an_unknown_or_anothers_command_are_refused(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest guest{stage}, other{stage};
+    refused(guest.get_command_result("nobody"), "BAD_PARAMETER");
+    guest.take(component);
+    auto const name = unique_name();
+    guest.order(command(component, "stop", name));
+    guest.status_of(name);
+    refused(other.get_command_result(name), "BAD_PARAMETER");
+}
+
+void events_of_an_action_come_before_its_end(Stage& stage) {
+    auto const& navigation = stage.one_of({"navigation"});
+    if (navigation.events.empty()) throw NotPlayed{navigation.ref + " has no event"};
+    Guest guest{stage};
+    guest.take(navigation);
+    auto const here = guest.query("robot_position").values();
+    if (!here.contains("position_data") || here.at("position_data").empty()) throw NotPlayed{"no robot says where it is"};
+    ok(guest.subscribe(navigation.events.front().name, only(navigation)));
+    auto const id =
+        guest.order({.component = navigation.ref, .arguments = {client::target_position({here.at("position_data").front()})}});
+    auto const status = guest.status_of(id);
+    if (status != "OK") throw NotPlayed{"navigation to where the robot stands ends with " + status};
+    require(guest.heard_events(navigation.events.front().name) == 1,
+            navigation.events.front().name + " should come once before the command completes");
+}
+
+}  // namespace
+
+Clause completion_clause() {
+    return {
+        "7.4.2 Command interface: completion and results",
+        {{"an_action_completes_at_its_end", "figure 10; table 8; decisions 8, 12", an_action_completes_at_its_end},
+         {"a_function_completes_start_when_it_is_active", "table 32; decision 8", a_function_completes_start_when_it_is_active},
+         {"every_command_of_a_sequence_completes_once", "figure 10; decision 12", every_command_of_a_sequence_completes_once},
+         {"stop_ends_the_action", "tables 8, 32; decision 9", stop_ends_the_action},
+         {"a_new_start_replaces_the_old_one", "decision 9", a_new_start_replaces_the_old_one},
+         {"suspend_holds_and_resume_goes_on", "table 32; decision 9", suspend_holds_and_resume_goes_on},
+         {"in_a_wrong_state_there_is_an_error", "tables 8, 32; decision 9", in_a_wrong_state_there_is_an_error},
+         {"results_tell_how_far_a_command_is", "figure 10; table 20; decision 17", results_tell_how_far_a_command_is},
+         {"results_are_chosen_by_condition", "tables 3, 20; decision 19", results_are_chosen_by_condition},
+         {"results_of_an_unknown_or_anothers_command_are_refused", "table 3; decision 17",
+          results_of_an_unknown_or_anothers_command_are_refused},
+         {"events_of_an_action_come_before_its_end", "table 46; decision 8", events_of_an_action_come_before_its_end}}};
+}
+
+}  // namespace rois::conformance

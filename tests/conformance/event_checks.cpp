@@ -1,0 +1,208 @@
+// Events (7.4.1.5, figure 13; tables 5, 6, 22 and 23; decisions 18 to 21).
+#include <algorithm>
+
+#include "conformance/stage.hpp"
+
+namespace rois::conformance {
+
+namespace {
+
+using client::where;
+
+// A detector, whose first measurement is an event, and its owner.
+class Watch {
+public:
+    explicit Watch(Stage& stage) : detector{stage.detector()}, owner{stage} { owner.take(detector); }
+
+    std::string type() const { return detector.events.front().name; }
+    Document subscribe(Guest& guest, std::string const& condition = "", bool inline_results = false) const {
+        return ok(guest.subscribe(type(), condition.empty() ? only(detector) : condition, inline_results));
+    }
+    void detect() { owner.require_success(owner.order(command(detector, "start")), detector); }
+    // Nothing is detected after this; what was detected has been told to the owner.
+    void end() {
+        owner.order(command(detector, "stop"));
+        owner.settle(detector);
+    }
+
+    Component const& detector;
+    Guest owner;
+};
+
+void every_event_can_be_subscribed(Stage& stage) {
+    Guest guest{stage};
+    for (auto const& component : stage.catalogue().components) {
+        for (auto const& event : component.events) {
+            auto const id = ok(guest.subscribe(event.name, only(component))).text("subscribe_id");
+            require(!id.empty(), "the subscription of " + event.name + " has no id");
+            ok(guest.unsubscribe(id));
+        }
+    }
+}
+
+void an_event_is_heard_with_its_ids(Stage& stage) {
+    Watch watch{stage};
+    auto const id = watch.subscribe(watch.owner).text("subscribe_id");
+    watch.detect();
+    auto const event = watch.owner.hear_event(watch.type());
+    same("subscribe_id", id, event.text("subscribe_id"));
+    same("component_ref", watch.detector.ref, event.ref());
+    require(!event.text("event_id").empty(), "an event has an id: " + event.whole());
+    require(!event.root().child("results"), "results were not asked for: " + event.whole());
+}
+
+void details_of_an_event(Stage& stage) {
+    Watch watch{stage};
+    watch.subscribe(watch.owner);
+    watch.detect();
+    auto const answer = ok(watch.owner.get_event_detail(watch.owner.hear_event(watch.type()).text("event_id")));
+    auto const results = answer.values();
+    for (auto const& due : watch.detector.events.front().results) {
+        require(results.contains(due.name), "the details lack " + due.name + ": " + answer.whole());
+        require(is_of_type(due.type, results.at(due.name)), due.name + " is not of the type " + due.type + ": " + answer.whole());
+    }
+}
+
+void details_are_chosen_by_condition(Stage& stage) {
+    Watch watch{stage};
+    watch.subscribe(watch.owner);
+    watch.detect();
+    auto const id = watch.owner.hear_event(watch.type()).text("event_id");
+    auto const results = ok(watch.owner.get_event_detail(id)).values();
+    require(results.contains("number"), "a detection has a number (tables 35, 38, 40)");
+    auto const number = results.at("number").front();
+    require(ok(watch.owner.get_event_detail(id, where(client::equal("number", number)))).values() == results,
+            "the condition number = " + number + " holds, but the results are not told");
+    require(ok(watch.owner.get_event_detail(id, where(client::equal("number", "-7")))).values().empty(),
+            "the condition number = -7 does not hold, but there are results");
+    refused(watch.owner.get_event_detail(id, where(client::equal("colour", "red"))), "BAD_PARAMETER", "colour");
+}
+
+void results_come_inline_when_asked_for(Stage& stage) {
+    Watch watch{stage};
+    watch.subscribe(watch.owner, "", true);
+    watch.detect();
+    auto const event = watch.owner.hear_event(watch.type());
+    auto const inline_results = event.values();
+    require(!inline_results.empty(), "the results should come with the event: " + event.whole());
+    require(inline_results == ok(watch.owner.get_event_detail(event.text("event_id"))).values(),
+            "the results that come with the event are not its details: " + event.whole());
+}
+
+void details_of_an_unknown_event_are_refused(Stage& stage) {
+    Guest guest{stage};
+    refused(guest.get_event_detail("nobody"), "BAD_PARAMETER");
+}
+
+void the_same_subscription_again_changes_nothing(Stage& stage) {
+    Watch watch{stage};
+    auto const id = watch.subscribe(watch.owner).text("subscribe_id");
+    same("the subscribe_id of the same again", id, watch.subscribe(watch.owner).text("subscribe_id"));
+    auto const turned_around = where(client::literal_first(watch.detector.ref, "component_ref"));
+    same("the subscribe_id of the same, operands in the other order", id,
+         watch.subscribe(watch.owner, turned_around, true).text("subscribe_id"));
+    watch.detect();
+    auto const event = watch.owner.hear_event(watch.type());
+    require(!event.values().empty(), "the last inline_results should win: " + event.whole());
+    auto const event_id = event.text("event_id");
+    watch.end();
+    auto const again =
+        std::ranges::count_if(watch.owner.history(), [&](Document const& heard) { return heard.text("event_id") == event_id; });
+    require(again == 1, "an event came " + std::to_string(again) + " times to one subscription");
+}
+
+void what_was_not_subscribed_is_not_heard(Stage& stage) {
+    Watch watch{stage};
+    Guest other{stage};
+    watch.subscribe(watch.owner);
+    auto const [one, another] = stage.two_common();
+    auto const& mine = one->ref == watch.detector.ref ? *another : *one;
+    other.take(mine);
+    watch.detect();
+    watch.owner.hear_event(watch.type());
+    other.settle(mine);
+    require(other.heard_events(watch.type()) == 0, "an event came to an application that has not subscribed");
+}
+
+void two_applications_hear_the_same_event(Stage& stage) {
+    Watch watch{stage};
+    Guest other{stage};
+    watch.subscribe(watch.owner);
+    watch.subscribe(other);
+    watch.detect();
+    same("the component", watch.detector.ref, watch.owner.hear_event(watch.type()).ref());
+    same("the component", watch.detector.ref, other.hear_event(watch.type()).ref());
+}
+
+void after_unsubscribe_nothing_is_heard(Stage& stage) {
+    Watch watch{stage};
+    Guest witness{stage};
+    ok(watch.owner.unsubscribe(watch.subscribe(watch.owner).text("subscribe_id")));
+    watch.subscribe(witness);
+    watch.detect();
+    witness.hear_event(watch.type());
+    watch.end();
+    require(watch.owner.heard_events(watch.type()) == 0, "an event came after unsubscribe");
+}
+
+void unsubscribe_of_what_is_over_is_ok(Stage& stage) {
+    Guest guest{stage};
+    auto const& detector = stage.detector();
+    auto const id = ok(guest.subscribe(detector.events.front().name)).text("subscribe_id");
+    ok(guest.unsubscribe(id));
+    ok(guest.unsubscribe(id));
+    ok(guest.unsubscribe("nobody"));
+}
+
+void only_events_that_match_are_heard(Stage& stage) {
+    Watch watch{stage};
+    Guest picky{stage};
+    auto const never = watch.subscribe(picky, where(client::equal("number", "-7"))).text("subscribe_id");
+    auto const always = watch.subscribe(picky).text("subscribe_id");
+    require(never != always, "two conditions share a subscribe_id");
+    watch.detect();
+    same("the subscription whose condition holds", always, picky.hear_event(watch.type()).text("subscribe_id"));
+}
+
+void what_cannot_happen_is_unsupported(Stage& stage) {
+    Guest guest{stage};
+    auto const& detector = stage.detector();
+    refused(guest.subscribe("dinner_ready"), "UNSUPPORTED");
+    refused(guest.subscribe(detector.events.front().name, where(client::equal("component_ref", "nobody"))), "UNSUPPORTED");
+    refused(guest.subscribe(detector.events.front().name, where(client::equal("colour", "red"))), "BAD_PARAMETER", "colour");
+}
+
+void without_a_condition_all_components_are_heard(Stage& stage) {
+    Watch watch{stage};
+    auto const id = ok(watch.owner.subscribe(watch.type())).text("subscribe_id");
+    watch.detect();
+    while (true) {
+        auto const event = watch.owner.hear_event(watch.type());
+        if (event.ref() != watch.detector.ref) continue;  // another robot's
+        same("subscribe_id", id, event.text("subscribe_id"));
+        return;
+    }
+}
+
+}  // namespace
+
+Clause event_clause() {
+    return {
+        "7.4.1.5 Event interface",
+        {{"every_event_can_be_subscribed", "figure 13; tables 5, 35 to 46", every_event_can_be_subscribed},
+         {"an_event_is_heard_with_its_ids", "figure 13; tables 6, 22", an_event_is_heard_with_its_ids},
+         {"details_of_an_event", "figure 13; tables 5, 23, 35", details_of_an_event},
+         {"details_are_chosen_by_condition", "tables 5, 23; decision 19", details_are_chosen_by_condition},
+         {"results_come_inline_when_asked_for", "decision 21", results_come_inline_when_asked_for},
+         {"details_of_an_unknown_event_are_refused", "table 5; decision 21", details_of_an_unknown_event_are_refused},
+         {"the_same_subscription_again_changes_nothing", "7.4.1.5; decision 20", the_same_subscription_again_changes_nothing},
+         {"what_was_not_subscribed_is_not_heard", "7.4.1.5", what_was_not_subscribed_is_not_heard},
+         {"two_applications_hear_the_same_event", "7.4.1.5; decision 20", two_applications_hear_the_same_event},
+         {"after_unsubscribe_nothing_is_heard", "figure 13", after_unsubscribe_nothing_is_heard},
+         {"unsubscribe_of_what_is_over_is_ok", "7.4.1.5; decision 20", unsubscribe_of_what_is_over_is_ok},
+         {"only_events_that_match_are_heard", "table 5; decision 19", only_events_that_match_are_heard},
+         {"what_cannot_happen_is_unsupported", "table 1; decision 18", what_cannot_happen_is_unsupported},
+         {"without_a_condition_all_components_are_heard", "table 5; decision 18", without_a_condition_all_components_are_heard}}};
+}
+
+}  // namespace rois::conformance

@@ -1,0 +1,158 @@
+// execute and what it refuses (7.4.2, figure 10; tables 10 to 12; decisions 8 to 11).
+#include <algorithm>
+#include <set>
+
+#include "conformance/stage.hpp"
+
+namespace rois::conformance {
+
+namespace {
+
+using client::unit;
+
+void every_command_gets_an_id(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest guest{stage};
+    guest.take(component);
+    auto const name = unique_name();
+    auto const answer = ok(guest.execute(unit(command(component, "stop")) + unit(command(component, "stop", name)) +
+                                         client::concurrent(client::branch({command(component, "stop")}))));
+    require(answer.children() == std::vector<std::string>{"rois:CommandUnitSequence"},
+            "the answer should hold the sequence: " + answer.whole());
+    auto const ids = client::command_ids(answer);
+    require(ids.size() == 3 && std::set(ids.begin(), ids.end()).size() == 3 && !std::set(ids.begin(), ids.end()).contains(""),
+            "each of the three commands should have an id of its own: " + answer.whole());
+    same("the id that the application gave", name, ids[1]);
+    guest.settle(component);
+}
+
+void the_answer_echoes_the_commands(Stage& stage) {
+    auto const dial = dial_of(stage);
+    Guest guest{stage};
+    guest.take(*dial.component);
+    auto const answer = ok(
+        guest.execute({.component = dial.component->ref, .type = "set_parameter", .arguments = {turned(dial, 50)}, .delay = 1}));
+    auto const echoed = answer.root().first_child().first_child();
+    same("command_type", "set_parameter", echoed.attribute("rois:command_type").value());
+    same("delay_time", "1", echoed.attribute("rois:delay_time").value());
+    same("component_ref", dial.component->ref, echoed.child("rois:component_ref").attribute("rois:code").value());
+    auto const argument = echoed.child("rois:arguments").child("rois:parameter");
+    same("the argument's name", dial.parameter, argument.attribute("rois:name").value());
+    same("the argument's value", "50", argument.child("rois:value").text().get());
+    guest.status_of(client::command_ids(answer).front());
+}
+
+void a_name_is_used_once(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest guest{stage};
+    guest.take(component);
+    auto const name = unique_name();
+    auto const stop = [&](std::string const& id) { return unit(command(component, "stop", id)); };
+    refused(guest.execute(stop(name) + stop(name)), "BAD_PARAMETER", "command_unit_list[2]");
+    ok(guest.execute(stop(name)));
+    guest.status_of(name);
+    refused(guest.execute(stop(name)), "BAD_PARAMETER", "command_unit_list[1]");
+}
+
+void command_types_are_those_of_the_profile(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest guest{stage};
+    guest.take(component);
+    refused(guest.execute(command(component, "dance")), "BAD_PARAMETER", "dance");
+}
+
+void a_bad_unit_is_named_by_its_path(Stage& stage) {
+    auto const [one, other] = stage.two_common();
+    Guest guest{stage};
+    guest.take(*one);
+    auto const good = command(*one, "stop");
+    auto const unbound = command(*other, "stop");
+    Command const unknown{.component = "nobody", .type = "stop"};
+    refused(guest.execute(unit(good) + unit(unknown)), "BAD_PARAMETER", "command_unit_list[2]");
+    refused(guest.execute(unit(good) + client::concurrent(client::branch({good}) + client::branch({good, unbound}))), "ERROR",
+            "command_unit_list[2]/branch_list[2]/command_list[2]");
+    refused(guest.execute(client::side_by_side(unit(good) + client::one_after_another(unit(good) + unit(unknown)))),
+            "BAD_PARAMETER", "command_unit_list[1]/command_unit_list[2]/command_unit_list[2]");
+    refused(guest.execute(unit(unbound) + unit(unknown)), "ERROR", "command_unit_list[1]");
+}
+
+void of_a_bad_sequence_nothing_runs(Stage& stage) {
+    auto const dial = dial_of(stage);
+    Guest guest{stage};
+    guest.take(*dial.component);
+    guest.set_parameter(dial.component->ref, {turned(dial, 51)});
+    auto const name = unique_name();
+    Command const good{.component = dial.component->ref, .type = "set_parameter", .id = name, .arguments = {turned(dial, 52)}};
+    Command const bad{
+        .component = dial.component->ref, .type = "set_parameter", .arguments = {{dial.parameter, "int", {"soon"}}}};
+    refused(guest.execute(unit(good) + unit(bad)), "BAD_PARAMETER", "command_unit_list[2]");
+    refused(guest.get_command_result(name), "BAD_PARAMETER");
+    guest.settle(*dial.component);
+    require(guest.endings(name).empty(), "a command of a sequence that was refused has completed");
+    auto const values = ok(guest.get_parameter(dial.component->ref)).values("parameters");
+    require(values.contains(dial.parameter) && values.at(dial.parameter) == std::vector<std::string>{"51"},
+            dial.parameter + " was set by a sequence that was refused");
+}
+
+void arguments_of_start_are_stored_first(Stage& stage) {
+    auto const& speaker = stage.speaker();
+    Guest guest{stage};
+    guest.take(speaker);
+    guest.require_success(guest.order(short_speech(speaker, "")), speaker);
+    auto const values = ok(guest.get_parameter(speaker.ref)).values("parameters");
+    require(values.contains("speech_text") && values.at("speech_text") == std::vector<std::string>{"Hi."},
+            "speech_text is not what `start` said");
+}
+
+void bad_arguments_are_refused(Stage& stage) {
+    auto const& speaker = stage.speaker();
+    Guest guest{stage};
+    guest.take(speaker);
+    auto start = short_speech(speaker, "");
+    start.arguments.push_back({"colour", "string", {"red"}});
+    refused(guest.execute(start), "BAD_PARAMETER", "colour");
+    start.arguments.back() = {"volume", "int", {"loud"}};
+    refused(guest.execute(start), "BAD_PARAMETER", "volume");
+}
+
+// As long as nobody has set it: what is set once stays.
+void start_needs_what_is_mandatory(Stage& stage) {
+    static std::vector<std::pair<std::string, std::vector<std::string>>> const mandatory{
+        {"follow", {"target_object_ref"}},
+        {"navigation", {"target_position"}},
+        {"move", {"line", "curve"}},
+        {"reaction", {"reaction_ref"}},
+        {"speechsynthesis", {"speech_text", "SSML_text"}}};
+    bool played = false;
+    for (auto const& component : stage.catalogue().components) {
+        for (auto const& [kind, names] : mandatory) {
+            if (component.basic() != kind) continue;
+            Guest guest{stage};
+            if (guest.bind(component.ref).return_code() != "OK") continue;
+            auto const read = guest.get_parameter(component.ref);
+            auto const values = read.values("parameters");
+            if (read.return_code() != "OK" || std::ranges::any_of(names, [&](auto const& name) { return values.contains(name); }))
+                continue;
+            refused(guest.execute(command(component, "start")), "BAD_PARAMETER");
+            played = true;
+        }
+    }
+    if (!played) throw NotPlayed{"no free component lacks what is mandatory for its start"};
+}
+
+}  // namespace
+
+Clause execution_clause() {
+    return {"7.4.2 Command interface: execute",
+            {{"every_command_gets_an_id", "figure 10; table 12; decision 11", every_command_gets_an_id},
+             {"the_answer_echoes_the_commands", "figure 10; table 3; decision 11", the_answer_echoes_the_commands},
+             {"a_name_is_used_once", "decision 11", a_name_is_used_once},
+             {"command_types_are_those_of_the_profile", "tables 12, 32; decision 9", command_types_are_those_of_the_profile},
+             {"a_bad_unit_is_named_by_its_path", "decision 10", a_bad_unit_is_named_by_its_path},
+             {"of_a_bad_sequence_nothing_runs", "decision 10", of_a_bad_sequence_nothing_runs},
+             {"arguments_of_start_are_stored_first", "tables 12, 18; decision 8", arguments_of_start_are_stored_first},
+             {"bad_arguments_are_refused", "table 18; decisions 10, 26", bad_arguments_are_refused},
+             {"start_needs_what_is_mandatory", "tables 44 to 47; decision 8", start_needs_what_is_mandatory}}};
+}
+
+}  // namespace rois::conformance

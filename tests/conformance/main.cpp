@@ -1,0 +1,131 @@
+// rois-conformance: whether a gateway keeps the rules that can be seen from outside.
+#include <charconv>
+#include <fstream>
+#include <iostream>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+
+#include "client/line.hpp"
+#include "conformance/play.hpp"
+#include "xml/schemas.hpp"
+
+namespace {
+
+using rois::conformance::Order;
+using rois::conformance::Outcome;
+
+constexpr int all_hold = 0, a_rule_is_broken = 1, no_answer = 2;
+
+constexpr auto usage =
+    "Usage: rois-conformance URL [OPTION...]\n"
+    "Plays every rule of RoIS that can be seen from outside against the gateway at URL (http://HOST:PORT), and reports.\n"
+    "It starts every component that no other application uses, and may make a robot speak and move by some centimetres.\n\n"
+    "  --report FILE        write the report as JUnit XML, too\n"
+    "  --over http          over HTTP only; or websocket\n"
+    "  --only TEXT          only checks whose name has TEXT within\n"
+    "  --token TOKEN        the bearer token that the gateway asks for\n"
+    "  --patience SECONDS   how long one thing is waited for [10]\n"
+    "  --limit SECONDS      how long all may take [600]\n\n"
+    "Exit codes: 0 all rules hold, 1 a rule is broken, 2 bad usage or no gateway there\n";
+
+class BadUsage : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+unsigned whole_number(std::string_view name, std::string_view text, unsigned most) {
+    unsigned number = 0;
+    auto const read = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (read.ec != std::errc{} || read.ptr != text.data() + text.size() || number == 0 || number > most)
+        throw BadUsage{std::string{name} + " must be a whole number from 1 to " + std::to_string(most) + ", not " +
+                       std::string{text}};
+    return number;
+}
+
+// http://HOST[:PORT][/], HOST also [::1].
+void read_url(Order& order, std::string_view url) {
+    constexpr std::string_view scheme = "http://";
+    order.url = url;
+    if (!url.starts_with(scheme)) throw BadUsage{"the URL must begin with http://, and is " + order.url};
+    url.remove_prefix(scheme.size());
+    if (url.ends_with('/')) url.remove_suffix(1);
+    order.address.authority = url;
+    auto const colon = url.rfind(':');
+    bool const has_port = colon != url.npos && url.find(']', colon) == url.npos;
+    auto host = url.substr(0, has_port ? colon : url.size());
+    if (host.starts_with('[') && host.ends_with(']')) host = host.substr(1, host.size() - 2);
+    if (host.empty() || host.find('/') != host.npos) throw BadUsage{"the URL must be http://HOST:PORT, and is " + order.url};
+    order.address.host = host;
+    order.address.port = static_cast<std::uint16_t>(has_port ? whole_number("the port", url.substr(colon + 1), 65'535) : 80);
+}
+
+struct CommandLine {
+    Order order;
+    std::string report;
+};
+
+std::optional<CommandLine> read_command_line(std::span<char* const> arguments) {
+    CommandLine line;
+    line.order.address.patience = std::chrono::seconds{10};
+    for (std::size_t i = 1; i < arguments.size(); ++i) {
+        std::string const name = arguments[i];
+        if (name == "--help" || name == "-h") return {};
+        if (!name.starts_with('-')) {
+            if (!line.order.url.empty()) throw BadUsage{"there is one URL, not also " + name};
+            read_url(line.order, name);
+            continue;
+        }
+        if (++i == arguments.size()) throw BadUsage{name + " needs a value"};
+        std::string const value = arguments[i];
+        if (name == "--report") {
+            line.report = value;
+        } else if (name == "--over") {
+            if (value != "http" && value != "websocket") throw BadUsage{"--over takes http or websocket, not " + value};
+            line.order.ways = {value == "http" ? rois::client::Way::http : rois::client::Way::websocket};
+        } else if (name == "--only") {
+            line.order.only = value;
+        } else if (name == "--token") {
+            line.order.address.token = value;
+        } else if (name == "--patience") {
+            line.order.address.patience = std::chrono::seconds{whole_number(name, value, 3'600)};
+        } else if (name == "--limit") {
+            line.order.limit = std::chrono::seconds{whole_number(name, value, 86'400)};
+        } else {
+            throw BadUsage{"there is no option " + name};
+        }
+    }
+    if (line.order.url.empty()) throw BadUsage{"the URL of the gateway is missing"};
+    return line;
+}
+
+int play(CommandLine const& line) {
+    auto const report = rois::conformance::play(line.order);
+    write_text(std::cout, report);
+    if (!line.report.empty()) {
+        std::ofstream file{line.report};
+        write_junit(file, report);
+        if (!file.flush()) throw BadUsage{"the report cannot be written to " + line.report};
+    }
+    return report.count(Outcome::broken) == 0 ? all_hold : a_rule_is_broken;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    rois::xml::Platform const platform;
+    try {
+        auto const line = read_command_line({arguments, static_cast<std::size_t>(count)});
+        if (line) return play(*line);
+        std::cout << usage;
+        return all_hold;
+    } catch (BadUsage const& bad) {
+        std::cerr << "rois-conformance: " << bad.what() << "\n\n" << usage;
+    } catch (rois::client::LineEnded const& ended) {
+        std::cerr << "rois-conformance: the gateway does not answer: " << ended.what() << "\n";
+    } catch (std::exception const& reason) {
+        std::cerr << "rois-conformance: " << reason.what() << "\n";
+    }
+    return no_answer;
+}

@@ -1,0 +1,133 @@
+// Profiles (7.4.1.1, figure 6; 7.5, tables 24 to 30) and errors (7.4.1.2, figure 7).
+#include <algorithm>
+#include <set>
+
+#include "conformance/stage.hpp"
+
+namespace rois::conformance {
+
+namespace {
+
+using client::equal;
+using client::where;
+
+std::vector<std::string> refs_in(Document const& profile) {
+    std::vector<std::string> refs;
+    for (auto const component : profile.root().child("components").children("component"))
+        refs.emplace_back(component.attribute("ref").value());
+    std::ranges::sort(refs);
+    return refs;
+}
+
+std::vector<std::string> refs_of(Catalogue const& catalogue) {
+    std::vector<std::string> refs;
+    for (auto const& component : catalogue.components) refs.push_back(component.ref);
+    return refs;
+}
+
+void the_engine_tells_its_components(Stage& stage) {
+    Guest guest{stage};
+    auto const answer = ok(guest.ask("get_profile"));
+    auto const refs = refs_in(answer);
+    require(!refs.empty(), "an engine has at least one component (table 30): " + answer.whole());
+    require(std::set(refs.begin(), refs.end()).size() == refs.size(), "a component is there twice: " + list(refs));
+    std::set<std::string> of_engine;
+    for (auto const node : answer.root().select_nodes("//rois:HRIComponent")) of_engine.insert(node.node().text().get());
+    for (auto const& ref : of_engine)
+        require(std::ranges::binary_search(refs, ref), "the engine's profile names " + ref + ", the list of components does not");
+}
+
+void each_component_has_a_profile(Stage& stage) {
+    Guest guest{stage};
+    auto const answer = ok(guest.ask("get_profile"));
+    for (auto const component : answer.root().child("components").children("component")) {
+        std::string const ref = component.attribute("ref").value();
+        auto const id = "profile." + ref;
+        auto const profile = answer.root().find_child_by_attribute("rois:HRIComponentProfile", "gml:id", id.c_str());
+        require(static_cast<bool>(profile), "there is no HRIComponentProfile with the gml:id " + id);
+        same("the type of " + ref, component.attribute("type").value(), profile.child("gml:identifier").text().get());
+    }
+}
+
+void get_profile_chooses_by_condition(Stage& stage) {
+    Guest guest{stage};
+    auto const& component = stage.catalogue().components.front();
+    auto const by_ref = refs_in(ok(guest.ask("get_profile", only(component))));
+    require(by_ref == std::vector{component.ref}, "only " + component.ref + " was asked for, but told are " + list(by_ref));
+    auto const by_type = refs_in(ok(guest.ask("get_profile", where(equal("component_type", component.type)))));
+    require(std::ranges::binary_search(by_type, component.ref),
+            component.ref + " is not among those of its type: " + list(by_type));
+    require(refs_in(ok(guest.ask("get_profile", where(equal("component_ref", "nobody"))))).empty(),
+            "nobody was asked for, but components are told");
+}
+
+void a_condition_that_cannot_be_read_is_refused(Stage& stage) {
+    Guest guest{stage};
+    auto const unknown = where(equal("colour", "red"));
+    refused(guest.ask("get_profile", unknown), "BAD_PARAMETER", "colour");
+    refused(guest.ask("search", unknown), "BAD_PARAMETER", "colour");
+    refused(guest.ask("bind_any", unknown), "BAD_PARAMETER", "colour");
+    refused(guest.query("component_status", unknown), "BAD_PARAMETER", "colour");
+}
+
+// Over the operation and as documents.
+void profiles_are_served_as_documents(Stage& stage) {
+    client::HttpClient client{stage.address()};
+    auto const engine = client.get("/rois/profile");
+    require(engine.status == 200, "/rois/profile answers with " + std::to_string(engine.status));
+    stage.traffic().validate(engine.body);
+    same("the document at /rois/profile", "rois:HRIEngineProfile", engine.root().name());
+    for (auto const& ref : refs_of(stage.catalogue())) {
+        auto const path = "/rois/profile/" + ref;
+        auto const reply = client.get(path);
+        require(reply.status == 200, path + " answers with " + std::to_string(reply.status));
+        stage.traffic().validate(reply.body);
+        same("the gml:id at " + path, "profile." + ref, reply.root().attribute("gml:id").value());
+    }
+    same("the fault at a component that is not there", "not_found", client.get("/rois/profile/nobody").fault());
+}
+
+void documents_are_told_apart_by_etag(Stage& stage) {
+    client::HttpClient client{stage.address()};
+    auto const etag = client.get("/rois/profile").header("ETag");
+    require(!etag.empty(), "/rois/profile has no ETag");
+    auto const again = client.get("/rois/profile", {{"If-None-Match", etag}});
+    require(again.status == 304, "the same ETag is answered with " + std::to_string(again.status) + " instead of 304");
+}
+
+void profiles_name_data_types(Stage& stage) {
+    for (auto const& component : stage.catalogue().components) {
+        auto const named = [&](std::vector<TypedName> const& names) {
+            for (auto const& one : names)
+                require(!one.name.empty() && !one.type.empty(), "a parameter of " + component.ref + " has no name or no type");
+        };
+        named(component.parameters);
+        for (auto const* const messages : {&component.commands, &component.queries, &component.events})
+            for (auto const& message : *messages) {
+                named(message.results);
+                named(message.arguments);
+            }
+    }
+}
+
+void details_of_an_unknown_error_are_refused(Stage& stage) {
+    Guest guest{stage};
+    refused(guest.ask("get_error_detail", "<error_id>nobody</error_id>"), "BAD_PARAMETER");
+}
+
+}  // namespace
+
+Clause profile_clause() {
+    return {"7.5 Profiles; 7.4.1.2 System interface: errors",
+            {{"the_engine_tells_its_components", "figure 6; tables 2, 30", the_engine_tells_its_components},
+             {"each_component_has_a_profile", "tables 2, 29; decision 25", each_component_has_a_profile},
+             {"get_profile_chooses_by_condition", "table 2; decision 18", get_profile_chooses_by_condition},
+             {"a_condition_that_cannot_be_read_is_refused", "tables 2 to 4; decisions 4, 18",
+              a_condition_that_cannot_be_read_is_refused},
+             {"profiles_are_served_as_documents", "7.5; wire.md", profiles_are_served_as_documents, Way::http},
+             {"documents_are_told_apart_by_etag", "wire.md", documents_are_told_apart_by_etag, Way::http},
+             {"profiles_name_data_types", "tables 24 to 28", profiles_name_data_types, Way::http},
+             {"details_of_an_unknown_error_are_refused", "figure 7; table 2", details_of_an_unknown_error_are_refused}}};
+}
+
+}  // namespace rois::conformance

@@ -1,0 +1,37 @@
+// What came of the checks, as text for people and as JUnit XML for build servers.
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace rois::conformance {
+
+enum class Outcome { holds, broken, not_played };
+
+// A check over one way.
+struct Finding {
+    std::string name;
+    std::string proves;
+    std::string over;  // "HTTP", "WebSocket"; empty for what is seen over all
+    Outcome outcome = Outcome::holds;
+    std::string text{};  // why, unless it holds
+    double seconds = 0;
+};
+
+struct Chapter {
+    std::string title;
+    std::vector<Finding> findings;
+};
+
+struct Report {
+    std::string gateway;  // its address and name
+    std::vector<Chapter> chapters;
+
+    std::size_t count(Outcome) const;
+};
+
+void write_text(std::ostream&, Report const&);
+void write_junit(std::ostream&, Report const&);
+
+}  // namespace rois::conformance

@@ -1,0 +1,184 @@
+// Sessions: who may ask, when, and what an end leaves behind (7.4.1.1, figure 6; decisions 1 to 3).
+#include "client/websocket_client.hpp"
+#include "conformance/stage.hpp"
+
+namespace rois::conformance {
+
+namespace {
+
+using Operations = std::vector<std::pair<std::string, std::string>>;
+
+// Each operation that needs a session, with children that are valid.
+Operations operations_in_a_session(Stage const& stage) {
+    if (stage.catalogue().components.empty()) throw NotPlayed{"there is no component"};
+    auto const ref = client::component_ref(stage.catalogue().components.front().ref);
+    return {{"get_profile", ""},
+            {"get_error_detail", "<error_id>e</error_id>"},
+            {"search", ""},
+            {"bind", ref},
+            {"bind_any", ""},
+            {"release", ref},
+            {"get_parameter", ref},
+            {"set_parameter", ref + client::parameters({})},
+            {"execute", client::sequence(client::pause(0))},
+            {"get_command_result", "<command_id>c</command_id>"},
+            {"query", "<query_type>component_status</query_type>"},
+            {"subscribe", "<event_type>person_detected</event_type>"},
+            {"unsubscribe", "<subscribe_id>s</subscribe_id>"},
+            {"get_event_detail", "<event_id>e</event_id>"},
+            {"disconnect", ""}};
+}
+
+void connect_opens_a_session(Stage& stage) {
+    Guest guest{stage, Guest::Comes::as_a_stranger};
+    auto const answer = ok(guest.connect());
+    require(!answer.text("session").empty(), "the answer should have a session: " + answer.whole());
+    Guest other{stage};
+    require(guest.session() != other.session(), "two sessions have the same id");
+}
+
+void nothing_is_allowed_before_connect(Stage& stage) {
+    Guest stranger{stage, Guest::Comes::as_a_stranger};
+    for (auto const& [operation, children] : operations_in_a_session(stage))
+        fault(stranger.ask(operation, children), "no_session");
+}
+
+void nothing_is_allowed_after_disconnect(Stage& stage) {
+    Guest guest{stage};
+    ok(guest.disconnect());
+    for (auto const& [operation, children] : operations_in_a_session(stage)) fault(guest.ask(operation, children), "no_session");
+}
+
+void connect_within_a_session_changes_nothing(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest guest{stage};
+    guest.take(component);
+    auto const before = guest.session();
+    same("the session", before, ok(guest.connect()).text("session"));
+    ok(guest.get_parameter(component.ref));
+}
+
+void connect_after_disconnect_opens_another_session(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest guest{stage};
+    guest.take(component);
+    auto const before = guest.session();
+    ok(guest.disconnect());
+    ok(guest.connect());
+    require(guest.session() != before, "the session " + before + " has come back");
+    refused(guest.get_parameter(component.ref), "ERROR");
+}
+
+void disconnect_releases_components(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest first{stage}, second{stage};
+    first.take(component);
+    ok(first.disconnect());
+    ok(second.bind(component.ref));
+}
+
+void disconnect_stops_what_runs(Stage& stage) {
+    auto const& speaker = stage.speaker();
+    Guest first{stage}, second{stage};
+    first.take(speaker);
+    first.order(long_speech(speaker, ""));
+    ok(first.disconnect());
+    ok(second.bind(speaker.ref));
+    same("the status of what is suspended when nothing runs", "ERROR", second.ending(command(speaker, "suspend")));
+}
+
+void nothing_is_heard_after_disconnect(Stage& stage) {
+    auto const& detector = stage.detector();
+    auto const& event = detector.events.front().name;
+    Guest gone{stage}, here{stage};
+    ok(gone.subscribe(event));
+    ok(here.subscribe(event));
+    ok(gone.disconnect());
+    here.take(detector);
+    here.order(command(detector, "start"));
+    here.hear_event(event);
+    ok(gone.connect());  // what had been sent would have been heard before the answer
+    auto const& other = stage.two_common();
+    auto const& component = other.first->ref == detector.ref ? *other.second : *other.first;
+    gone.take(component);
+    gone.settle(component);
+    require(gone.heard_events(event) == 0, "a subscription outlived its session");
+}
+
+void an_unknown_session_is_refused(Stage& stage) {
+    client::HttpClient client{stage.address()};
+    client.session = "nobody";
+    auto const reply = client.call("search");
+    same("the fault", "no_session", reply.fault());
+    require(reply.status == 403, "the HTTP status should be 403, and is " + std::to_string(reply.status));
+    client.session.clear();
+    same("the reason without a session", reply.reason(), client.call("search").reason());
+}
+
+void connect_with_an_unknown_session_opens_a_new_one(Stage& stage) {
+    client::HttpClient client{stage.address()};
+    client.session = "nobody";
+    auto const reply = client.call("connect");
+    same("the return code", "OK", reply.return_code());
+    require(client.session != "nobody", "the session should have an id of its own");
+    same("the header RoIS-Session", client.session, reply.header("RoIS-Session"));
+}
+
+void resume_is_for_websockets(Stage& stage) {
+    client::HttpClient client{stage.address()};
+    client.call("connect");
+    auto const reply = client.call("resume", "", "session=\"" + client.session + "\" last_sequence=\"0\"");
+    same("the fault", "not_allowed", reply.fault());
+}
+
+// The link goes, the session stays: bindings, and what was not heard.
+void a_session_can_be_resumed(Stage& stage) {
+    auto const dial = dial_of(stage);
+    client::WebSocketClient first{stage.address()}, second{stage.address()};
+    first.call("connect");
+    auto const session = first.session();
+    auto const bound =
+        std::string{first.call("bind", client::component_ref(dial.component->ref)).attribute("return_code").value()};
+    auto const resume = [&] { return second.call("resume", "", "session=\"" + session + "\" last_sequence=\"0\""); };
+    if (bound != "OK") throw NotPlayed{"another application uses " + dial.component->ref};
+    auto const set = client::component_ref(dial.component->ref) + client::parameters({});
+    first.call("set_parameter", set);
+    first.next_document();
+    first.vanish();
+    same("the answer of resume", "OK", resume().attribute("return_code").value());
+    auto const notification = second.next_document();
+    same("what had been heard", "completed", notification.name());
+    same("its sequence", "1", notification.attribute("sequence").value());
+    same("set_parameter of what is bound still", "OK", second.call("set_parameter", set).attribute("return_code").value());
+    same("the next sequence", "2", second.next_document().attribute("sequence").value());
+    same("disconnect", "OK", second.call("disconnect").attribute("return_code").value());
+}
+
+void an_unknown_session_cannot_be_resumed(Stage& stage) {
+    client::WebSocketClient client{stage.address()};
+    auto const answer = client.call("resume", "", "session=\"nobody\" last_sequence=\"0\"");
+    same("the fault", "no_session", answer.attribute("code").value());
+}
+
+}  // namespace
+
+Clause session_clause() {
+    return {"7.4.1.1 System interface: connection and disconnection",
+            {{"connect_opens_a_session", "figure 6; table 2", connect_opens_a_session},
+             {"nothing_is_allowed_before_connect", "figure 6; decision 1", nothing_is_allowed_before_connect},
+             {"nothing_is_allowed_after_disconnect", "figure 6; decision 1", nothing_is_allowed_after_disconnect},
+             {"connect_within_a_session_changes_nothing", "figure 6; decision 1", connect_within_a_session_changes_nothing},
+             {"connect_after_disconnect_opens_another_session", "figure 6; decision 3",
+              connect_after_disconnect_opens_another_session},
+             {"disconnect_releases_components", "figure 6; decision 3", disconnect_releases_components},
+             {"disconnect_stops_what_runs", "figure 6; decision 3", disconnect_stops_what_runs},
+             {"nothing_is_heard_after_disconnect", "figure 6; decision 3", nothing_is_heard_after_disconnect},
+             {"an_unknown_session_is_refused", "decision 1; wire.md", an_unknown_session_is_refused, Way::http},
+             {"connect_with_an_unknown_session_opens_a_new_one", "decision 3", connect_with_an_unknown_session_opens_a_new_one,
+              Way::http},
+             {"resume_is_for_websockets", "wire.md", resume_is_for_websockets, Way::http},
+             {"a_session_can_be_resumed", "decision 2", a_session_can_be_resumed, Way::websocket},
+             {"an_unknown_session_cannot_be_resumed", "decision 2", an_unknown_session_cannot_be_resumed, Way::websocket}}};
+}
+
+}  // namespace rois::conformance

@@ -1,0 +1,206 @@
+#include "conformance/stage.hpp"
+
+#include <algorithm>
+
+#include "client/line.hpp"
+
+namespace rois::conformance {
+
+namespace {
+
+constexpr std::chrono::seconds longest_check{60};
+
+}  // namespace
+
+Stage::Stage(client::Address address, Way way, Catalogue const& catalogue, Traffic& traffic)
+    : address_{std::move(address)},
+      way_{way},
+      catalogue_{catalogue},
+      traffic_{traffic},
+      end_{std::chrono::steady_clock::now() + longest_check} {}
+
+Component const& Stage::one_of(std::vector<std::string> const& kinds) const {
+    for (auto const& kind : kinds)
+        for (auto const& component : catalogue_.components)
+            if (component.basic() == kind) return component;
+    throw NotPlayed{"there is no component of the type " + list(kinds)};
+}
+
+std::pair<Component const*, Component const*> Stage::two_common() const {
+    std::vector<Component const*> common;
+    for (auto const& component : catalogue_.components)
+        if (component.is_common) common.push_back(&component);
+    if (common.size() < 2) throw NotPlayed{"there are no two components with start and stop"};
+    return {common[0], common[1]};
+}
+
+void Stage::mind_the_time() const { require(std::chrono::steady_clock::now() < end_, "it went on for more than a minute"); }
+
+Guest::Guest(Stage& stage, Comes comes) : Application{client::wire_to(stage.address(), stage.way())}, stage_{stage} {
+    if (comes == Comes::connected) ok(connect());
+}
+
+Guest::~Guest() {
+    try {
+        ask_for_details();
+        leave();
+    } catch (std::exception const&) {
+        // The check has failed already, or another one will: this gateway does not answer.
+    }
+}
+
+void Guest::take(Component const& component) {
+    auto const answer = bind(component.ref);
+    if (answer.return_code() == "OUT_OF_RESOURCES") throw NotPlayed{"another application uses " + component.ref};
+    ok(answer);
+}
+
+std::string Guest::order(Command const& command) {
+    auto const ids = client::command_ids(ok(execute(command)));
+    require(ids.size() == 1, "the answer should name one command");
+    return ids.front();
+}
+
+std::string Guest::status_of(std::string const& command_id) {
+    require(!command_id.empty() && commands_.contains(command_id), "no answer has named the command \"" + command_id + "\"");
+    return Application::status_of(command_id);
+}
+
+void Guest::require_success(std::string const& command_id, Component const& component) {
+    auto const status = status_of(command_id);
+    if ((status == "ERROR" || status == "TIMEOUT") && hear().name() == "receive_error")
+        throw NotPlayed{component.ref + " has failed: " + status};
+    same("the status of the command of " + component.ref, "OK", status);
+}
+
+void Guest::settle(Component const& component) { ending(command(component, "resume")); }
+
+std::string Guest::state_of(std::string const& command_id) {
+    auto const values = ok(get_command_result(command_id)).values();
+    auto const status = values.find("status");
+    require(status != values.end() && status->second.size() == 1, "the results of a command have its status");
+    return status->second.front();
+}
+
+std::string Guest::component_status(std::string const& ref) {
+    auto const values = ok(query("component_status", client::where(client::equal("component_ref", ref)))).values();
+    auto const status = values.find("status");
+    require(status != values.end() && status->second.size() == 1, "component_status has one status");
+    return status->second.front();
+}
+
+std::vector<std::string> Guest::endings(std::string const& command_id) const {
+    std::vector<std::string> statuses;
+    for (auto const& heard : history())
+        if (heard.name() == "completed" && heard.text("command_id") == command_id) statuses.push_back(heard.text("status"));
+    return statuses;
+}
+
+std::size_t Guest::heard_events(std::string const& type) const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(history(), [&](Document const& heard) { return heard.text("event_type") == type; }));
+}
+
+void Guest::check_answer(Document const& answer, std::string const& operation, std::string const& request_id) {
+    stage_.mind_the_time();
+    auto& traffic = stage_.traffic();
+    traffic.validate(answer.as_received());
+    bool const is_fault = !answer.fault().empty();
+    traffic.see("answers_belong_to_their_requests",
+                answer.attribute("request_id") == request_id && (is_fault || answer.name() == operation + "_response"),
+                operation + " with the request_id " + request_id + " was answered with " + answer.whole());
+    if (!is_fault && answer.return_code() != "OK")
+        traffic.see("refusals_give_a_reason", answer.children() == std::vector<std::string>{"reason"} && !answer.reason().empty(),
+                    answer.whole());
+    if (answer.return_code() != "OK") return;
+    if (operation == "connect" && !is_connected()) {
+        commands_.clear();
+        completed_.clear();
+        subscriptions_.clear();
+        errors_.clear();
+    }
+    for (auto const& id : client::command_ids(answer)) commands_.insert(id);
+    if (auto const id = answer.text("command_id"); !id.empty()) commands_.insert(id);
+    if (auto const id = answer.text("subscribe_id"); !id.empty()) subscriptions_.insert(id);
+}
+
+void Guest::check_notification(Document const& notification, std::uint64_t sequence) {
+    stage_.mind_the_time();
+    auto& traffic = stage_.traffic();
+    traffic.validate(notification.as_received());
+    traffic.see("nothing_is_sent_outside_of_a_session", is_connected(), notification.whole());
+    if (!is_connected()) return;
+    traffic.see("notifications_are_counted_without_gaps", notification.attribute("sequence") == std::to_string(sequence),
+                "the sequence should be " + std::to_string(sequence) + ": " + notification.whole());
+    if (notification.name() == "receive_event") check_event(notification);
+    if (notification.name() == "receive_error") errors_.push_back(notification.text("error_id"));
+    if (notification.name() != "completed") return;
+    auto const id = notification.text("command_id");
+    traffic.see("answers_come_before_what_they_cause", commands_.contains(id), "no answer has named " + notification.whole());
+    traffic.see("commands_complete_once", completed_.insert(id).second, "again: " + notification.whole());
+}
+
+void Guest::check_event(Document const& event) {
+    auto& traffic = stage_.traffic();
+    traffic.see("events_are_those_that_were_subscribed", subscriptions_.contains(event.text("subscribe_id")), event.whole());
+    traffic.see("times_are_utc", is_of_type("DateTime", {event.text("expire")}), event.whole());
+    auto const ref = event.ref();
+    auto const* const component = stage_.catalogue().find(ref);
+    traffic.see(
+        "events_are_those_that_were_subscribed",
+        component && std::ranges::find(component->events, event.text("event_type"), &Message::name) != component->events.end(),
+        "no event of its component: " + event.whole());
+}
+
+void Guest::ask_for_details() {
+    if (!is_connected()) return;
+    for (auto const& id : std::exchange(errors_, {})) {
+        auto const answer = ask("get_error_detail", "<error_id>" + id + "</error_id>");
+        auto const details = answer.values();
+        stage_.traffic().see("errors_have_details",
+                             answer.return_code() == "OK" && details.contains("component_ref") && details.contains("time") &&
+                                 details.contains("text"),
+                             "get_error_detail of " + id + " should tell component_ref, time and text: " + answer.whole());
+    }
+}
+
+Dial dial_of(Stage const& stage) {
+    for (auto const* const name : {"time_limit", "detection_threshold", "minimum_interval", "volume", "time", "distance"})
+        for (auto const& component : stage.catalogue().components)
+            if (!component.basic().empty() &&
+                std::ranges::find(component.parameters, name, &TypedName::name) != component.parameters.end())
+                return {&component, name};
+    throw NotPlayed{"there is no basic component with a parameter that is a number"};
+}
+
+Argument turned(Dial const& dial, int value) { return {dial.parameter, "int", {std::to_string(value)}}; }
+
+Command long_speech(Component const& speaker, std::string const& id) {
+    bool const reads_ssml = std::ranges::find(speaker.parameters, "SSML_text", &TypedName::name) != speaker.parameters.end();
+    std::string words, pauses;
+    for (int i = 0; i < 200; ++i) {
+        words += "This is a long speech. ";
+        pauses += "This is it. &lt;break time=\"60s\"/&gt;";
+    }
+    if (!reads_ssml) return {.component = speaker.ref, .id = id, .arguments = {client::speech_text(words)}};
+    auto const ssml =
+        "&lt;speak version=\"1.0\" xmlns=\"http://www.w3.org/2001/10/synthesis\" xml:lang=\"en\"&gt;" + pauses + "&lt;/speak&gt;";
+    return {.component = speaker.ref, .id = id, .arguments = {{"SSML_text", "string", {ssml}}}};
+}
+
+Command short_speech(Component const& speaker, std::string const& id) {
+    return {.component = speaker.ref, .id = id, .arguments = {client::speech_text("Hi.")}};
+}
+
+Command command(Component const& component, std::string const& type, std::string const& id, std::optional<int> delay) {
+    return {.component = component.ref, .type = type, .id = id, .delay = delay};
+}
+
+std::string only(Component const& component) { return client::where(client::equal("component_ref", component.ref)); }
+
+std::string unique_name() {
+    static unsigned names = 0;
+    return "conformance-" + std::to_string(++names);
+}
+
+}  // namespace rois::conformance

@@ -1,0 +1,106 @@
+// Where a check is played: the gateway, the way to it, and those who come to it as service applications.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "client/application.hpp"
+#include "client/http_client.hpp"
+#include "conformance/catalogue.hpp"
+#include "conformance/check.hpp"
+#include "conformance/traffic.hpp"
+
+namespace rois::conformance {
+
+using client::Argument;
+using client::Command;
+using client::Document;
+using client::Way;
+
+class Stage {
+public:
+    Stage(client::Address address, Way way, Catalogue const& catalogue, Traffic& traffic);
+
+    client::Address const& address() const { return address_; }
+    Way way() const { return way_; }
+    Catalogue const& catalogue() const { return catalogue_; }
+    Traffic& traffic() { return traffic_; }
+
+    // A basic component of one of these kinds; NotPlayed when there is none.
+    Component const& one_of(std::vector<std::string> const& kinds) const;
+    Component const& speaker() const { return one_of({"speechsynthesis"}); }
+    // Its first measurement after `start` is an event (decision 8), also when nobody is there.
+    Component const& detector() const { return one_of({"persondetection", "facedetection", "sounddetection"}); }
+    // A component with start and stop, and another one.
+    std::pair<Component const*, Component const*> two_common() const;
+
+    // Throws Broken when the check goes on for too long.
+    void mind_the_time() const;
+
+private:
+    client::Address address_;
+    Way way_;
+    Catalogue const& catalogue_;
+    Traffic& traffic_;
+    std::chrono::steady_clock::time_point end_;
+};
+
+// A service application. It looks at all that it hears, and leaves nothing behind.
+class Guest : public client::Application {
+public:
+    enum class Comes { connected, as_a_stranger };
+    explicit Guest(Stage&, Comes = Comes::connected);
+    ~Guest() override;
+
+    // Binds it; NotPlayed when another application has it.
+    void take(Component const&);
+    // Executes one command, and gives its id.
+    std::string order(Command const&);
+    // The status with which a command completes that an answer has named; passes over others until then.
+    std::string status_of(std::string const& command_id);
+    // The same of a command that is executed now.
+    std::string ending(Command const& command) { return status_of(order(command)); }
+    // The command completes with OK; NotPlayed when the component has failed, which an error tells (decision 16).
+    void require_success(std::string const& command_id, Component const&);
+    // Waits until all that was caused before has been told. The component is bound and not suspended, so that `resume` does
+    // nothing but complete at once.
+    void settle(Component const&);
+    // get_command_result's `status`.
+    std::string state_of(std::string const& command_id);
+    std::string component_status(std::string const& ref);
+    // Of what was heard: the statuses with which this command completed.
+    std::vector<std::string> endings(std::string const& command_id) const;
+    std::size_t heard_events(std::string const& type) const;
+
+private:
+    void check_answer(Document const& answer, std::string const& operation, std::string const& request_id) override;
+    void check_notification(Document const&, std::uint64_t sequence) override;
+    void check_event(Document const&);
+    void ask_for_details();
+
+    Stage& stage_;
+    std::set<std::string> commands_;   // ids that answers gave
+    std::set<std::string> completed_;  // ids
+    std::set<std::string> subscriptions_;
+    std::vector<std::string> errors_;  // ids
+};
+
+// One parameter of the component that takes any whole number from 40 to 60, if there is one.
+struct Dial {
+    Component const* component;
+    std::string parameter;
+};
+Dial dial_of(Stage const&);
+Argument turned(Dial const&, int value);
+
+// A speech that goes on for longer than any check.
+Command long_speech(Component const& speaker, std::string const& id);
+Command short_speech(Component const& speaker, std::string const& id);
+Command command(Component const&, std::string const& type, std::string const& id = "", std::optional<int> delay = {});
+std::string only(Component const&);  // a condition
+std::string unique_name();           // an id that no other application gives
+
+}  // namespace rois::conformance

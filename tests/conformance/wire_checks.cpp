@@ -1,0 +1,149 @@
+// HTTP as wire.md lays it down: status codes, faults and documents; what is no XML or not valid.
+#include "client/http_client.hpp"
+#include "conformance/stage.hpp"
+
+namespace rois::conformance {
+
+namespace {
+
+using client::Headers;
+using client::HttpClient;
+using client::HttpReply;
+
+void answered(Stage& stage, HttpReply const& reply, int status, std::string const& code) {
+    require(reply.status == status,
+            "the status should be " + std::to_string(status) + ", and is " + std::to_string(reply.status) + ": " + reply.body);
+    same("the fault", code, reply.fault());
+    require(!reply.reason().empty(), "a fault has a reason: " + reply.body);
+    stage.traffic().validate(reply.body);
+}
+
+void what_is_not_well_formed_is_refused(Stage& stage) {
+    HttpClient client{stage.address()};
+    for (auto const* const body : {"", " ", "<connect", "hello", "<connect xmlns=\"urn:x-rois:psm:xml:message:1\">", "\xC3\x28"})
+        answered(stage, client.post(body), 400, "not_well_formed");
+}
+
+void document_types_and_instructions_are_refused(Stage& stage) {
+    HttpClient client{stage.address()};
+    answered(stage, client.post("<!DOCTYPE connect [<!ENTITY a \"b\">]>" + client::request("connect")), 400, "forbidden_xml");
+    answered(stage, client.post("<?php echo?>" + client::request("connect")), 400, "forbidden_xml");
+}
+
+void what_is_not_valid_is_refused_with_its_place(Stage& stage) {
+    HttpClient client{stage.address()};
+    auto const invalid = [&](std::string const& body) {
+        auto const reply = client.post(body);
+        answered(stage, reply, 422, "invalid");
+        require(reply.root().attribute("line").as_int() >= 1 && reply.root().attribute("column").as_int() >= 1,
+                "the fault should have a line and a column: " + reply.body);
+    };
+    invalid(client::request("dance"));
+    invalid("<connect/>");
+    invalid(client::request("connect", "<nonsense/>"));
+    invalid(client::request("bind", "<component_ref/>"));
+    invalid(client::request("bind"));
+    invalid(client::request("connect", "", "colour=\"red\""));
+}
+
+void a_fault_says_where(Stage& stage) {
+    HttpClient client{stage.address()};
+    auto const reply =
+        client.post("<connect\n  xmlns=\"urn:x-rois:psm:xml:message:1\"\n  request_id=\"mine\">\n  <nonsense/>\n</connect>");
+    answered(stage, reply, 422, "invalid");
+    same("the line", "4", reply.root().attribute("line").value());
+    same("the request_id", "mine", reply.root().attribute("request_id").value());
+}
+
+void other_content_types_are_refused(Stage& stage) {
+    HttpClient client{stage.address()};
+    for (auto const* const type : {"text/plain", "application/json", "application/x-www-form-urlencoded"})
+        answered(stage, client.post(client::request("connect"), {{"Content-Type", type}}), 415, "unsupported_media_type");
+    answered(stage, client.post(client::request("connect"), {}), 415, "unsupported_media_type");
+    for (auto const* const type : {"application/xml", "text/xml", "application/soap+xml"}) {
+        HttpClient other{stage.address()};
+        auto const reply = other.post(client::request("connect"), {{"Content-Type", type}});
+        require(reply.status == 200, std::string{type} + " is answered with " + std::to_string(reply.status));
+        other.session = reply.text("session");
+    }
+}
+
+void other_methods_are_refused(Stage& stage) {
+    HttpClient client{stage.address()};
+    for (auto const* const method : {"PUT", "DELETE", "OPTIONS", "get"}) {
+        auto const reply = client.get("/rois", {}, method);
+        answered(stage, reply, 405, "method_not_allowed");
+        require(reply.header("Allow").find("POST") != std::string::npos,
+                "Allow should name POST, and is " + reply.header("Allow"));
+    }
+}
+
+void unknown_paths_are_not_found(Stage& stage) {
+    HttpClient client{stage.address()};
+    for (auto const* const path : {"/nowhere", "/rois/profile/nobody", "/rois/schemas/nothing.xsd"})
+        answered(stage, client.get(path), 404, "not_found");
+}
+
+void a_plain_get_is_asked_to_upgrade(Stage& stage) {
+    HttpClient client{stage.address()};
+    answered(stage, client.get("/rois"), 426, "upgrade_required");
+}
+
+void a_transfer_encoding_is_refused(Stage& stage) {
+    HttpClient client{stage.address()};
+    auto const reply = client.say("POST /rois HTTP/1.1\r\nHost: " + stage.address().authority +
+                                  "\r\nTransfer-Encoding: chunked\r\nContent-Type: text/xml\r\n\r\n0\r\n\r\n");
+    if (reply.status == 401) throw NotPlayed{"a token is needed"};
+    answered(stage, reply, 411, "length_required");
+}
+
+void schemas_are_served(Stage& stage) {
+    HttpClient client{stage.address()};
+    auto const list = client.get("/rois/schemas");
+    require(list.status == 200, "/rois/schemas answers with " + std::to_string(list.status));
+    for (auto const* const file : {"messages.xsd", "rois.xsd", "fes.xsd"}) {
+        auto const reply = client.get(std::string{"/rois/schemas/"} + file);
+        require(reply.status == 200 && std::string{reply.root().name()}.ends_with(":schema"),
+                std::string{file} + " is not served");
+    }
+}
+
+void health_is_told(Stage& stage) {
+    HttpClient client{stage.address()};
+    for (auto const* const path : {"/healthz", "/readyz"}) {
+        auto const reply = client.get(path);
+        require(reply.status == 200, std::string{path} + " answers with " + std::to_string(reply.status));
+    }
+}
+
+void every_operation_is_answered_with_200(Stage& stage) {
+    HttpClient client{stage.address()};
+    require(client.call("connect").status == 200, "connect should be answered with 200");
+    auto const refusal = client.call("bind", client::component_ref("nobody"));
+    require(refusal.status == 200 && refusal.return_code() == "BAD_PARAMETER",
+            "a refusal is an answer, too: status 200, but it is " + std::to_string(refusal.status));
+    same("the content type", "application/xml", refusal.header("Content-Type").substr(0, 15));
+}
+
+}  // namespace
+
+Clause wire_clause() {
+    auto const http = Way::http;
+    return {
+        "The wire: HTTP",
+        {{"every_operation_is_answered_with_200", "wire.md, status codes", every_operation_is_answered_with_200, http},
+         {"what_is_not_well_formed_is_refused", "wire.md, status codes", what_is_not_well_formed_is_refused, http},
+         {"document_types_and_instructions_are_refused", "wire.md, faults", document_types_and_instructions_are_refused, http},
+         {"what_is_not_valid_is_refused_with_its_place", "wire.md, faults; schemas", what_is_not_valid_is_refused_with_its_place,
+          http},
+         {"a_fault_says_where", "wire.md, faults", a_fault_says_where, http},
+         {"other_content_types_are_refused", "wire.md, status codes", other_content_types_are_refused, http},
+         {"other_methods_are_refused", "wire.md, status codes", other_methods_are_refused, http},
+         {"unknown_paths_are_not_found", "wire.md, status codes", unknown_paths_are_not_found, http},
+         {"a_plain_get_is_asked_to_upgrade", "wire.md, endpoints", a_plain_get_is_asked_to_upgrade, http},
+         {"a_transfer_encoding_is_refused", "wire.md, status codes", a_transfer_encoding_is_refused, http},
+         {"schemas_are_served", "wire.md, endpoints", schemas_are_served, http},
+         {"health_is_told", "wire.md, endpoints", health_is_told, http}}};
+}
+
+}  // namespace rois::conformance

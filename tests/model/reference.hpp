@@ -1,0 +1,115 @@
+// The reference: what the specification and the decisions say of sessions, bindings, parameters, commands and subscriptions, in
+// as few lines as will do. It shares nothing with the engine.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/step.hpp"
+
+namespace rois::model {
+
+// What it can be made to believe wrongly, to show that a difference to the engine is found.
+enum class Flaw : std::uint8_t {
+    none,
+    binding_is_shared,                 // against decision 4
+    release_lets_run_on,               // 6
+    a_name_may_come_again,             // 11
+    a_failure_ends_nothing,            // 13
+    branches_run_in_sequence,          // 14
+    a_delay_is_a_tick_longer,          // 15
+    stop_completes_start_with_ok,      // 9
+    results_are_kept_for_ever,         // 17
+    subscribing_twice_is_heard_twice,  // 20
+    bad_values_are_stored              // 26
+};
+
+// How many results of a session are kept here (decision 17).
+inline constexpr std::size_t kept_results = 4;
+
+class Reference {
+public:
+    explicit Reference(Flaw flaw = Flaw::none) : flaw_{flaw} {}
+
+    // What the step is answered with.
+    std::string take(Step const&);
+    // What the application has been told since this was last asked, or nothing when it has no session.
+    std::optional<std::vector<std::string>> heard(int session);
+
+private:
+    struct Execution;
+    struct Command {
+        char name;
+        std::string type;
+        int component;
+        int delay;
+        int session;
+        std::shared_ptr<Execution> execution;
+        std::size_t unit, branch, place;
+        std::string state = "WAITING";  // RUNNING, or its status
+        bool binding_lost = false;
+
+        bool is_over() const { return state != "WAITING" && state != "RUNNING"; }
+    };
+    using SharedCommand = std::shared_ptr<Command>;
+    struct Execution {
+        std::vector<std::vector<std::vector<SharedCommand>>> units;
+        std::size_t open_branches = 0;  // of the unit that has its turn
+        bool failed = false;            // one of its branches has
+    };
+    struct Component {
+        int bound_to = -1;
+        SharedCommand start{};  // that runs
+        bool is_active = false;
+        bool is_suspended = false;
+        std::string value{};  // of its parameter; at first the default
+    };
+    struct Session {
+        std::map<char, SharedCommand> known;
+        std::deque<char> ended;  // '-' for what it has not named itself
+        int subscriptions = 0;
+        std::uint64_t sequence = 0;
+        std::vector<std::string> told;
+    };
+    struct Due {
+        int time;
+        SharedCommand command;
+    };
+
+    std::string connect(int session);
+    std::string disconnect(int session);
+    std::string bind(int session, int component);
+    std::string release(int session, int component);
+    std::string parameters(Step const&);
+    std::string execute(int session, Plan const&);
+    std::string objection(int session, Plan const&) const;
+    std::string state_of(Session const&, char name) const;
+
+    void begin(std::shared_ptr<Execution> const&, std::size_t unit);
+    void give_turn(SharedCommand const&);
+    void run(SharedCommand const&);
+    void start(SharedCommand const&);
+    void end(SharedCommand const&, std::string const& status);
+    void abort(SharedCommand const&);
+    void halt(Component&, std::string const& status_of_start);
+    void settle();
+    void pass(int ticks);
+    void tell(int session, std::string const& what);
+    void forget_old(Session&) const;
+    bool is(Flaw flaw) const { return flaw_ == flaw; }
+
+    Flaw flaw_;
+    std::array<std::optional<Session>, session_count> sessions_;
+    std::array<Component, 3> components_{Component{.value = "0"}, Component{.value = "50"}, Component{}};
+    std::deque<SharedCommand> turns_;       // come, and not taken yet
+    std::deque<SharedCommand> activating_;  // starts of a function, which complete when all turns have been taken
+    std::vector<Due> due_;                  // delays, in the order in which they began
+    int time_ = 0;
+};
+
+}  // namespace rois::model

@@ -1,0 +1,40 @@
+// The engine, with scripted components and a clock that is told, asked the same as the reference.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/world.hpp"
+#include "model/step.hpp"
+
+namespace rois::model {
+
+class Subject {
+public:
+    Subject();
+
+    // What the step is answered with, in the reference's words.
+    std::string take(Step const&);
+    // What the application has been told since this was last asked, or nothing when it has no session.
+    std::optional<std::vector<std::string>> heard(int session);
+
+private:
+    struct Seat {
+        std::optional<Application> application;  // the last that sat here
+        bool is_connected = false;
+        SubscribeId subscription{"none"};
+    };
+
+    std::variant<Reply, Refusal> say(Seat const&, Operation const&);
+    std::string answer(Seat&, Operation const&);
+    std::string read_parameter(Seat&, int component);
+    std::string result_of(Seat&, char name);
+    std::string status_of(Seat&, int component);
+
+    World world_;
+    std::array<Seat, session_count> seats_;
+};
+
+}  // namespace rois::model
