@@ -50,7 +50,8 @@ public:
 
 class ComponentCandidate;
 
-// How all components look to one asker at one moment (`present`), or whatever becomes of their status, binding, place and parameters
+// How all components look to one asker at one moment (`present`), or whatever becomes of their status, binding, place and
+// parameters
 // (`ever`). Lives no longer than the engine's one step.
 class Perspective {
 public:

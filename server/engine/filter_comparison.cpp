@@ -208,6 +208,7 @@ public:
         auto const* right = right_.values(candidate, manner_, also_told);
         if ((left != nullptr && left->empty()) || (right != nullptr && right->empty())) return Match::no;
         if (left == nullptr || right == nullptr) return Match::maybe;
+        if (make_too_many_pairs(*left, *right)) return Match::no;
         std::size_t holding = 0;
         for (auto const& a : *left)
             for (auto const& b : *right)
@@ -252,6 +253,7 @@ public:
         for (auto const* all : {values, lowest, highest})
             if (all != nullptr && all->empty()) return Match::no;
         if (values == nullptr || lowest == nullptr || highest == nullptr) return Match::maybe;
+        if (make_too_many_pairs(*values, *lowest) || make_too_many_pairs(*values, *highest)) return Match::no;
         bool const met = std::ranges::any_of(*values, [&](Comparable const& value) {
             return std::ranges::any_of(*lowest, [&](auto const& low) { return manner_.compare(low, value) <= 0; }) &&
                    std::ranges::any_of(*highest, [&](auto const& high) { return manner_.compare(value, high) <= 0; });

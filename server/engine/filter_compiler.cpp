@@ -44,6 +44,7 @@ std::optional<std::vector<double>> Distance::of(Candidate const& candidate) cons
     auto const one = from.of(candidate), other = to.of(candidate);
     if (!one || !other) return {};
     std::vector<double> nearest;
+    if (make_too_many_pairs(*one, *other)) return nearest;
     for (auto const& a : *one)
         for (auto const& b : *other)
             if (share_a_frame(a, b)) nearest = {nearest.empty() ? distance(a, b) : std::min(nearest.front(), distance(a, b))};
@@ -56,6 +57,7 @@ std::string Distance::canonical() const {
 }
 
 PredicatePtr FilterCompiler::compile(Condition const& condition) {
+    if (++predicates_ > most_predicates) refuse("the condition has more than " + std::to_string(most_predicates) + " predicates");
     if (problem_) return nullptr;
     return std::visit(*this, condition.predicate);
 }

@@ -48,10 +48,19 @@ struct Distance {
     std::string canonical() const;
 };
 
+// Of lists that make more pairs nothing is said: nothing is met.
+inline constexpr std::size_t most_pairs = 100'000;
+template <class One, class Other>
+bool make_too_many_pairs(One const& one, Other const& other) {
+    return one.size() > 1 && other.size() > 1 && one.size() > most_pairs / other.size();
+}
+
 // Goes through a condition once. What cannot be used is refused with its reason; the first one counts, and what is returned then
 // means nothing.
 class FilterCompiler {
 public:
+    static constexpr std::size_t most_predicates = 256;  // in one condition
+
     explicit FilterCompiler(Vocabulary vocabulary) : vocabulary_{vocabulary} {}
 
     PredicatePtr compile(Condition const&);
@@ -88,6 +97,7 @@ private:
     std::vector<std::string> aliases_;  // of the group whose filter is compiled
     std::optional<std::string> problem_;
     bool depends_on_asker_ = false;
+    std::size_t predicates_ = 0;
 };
 
 // What a SortProperty sorts by.

@@ -38,6 +38,7 @@ public:
         auto const left = operands_.first.of(candidate), right = operands_.second.of(candidate);
         if ((left && left->empty()) || (right && right->empty())) return Match::no;
         if (!left || !right) return Match::maybe;
+        if (make_too_many_pairs(*left, *right)) return Match::no;
         bool comparable = false, met = false;
         for (auto const& a : *left) {
             for (auto const& b : *right) {

@@ -67,6 +67,7 @@ public:
         auto const left = left_.of(candidate), right = right_.of(candidate);
         if ((left && left->empty()) || (right && right->empty())) return Match::no;
         if (!left || !right) return Match::maybe;
+        if (make_too_many_pairs(*left, *right)) return Match::no;
         for (auto const& a : *left)
             for (auto const& b : *right)
                 if (holds(relation_, a, b)) return Match::yes;

@@ -30,37 +30,32 @@ std::variant<LikePattern, std::string> LikePattern::compile(std::string_view pat
     if (wild == single || wild == escape || single == escape)
         return std::string{"wildCard, singleChar and escapeChar of PropertyIsLike are not three different characters"};
     LikePattern made;
-    made.wild_card_before_.push_back(false);
-    for (std::string_view rest = pattern; !rest.empty();) {
-        if (made.elements_.size() == longest)
-            return "the pattern of PropertyIsLike is longer than " + std::to_string(longest) + " characters";
-        auto character = take_character(rest);
+    while (auto character = take_character(pattern)) {
         if (character == wild) {
             made.wild_card_before_.back() = true;
             continue;
         }
-        if (character == single) {
-            made.add(any_one);
-            continue;
-        }
-        if (character == escape && !rest.empty()) character = take_character(rest);
-        made.add(characters.match_case ? character : folded_case(character.value_or(0)));
+        if (made.elements_.size() == longest)
+            return "the pattern of PropertyIsLike is longer than " + std::to_string(longest) + " characters";
+        bool const any = character == single;
+        if (character == escape) character = take_character(pattern).value_or(*character);
+        made.elements_.push_back(any ? any_one : characters.match_case ? *character : folded_case(*character));
+        made.wild_card_before_.push_back(false);
     }
-    auto const words = made.elements_.size() / word + 1;
-    made.loops_.resize(words);
-    made.any_.resize(words);
-    for (std::size_t i = 0; i < made.wild_card_before_.size(); ++i)
-        if (made.wild_card_before_[i]) put(made.loops_, i);
-    for (std::size_t i = 0; i < made.elements_.size(); ++i)
-        if (made.elements_[i] == any_one) put(made.any_, i);
-    for (std::size_t i = 0; i < made.elements_.size(); ++i)
-        if (made.elements_[i] != any_one) put(made.takers_.try_emplace(made.elements_[i], made.any_).first->second, i);
+    made.set_bits();
     return made;
 }
 
-void LikePattern::add(std::optional<char32_t> character) {
-    elements_.push_back(character.value_or(0));
-    wild_card_before_.push_back(false);
+void LikePattern::set_bits() {
+    auto const words = elements_.size() / word + 1;
+    loops_.resize(words);
+    any_.resize(words);
+    for (std::size_t i = 0; i < wild_card_before_.size(); ++i)
+        if (wild_card_before_[i]) put(loops_, i);
+    for (std::size_t i = 0; i < elements_.size(); ++i)
+        if (elements_[i] == any_one) put(any_, i);
+    for (std::size_t i = 0; i < elements_.size(); ++i)
+        if (elements_[i] != any_one) put(takers_.try_emplace(elements_[i], any_).first->second, i);
 }
 
 LikePattern::Bits const& LikePattern::that_take(char32_t character) const {

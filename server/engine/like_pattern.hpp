@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -31,14 +30,14 @@ public:
 private:
     using Bits = std::vector<std::uint64_t>;
 
-    void add(std::optional<char32_t> character);
+    void set_bits();
     Bits const& that_take(char32_t character) const;
 
-    std::u32string elements_;             // without wild cards; any_one for a single_char
-    std::map<char32_t, Bits> takers_;     // for a character of the pattern, the elements that take it
-    Bits any_;                            // the elements that take any character
-    Bits loops_;                          // before which elements a wild card stands
-    std::vector<bool> wild_card_before_;  // the same, by element; one more for the end
+    std::u32string elements_;                       // without wild cards; any_one for a single_char
+    std::vector<bool> wild_card_before_ = {false};  // by element, and one more for the end
+    Bits loops_;                                    // the same as bits
+    Bits any_;                                      // the elements that take any character
+    std::map<char32_t, Bits> takers_;               // for a character of the pattern, the elements that take it
 };
 
 }  // namespace rois

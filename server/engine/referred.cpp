@@ -11,6 +11,14 @@ namespace {
 
 using Part = Reference::Part;
 
+// Null for what is too long to be looked at.
+Parameter const* bearable(Parameter const* parameter) {
+    if (parameter == nullptr) return nullptr;
+    std::size_t length = 0;
+    for (auto const& value : parameter->values) length += value.size();
+    return length <= longest_value ? parameter : nullptr;
+}
+
 Texts items_of(Parameter const& parameter, Reference const& reference) {
     if (reference.items == Reference::Items::one_each) return parameter.values;
     Texts items;
@@ -70,12 +78,15 @@ Texts texts_in(Parameter const* parameter, Reference const& reference) {
         case Part::codebook_ref:
             return {parameter->data_type_ref.codebook_ref};
         default:
-            return at_its_place(items_of(*parameter, reference), reference);
+            break;
     }
+    parameter = bearable(parameter);
+    return parameter == nullptr ? Texts{} : at_its_place(items_of(*parameter, reference), reference);
 }
 
 Positions positions_in(Parameter const* parameter, Reference const& reference) {
     Positions positions;
+    parameter = bearable(parameter);
     if (parameter == nullptr) return positions;
     for (auto const& value : parameter->values)
         if (auto read = point(value, parameter->data_type_ref.codebook_ref)) positions.push_back(std::move(*read));
@@ -85,7 +96,7 @@ Positions positions_in(Parameter const* parameter, Reference const& reference) {
 Texts texts_in(Results const& results, Reference const& reference) {
     if (reference.to == Reference::To::located)
         return at_its_place(texts_of(located_in(results, reference), reference), reference);
-    auto const* parameter = find(results.parameters, reference.name);
+    auto const* parameter = bearable(find(results.parameters, reference.name));
     if (parameter == nullptr || reference.entity.empty()) return texts_in(parameter, reference);
     return at_its_place(texts_of_entity(items_of(*parameter, reference), results, reference), reference);
 }

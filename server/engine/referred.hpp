@@ -6,6 +6,10 @@
 
 namespace rois {
 
+// What is longer, all values of a parameter or result together, is to conditions as if it were not there: else a session could
+// make the engine read megabytes for each predicate of a condition.
+inline constexpr std::size_t longest_value = 64 * 1024;  // bytes
+
 bool speaks_of_results(Reference const&);
 
 // Of one parameter or result; null when it is not there.

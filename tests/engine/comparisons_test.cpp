@@ -211,11 +211,36 @@ TEST_F(Comparisons, APatternThatIsNoneIsRefused) {
 
 // Any way of trying again and again would take for ever here.
 TEST_F(Comparisons, AHostilePatternIsDoneInNoTime) {
-    set("dim", "label", "string", {std::string(200'000, 'a')});
+    set("dim", "label", "string", {std::string(60'000, 'a')});
     std::string stars;
     for (int i = 0; i < 400; ++i) stars += "*a?";
     EXPECT_THAT(found(like("label", stars + "b")), IsEmpty());
     EXPECT_THAT(found(like("label", stars + "*")), ElementsAre("dim"));
+}
+
+TEST_F(Comparisons, WhatIsTooLongIsAsIfItWereNotThere) {
+    set("dim", "label", "string", {std::string(64 * 1'024, 'a')});
+    EXPECT_THAT(found(like("label", "a*")), ElementsAre("dim"));
+    set("dim", "label", "string", {std::string(64 * 1'024 + 1, 'a')});
+    EXPECT_THAT(found(like("label", "a*")), IsEmpty());
+}
+
+TEST_F(Comparisons, ListsOfTooManyPairsMeetNothing) {
+    auto const numbers = [](int count) {
+        std::string text;
+        for (int i = 0; i < count; ++i) text += "7 ";
+        return text;
+    };
+    Condition const with_itself{PropertyComparison{Comparator::equal, reference("counts"), reference("counts")}};
+    set("dim", "counts", "int[]", {numbers(300)});
+    set("bright", "counts", "int[]", {numbers(1'000)});
+    EXPECT_THAT(found(with_itself), ElementsAre("dim"));
+    EXPECT_THAT(found(equal("counts", "7")), ElementsAre("bright", "dim")) << "one value with many is well";
+}
+
+TEST_F(Comparisons, TooManyPredicatesAreRefused) {
+    EXPECT_THAT(found(both(std::vector<Condition>(255, equal("name", "dim")))), ElementsAre("dim"));
+    EXPECT_THAT(reason(both(std::vector<Condition>(256, equal("name", "dim")))), HasSubstr("more than 256 predicates"));
 }
 
 }  // namespace

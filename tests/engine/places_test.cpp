@@ -106,6 +106,12 @@ TEST_F(Hall, FramesMustBeKnown) {
     EXPECT_THAT(found(spatial(SpatialRelation::disjoint, {reference("location"), {box(0, 0, 1, 1)}})), ElementsAre("near"));
 }
 
+TEST_F(Hall, AComponentThatFailsToSayWhereItIsHasNoPlace) {
+    world["near"].throws_in = {"location"};
+    EXPECT_THAT(found(within("location", literal("desk"))), IsEmpty());
+    EXPECT_EQ(desk.status_of("near"), "ERROR");
+}
+
 TEST_F(Hall, UnitsAndDistancesMustBeKnown) {
     EXPECT_THAT(reason(near("location", {spot(0, 0)}, 1, "ft")), HasSubstr("'ft'"));
     EXPECT_THAT(reason(near("location", {spot(0, 0)}, -1)), HasSubstr("below 0"));

@@ -106,6 +106,18 @@ TEST_P(Conditions, ChooseAmongTheResults) {
     EXPECT_THAT(desk.get_event_detail(id, where("<fes:ResourceId rid=\"" + id + "\"/>")).values(), SizeIs(2));
 }
 
+TEST_P(Conditions, AreUnderstoodByAllOperationsThatTakeOne) {
+    EXPECT_THAT(
+        desk.ask("get_profile", where(like("name", "mov?"))).root().child("components").first_child().attribute("ref").value(),
+        testing::StrEq("move"));
+    EXPECT_EQ(desk.ask("bind_any", where(like("name", "speech_s*"))).ref(), "speech_synthesis");
+    EXPECT_EQ(desk.query("get_parameter", where(contrary(is_null("Property/routing_policy")))).ref(), "navigation");
+    auto const id = desk.set_parameter("speech_synthesis", {speech_text("hello")}).text("command_id");
+    EXPECT_EQ(desk.status_of(id), "OK");
+    EXPECT_THAT(desk.get_command_result(id, where(like("status", "O?"))).values(), SizeIs(1));
+    EXPECT_THAT(desk.get_command_result(id, where(like("status", "?"))).values(), IsEmpty());
+}
+
 struct Robots : testing::TestWithParam<Way> {
     static GatewayProcess& hall() {
         static GatewayProcess two{{"--floor-plan", ROIS_SOURCE_DIR "/components/simulation/data/two-robots.xml", "--scenario",

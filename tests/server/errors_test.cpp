@@ -57,6 +57,7 @@ TEST_P(Errors, HaveDetails) {
     EXPECT_THAT(detail.values(), Contains(Key("time")));
     EXPECT_EQ(detail_of(id, where(equal("component_ref", "navigation"))).values(), detail.values());
     EXPECT_THAT(detail_of(id, where(equal("component_ref", "move"))).values(), IsEmpty());
+    EXPECT_EQ(detail_of(id, where(like("text", "*failed*"))).values(), detail.values());
     EXPECT_THAT(detail_of(id, where(equal("colour", "red"))), IsRefused("BAD_PARAMETER", "colour"));
     EXPECT_THAT(detail_of(id, where(touching("text"))), IsRefused("BAD_PARAMETER", "Touches"));
 }
