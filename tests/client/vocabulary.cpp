@@ -2,6 +2,7 @@
 
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace rois::client {
 
@@ -91,6 +92,23 @@ std::string like(std::string const& path, std::string const& pattern) {
 
 std::string where(std::string const& filter) {
     return "<condition><fes:Filter xmlns:fes=\"http://www.opengis.net/fes/2.0\">" + filter + "</fes:Filter></condition>";
+}
+
+std::vector<std::string> escaped(std::vector<std::string> texts) {
+    for (auto& text : texts) {
+        std::string written;
+        for (char const c : text) {
+            if (c == '&') {
+                written += "&amp;";
+            } else if (c == '<') {
+                written += "&lt;";
+            } else {
+                written += c;
+            }
+        }
+        text = std::move(written);
+    }
+    return texts;
 }
 
 Argument speech_text(std::string const& text) { return {"speech_text", "string", {text}}; }
