@@ -114,12 +114,12 @@ std::optional<ParameterList> RegisteredComponent::all_parameters() const {
 
 bool RegisteredComponent::has_parameter(std::string_view name) const {
     if (profile_for(settable_, name) != nullptr) return true;
-    auto const* message = find_message(profile_, MessageKind::query, "get_parameter");
+    auto const* message = find_message(profile(), MessageKind::query, "get_parameter");
     return message != nullptr && find_parameter(message->results, name) != nullptr;
 }
 
 bool RegisteredComponent::has_event_result(std::string_view name) const {
-    return std::ranges::any_of(profile_.messages, [&](MessageProfile const& message) {
+    return std::ranges::any_of(profile().messages, [&](MessageProfile const& message) {
         return message.kind == MessageKind::event && find_parameter(message.results, name) != nullptr;
     });
 }

@@ -2,6 +2,7 @@
 
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace rois::client {
 
@@ -129,6 +130,23 @@ std::string ordered(std::string const& filter, std::string const& sort_by) {
 }
 
 std::string where(std::string const& filter) { return ordered(filter, ""); }
+
+std::vector<std::string> escaped(std::vector<std::string> texts) {
+    for (auto& text : texts) {
+        std::string written;
+        for (char const c : text) {
+            if (c == '&') {
+                written += "&amp;";
+            } else if (c == '<') {
+                written += "&lt;";
+            } else {
+                written += c;
+            }
+        }
+        text = std::move(written);
+    }
+    return texts;
+}
 
 Argument speech_text(std::string const& text) { return {"speech_text", "string", {text}}; }
 

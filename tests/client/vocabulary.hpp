@@ -62,9 +62,10 @@ std::string where(std::string const& filter);                                // 
 struct Argument {
     std::string name;
     std::string type;
-    std::vector<std::string> values;
+    std::vector<std::string> values;  // as XML has them: what was read from a document must be escaped
 };
 
+std::vector<std::string> escaped(std::vector<std::string> texts);
 Argument speech_text(std::string const& text);
 Argument target_position(std::vector<std::string> const& positions);
 Argument time_limit(std::string const& milliseconds);

@@ -1,5 +1,6 @@
 // Finding, binding and releasing components (7.4.2, figures 8, 9 and 11; table 3; decisions 4 to 7).
 #include <algorithm>
+#include <cctype>
 
 #include "conformance/stage.hpp"
 
@@ -28,6 +29,35 @@ void search_finds_what_was_asked_for(Stage& stage) {
         auto const* const found = stage.catalogue().find(ref);
         require(found && found->basic() == component.basic(), ref + " is not of the type " + component.type);
     }
+}
+
+void component_types_are_compared_ignoring_case(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    auto type = component.type;
+    std::ranges::transform(type, type.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    Guest guest{stage};
+    auto const found = guest.search(where(equal("component_type", type)));
+    require(std::ranges::find(found, component.ref) != found.end(),
+            type + " should find " + component.ref + "; found " + list(found));
+}
+
+void conditions_know_their_references(Stage& stage) {
+    Guest guest{stage};
+    for (auto const* const reference : {"component_ref", "component_type", "name", "engine", "status", "bound"})
+        ok(guest.ask("search", where(equal(reference, "nothing"))));
+}
+
+void conditions_combine(Stage& stage) {
+    auto const [one, other] = stage.two_common();
+    Guest guest{stage};
+    auto const is_one = equal("component_ref", one->ref), is_other = client::literal_first(other->ref, "component_ref");
+    auto either = guest.search(where(client::either(is_one, is_other)));
+    std::ranges::sort(either);
+    require(either == std::vector{one->ref, other->ref}, "one or the other was asked for; found " + list(either));
+    auto const both = guest.search(where(client::both(is_one, is_other)));
+    require(both.empty(), "nothing is one and the other; found " + list(both));
+    require(guest.search(where(client::both(is_one, equal("name", one->ref)))) == std::vector{one->ref},
+            "the name of " + one->ref + " is not its component_ref");
 }
 
 void search_without_a_match_is_an_empty_list(Stage& stage) {
@@ -147,6 +177,9 @@ Clause binding_clause() {
     return {"7.4.2 Command interface: search, bind, release",
             {{"search_finds_all", "figure 9; table 3", search_finds_all},
              {"search_finds_what_was_asked_for", "figure 9; table 3; decision 25", search_finds_what_was_asked_for},
+             {"component_types_are_compared_ignoring_case", "decision 25", component_types_are_compared_ignoring_case},
+             {"conditions_know_their_references", "table 3; decision 18", conditions_know_their_references},
+             {"conditions_combine", "table 3; ISO 19143: And, Or", conditions_combine},
              {"search_without_a_match_is_an_empty_list", "table 3; decision 4", search_without_a_match_is_an_empty_list},
              {"bind_of_what_is_mine_is_ok", "figure 9; decision 4", bind_of_what_is_mine_is_ok},
              {"a_binding_is_exclusive", "figure 8; decision 4", a_binding_is_exclusive},

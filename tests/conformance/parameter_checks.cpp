@@ -1,5 +1,6 @@
 // Parameters of bound components (7.4.2, figure 9; tables 16, 19; decisions 8 and 26).
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 #include "conformance/stage.hpp"
@@ -70,6 +71,53 @@ void parameters_are_named_ignoring_case(Stage& stage) {
     same(turning.dial.parameter, "44", turning.value());
 }
 
+void data_types_may_be_urns(Stage& stage) {
+    Turning turning{stage};
+    ok(turning.set({{turning.dial.parameter, "urn:x-rois:def:DataType:ATR::Integer", {"49"}}}));
+    same(turning.dial.parameter, "49", turning.value());
+}
+
+// As the later published profiles spell them.
+void published_spellings_are_taken(Stage& stage) {
+    struct Spelling {
+        char const *kind, *seed, *published, *type;
+    };
+    static constexpr std::array<Spelling, 3> spellings{{{"navigation", "target_position", "target_positions", "string[]"},
+                                                        {"speechsynthesis", "SSML_text", "ssml_text", "string"},
+                                                        {"speechrecognition", "grammar", "grammer", "string"}}};
+    bool played = false;
+    for (auto const& [kind, seed, published, type] : spellings)
+        for (auto const& component : stage.catalogue().components) {
+            if (component.basic() != kind) continue;
+            Guest guest{stage};
+            if (guest.bind(component.ref).return_code() != "OK") continue;
+            auto const values = guest.get_parameter(component.ref).values("parameters");
+            auto const found = values.find(seed);
+            if (found == values.end() || found->second.empty()) continue;  // what fits is not known here
+            ok(guest.set_parameter(component.ref, {{published, type, client::escaped(found->second)}}));
+            played = true;
+        }
+    if (!played) throw NotPlayed{"no free component has a value for what is spelt in two ways"};
+}
+
+void languages_are_iso_639_1(Stage& stage) {
+    bool played = false;
+    Guest guest{stage};
+    for (auto const* const kind : {"speechrecognition", "speechsynthesis"})
+        for (auto const& component : stage.catalogue().components) {
+            if (component.basic() != kind || !component.query("get_parameter")) continue;
+            for (auto const& [name, values] : guest.query("get_parameter", only(component)).values())
+                for (auto const& text : values) {
+                    if (!name.ends_with("languages")) continue;
+                    bool const is_code =
+                        text.size() == 2 && std::ranges::all_of(text, [](char c) { return c >= 'a' && c <= 'z'; });
+                    require(is_code, name + " of " + component.ref + " has " + text + ", which is no code of ISO 639-1");
+                    played = true;
+                }
+        }
+    if (!played) throw NotPlayed{"no component tells languages"};
+}
+
 void bad_parameters_are_refused(Stage& stage) {
     Turning turning{stage};
     auto const& name = turning.dial.parameter;
@@ -122,6 +170,9 @@ Clause parameter_clause() {
               set_parameter_completes_once_and_stores},
              {"execute_of_set_parameter_does_the_same", "table 12", execute_of_set_parameter_does_the_same},
              {"parameters_are_named_ignoring_case", "decision 26", parameters_are_named_ignoring_case},
+             {"data_types_may_be_urns", "table 16; decision 26", data_types_may_be_urns},
+             {"published_spellings_are_taken", "decision 26", published_spellings_are_taken},
+             {"languages_are_iso_639_1", "tables 42, 44; decision 28", languages_are_iso_639_1},
              {"bad_parameters_are_refused", "table 1; decision 26", bad_parameters_are_refused},
              {"parameters_are_those_of_the_profile", "figure 9; tables 16, 19; decision 26", parameters_are_those_of_the_profile},
              {"parameters_are_read_without_a_binding_by_query", "decision 18", parameters_are_read_without_a_binding_by_query}}};

@@ -1,5 +1,6 @@
 // Queries (7.4.1.4, figure 12; tables 4, 21; decision 18).
 #include <algorithm>
+#include <regex>
 
 #include "conformance/stage.hpp"
 
@@ -78,6 +79,22 @@ void located_results_have_their_structure(Stage& stage) {
     require(located == texts->second.size(), "each of position_data should have its element `located`: " + answer.whole());
 }
 
+void positions_are_points_in_a_frame(Stage& stage) {
+    auto const& system = stage.one_of({"systeminformation"});
+    Guest guest{stage};
+    auto const answer = guest.query("robot_position", only(system));
+    if (answer.return_code() != "OK") throw NotPlayed{"robot_position: " + answer.reason()};
+    static std::regex const point{" *-?[0-9.]+ *, *-?[0-9.]+ *, *-?[0-9.]+ *"};
+    auto const results = answer.root().child("results");
+    auto const data = results.find_child_by_attribute("result", "rois:name", "position_data");
+    for (auto const value : data.children("rois:value"))
+        require(std::regex_match(value.text().get(), point),
+                std::string{"a position is \"x, y, th\", not "} + value.text().get());
+    std::string const frame = data.child("rois:data_type_ref").attribute("rois:codebook_ref").value();
+    require(!frame.empty(), "the data_type_ref of position_data should name the frame: " + answer.whole());
+    for (auto const located : results.children("located")) same("the crs of `located`", frame, located.attribute("crs").value());
+}
+
 }  // namespace
 
 Clause query_clause() {
@@ -88,6 +105,7 @@ Clause query_clause() {
              {"a_query_goes_to_the_lowest_that_is_ready", "table 4; decision 18", a_query_goes_to_the_lowest_that_is_ready},
              {"a_query_that_nobody_knows_is_unsupported", "table 1; decision 18", a_query_that_nobody_knows_is_unsupported},
              {"a_query_for_an_unknown_reference_is_refused", "table 1; decision 18", a_query_for_an_unknown_reference_is_refused},
+             {"positions_are_points_in_a_frame", "table 34; decision 27", positions_are_points_in_a_frame},
              {"located_results_have_their_structure", "table 34; decision 27", located_results_have_their_structure}}};
 }
 

@@ -71,6 +71,16 @@ void closes_with(WebSocketClient& client, int code) {
     require(found == code, "it should close with " + std::to_string(code) + ", and did with " + std::to_string(found));
 }
 
+void resume_closes_the_older_one(Stage& stage) {
+    WebSocketClient older{stage.address()}, newer{stage.address()};
+    older.call("connect");
+    auto const answer = newer.call("resume", "", "session=\"" + older.session() + "\" last_sequence=\"0\"");
+    same("the answer of resume", "OK", attribute(answer, "return_code"));
+    closes_with(older, 1008);
+    same("the answer of search", "OK", attribute(newer.call("search"), "return_code"));
+    newer.call("disconnect");
+}
+
 void protocol_errors_close_it(Stage& stage) {
     WebSocketClient binary{stage.address()}, no_text{stage.address()}, reserved{stage.address()}, unmasked{stage.address()};
     binary.send("<connect/>", client::Kind::binary);
@@ -102,6 +112,7 @@ Clause websocket_clause() {
          {"requests_are_answered_in_order", "wire.md", requests_are_answered_in_order, websocket},
          {"it_stays_open_after_disconnect", "decision 3", it_stays_open_after_disconnect, websocket},
          {"its_session_can_be_used_over_http", "wire.md, endpoints", its_session_can_be_used_over_http, websocket},
+         {"resume_closes_the_older_one", "wire.md, endpoints", resume_closes_the_older_one, websocket},
          {"protocol_errors_close_it", "wire.md, status codes", protocol_errors_close_it, websocket},
          {"a_ping_is_answered", "RFC 6455", a_ping_is_answered, websocket}}};
 }

@@ -97,6 +97,18 @@ void a_transfer_encoding_is_refused(Stage& stage) {
     answered(stage, reply, 411, "length_required");
 }
 
+void broken_http_is_refused(Stage& stage) {
+    auto const host = "Host: " + stage.address().authority + "\r\n";
+    for (auto const& head : {std::string{"GET /healthz HTTP/1.1\r\n"}, "GET /healthz HTTP/1.1\r\n" + host + host,
+                             "POST /rois HTTP/1.1\r\n" + host + "Content-Length: 5\r\nContent-Length: 6\r\n",
+                             "POST /rois HTTP/1.1\r\n" + host + "Content-Length: -1\r\n"}) {
+        HttpClient client{stage.address()};
+        auto const reply = client.say(head + "\r\n");
+        require(reply.status == 400,
+                "this should be answered with 400, and is with " + std::to_string(reply.status) + ": " + head);
+    }
+}
+
 void schemas_are_served(Stage& stage) {
     HttpClient client{stage.address()};
     auto const list = client.get("/rois/schemas");
@@ -142,6 +154,7 @@ Clause wire_clause() {
          {"unknown_paths_are_not_found", "wire.md, status codes", unknown_paths_are_not_found, http},
          {"a_plain_get_is_asked_to_upgrade", "wire.md, endpoints", a_plain_get_is_asked_to_upgrade, http},
          {"a_transfer_encoding_is_refused", "wire.md, status codes", a_transfer_encoding_is_refused, http},
+         {"broken_http_is_refused", "wire.md, status codes", broken_http_is_refused, http},
          {"schemas_are_served", "wire.md, endpoints", schemas_are_served, http},
          {"health_is_told", "wire.md, endpoints", health_is_told, http}}};
 }
