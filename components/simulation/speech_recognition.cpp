@@ -1,4 +1,4 @@
-// Speech recognition (7.6.9): what people say near the robot, as text.
+// Speech recognition (7.6.9): what people and other robots say near the robot, as text.
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -69,7 +69,7 @@ private:
     }
 
     void suspended() override {
-        for (auto& [person, heard] : inputs_) heard = Heard::in_part;
+        for (auto& [who, heard] : inputs_) heard = Heard::in_part;
     }
 
     void resumed() override { missed_until_ = hall().chronicle().last(); }
@@ -77,23 +77,22 @@ private:
     void sense(Instant when) override {
         for (Happening const& happening : hall().chronicle().since(read_)) {
             read_ = happening.sequence;
-            auto const* person = std::get_if<PersonId>(&happening.who);
-            if (person == nullptr) continue;
-            if (happening.kind == Happening::Kind::speech_started) begins(*person, happening, when);
+            if (happening.who == Entity{robot()}) continue;
+            if (happening.kind == Happening::Kind::speech_started) begins(happening, when);
             if (happening.kind == Happening::Kind::speech_finished || happening.kind == Happening::Kind::speech_broken ||
                 happening.kind == Happening::Kind::left)
-                ends(*person, happening, when);
+                ends(happening, when);
         }
     }
 
-    void begins(PersonId person, Happening const& speech, Instant when) {
+    void begins(Happening const& speech, Instant when) {
         if (speech.sequence <= missed_until_ || !hears(hall(), robot(), speech.place)) return;
-        inputs_[person] = Heard::whole;
+        inputs_[speech.who] = Heard::whole;
         port().event("speech_input_started", {{date_time("timestamp", when.utc)}, {}});
     }
 
-    void ends(PersonId person, Happening const& speech, Instant when) {
-        auto const input = inputs_.find(person);
+    void ends(Happening const& speech, Instant when) {
+        auto const input = inputs_.find(speech.who);
         if (input == inputs_.end()) return;
         bool const whole = input->second == Heard::whole && speech.kind == Happening::Kind::speech_finished;
         inputs_.erase(input);
@@ -109,7 +108,7 @@ private:
     Grammar grammar_;
     mutable std::pair<std::string, std::string> source_;
     mutable std::variant<Grammar, Grammar::Flaw> read_grammar_;
-    std::map<PersonId, Heard> inputs_;  // whose beginning was told
+    std::map<Entity, Heard> inputs_;  // whose beginning was told
     std::uint64_t read_ = 0;
     std::uint64_t missed_until_ = 0;  // what began by then was not heard
 };
