@@ -3,13 +3,21 @@
 # wait for a person, go there, find out who it is, tell the message that is there for this visitor or ask, bow, say goodbye,
 # return to the start.
 #
-#   docs/reception.sh [VISITORS]        how many visitors to receive before it ends; 1 when left out
-#
-# ROIS_URL says where the gateway is; http://127.0.0.1:8080 when it is not set (what ./dev run starts).
+# docs/reception.sh -h says how it is used.
 set -eu
 
+use='use: reception.sh [VISITORS]     how many visitors to receive before it ends; 1 when left out
+ROIS_URL says where the gateway is; http://127.0.0.1:8080 when it is not set (what ./dev run starts).'
+visitors=${1-1}
+case $visitors in
+    -h | --help) printf '%s\n' "$use"; exit 0 ;;
+    '' | 0* | *[!0-9]* | ???????*)
+        printf "reception.sh: VISITORS is a whole number, 1 to 999999, not '%s'\n" "$visitors" >&2
+        exit 2
+        ;;
+esac
 url=${ROIS_URL:-http://127.0.0.1:8080}
-visitors=${1:-1}
+url=${url%/}
 names='xmlns="urn:x-rois:psm:xml:message:1" xmlns:rois="http://www.omg.org/spec/RoIS/20240801" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"'
 session=
 answer=         # the last answer
@@ -22,7 +30,6 @@ message_for() {
     case $1 in
         tanaka) echo 'Mr. Tanaka, your meeting is in room 3.' ;;
         suzuki) echo 'Ms. Suzuki, your taxi is waiting at the entrance.' ;;
-        smith) echo 'Mr. Smith, Ms. Sato will come down for you in a minute.' ;;
     esac
 }
 
@@ -124,36 +131,77 @@ wait_for_a_person() {
     run person_detection stop
 }
 
-# Finds somebody who was not received yet: $person and $position; fails when there is nobody for some time.
-find_somebody() {
-    person=
-    tries=0
+# Looks around once: who is where in $seen, one a line: "person-1 9500, 7500, -160".
+look() {
+    seen=
     run person_localization start
-    while [ -z "$person" ] && [ "$tries" -lt 5 ] && wait_for '*<event_type>person_localized</event_type>*<rois:value>*' 10; do
-        tries=$((tries + 1))
+    if wait_for '*<event_type>person_localized</event_type>*<rois:value>*' 3; then
         line=0
         for one in $(values_of person_ref "$notification"); do
             line=$((line + 1))
-            case $known_persons in *" $one "*) continue ;; esac
-            person=$one
-            position=$(values_of position_data "$notification" | sed -n "${line}p")
-            break
+            seen="$seen$one $(values_of position_data "$notification" | sed -n "${line}p")
+"
         done
-    done
+    fi
     run person_localization stop
-    [ -n "$person" ]
 }
 
-# Goes to a metre before the person, beside that when there is no way; fails when nobody new is there.
-go_there() {
-    find_somebody || return 1
-    tell "$person is at $position (mm, mm, degree); going there."
-    for angle in 0 60 -60 120 -120; do
-        go_to "$(printf '%s' "$position" | awk -F, -v turn="$angle" '{ a = ($3 + turn) * 3.14159265 / 180
-            printf "%.0f, %.0f, %.0f", $1 + 1000 * cos(a), $2 + 1000 * sin(a), $3 + turn + 180 }')"
-        [ "$status" = OK ] && { tell "Arrived at $person."; return 0; }
+# position_of PERSON SEEN: nothing when they were not seen.
+position_of() { printf '%s' "$2" | sed -n "s/^$1 //p"; }
+
+# near POSITION POSITION MM: whether the two are no farther apart.
+near() { awk -v a="$1" -v b="$2" -v most="$3" 'BEGIN { split(a, p, ","); split(b, q, ",")
+    exit ((p[1] - q[1]) ^ 2 + (p[2] - q[2]) ^ 2 > most ^ 2) }'; }
+
+# find_standing [PERSON]: that person, or somebody who was not received yet, in $person and $position as soon as they stand: two
+# looks a second apart find them at one place. Fails when nobody does for some time, or the person is out of sight.
+find_standing() {
+    looks=0
+    look
+    while [ "$looks" -lt 30 ]; do
+        looks=$((looks + 1))
+        before=$seen
+        sleep 1
+        look
+        for one in ${1:-$(printf '%s' "$seen" | sed 's/ .*//')}; do
+            case $known_persons in *" $one "*) continue ;; esac
+            was=$(position_of "$one" "$before")
+            is=$(position_of "$one" "$seen")
+            [ -z "${1:-}" ] || [ -n "$was$is" ] || return 1
+            if [ -n "$was" ] && [ -n "$is" ] && near "$was" "$is" 300; then
+                person=$one
+                position=$is
+                return 0
+            fi
+        done
     done
-    tell "No way leads to $person ($status)."
+    return 1
+}
+
+# Goes to a metre before the position, beside that when there is no way.
+go_before() {
+    for angle in 0 60 -60 120 -120; do
+        go_to "$(printf '%s' "$1" | awk -F, -v turn="$angle" '{ a = ($3 + turn) * 3.14159265 / 180
+            printf "%.0f, %.0f, %.0f", $1 + 1000 * cos(a), $2 + 1000 * sin(a), $3 + turn + 180 }')"
+        [ "$status" = OK ] && return 0
+    done
+    return 1
+}
+
+# Goes to somebody who stands, and on to where they are then, five times at most; fails when nobody new is reached.
+go_there() {
+    find_standing || { tell 'Nobody new stands anywhere.'; return 1; }
+    tell "$person is at $position (mm, mm, degree); going there."
+    for try in 1 2 3 4 5; do
+        aim=$position
+        go_before "$aim" || { tell "No way leads to $person ($status)."; return 1; }
+        look
+        is=$(position_of "$person" "$seen")
+        [ -n "$is" ] && near "$aim" "$is" 600 && { tell "Arrived at $person."; return 0; }
+        find_standing "$person" || { tell "$person is out of sight."; return 1; }
+        [ "$try" -eq 5 ] || tell "$person is at $position now; going on."
+    done
+    tell "$person does not stay."
     return 1
 }
 

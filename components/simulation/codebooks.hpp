@@ -14,7 +14,7 @@ inline constexpr std::string_view visitor = "urn:x-rois:def:codebook:simulation:
 // Names of robots.
 inline constexpr std::string_view robot = "urn:x-rois:def:codebook:simulation::robot";
 
-// Gestures of visitors: gestures().
+// Gestures of visitors and robots: gestures().
 inline constexpr std::string_view gesture = "urn:x-rois:def:codebook:simulation::gesture";
 
 // The reactions of Annex D: "1" to "50".

@@ -14,6 +14,8 @@ double braking(double left, double deceleration, Seconds dt) {
     return std::sqrt(one_step * one_step + 2 * deceleration * std::max(0.0, left)) - one_step;
 }
 
+double towards(double from, double wanted, double most) { return from + std::clamp(wanted - from, -most, most); }
+
 double sign(double value) { return value < 0 ? -1 : 1; }
 
 // The shortest time for a way from standstill to standstill.
@@ -191,6 +193,11 @@ private:
     Patience patience_;
 };
 
+class StayCourse : public Course {
+public:
+    Twist steer(Wheels const&, Progress&) override { return {}; }
+};
+
 }  // namespace
 
 bool Wheels::stand() const { return std::abs(twist.linear) < 0.005 && std::abs(twist.angular) < 0.01; }
@@ -203,11 +210,28 @@ RadiansPerSecond Wheels::rate_to_stop_in(Radians left) const {
     return sign(left) * std::min(plan.max_turn_rate, braking(std::abs(left), plan.max_turn_acceleration, dt));
 }
 
+Twist Wheels::next(Twist const& wanted, std::optional<Metres> circle) const {
+    double const acceleration =
+        circle ? std::min(plan.max_acceleration, plan.max_turn_acceleration * std::abs(*circle)) : plan.max_acceleration;
+    MetresPerSecond const linear = towards(twist.linear, wanted.linear, acceleration * dt);
+    if (circle) return {linear, linear / *circle};
+    RadiansPerSecond const rate = std::clamp(wanted.angular, -plan.max_turn_rate, plan.max_turn_rate);
+    return {linear, towards(twist.angular, rate, plan.max_turn_acceleration * dt)};
+}
+
+Pose moved(Pose const& from, Twist const& twist, Seconds time) {
+    Radians const turned = twist.angular * time;
+    Metres const gone = twist.linear * time;
+    Metres const chord = std::abs(turned) < 1e-9 ? gone : gone * std::sin(turned / 2) / (turned / 2);
+    return {from.position + chord * unit(from.heading + turned / 2), wrapped(from.heading + turned)};
+}
+
 void Patience::look(Wheels const& wheels, bool wants_to_move) {
     waited_ = wants_to_move && wheels.stand() ? waited_ + wheels.dt : 0;
 }
 
 std::unique_ptr<Course> course_of(Line line) { return std::make_unique<LineCourse>(line); }
 std::unique_ptr<Course> course_of(Curve curve) { return std::make_unique<CurveCourse>(curve); }
+std::unique_ptr<Course> course_of(Stay) { return std::make_unique<StayCourse>(); }
 
 }  // namespace rois::simulation

@@ -21,7 +21,13 @@ struct Wheels {
     bool stand() const;
     MetresPerSecond speed_to_stop_in(Metres) const;   // the fastest from which they can stop in that distance
     RadiansPerSecond rate_to_stop_in(Radians) const;  // towards that angle, the fastest from which they can stop at it
+
+    // What comes of a wanted twist within the limits in this step; on a circle of that signed radius, if any.
+    Twist next(Twist const& wanted, std::optional<Metres> circle = std::nullopt) const;
 };
+
+// The exact motion of a unicycle with constant twist.
+Pose moved(Pose const& from, Twist const&, Seconds);
 
 // The course of one motion.
 class Course {
@@ -39,6 +45,7 @@ std::unique_ptr<Course> course_of(GoTo);
 std::unique_ptr<Course> course_of(KeepDistance);
 std::unique_ptr<Course> course_of(Line);
 std::unique_ptr<Course> course_of(Curve);
+std::unique_ptr<Course> course_of(Stay);
 
 // Notices that the wheels stand although they are wanted to move.
 class Patience {

@@ -39,22 +39,12 @@ Metres free_of_bodies(std::vector<Disc> const& others, Point const& from, Radian
     return free;
 }
 
-double towards(double from, double wanted, double most) { return from + std::clamp(wanted - from, -most, most); }
-
-// The exact motion of a unicycle with constant twist.
-Pose moved(Pose const& from, Twist const& twist, Seconds dt) {
-    Radians const turned = twist.angular * dt;
-    Metres const gone = twist.linear * dt;
-    Metres const chord = std::abs(turned) < 1e-9 ? gone : gone * std::sin(turned / 2) / (turned / 2);
-    return {from.position + chord * unit(from.heading + turned / 2), wrapped(from.heading + turned)};
-}
-
 }  // namespace
 
 Drive::Drive(RobotId robot, RobotPlan const& robot_plan, FloorPlan const& floor)
     : robot_(robot),
       plan_(robot_plan),
-      planner_(std::make_unique<Planner>(floor, robot_plan.radius, robot_plan.max_speed, robot_plan.max_turn_rate)),
+      planner_(std::make_unique<Planner>(floor, robot_plan.radius, robot_plan.agility())),
       pose_(robot_plan.start) {}
 Drive::~Drive() = default;
 Drive::Drive(Drive&&) noexcept = default;
@@ -118,12 +108,7 @@ Wheels Drive::wheels(Surroundings const& around, Seconds dt) const {
 void Drive::step(Surroundings const& around, Seconds dt) {
     std::optional<Metres> const circle = current_ ? current_->course->circle() : std::nullopt;
     Twist const wanted = steer(around, dt);
-    double const acceleration =
-        circle ? std::min(plan_.max_acceleration, plan_.max_turn_acceleration * std::abs(*circle)) : plan_.max_acceleration;
-    Twist next;
-    next.linear = towards(twist_.linear, safe(wanted.linear, wheels(around, dt)), acceleration * dt);
-    RadiansPerSecond const rate = std::clamp(wanted.angular, -plan_.max_turn_rate, plan_.max_turn_rate);
-    next.angular = circle ? next.linear / *circle : towards(twist_.angular, rate, plan_.max_turn_acceleration * dt);
+    Twist const next = wheels(around, dt).next({safe(wanted.linear, wheels(around, dt)), wanted.angular}, circle);
     Pose const there = moved(pose_, next, dt);
     if (would_touch(there, around)) {
         twist_ = {};

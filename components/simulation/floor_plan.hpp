@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "simulation/geometry.hpp"
+#include "simulation/routing.hpp"
 
 namespace rois::simulation {
 
@@ -60,6 +61,8 @@ struct RobotPlan {
     RadiansPerSecond max_turn_rate = 1.6;
     double max_turn_acceleration = 3.0;  // rad/s^2
     Sensors sensors;
+
+    Agility agility() const { return {max_speed, max_acceleration, max_turn_rate, max_turn_acceleration}; }
 };
 
 struct FloorPlan {

@@ -7,12 +7,6 @@
 namespace rois::simulation {
 namespace {
 
-// For how long the target may be out of sight, or cannot be come up to, before it counts as lost.
-constexpr WorldTime patience{5'000};
-
-// After following for this long it is no longer lost.
-constexpr WorldTime settled{200};
-
 class Follow final : public WheelAction {
 public:
     explicit Follow(Fitting fitting) : WheelAction{std::move(fitting), "follow"} {}
@@ -38,45 +32,40 @@ private:
         distance_ = *integer_of(parameters, "distance") / 1000.0;
         limit_ = WorldTime{integer_of(parameters, "time_limit").value_or(0)};
         whom_.reset();
-        lost_ = kept_ = {};
+        waits_ = false;
         if (wheels_are_anothers()) return end(CompletedStatus::out_of_resources);
         look();
     }
 
     void act() override {
-        if (limit_.count() > 0 && elapsed() >= limit_) return give_up(CompletedStatus::timeout);
-        bool const keeps = whom_ && !over(progress().state);
-        kept_ = keeps ? kept_ + Hall::step_length : WorldTime{};
-        lost_ = kept_ >= settled ? WorldTime{} : lost_ + Hall::step_length;
-        if (lost_ >= patience) return give_up(CompletedStatus::error);
-        look();
-    }
-
-    // Begins to keep the distance when the target is found, and again each second while it cannot be come up to.
-    void look() {
-        auto const found = hall().find(ref_);
-        if (!found) {
-            cease();
-            whom_.reset();
-            return;
-        }
-        bool const again = over(progress().state) && lost_ % std::chrono::seconds{1} == WorldTime{};
-        if (whom_ == found && !again) return;
-        whom_ = found;
-        drive(KeepDistance{.whom = *found, .distance = distance_});
-    }
-
-    void give_up(CompletedStatus status) {
+        if (limit_.count() == 0 || elapsed() < limit_) return look();
         cease();
-        end(status);
+        end(CompletedStatus::timeout);
+    }
+
+    // Keeps the distance to the target, or stands and waits until it is found.
+    void look() {
+        auto found = hall().find(ref_);
+        if (found && !hall().pose_of(*found)) found.reset();
+        if (found ? whom_ == found && !over(progress().state) : waits_) return;
+        whom_ = found;
+        waits_ = !found;
+        if (found) return drive(KeepDistance{.whom = *found, .distance = distance_});
+        drive(Stay{});
+    }
+
+    ComponentStatus condition() const override { return waits_ ? ComponentStatus::warning : WheelAction::condition(); }
+
+    void cease() override {
+        waits_ = false;
+        WheelAction::cease();
     }
 
     std::string ref_;
     Metres distance_ = 0;
     WorldTime limit_{};  // 0: none
     std::optional<Entity> whom_;
-    WorldTime kept_{};  // for how long the distance has been kept, or come up to
-    WorldTime lost_{};  // for how long it was not
+    bool waits_ = false;  // for the target to be found
 };
 
 }  // namespace

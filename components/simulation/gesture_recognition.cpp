@@ -1,6 +1,9 @@
-// Gesture recognition (7.6.10): which gestures people make before the robot.
+// Gesture recognition (7.6.10): which gestures people and other robots make before the robot.
+#include <utility>
+
 #include "simulation/basic_components.hpp"
 #include "simulation/codebooks.hpp"
+#include "simulation/reaction_types.hpp"
 #include "simulation/senses.hpp"
 
 namespace rois::simulation {
@@ -22,11 +25,20 @@ private:
     void sense(Instant when) override {
         for (Happening const& happening : hall().chronicle().since(read_)) {
             read_ = happening.sequence;
-            if (happening.kind != Happening::Kind::gesture_made || !sees_gesture(hall(), robot(), happening.place)) continue;
+            std::string gesture = gesture_in(happening);
+            if (gesture.empty() || !sees_gesture(hall(), robot(), happening.place)) continue;
             port().event("gesture_recognized", {{date_time("timestamp", when.utc),
-                                                 references("gesture_ref", {happening.text}, std::string{codebook::gesture})},
+                                                 references("gesture_ref", {std::move(gesture)}, std::string{codebook::gesture})},
                                                 {}});
         }
+    }
+
+    // Which gesture it is; empty when it is none, or the robot's own.
+    std::string gesture_in(Happening const& happening) const {
+        if (happening.who == Entity{robot()}) return {};
+        if (happening.kind == Happening::Kind::gesture_made) return happening.text;
+        if (happening.kind == Happening::Kind::reaction_shown) return std::string{gesture_of(happening.text)};
+        return {};
     }
 
     std::uint64_t read_ = 0;

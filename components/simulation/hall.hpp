@@ -53,7 +53,7 @@ public:
     std::optional<std::string> track(PersonId) const;
 
     // Whom a reference names that a service application holds: a robot's name, a temporary name, or the permanent id of a known
-    // person whom a robot has identified during this visit.
+    // person whom a robot has identified, for as long as they keep their temporary name.
     std::optional<Entity> find(std::string_view ref) const;
     std::optional<Pose> pose_of(Entity) const;
 

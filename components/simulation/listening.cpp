@@ -11,7 +11,7 @@ void Listening::begin() {
 }
 
 void Listening::suspended() {
-    for (auto& [person, input] : inputs_) input.whole = false;
+    for (auto& [who, input] : inputs_) input.whole = false;
 }
 
 void Listening::resumed() { missed_until_ = hall().chronicle().last(); }
@@ -19,25 +19,24 @@ void Listening::resumed() { missed_until_ = hall().chronicle().last(); }
 void Listening::sense(Instant when) {
     for (Happening const& happening : hall().chronicle().since(read_)) {
         read_ = happening.sequence;
-        auto const* person = std::get_if<PersonId>(&happening.who);
-        if (person == nullptr) continue;
-        if (happening.kind == Happening::Kind::speech_started) begins(*person, happening, when);
+        if (happening.who == Entity{robot()}) continue;
+        if (happening.kind == Happening::Kind::speech_started) begins(happening, when);
         if (happening.kind == Happening::Kind::speech_finished || happening.kind == Happening::Kind::speech_broken ||
             happening.kind == Happening::Kind::left)
-            ends(*person, happening, when);
+            ends(happening, when);
     }
 }
 
-void Listening::begins(PersonId person, Happening const& speech, Instant when) {
+void Listening::begins(Happening const& speech, Instant when) {
     if (speech.sequence <= missed_until_ || !hears(hall(), robot(), speech.place) || !listens_to(speech.place)) return;
     auto const sounds = sounds_heard(hall(), robot());
-    auto const from = std::ranges::find(sounds, Entity{person}, &HeardSound::who);
-    inputs_[person] = {true, when, from == sounds.end() ? std::nullopt : std::optional{*from}};
+    auto const from = std::ranges::find(sounds, speech.who, &HeardSound::who);
+    inputs_[speech.who] = {true, when, from == sounds.end() ? std::nullopt : std::optional{*from}};
     began(when);
 }
 
-void Listening::ends(PersonId person, Happening const& speech, Instant when) {
-    auto const found = inputs_.extract(person);
+void Listening::ends(Happening const& speech, Instant when) {
+    auto const found = inputs_.extract(speech.who);
     if (found.empty()) return;
     ended(when);
     auto const& input = found.mapped();

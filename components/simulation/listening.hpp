@@ -1,4 +1,5 @@
-// What recognizers of speech have in common: they follow what people say near the robot from its beginning to its end.
+// What recognizers of speech have in common: they follow what people and other robots say near the robot from its beginning to
+// its end.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +37,8 @@ private:
     void suspended() final;
     void resumed() final;
     void sense(Instant when) final;
-    void begins(PersonId, Happening const& speech, Instant when);
-    void ends(PersonId, Happening const& speech, Instant when);
+    void begins(Happening const& speech, Instant when);
+    void ends(Happening const& speech, Instant when);
 
     // An utterance that has begun.
     struct Input {
@@ -45,7 +46,7 @@ private:
         Instant began;
         std::optional<HeardSound> from;
     };
-    std::map<PersonId, Input> inputs_;  // whose beginning was told
+    std::map<Entity, Input> inputs_;  // whose beginning was told
     std::uint64_t read_ = 0;
     std::uint64_t missed_until_ = 0;  // what began by then was not heard
 };

@@ -44,7 +44,10 @@ struct Curve {
     std::optional<Seconds> duration = std::nullopt;  // as of a Line
 };
 
-using Motion = std::variant<GoTo, KeepDistance, Line, Curve>;
+// Stands, and keeps the wheels. Never done by itself.
+struct Stay {};
+
+using Motion = std::variant<GoTo, KeepDistance, Line, Curve, Stay>;
 
 // Names one motion of one robot.
 enum class MotionId : std::uint64_t {};

@@ -14,10 +14,10 @@ class Move final : public WheelAction {
 public:
     explicit Move(Fitting fitting) : WheelAction{std::move(fitting), "move"} {}
 
-    // The motion that arrived takes the place of the other one.
+    // The motion that arrived takes the place of the other one, even when it is empty.
     void reconcile(ParameterList& stored, ParameterList const& arrived) const override {
-        bool const line = !integers_of(arrived, "line").empty();
-        bool const curve = !integers_of(arrived, "curve").empty();
+        bool const line = find(arrived, "line") != nullptr;
+        bool const curve = find(arrived, "curve") != nullptr;
         if (line == curve) return;
         std::erase_if(stored, [&](Parameter const& p) { return equal_ignoring_case(p.name, line ? "curve" : "line"); });
     }

@@ -28,10 +28,7 @@ struct Gesturing {
 struct Person {
     PersonId id{};
     std::string role;    // the permanent id, "tanaka"; for unknown ones only the scenario's or the arrivals' name of them
-    bool known = false;  // robots may learn `role` by identification, and then name, language and message
-    std::string name;
-    std::string language;
-    std::string message;
+    bool known = false;  // robots may learn `role` by identification
     Metres height = 1.68;
     Gender gender = Gender::not_known;
     std::optional<int> age;          // years; what a robot makes of it is only near

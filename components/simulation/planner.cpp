@@ -6,11 +6,16 @@
 #include <limits>
 #include <queue>
 
+#include "simulation/legs.hpp"
+
 namespace rois::simulation {
 namespace {
 
+using Box2 = Eigen::AlignedBox2d;
+
 constexpr Metres cell_size = 0.125;
 constexpr Metres wall_room = 0.04;    // left between a body and the walls where there is room
+constexpr Metres bend_room = 0.06;    // the same beside walls' ends and desks' corners, which are passed in a bend
 constexpr Metres start_search = 0.8;  // how far a free cell may be from a start or an end that is in a blocked one
 
 struct Direction {
@@ -22,32 +27,30 @@ constexpr double diagonal = std::numbers::sqrt2;
 constexpr std::array<Direction, 8> directions{
     {{1, 0, 1}, {1, 1, diagonal}, {0, 1, 1}, {-1, 1, diagonal}, {-1, 0, 1}, {-1, -1, diagonal}, {0, -1, 1}, {1, -1, diagonal}}};
 
-Radians angle_of(std::size_t direction) { return wrapped(static_cast<double>(direction) * std::numbers::pi / 4); }
-
-Radians turn_between(std::size_t a, std::size_t b) { return std::abs(wrapped(angle_of(b) - angle_of(a))); }
+constexpr int points_around = 8;  // an edge or a body
+constexpr Radians step_around = 2 * std::numbers::pi / points_around;
+constexpr Metres wide_room = 0.35;          // beyond the nearest points around it
+constexpr std::size_t most_passages = 240;  // those that lie least out of the way
 
 }  // namespace
 
-// One search. Under `time` a state is a cell and the direction of arrival, since the turns cost; under `distance` the cell alone.
+// One search over the cells for the shortest way.
 class Planner::Search {
 public:
-    Search(Planner const& planner, Blocked const& blocked, RoutingPolicy policy)
+    Search(Planner const& planner, Blocked const& blocked)
         : planner_(planner),
           blocked_(blocked),
-          layers_(policy == RoutingPolicy::time ? directions.size() : 1),
-          cost_of_cell_(policy == RoutingPolicy::time ? cell_size / planner.speed_ : cell_size),
-          cost_of_turn_(policy == RoutingPolicy::time ? 1 / planner.turn_rate_ : 0),
-          cost_(blocked.size() * layers_, std::numeric_limits<float>::infinity()),
-          parent_(blocked.size() * layers_, none) {}
+          cost_(blocked.size(), std::numeric_limits<float>::infinity()),
+          parent_(blocked.size(), none) {}
 
     // Cells from the one after `from` to `to`; empty when there is no way, or they are the same.
-    std::vector<Cell> run(Cell from, Radians heading, Cell to) {
-        start(from, heading, to);
+    std::vector<Cell> run(Cell from, Cell to) {
+        offer(from, 0, none, to);
         while (!open_.empty()) {
             Entry const entry = open_.top();
             open_.pop();
-            if (entry.cost > cost_[entry.state]) continue;  // a better one was expanded before
-            if (entry.state / layers_ == planner_.index(to)) return back_from(entry.state, from);
+            if (entry.cost > cost_[entry.cell]) continue;  // a better one was expanded before
+            if (entry.cell == planner_.index(to)) return back_from(entry.cell);
             expand(entry, to);
         }
         return {};
@@ -58,20 +61,20 @@ private:
     struct Entry {
         float estimate;
         float cost;
-        std::uint32_t state;
+        std::uint32_t cell;
         bool operator<(Entry const& other) const {  // for a queue whose top is the least
-            return estimate != other.estimate ? estimate > other.estimate : state > other.state;
+            return estimate != other.estimate ? estimate > other.estimate : cell > other.cell;
         }
     };
 
-    Cell cell_of(std::uint32_t state) const {
-        auto const cell = static_cast<int>(state / layers_);
+    Cell cell_of(std::uint32_t index) const {
+        auto const cell = static_cast<int>(index);
         return {cell % planner_.columns_, cell / planner_.columns_};
     }
 
-    float estimate(Cell from, Cell to) const {
+    static float estimate(Cell from, Cell to) {
         int const columns = std::abs(from.column - to.column), rows = std::abs(from.row - to.row);
-        return static_cast<float>((std::max(columns, rows) + (diagonal - 1) * std::min(columns, rows)) * cost_of_cell_);
+        return static_cast<float>(std::max(columns, rows) + (diagonal - 1) * std::min(columns, rows));
     }
 
     bool can_step(Cell from, Direction const& d) const {
@@ -83,56 +86,37 @@ private:
         return d.length == 1 || (free(from.column + d.column, from.row) && free(from.column, from.row + d.row));
     }
 
-    void offer(Cell cell, std::size_t direction, float cost, std::uint32_t parent, Cell to) {
-        auto const state = static_cast<std::uint32_t>(planner_.index(cell) * layers_ + (layers_ > 1 ? direction : 0));
-        if (cost >= cost_[state]) return;
-        cost_[state] = cost;
-        parent_[state] = parent;
-        open_.push({cost + estimate(cell, to), cost, state});
-    }
-
-    // The turn on the spot from the heading to each direction is paid before the first cell.
-    void start(Cell from, Radians heading, Cell to) {
-        for (std::size_t direction = 0; direction < layers_; ++direction) {
-            double const turn = std::abs(wrapped(angle_of(direction) - heading));
-            offer(from, direction, static_cast<float>(turn * cost_of_turn_), none, to);
-        }
+    void offer(Cell cell, float cost, std::uint32_t parent, Cell to) {
+        auto const at = static_cast<std::uint32_t>(planner_.index(cell));
+        if (cost >= cost_[at]) return;
+        cost_[at] = cost;
+        parent_[at] = parent;
+        open_.push({cost + estimate(cell, to), cost, at});
     }
 
     void expand(Entry const& entry, Cell to) {
-        Cell const cell = cell_of(entry.state);
-        for (std::size_t direction = 0; direction < directions.size(); ++direction) {
-            Direction const& d = directions[direction];
+        Cell const cell = cell_of(entry.cell);
+        for (Direction const& d : directions) {
             if (!can_step(cell, d)) continue;
-            double cost = d.length * cost_of_cell_;
-            if (layers_ > 1) cost += turn_between(entry.state % layers_, direction) * cost_of_turn_;
-            offer({cell.column + d.column, cell.row + d.row}, direction, entry.cost + static_cast<float>(cost), entry.state, to);
+            offer({cell.column + d.column, cell.row + d.row}, entry.cost + static_cast<float>(d.length), entry.cell, to);
         }
     }
 
-    std::vector<Cell> back_from(std::uint32_t state, Cell from) const {
+    std::vector<Cell> back_from(std::uint32_t at) const {
         std::vector<Cell> cells;
-        for (; state != none; state = parent_[state]) {
-            Cell const cell = cell_of(state);
-            if (cell.column == from.column && cell.row == from.row) break;
-            cells.push_back(cell);
-        }
+        for (; parent_[at] != none; at = parent_[at]) cells.push_back(cell_of(at));
         std::ranges::reverse(cells);
         return cells;
     }
 
     Planner const& planner_;
     Blocked const& blocked_;
-    std::size_t layers_;
-    double cost_of_cell_;
-    double cost_of_turn_;
     std::vector<float> cost_;
     std::vector<std::uint32_t> parent_;
     std::priority_queue<Entry> open_;
 };
 
-Planner::Planner(FloorPlan const& plan, Metres radius, MetresPerSecond speed, RadiansPerSecond turn_rate)
-    : plan_(plan), radius_(radius), speed_(speed), turn_rate_(turn_rate) {
+Planner::Planner(FloorPlan const& plan, Metres radius, Agility const& agility) : plan_(plan), radius_(radius), agility_(agility) {
     Point const size = plan.bounds.high - plan.bounds.low;
     columns_ = std::max(1, static_cast<int>(std::floor(size.x() / cell_size)));
     rows_ = std::max(1, static_cast<int>(std::floor(size.y() / cell_size)));
@@ -142,6 +126,19 @@ Planner::Planner(FloorPlan const& plan, Metres radius, MetresPerSecond speed, Ra
             Cell const cell{column, row};
             blocked_[index(cell)] = plan_.clearance(centre(cell)) < radius_ + wall_room;
         }
+    }
+    auto const pass = [&](Point const& edge) {
+        Disc const off{edge, radius_ + bend_room};
+        add_passages(off, {}, passages_);
+        add_wide_passages(off, {}, wide_passages_);
+    };
+    for (Segment const& wall : plan_.walls) {
+        pass(wall.from);
+        pass(wall.to);
+    }
+    for (Box const& desk : plan_.desks) {
+        for (auto corner : {Box2::BottomLeft, Box2::BottomRight, Box2::TopLeft, Box2::TopRight})
+            pass(Box2{desk.low, desk.high}.corner(corner));
     }
 }
 
@@ -243,7 +240,7 @@ std::optional<std::vector<Point>> Planner::way(Pose const& from, Point const& to
     if (!first || !last) return std::nullopt;
     std::vector<Point> corners{centre(*first)};
     if (index(*first) != index(*last)) {
-        std::vector<Cell> const cells = Search{*this, blocked, policy}.run(*first, from.heading, *last);
+        std::vector<Cell> const cells = Search{*this, blocked}.run(*first, *last);
         if (cells.empty()) return std::nullopt;
         for (std::size_t i = 0; i < cells.size(); ++i) {
             if (i + 1 < cells.size() && i > 0 && goes_on(cells[i - 1], cells[i], cells[i + 1])) continue;
@@ -251,7 +248,62 @@ std::optional<std::vector<Point>> Planner::way(Pose const& from, Point const& to
         }
     }
     corners.push_back(to);
-    return smoothed(from.position, corners, kept);
+    return improved(from, smoothed(from.position, corners, kept), policy, kept);
+}
+
+// The points of an octagon about a disc, just so far off that one can go from each to the next without touching it.
+void Planner::add_passages(Disc const& off, std::span<Disc const> kept_clear, std::vector<Point>& passages) const {
+    for (int k = 0; k < points_around; ++k) {
+        Point const p = off.centre + (off.radius + 0.001) / std::cos(step_around / 2) * unit((k + 0.5) * step_around);
+        if (!cramped(p, kept_clear)) passages.push_back(p);
+    }
+}
+
+// The same farther off: ways over them are longer, and their bends are gentler.
+void Planner::add_wide_passages(Disc const& off, std::span<Disc const> kept_clear, std::vector<Point>& passages) const {
+    for (int k = 0; k < points_around; ++k) {
+        Point const p = off.centre + (off.radius + wide_room) * unit(k * step_around);
+        if (!cramped(p, kept_clear)) passages.push_back(p);
+    }
+}
+
+// The points over which a way may be better than one of that length.
+std::vector<Point> Planner::passages_near(Point const& from, Point const& to, Metres longest, RoutingPolicy policy,
+                                          std::span<Disc const> kept_clear) const {
+    std::vector<Point> near = passages_;
+    for (Disc const& disc : kept_clear) add_passages(disc, kept_clear, near);
+    if (policy == RoutingPolicy::time) {
+        near.insert(near.end(), wide_passages_.begin(), wide_passages_.end());
+        for (Disc const& disc : kept_clear) add_wide_passages(disc, kept_clear, near);
+    }
+    auto const detour = [&](Point const& p) { return distance(from, p) + distance(p, to); };
+    std::erase_if(near, [&](Point const& p) { return detour(p) >= longest || cramped(p, kept_clear); });
+    std::ranges::stable_sort(near, {}, detour);
+    if (near.size() > most_passages) near.resize(most_passages);
+    return near;
+}
+
+// The best way by the policy that is found over the corners of this one and around edges and bodies.
+std::vector<Point> Planner::improved(Pose const& from, std::vector<Point> way, RoutingPolicy policy,
+                                     std::span<Disc const> kept_clear) const {
+    if (way.size() < 2) return way;
+    bool const by_time = policy == RoutingPolicy::time;
+    double const cost = by_time ? duration(from, way, agility_) : length(from.position, way);
+    Crossing crossing{from, way.back(), {way.begin(), way.end() - 1}};
+    std::size_t const known = way.size();
+    auto const further = passages_near(from.position, way.back(), by_time ? cost * agility_.speed : cost, policy, kept_clear);
+    crossing.over.insert(crossing.over.end(), further.begin(), further.end());
+    bool const leads_away = cramped(from.position, kept_clear);
+    auto const point = [&](std::size_t i) -> Point const& {
+        return i == 0 ? from.position : i <= crossing.over.size() ? crossing.over[i - 1] : crossing.to;
+    };
+    auto const can_go = [&](std::size_t a, std::size_t b) {
+        bool const next = b == a + 1 ? b < known : a + 1 == known && b > crossing.over.size();  // one of the way's own legs
+        if (next) return true;
+        return !(leads_away && a == 0) && straight(point(a), point(b), kept_clear);
+    };
+    auto better = best_legs(crossing, can_go, policy, agility_, cost);
+    return better.empty() ? way : better;
 }
 
 // Leaves out every corner that can be passed by in a straight line.

@@ -1,4 +1,5 @@
-// Ways through the hall: A* on a grid around walls, desks and those who stand in the way, then smoothed.
+// Ways through the hall: a way is found by A* on a grid around walls, desks and those who stand in the way; then the best one by
+// the policy is looked for over its corners and points close around edges and bodies.
 #pragma once
 
 #include <cstdint>
@@ -7,17 +8,15 @@
 #include <vector>
 
 #include "simulation/floor_plan.hpp"
+#include "simulation/routing.hpp"
 
 namespace rois::simulation {
-
-// `time`: fewest seconds, where turns cost theirs; `distance`: shortest. RoIS's routing_policy (table 46).
-enum class RoutingPolicy : std::uint8_t { time, distance };
 
 // For bodies of one radius. Immutable after construction.
 class Planner {
 public:
-    // Speeds say what a metre and a turn cost under `time`.
-    Planner(FloorPlan const&, Metres radius, MetresPerSecond speed, RadiansPerSecond turn_rate);
+    // The agility says what ways cost under `time`.
+    Planner(FloorPlan const&, Metres radius, Agility const&);
 
     // Corner points from `from` (not included) to `to` (included), or nothing when there is no way. `in_the_way` are the discs of
     // others, which are kept clear of; from one that is too near already the way first leads away.
@@ -53,12 +52,19 @@ private:
     bool straight(Point const& from, Point const& to, std::span<Disc const> kept_clear) const;
     std::vector<Point> smoothed(Point const& from, std::vector<Point> const& corners, std::span<Disc const> kept_clear) const;
 
+    void add_passages(Disc const& off, std::span<Disc const> kept_clear, std::vector<Point>& passages) const;
+    void add_wide_passages(Disc const& off, std::span<Disc const> kept_clear, std::vector<Point>& passages) const;
+    std::vector<Point> passages_near(Point const& from, Point const& to, Metres longest, RoutingPolicy,
+                                     std::span<Disc const> kept_clear) const;
+    std::vector<Point> improved(Pose const& from, std::vector<Point> way, RoutingPolicy, std::span<Disc const> kept_clear) const;
+
     FloorPlan plan_;
     Metres radius_;
-    MetresPerSecond speed_;
-    RadiansPerSecond turn_rate_;
+    Agility agility_;
     int columns_;
     int rows_;
+    std::vector<Point> passages_;  // around the ends of walls and the corners of desks
+    std::vector<Point> wide_passages_;
     Blocked blocked_;  // cells whose centre is too near to a wall or desk
 };
 

@@ -1,6 +1,7 @@
 #include "simulation/reaction_types.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "types/texts.hpp"
 
@@ -64,6 +65,23 @@ std::string reaction_code(std::string_view code_or_name) {
     auto const found =
         std::ranges::find_if(reaction_types, [&](ReactionType const& r) { return equal_ignoring_case(r.name, text); });
     return found == reaction_types.end() ? "" : std::to_string(found - reaction_types.begin() + 1);
+}
+
+std::string_view gesture_of(std::string_view code) {
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 12> seen_as{{{"1", "nod"},
+                                                                                            {"3", "shake_head"},
+                                                                                            {"9", "bow"},
+                                                                                            {"14", "clap"},
+                                                                                            {"15", "clap"},
+                                                                                            {"16", "point"},
+                                                                                            {"17", "point"},
+                                                                                            {"22", "raise_hand"},
+                                                                                            {"23", "raise_hand"},
+                                                                                            {"24", "raise_hand"},
+                                                                                            {"25", "raise_hand"},
+                                                                                            {"28", "wave"}}};
+    auto const found = std::ranges::find(seen_as, code, &std::pair<std::string_view, std::string_view>::first);
+    return found == seen_as.end() ? std::string_view{} : found->second;
 }
 
 ReactionType const& reaction_type(std::string_view code) {

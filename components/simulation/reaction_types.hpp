@@ -20,6 +20,9 @@ extern std::array<ReactionType, 50> const reaction_types;
 // The code of a reaction that is named by its code or, in any case, by its name; empty when it is neither.
 std::string reaction_code(std::string_view code_or_name);
 
+// As which of the gestures() others see the reaction of that code; empty when as none.
+std::string_view gesture_of(std::string_view code);
+
 // The reaction of that code, which must be one.
 ReactionType const& reaction_type(std::string_view code);
 

@@ -13,7 +13,7 @@
 
 namespace rois::simulation {
 
-// The gestures that visitors make: codes of the codebook "urn:x-rois:def:codebook:simulation::gesture".
+// The gestures that visitors make and robots know: codes of the codebook "urn:x-rois:def:codebook:simulation::gesture".
 std::span<std::string_view const> gestures();
 
 // Where somebody walks or looks: the name of a place or robot, or a point.
@@ -66,9 +66,7 @@ enum class Gender : std::uint8_t { not_known = 0, male = 1, female = 2, not_appl
 struct Role {
     std::string id;        // permanent; "tanaka"
     bool known = false;    // the robots can identify them by `id`
-    std::string name;      // display name; empty when unknown
-    std::string language;  // preferred, ISO 639-1
-    std::string message;   // what waits for them at the reception; may be empty
+    std::string language;  // of what they say, ISO 639-1
     Metres height = 1.68;
     MetresPerSecond speed = 1.1;
     Gender gender = Gender::not_known;

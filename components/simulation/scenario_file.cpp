@@ -5,6 +5,7 @@
 
 #include "simulation/component_refs.hpp"
 #include "simulation/person.hpp"
+#include "simulation/reaction_types.hpp"
 #include "simulation/wire_units.hpp"
 #include "types/texts.hpp"
 
@@ -27,9 +28,7 @@ public:
         Role role;
         role.id = element.attribute("id", "");
         role.known = is_true(element.attribute("known", "false"));
-        role.name = element.attribute("name", "");
         role.language = language(element, "en");
-        role.message = element.attribute("message", "");
         role.height = element.number("height", role.height * 1000.0) / 1000.0;
         role.speed = element.number("speed", role.speed * 1000.0) / 1000.0;
         role.gender = gender(element);
@@ -51,6 +50,7 @@ private:
         answer.to = element.attribute("to", "");
         answer.reaction = element.attribute("reaction", "");
         if (answer.to.empty() == answer.reaction.empty()) throw element.complain("an answer has one of 'to' and 'reaction'");
+        if (!answer.reaction.empty()) check_reaction(element, answer.reaction);
         answer.language = language(element, usual_language);
         answer.text = trimmed(element.text());
         answer.gesture = element.attribute("gesture", "");
@@ -106,6 +106,12 @@ private:
         if (name == "male") return Gender::male;
         if (name == "female") return Gender::female;
         return name == "not_applicable" ? Gender::not_applicable : Gender::not_known;
+    }
+
+    static void check_reaction(xml::Element const& element, std::string const& code) {
+        if (reaction_code(code) == code) return;
+        throw element.complain("unknown reaction " + quoted(code) + "; known are the codes 1 to " +
+                               std::to_string(reaction_types.size()) + " of Annex D");
     }
 
     static void check_gesture(xml::Element const& element, std::string const& id) {

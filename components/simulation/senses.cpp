@@ -78,11 +78,7 @@ std::vector<RecognizedPerson> people_recognized(Hall const& hall, RobotId robot)
     std::vector<RecognizedPerson> recognized;
     for (auto const& [person, track] : tracked_people(hall, robot)) {
         if (!recognizes(hall.plan(), sensor, hall.robot(robot).pose, *person)) continue;
-        if (person->known) {
-            recognized.push_back({person->id, person->role, true, track, person->name, person->language, person->message});
-        } else {
-            recognized.push_back({person->id, track, false, track, {}, {}, {}});
-        }
+        recognized.push_back({person->id, person->known ? person->role : track, person->known, track});
     }
     return recognized;
 }

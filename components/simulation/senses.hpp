@@ -36,9 +36,6 @@ struct RecognizedPerson {
     std::string ref;  // the permanent id of a known person, else the temporary name
     bool known;
     std::string track;  // the temporary name in both cases
-    std::string name;   // these three of known persons only
-    std::string language;
-    std::string message;
 };
 std::vector<RecognizedPerson> people_recognized(Hall const&, RobotId);
 

@@ -1,4 +1,4 @@
-// Speech recognition (7.6.9): what people say near the robot, as text.
+// Speech recognition (7.6.9): what people and other robots say near the robot, as text.
 #include <algorithm>
 #include <utility>
 

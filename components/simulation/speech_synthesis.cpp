@@ -35,10 +35,10 @@ class SpeechSynthesis final : public Action {
 public:
     using Action::Action;
 
-    // The text that arrived takes the place of the other one.
+    // The text that arrived takes the place of the other one, even when it is empty.
     void reconcile(ParameterList& stored, ParameterList const& arrived) const override {
-        bool const plain = !text_of(arrived, "speech_text").empty();
-        bool const marked_up = !text_of(arrived, "SSML_text").empty();
+        bool const plain = find(arrived, "speech_text") != nullptr;
+        bool const marked_up = find(arrived, "SSML_text") != nullptr;
         if (plain == marked_up) return;
         std::erase_if(stored,
                       [&](Parameter const& p) { return equal_ignoring_case(p.name, plain ? "SSML_text" : "speech_text"); });

@@ -12,7 +12,9 @@ void Tracks::identify(PersonId person) { tracks_[person].identified = true; }
 
 void Tracks::forget_lost(WorldTime now) {
     for (auto& [person, track] : tracks_) {
-        if (now - track.seen > memory_) track.number = 0;
+        if (now - track.seen <= memory_) continue;
+        track.number = 0;
+        track.identified = false;
     }
 }
 

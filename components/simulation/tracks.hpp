@@ -17,7 +17,7 @@ public:
 
     void see(PersonId, WorldTime now);  // gives a new name when there is none
     void identify(PersonId);            // a known person who was recognized
-    void forget_lost(WorldTime now);    // the names of those not seen for longer than the memory
+    void forget_lost(WorldTime now);    // the names of those not seen for longer than the memory, and who they are
     void leave(PersonId);
 
     std::optional<std::string> name(PersonId) const;

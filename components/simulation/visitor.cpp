@@ -32,9 +32,6 @@ Visitor::Visitor(PersonId id, Role role, Pose const& pose, WorldTime now, FloorP
     person_.id = id;
     person_.role = role_.id;
     person_.known = role_.known;
-    person_.name = role_.name;
-    person_.language = role_.language;
-    person_.message = role_.message;
     person_.height = role_.height;
     person_.gender = role_.gender;
     person_.age = role_.age;
@@ -51,13 +48,17 @@ void Visitor::notice(Happening const& happening, Robot const& robot, double loud
     addressed_ = company.now;
     if (talks_left_ > 0) patience_ = usual_patience;
     talks_left_ = std::max(0, talks_left_ - 1);
-    for (std::size_t i = 0; i < role_.answers.size(); ++i) {
-        Answer const& answer = role_.answers[i];
-        if (!fits(answer, happening) || std::ranges::find(answered_, i) != answered_.end()) continue;
-        if (answer.once) answered_.push_back(i);
-        pending_ = Pending{answer, company.now + before_answer};
+    for (std::size_t i = 0; i < role_.answers.size() && pending_.size() < most_pending; ++i) {
+        if (!fits(role_.answers[i], happening) || !is_open(i)) continue;
+        pending_.push_back({i, company.now + before_answer});
         return;
     }
+}
+
+bool Visitor::is_open(std::size_t answer) const {
+    if (!role_.answers[answer].once) return true;
+    return std::ranges::find(answered_, answer) == answered_.end() &&
+           std::ranges::find(pending_, answer, &Pending::answer) == pending_.end();
 }
 
 void Visitor::step(Company& company) {
@@ -93,9 +94,11 @@ void Visitor::make_gesture(std::string id, Company& company) {
 }
 
 void Visitor::answer(Company& company) {
-    if (!pending_ || company.now < pending_->due || person_.speaking || person_.gesturing) return;
-    Answer const given = std::move(pending_->answer);
-    pending_.reset();
+    if (pending_.empty() || company.now < pending_.front().due || person_.speaking || person_.gesturing) return;
+    std::size_t const index = pending_.front().answer;
+    pending_.pop_front();
+    Answer const& given = role_.answers[index];
+    if (given.once) answered_.push_back(index);
     if (!given.gesture.empty()) make_gesture(given.gesture, company);
     if (!given.text.empty()) say(given.text, given.language, company);
 }

@@ -1,6 +1,7 @@
 // The mind of a person: plays a role, minds the robots, and answers them.
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
@@ -40,8 +41,9 @@ public:
 private:
     static constexpr Seconds usual_patience = 15;
     enum class Doing : std::uint8_t { still, done };
+    static constexpr std::size_t most_pending = 8;
     struct Pending {
-        Answer answer;
+        std::size_t answer;  // its place in the role
         WorldTime due;
     };
 
@@ -57,6 +59,7 @@ private:
     void play(Company&);
     void next_action(WorldTime now);
     void end_speech_and_gesture(Company&);
+    bool is_open(std::size_t answer) const;  // not used up by `once`
     void answer(Company&);
     void say(std::string text, std::string language, Company&);
     void make_gesture(std::string id, Company&);
@@ -82,8 +85,8 @@ private:
     bool ignores_ = false;
     std::optional<Whereabouts> faces_;
     std::optional<Radians> heading_wanted_;
-    std::optional<Pending> pending_;
-    std::vector<std::size_t> answered_;   // those of `once`
+    std::deque<Pending> pending_;         // answers to give, one after the other
+    std::vector<std::size_t> answered_;   // those of `once` that were given
     Seconds still_to_wait_ = 0;           // of a Wait, of a pause in wandering, or for others to end their speech
     bool said_ = false;                   // the words or the gesture of this action were begun
     std::optional<RobotId> approaching_;  // a robot that comes up to this visitor

@@ -112,7 +112,7 @@ Visitor::Doing Visitor::act(Wait const& wait, Company& company) {
     }
     still_to_wait_ -= company.dt;
     if (still_to_wait_ > 0) return Doing::still;
-    return pending_ || person_.speaking || stays_for_robot(company) ? Doing::still : Doing::done;
+    return !pending_.empty() || person_.speaking || stays_for_robot(company) ? Doing::still : Doing::done;
 }
 
 Visitor::Doing Visitor::act(Wander const& wander, Company& company) {
@@ -139,7 +139,7 @@ Visitor::Doing Visitor::act(Leave const&, Company& company) {
         faces_.reset();
         heading_wanted_.reset();
     }
-    if (pending_ || person_.speaking || stays_for_robot(company)) return Doing::still;
+    if (!pending_.empty() || person_.speaking || stays_for_robot(company)) return Doing::still;
     Place const* exit = company.plan.place("exit");
     if (!exit) exit = company.plan.place("entrance");
     if (distance(person_.pose.position, exit->pose.position) < 0.5) return Doing::done;

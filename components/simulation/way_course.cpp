@@ -9,45 +9,84 @@ namespace rois::simulation {
 namespace {
 
 constexpr Metres at_place = 0.04;
-constexpr Metres at_corner = 0.06;
 constexpr Radians at_heading = from_degrees(1.5);
-constexpr Radians too_far_aside = 0.6;  // beyond it the robot turns on the spot
+constexpr Radians too_far_aside = 1.0;  // the robot stops and turns on the spot
 
 // Drives along corner points.
 class Corners {
 public:
     bool given() const { return !points_.empty(); }
-    void set(std::vector<Point> points) { points_ = std::move(points); }
+    void set(Point const& from, std::vector<Point> points) {
+        before_ = from;
+        points_ = std::move(points);
+    }
     void clear() { points_.clear(); }
 
     // Nothing when the last point is reached.
     std::optional<Twist> steer(Wheels const& wheels) {
-        while (points_.size() > 1 && distance(wheels.pose.position, points_.front()) < at_corner) points_.erase(points_.begin());
+        while (points_.size() > 1 && passed(wheels.pose.position)) {
+            if (std::abs(turn_at(0, before_)) >= sharpest_bend) turning_ = true;
+            before_ = points_.front();
+            points_.erase(points_.begin());
+        }
         Metres const left = distance(wheels.pose.position, points_.front());
         if (points_.size() == 1 && left < at_place) return std::nullopt;
         Radians const aside = bearing(wheels.pose, points_.front());
         if (std::abs(aside) > too_far_aside || (wheels.stand() && std::abs(aside) > 0.08)) turning_ = true;
-        if (std::abs(aside) < 0.04) turning_ = false;
-        if (turning_) return std::abs(wheels.twist.linear) > 0.05 ? Twist{} : Twist{0, wheels.rate_to_stop_in(aside)};
+        if (std::abs(aside) < turned_enough) turning_ = false;
+        if (turning_) return std::abs(wheels.twist.linear) > slow_enough ? Twist{} : Twist{0, wheels.rate_to_stop_in(aside)};
         RadiansPerSecond const fastest = std::abs(wheels.rate_to_stop_in(aside));
-        return Twist{speed(wheels, left) * std::cos(aside), std::clamp(3.0 * aside, -fastest, fastest)};
+        return Twist{speed(wheels) * std::cos(aside), std::clamp(3.0 * aside, -fastest, fastest)};
     }
 
 private:
-    // Slow enough to take the next corner, or to stop at the last one.
-    MetresPerSecond speed(Wheels const& wheels, Metres left) const {
-        MetresPerSecond at_end = 0;
-        if (points_.size() > 1) {
-            Radians const turn = wrapped(direction(points_[0], points_[1]) - direction(wheels.pose.position, points_[0]));
-            at_end = std::max(0.0, 1 - std::abs(turn) / too_far_aside) * wheels.plan.max_speed;
-        }
-        MetresPerSecond const stopping = std::max(wheels.speed_to_stop_in(left), 0.04);
-        return std::min(wheels.plan.max_speed, std::sqrt(at_end * at_end + stopping * stopping));
+    // Whether the next corner is at hand, or lies behind already, beside the way that was driven.
+    bool passed(Point const& at) const {
+        Point const left = points_.front() - at;
+        return left.norm() < near_corner || left.dot(unit(direction(before_, points_.front()))) < 0;
     }
 
+    Radians turn_at(std::size_t i, Point const& from) const {
+        return wrapped(direction(points_[i], points_[i + 1]) - direction(from, points_[i]));
+    }
+
+    // Slow enough for all corners that are left, and to stop at the last one.
+    MetresPerSecond speed(Wheels const& wheels) const {
+        MetresPerSecond most = wheels.plan.max_speed;
+        Metres left = 0;
+        Point from = wheels.pose.position;
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            left += distance(from, points_[i]);
+            MetresPerSecond at_end = 0;
+            if (i + 1 < points_.size()) at_end = corner_speed(turn_at(i, from), wheels.plan.agility());
+            MetresPerSecond const stopping = std::max(wheels.speed_to_stop_in(left), 0.04);
+            most = std::min(most, std::hypot(at_end, stopping));
+            from = points_[i];
+        }
+        return most;
+    }
+
+    Point before_ = Point::Zero();  // where the leg to the next point began
     std::vector<Point> points_;
     bool turning_ = false;
 };
+
+// How long it takes to drive a way and to turn to `heading` then, if nobody gets in the way.
+Seconds rehearsed(Wheels const& wheels, std::vector<Point> const& way, std::optional<Radians> heading) {
+    constexpr Seconds longest = 600;
+    Pose pose = wheels.pose;
+    Twist twist = wheels.twist;
+    Wheels const now{wheels.robot, wheels.plan, wheels.planner, pose, twist, wheels.around, wheels.dt};
+    Corners corners;
+    corners.set(pose.position, way);
+    for (Seconds time = 0; time < longest; time += wheels.dt) {
+        auto const wanted = corners.steer(now);
+        if (!wanted) return time + (heading ? turn_duration(wrapped(*heading - pose.heading), wheels.plan.agility()) : 0);
+        twist = now.next(*wanted);
+        pose = moved(pose, twist, wheels.dt);
+    }
+    return longest;
+}
 
 // Turns towards a heading; nothing when it is there and stands.
 std::optional<Twist> turn_to(Wheels const& wheels, Radians heading) {
@@ -61,9 +100,9 @@ class Approach {
 public:
     enum class Step : std::uint8_t { driving, waiting, there, no_way };
 
-    Step towards(Point const& goal, RoutingPolicy policy, Wheels const& wheels, Twist& twist) {
+    Step towards(Target const& goal, RoutingPolicy policy, Wheels const& wheels, Twist& twist) {
         until_next_try_ -= wheels.dt;
-        if (!goal_ || distance(*goal_, goal) > 0.05) {
+        if (!goal_ || distance(goal_->position, goal.position) > 0.05) {
             goal_ = goal;
             corners_.clear();
             until_next_try_ = 0;
@@ -107,16 +146,24 @@ private:
         until_next_try_ = 1.0;
         auto const others =
             others_ == Others::all ? wheels.around.others(wheels.robot) : wheels.around.others_standing(wheels.robot);
-        if (auto way = wheels.planner.way(wheels.pose, *goal_, policy, others)) {
-            corners_.set(std::move(*way));
-            return Step::driving;
-        }
-        return wheels.planner.way(wheels.pose, *goal_, policy) ? Step::waiting : Step::no_way;
+        auto way = wheels.planner.way(wheels.pose, goal_->position, policy, others);
+        if (!way) return wheels.planner.way(wheels.pose, goal_->position, policy) ? Step::waiting : Step::no_way;
+        if (policy == RoutingPolicy::time) take_shortest_if_faster(*way, wheels, others);
+        corners_.set(wheels.pose.position, std::move(*way));
+        return Step::driving;
+    }
+
+    // The planner only estimates seconds: where the shortest way is hardly slower, both are rehearsed.
+    void take_shortest_if_faster(std::vector<Point>& way, Wheels const& wheels, std::vector<Disc> const& others) const {
+        if (way.size() < 2) return;
+        auto shortest = wheels.planner.way(wheels.pose, goal_->position, RoutingPolicy::distance, others);
+        if (!shortest || *shortest == way) return;
+        if (rehearsed(wheels, *shortest, goal_->heading) < rehearsed(wheels, way, goal_->heading)) way = std::move(*shortest);
     }
 
     Corners corners_;
     Patience patience_;
-    std::optional<Point> goal_;
+    std::optional<Target> goal_;
     Others others_ = Others::standing;
     Seconds until_next_try_ = 0;
 };
@@ -135,7 +182,7 @@ public:
         if (!aim_ || (until_next_aim_ <= 0 && !in_place_)) aim(target, wheels);
         if (in_place_) return turn(progress, wheels);
         Twist twist;
-        switch (approach_.towards(aim_->position, motion_.policy, wheels, twist)) {
+        switch (approach_.towards(*aim_, motion_.policy, wheels, twist)) {
             case Approach::Step::driving:
                 progress.state = MotionState::moving;
                 break;
@@ -228,7 +275,8 @@ private:
             aim_ = wheels.planner.beside(whom, wanted, wheels.pose.position);
         }
         Twist twist;
-        Approach::Step const step = aim_ ? approach_.towards(*aim_, RoutingPolicy::time, wheels, twist) : Approach::Step::no_way;
+        Approach::Step const step =
+            aim_ ? approach_.towards({*aim_, {}}, RoutingPolicy::time, wheels, twist) : Approach::Step::no_way;
         if (step == Approach::Step::waiting || step == Approach::Step::no_way) progress.state = MotionState::obstructed;
         if (step != Approach::Step::driving && distance(whom, aimed_at_) > 0.1) aim_.reset();
         return twist;

@@ -8,8 +8,7 @@
 namespace rois::simulation {
 namespace {
 
-constexpr MetresPerSecond walking_pace = 1.1;
-constexpr RadiansPerSecond walking_turn = 3.0;
+constexpr Agility on_foot{.speed = 1.1, .acceleration = 3.0, .turn_rate = 3.0, .turn_acceleration = 12.0};
 constexpr Metres free_entrance = 0.15;  // between somebody who comes in and others
 constexpr WorldTime tracking_period{100};
 
@@ -28,7 +27,7 @@ bool is_for_visitors(Happening const& happening) {
 Hall::World::World(FloorPlan plan, Scenario scenario, std::uint64_t hall_seed)
     : seed(hall_seed),
       plan_(checked(std::move(plan))),
-      walkways_(plan_, person_radius, walking_pace, walking_turn),
+      walkways_(plan_, person_radius, on_foot),
       crowd_(std::move(scenario), plan_, mixed({hall_seed, 1})) {
     for (std::size_t i = 0; i < plan_.robots.size(); ++i) {
         RobotId const id{static_cast<std::uint32_t>(i)};

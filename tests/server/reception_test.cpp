@@ -11,6 +11,9 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsSupersetOf;
+using testing::Not;
+using testing::StartsWith;
 
 constexpr auto message_for_tanaka = "Mr. Tanaka, your meeting is in room 3.";
 
@@ -125,6 +128,27 @@ TEST(TheReceptionScript, ReceivesAVisitor) {
                             "Arrived at person-N.", "This is tanaka.", "Robot: \"Mr. Tanaka, your meeting is in room N.\"",
                             "The robot bows.", "Robot: \"Goodbye.\"", "Going back to the start.", "Received N visitor(s)."))
         << text;
+}
+
+// The visitor comes in only then, and does not stay where they are seen at first.
+TEST(TheReceptionScript, WaitsUntilAVisitorStands) {
+    GatewayProcess const gateway{
+        {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/one_visitor.xml", "--sim-speed", "2", "--seed", "7"}};
+    auto const text = printed_by("ROIS_URL=" + gateway.url() + "/ " ROIS_SOURCE_DIR "/docs/reception.sh 2>&1");
+    EXPECT_THAT(steps(text), IsSupersetOf({HasSubstr("Arrived at person-N."), HasSubstr("This is tanaka."),
+                                           HasSubstr("Received N visitor(s).")}))
+        << text;
+    EXPECT_THAT(text, Not(HasSubstr("//rois"))) << "a slash at the end of ROIS_URL does no harm";
+}
+
+TEST(TheReceptionScript, SaysHowItIsUsed) {
+    std::string const script = ROIS_SOURCE_DIR "/docs/reception.sh ";
+    EXPECT_THAT(printed_by(script + "-h"), StartsWith("use: reception.sh [VISITORS]"));
+    for (auto const* bad : {"abc", "0", "-1", "''", "99999999", "1.5"}) {
+        auto const text = printed_by(script + bad + " 2>&1 >&-; test $? -eq 2");
+        EXPECT_THAT(text, StartsWith("reception.sh: VISITORS is a whole number")) << bad;
+        EXPECT_EQ(std::ranges::count(text, '\n'), 1) << text;
+    }
 }
 
 }  // namespace

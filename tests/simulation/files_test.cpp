@@ -93,7 +93,7 @@ TEST(ScenarioFile, IsReadWithAllItsActions) {
     Scenario const scenario = read_scenario(schemas(), "day.xml", R"(
 <scenario xmlns="urn:x-rois:simulation:hall:1" name="a day" round="120">
   <arrivals gap_least="10" gap_most="20" at_most="3"/>
-  <person id="tanaka" known="true" name="Tanaka" language="ja" message="Room 3." height="1720" speed="1200" enters="2.5">
+  <person id="tanaka" known="true" language="ja" height="1720" speed="1200" enters="2.5">
     <answer to="name" language="en" gesture="nod">Tanaka.</answer>
     <answer reaction="9" gesture="bow" once="true"/>
     <walk to="desk"/><face to="robot1"/><say at="8">はじめまして。</say><gesture id="wave"/>
@@ -131,6 +131,10 @@ TEST(ScenarioFile, SaysWhereItIsWrong) {
     EXPECT_THAT(complaint_of_scenario(day("<say language=\"English\">Hi</say>")),
                 AllOf(StartsWith("day.xml:3:1:"), HasSubstr("639-1")));
     EXPECT_THAT(complaint_of_scenario(day("<answer>Hi</answer>")), AllOf(StartsWith("day.xml:3:1:"), HasSubstr("one of 'to'")));
+    for (auto const* code : {"51", "0", "wave", "09"})
+        EXPECT_THAT(complaint_of_scenario(day("<answer reaction=\"" + std::string{code} + "\">Hi</answer>")),
+                    AllOf(StartsWith("day.xml:3:1:"), HasSubstr("'" + std::string{code} + "'"), HasSubstr("1 to 50")));
+    EXPECT_THAT(complaint_of_scenario(day("</person>\n<person id=\"b\" message=\"nobody reads it\">")), StartsWith("day.xml:4:"));
     EXPECT_THAT(complaint_of_scenario(day("<dance/>")), StartsWith("day.xml:3:"));
     EXPECT_THAT(complaint_of_scenario(day("<wait seconds=\"-1\"/>")), StartsWith("day.xml:3:"));
     EXPECT_THAT(complaint_of_scenario(day("</person>\n<person id=\"a\">")),
@@ -172,7 +176,7 @@ TEST(ShippedFiles, AreWithoutFlaw) {
 TEST(ShippedFiles, EveryPlaceCanBeReached) {
     FloorPlan const plan = shipped_plan("reception-hall.xml");
     RobotPlan const& robot = plan.robots.at(0);
-    Planner const planner{plan, robot.radius, robot.max_speed, robot.max_turn_rate};
+    Planner const planner{plan, robot.radius, {}};
     for (Place const& place : plan.places)
         EXPECT_TRUE(planner.way(robot.start, place.pose.position, RoutingPolicy::time)) << place.name;
 }

@@ -52,19 +52,63 @@ TEST(Follow, TakesAnotherRobot) {
     EXPECT_NEAR(distance(stage.robot(0).position, stage.robot(1).position), 1.0, 0.4);
 }
 
-TEST(Follow, FailsAfterAWhileWhenTheTargetIsUnknown) {
-    Stage stage;
-    stage["follow"].start({whom("person-9"), integer("distance", 1000)});
-    EXPECT_THAT(stage["follow"].words(), ElementsAre("started"));
-    EXPECT_EQ(stage.outcome("follow", 10), "ERROR");
-    EXPECT_NEAR(in_seconds(stage.hall().now()), 5, 0.1);
+TEST(Follow, WaitsForATargetThatIsUnknown) {
+    Stage stage{{visitor("guest", {does(Walk{at(6, 4)}), does(Wait{1000})}, 20)}};
+    stage.step();
+    auto& follow = stage["follow"];
+    follow.start({whom("person-1"), integer("distance", 1000)});
+    auto const start = stage.robot().position;
+    stage.run(19);
+    EXPECT_THAT(follow.words(), ElementsAre("started"));
+    EXPECT_EQ(follow.component().status(), ComponentStatus::warning);
+    EXPECT_EQ(distance(stage.robot().position, start), 0) << "it stands";
+    stage["move"].start({integers("line", "500 0")});
+    EXPECT_EQ(stage["move"].ended(), "OUT_OF_RESOURCES") << "and keeps the wheels";
+    stage.run(30);
+    EXPECT_THAT(follow.words(), ElementsAre("started"));
+    EXPECT_EQ(follow.component().status(), ComponentStatus::ready);
+    EXPECT_NEAR(distance(stage.robot().position, stage.hall().people().front().pose.position), 1.0, 0.25);
 }
 
-TEST(Follow, FailsWhenTheTargetHasLeft) {
+TEST(Follow, WaitsForATargetThatHasLeft) {
     Stage stage{{visitor("guest", {does(Walk{at(6, 4)}), does(Wait{3}), does(Leave{})})}};
     stage.run(6);
     stage["follow"].start({whom("person-1"), integer("distance", 1000)});
-    EXPECT_EQ(stage.outcome("follow", 60), "ERROR");
+    ASSERT_TRUE(stage.run_until([&] { return stage.hall().people().empty(); }, 120));
+    stage.run(30);
+    EXPECT_THAT(stage["follow"].words(), ElementsAre("started"));
+    EXPECT_EQ(stage["follow"].component().status(), ComponentStatus::warning);
+    stage["follow"].stop();
+    EXPECT_EQ(stage["follow"].component().status(), ComponentStatus::ready);
+}
+
+TEST(Follow, KeepsItsTimeLimitWhileItWaits) {
+    Stage stage;
+    stage["follow"].start({whom("person-9"), integer("distance", 1000), integer("time_limit", 3000)});
+    EXPECT_EQ(stage.outcome("follow"), "TIMEOUT");
+    EXPECT_NEAR(in_seconds(stage.hall().now()), 3, 0.05);
+}
+
+TEST(Follow, GoesOnWithAPermanentIdThatIsIdentifiedAnew) {
+    FloorPlan plan = reception();
+    plan.robots[0].sensors.people.range = plan.robots[0].sensors.faces.range = plan.robots[0].sensors.sound.range = 2.5;
+    // Walks away while the robot is held.
+    Stage stage{{known(visitor("tanaka", {does(Walk{at(4, 4)}), does(Face{at("robot")}), does(Wait{5}), does(Ignore{}),
+                                          does(Walk{at(10, 2)}), does(Wait{20}), does(Walk{at(4, 4)}), does(Face{at("robot")}),
+                                          does(Wait{1000})}))},
+                plan};
+    ASSERT_TRUE(stage.run_until([&] { return stage.hall().find("tanaka").has_value(); }));
+    stage["follow"].start({whom("tanaka"), integer("distance", 1000)});
+    stage["follow"].suspend();
+    ASSERT_TRUE(stage.run_until([&] { return !stage.hall().find("tanaka"); }));
+    stage["follow"].resume();
+    stage.step();
+    EXPECT_EQ(stage["follow"].component().status(), ComponentStatus::warning);
+    ASSERT_TRUE(stage.run_until([&] { return stage.hall().find("tanaka").has_value(); }, 120));
+    stage.run(10);
+    EXPECT_THAT(stage["follow"].words(), ElementsAre("started"));
+    EXPECT_EQ(stage["follow"].component().status(), ComponentStatus::ready);
+    EXPECT_NEAR(distance(stage.robot().position, stage.hall().people().front().pose.position), 1.0, 0.2);
 }
 
 TEST(Follow, KeepsItsTimeLimit) {

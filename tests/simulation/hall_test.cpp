@@ -148,7 +148,7 @@ TEST(ShippedDay, ARobotCanReceiveTanaka) {
     ASSERT_TRUE(runs_until(hall, 60, [&] { return over(state(hall, robot1, *go)); }));
     EXPECT_EQ(state(hall, robot1, *go), MotionState::arrived);
     ASSERT_TRUE(runs_until(hall, 5, [&] { return hall.find("tanaka").has_value(); })) << "identified";
-    hall.speak(robot1, {hall.people()[0].message, "en", 0.5, {}});
+    hall.speak(robot1, {"Your meeting is in room 3.", "en", 0.5, {}});
     auto thanked = [](Happening const& happening) {
         return happening.kind == Happening::Kind::speech_started && happening.text == "Thank you very much.";
     };

@@ -9,26 +9,9 @@ namespace {
 
 constexpr Metres radius = 0.28;
 
-Planner planner_of(FloorPlan const& plan) { return {plan, radius, 0.9, 1.6}; }
+constexpr Agility robots{.speed = 0.9, .acceleration = 0.8, .turn_rate = 1.6, .turn_acceleration = 3.0};
 
-Metres length(Point from, std::vector<Point> const& way) {
-    Metres sum = 0;
-    for (Point const& corner : way) {
-        sum += distance(from, corner);
-        from = corner;
-    }
-    return sum;
-}
-
-// How long a way takes at 0.9 m/s, with turns on the spot.
-Seconds duration(Pose from, std::vector<Point> const& way, RadiansPerSecond turn_rate) {
-    Seconds sum = 0;
-    for (Point const& corner : way) {
-        sum += std::abs(bearing(from, corner)) / turn_rate + distance(from.position, corner) / 0.9;
-        from = {corner, direction(from.position, corner)};
-    }
-    return sum;
-}
+Planner planner_of(FloorPlan const& plan) { return {plan, radius, robots}; }
 
 // Every leg keeps the body off walls and desks.
 void expect_free(FloorPlan const& plan, Point from, std::vector<Point> const& way) {
@@ -108,12 +91,14 @@ FloorPlan slalom() {
 
 TEST(Planner, PolicyTimeSparesTurnsAndPolicyDistanceSparesMetres) {
     FloorPlan const plan = slalom();
-    Planner const planner{plan, radius, 0.9, 0.5};
+    Agility slow_to_turn = robots;
+    slow_to_turn.turn_rate = 0.5;
+    Planner const planner{plan, radius, slow_to_turn};
     Pose const from{Point{1, 4}, from_degrees(90)};
     auto const fastest = planner.way(from, Point{11, 4}, RoutingPolicy::time);
     auto const shortest = planner.way(from, Point{11, 4}, RoutingPolicy::distance);
     ASSERT_TRUE(fastest && shortest);
-    EXPECT_LT(duration(from, *fastest, 0.5), duration(from, *shortest, 0.5));
+    EXPECT_LT(duration(from, *fastest, slow_to_turn), duration(from, *shortest, slow_to_turn));
     EXPECT_GT(length(from.position, *fastest), length(from.position, *shortest));
 }
 

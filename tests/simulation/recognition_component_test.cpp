@@ -137,6 +137,37 @@ TEST(SpeechRecognition, IsDeafWhileSuspended) {
     EXPECT_THAT(recognition.words(), ElementsAre("completed OK, active"));
 }
 
+// Two robots in sight of each other: the first stands before the second, which looks along x.
+FloorPlan face_to_face() {
+    FloorPlan plan = reception_with_two_robots();
+    plan.robots[0].start = {Point{5, 6}, from_degrees(180)};
+    return plan;
+}
+
+TEST(SpeechRecognition, UnderstandsAnotherRobotButNotItself) {
+    Stage stage{{}, face_to_face()};
+    stage["speech_recognition"].start();
+    stage["robot2.speech_recognition"].start();
+    stage["speech_synthesis"].start({text("speech_text", "Good morning, my colleague."), text("language", "en")});
+    EXPECT_EQ(stage.outcome("speech_synthesis"), "OK");
+    stage.step();
+    EXPECT_THAT(stage["robot2.speech_recognition"].words(),
+                ElementsAre("completed OK, active", "speech_input_started", "speech_input_finished", "speech_recognized"));
+    EXPECT_EQ(value(stage["robot2.speech_recognition"].events("speech_recognized").at(0).results, "recognized_text"),
+              "Good morning, my colleague.");
+    EXPECT_THAT(stage["speech_recognition"].words(), ElementsAre("completed OK, active"));
+}
+
+TEST(SpeechRecognition, UnderstandsAnotherRobotInItsLanguagesOnly) {
+    Stage stage{{}, face_to_face()};
+    stage["robot2.speech_recognition"].start();
+    stage["speech_synthesis"].start({text("speech_text", "Guten Morgen."), text("language", "de")});
+    EXPECT_EQ(stage.outcome("speech_synthesis"), "OK");
+    stage.step();
+    EXPECT_THAT(stage["robot2.speech_recognition"].words(),
+                ElementsAre("completed OK, active", "speech_input_started", "speech_input_finished"));
+}
+
 std::string match(std::string_view grammar, std::string_view rule, std::string_view speech) {
     auto const read = Grammar::read(grammar, rule);
     return std::get<Grammar>(read).match(speech).value_or("-");
@@ -184,6 +215,22 @@ TEST(GestureRecognition, SeesNobodyOutOfRangeNorWhileSuspended) {
     recognition.resume();
     stage.run(5);
     EXPECT_THAT(recognition.events("gesture_recognized"), IsEmpty());
+}
+
+TEST(GestureRecognition, SeesReactionsOfOtherRobotsThatAreGestures) {
+    Stage stage{{}, face_to_face()};
+    stage["gesture_recognition"].start();
+    stage["robot2.gesture_recognition"].start();
+    for (auto const* reaction : {"1", "3", "9", "14", "16", "23", "28", "44"}) {
+        stage["reaction"].start({reference("reaction_ref", reaction)});
+        EXPECT_EQ(stage.outcome("reaction"), "OK");
+    }
+    std::vector<std::string> seen;
+    for (auto const& told : stage["robot2.gesture_recognition"].events("gesture_recognized"))
+        seen.push_back(value(told.results, "gesture_ref"));
+    EXPECT_THAT(seen, ElementsAre("nod", "shake_head", "bow", "clap", "point", "raise_hand", "wave"));
+    for (auto const& gesture : seen) EXPECT_THAT(gestures(), Contains(gesture));
+    EXPECT_THAT(stage["gesture_recognition"].words(), ElementsAre("completed OK, active")) << "not its own";
 }
 
 TEST(GestureRecognition, NamesTheGesturesThatItCanRecognize) {

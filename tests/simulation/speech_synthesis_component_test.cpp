@@ -119,6 +119,20 @@ TEST(SpeechSynthesis, SaysTheTextThatCameLast) {
     EXPECT_THAT(refusal({text("speech_text", "plain"), text("SSML_text", "<speak>marked up</speak>")}), HasSubstr("not both"));
 }
 
+TEST(SpeechSynthesis, AnEmptyTextDropsTheOtherOneToo) {
+    Stage stage;
+    auto& synthesis = stage["speech_synthesis"];
+    synthesis.set_parameter({text("SSML_text", "<speak>marked up</speak>")});
+    EXPECT_THAT(synthesis.refusal("start", {text("speech_text", "")}).value_or("fine"), HasSubstr("mandatory"));
+    synthesis.set_parameter({text("speech_text", "")});
+    EXPECT_EQ(find(synthesis.stored(), "SSML_text"), nullptr);
+    EXPECT_THAT(synthesis.refusal("start", {}).value_or("fine"), HasSubstr("mandatory"));
+    synthesis.set_parameter({text("speech_text", "plain")});
+    synthesis.set_parameter({text("SSML_text", "")});
+    EXPECT_EQ(find(synthesis.stored(), "speech_text"), nullptr);
+    EXPECT_THAT(synthesis.refusal("start", {}).value_or("fine"), HasSubstr("mandatory"));
+}
+
 TEST(SpeechSynthesis, RefusesWhatItsVoiceCannotDo) {
     ParameterList const hello{text("speech_text", "Hello")};
     auto const with = [&](Parameter parameter) {

@@ -30,7 +30,6 @@ TEST(Visitor, PlaysTheRoleAndLeaves) {
     EXPECT_TRUE(hall.people().empty());
     ASSERT_TRUE(runs_until(hall, 1, [&] { return !hall.people().empty(); }));
     EXPECT_EQ(hall.people()[0].role, "tanaka");
-    EXPECT_EQ(hall.people()[0].message, "Your meeting is in room 3.");
     ASSERT_TRUE(runs_until(hall, 30, [&] { return hall.people()[0].speaking.has_value(); }));
     EXPECT_LT(distance(hall.people()[0].pose.position, Point{5, 7}), 0.1);
     EXPECT_NEAR(bearing(hall.people()[0].pose, Point{2, 4}), 0, from_degrees(6));
@@ -84,6 +83,36 @@ TEST(Visitor, AnswersAReaction) {
     run(hall, 3);
     ASSERT_EQ(of_people(hall, Kind::gesture_made).size(), 1u);
     EXPECT_EQ(of_people(hall, Kind::gesture_made)[0].second, "bow");
+}
+
+TEST(Visitor, AnswersSpeechAndTheBowThatFollowsAtOnce) {
+    Hall hall{plain_hall(), only(answering({{"*", "", "en", "Thank you.", "", true}, {"", "9", "", "", "bow", true}})), 1};
+    run(hall, 10);
+    auto const greet = [&] {
+        hall.speak(robot1, {"Your meeting is in room 3.", "en", 0.5, 1.0});
+        run(hall, 1.02);
+        hall.show(robot1, "9", 2);
+        run(hall, 6);
+    };
+    greet();
+    ASSERT_EQ(of_people(hall, Kind::speech_started).size(), 1u);
+    ASSERT_EQ(of_people(hall, Kind::gesture_made).size(), 1u);
+    EXPECT_GE(of_people(hall, Kind::gesture_made)[0].first, of_people(hall, Kind::speech_finished)[0].first);
+    greet();
+    EXPECT_EQ(of_people(hall, Kind::speech_started).size(), 1u) << "once is once";
+    EXPECT_EQ(of_people(hall, Kind::gesture_made).size(), 1u);
+}
+
+TEST(Visitor, KeepsEightAnswersInMindAtMost) {
+    Hall hall{plain_hall(), only(answering({{"*", "", "en", "I am sorry, I do not understand you at all.", "", false}})), 1};
+    run(hall, 10);
+    for (int i = 0; i < 20; ++i) {
+        hall.speak(robot1, {"Quick.", "en", 0.5, 0.1});
+        run(hall, 0.12);
+    }
+    run(hall, 60);
+    EXPECT_GE(of_people(hall, Kind::speech_started).size(), 8u);
+    EXPECT_LE(of_people(hall, Kind::speech_started).size(), 9u);
 }
 
 TEST(Visitor, DoesNotAnswerALowVoiceOrOneThatIsBrokenOff) {

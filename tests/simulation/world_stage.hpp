@@ -52,9 +52,7 @@ inline Role tanaka(std::vector<ScriptedAction> actions, std::vector<Answer> answ
     Role role;
     role.id = "tanaka";
     role.known = true;
-    role.name = "Tanaka Hiroshi";
     role.language = "ja";
-    role.message = "Your meeting is in room 3.";
     role.answers = std::move(answers);
     role.actions = std::move(actions);
     return role;
