@@ -39,15 +39,16 @@ std::vector<ComponentProfile> UserComponents::with_own(std::vector<ProfileFile> 
     return all;
 }
 
-// Those of before that are as they were, or that are refused now.
+// Those of before that are as they were, or that are refused now. What made no component is tried again: it may have been in the
+// way of another.
 UserComponents::Files UserComponents::stay(std::vector<ProfileFile> const& found,
                                            std::vector<ComponentProfile> const& known) const {
     Files staying;
     for (auto const& file : found) {
         auto const before = files_.find(file.name);
         if (before == files_.end()) continue;
-        bool const same =
-            file.profile && *file.profile == before->second.profile && flattened(*file.profile, known) == before->second.whole;
+        bool const same = file.profile && !before->second.refs.empty() && *file.profile == before->second.profile &&
+                          flattened(*file.profile, known) == before->second.whole;
         if (same || is_refused(file)) staying.insert(*before);
     }
     return staying;

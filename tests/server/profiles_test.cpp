@@ -95,6 +95,13 @@ TEST_P(ProfilesOfUsers, MakeComponents) {
     EXPECT_THAT(desk.search(where(equal("component_type", "urn:x-rois:def:component:RoISGateway::PersonMonitor"))),
                 ElementsAre("person_monitor"));
     EXPECT_EQ(desk.search().size(), 20U);
+    auto const profile = desk.ask("get_profile", where(equal("component_ref", "person_monitor")));
+    EXPECT_THAT(profile.children(), ElementsAre("rois:HRIEngineProfile", "components", "rois:HRIComponentProfile"));
+    for (auto const& document : {profile.whole(), HttpClient{gateway}.get("/rois/profile/person_monitor").body}) {
+        EXPECT_THAT(document, HasSubstr("<rois:SubComponentProfile>urn:x-rois:def:component:OMG::PersonDetection<"));
+        EXPECT_THAT(document, HasSubstr("rois:name=\"person_detected\""));
+        EXPECT_THAT(document, HasSubstr("rois:name=\"suspend\"")) << "of what it includes indirectly";
+    }
     EXPECT_THAT(desk.query("wc_status_change").values(), testing::Contains(testing::Pair("wc_status", ElementsAre("stopped"))));
     EXPECT_EQ(desk.bind("wheelchair_robot").return_code(), "OK");
     auto const brake = [&](std::vector<Argument> const& arguments) {
@@ -182,6 +189,20 @@ TEST_P(ProfilesOfUsers, ThatAreBrokenLeaveWhatWas) {
     auto const log = gateway.wait().error;
     EXPECT_THAT(log, HasSubstr("profiles: refused: broken.xml:1:1: "));
     EXPECT_THAT(log, HasSubstr("; what it was before stays"));
+}
+
+TEST_P(ProfilesOfUsers, OfOneNameTakeTurns) {
+    folder_.put("a.xml", lamp("red"));
+    folder_.put("b.xml", profile_document("urn:test2::Lamp", includes_common, stand_in));
+    GatewayProcess gateway{{"--profiles", folder_.name()}};
+    Application desk{GetParam(), gateway};
+    desk.connect();
+    std::string const lamps_of_b = where(equal("component_type", "urn:test2::Lamp"));
+    EXPECT_THAT(desk.search(lamps_of_b), testing::IsEmpty());
+    folder_.remove("a.xml");
+    gateway.signal(SIGHUP);
+    EXPECT_EQ(desk.hear().name(), "profile_changed");
+    EXPECT_THAT(desk.search(lamps_of_b), ElementsAre("lamp"));
 }
 
 TEST(ProfilesOfUsersSay, InTheLogWhatComesOfThem) {

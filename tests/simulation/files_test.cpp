@@ -120,6 +120,27 @@ TEST(ScenarioFile, IsReadWithAllItsActions) {
     EXPECT_TRUE(std::holds_alternative<Leave>(role.actions[8].what));
 }
 
+TEST(ScenarioFile, MaySayWhoPeopleAre) {
+    auto const scenario = [](std::string const& people) {
+        return read_scenario(schemas(), "day.xml",
+                             "<scenario xmlns=\"urn:x-rois:simulation:hall:1\" name=\"s\">\n" + people + "</scenario>",
+                             read_plan(plan_text(places, robots)));
+    };
+    auto const roles = scenario(
+                           "<person id=\"a\" gender=\"female\" age=\"34\"/><person id=\"b\" gender=\"male\"/>"
+                           "<person id=\"c\" gender=\"not_applicable\"/><person id=\"d\"/>")
+                           .roles;
+    EXPECT_EQ(roles.at(0).gender, Gender::female);
+    EXPECT_EQ(roles.at(0).age, 34);
+    EXPECT_EQ(roles.at(1).gender, Gender::male);
+    EXPECT_EQ(roles.at(1).age, std::nullopt);
+    EXPECT_EQ(roles.at(2).gender, Gender::not_applicable);
+    EXPECT_EQ(roles.at(3).gender, Gender::not_known);
+    for (auto const* person :
+         {"<person id=\"a\" gender=\"other\"/>", "<person id=\"a\" age=\"-1\"/>", "<person id=\"a\" age=\"131\"/>"})
+        EXPECT_THAT(complaint([&] { scenario(person); }), StartsWith("day.xml:2:1: ")) << person;
+}
+
 TEST(ScenarioFile, SaysWhereItIsWrong) {
     auto day = [](std::string const& inside) {
         return "<scenario xmlns=\"urn:x-rois:simulation:hall:1\" name=\"day\" round=\"60\">\n<person id=\"a\">\n" + inside +

@@ -148,4 +148,15 @@ TEST(DataType, ListsOfOtherTypesAreATextEach) {
     EXPECT_EQ(reason("Component_Status[]", {"READY", "FINE"}), "'FINE' is not of the type Component_Status");
 }
 
+TEST(DataType, DefaultsAreOneTextOrAnItemEach) {
+    auto const values = [](std::string code, std::string_view text) {
+        return default_values({.code = std::move(code), .authority = {}, .codebook_ref = {}, .version = {}}, text);
+    };
+    using List = std::vector<std::string>;
+    EXPECT_EQ(values("string", " red  green "), List{" red  green "});
+    EXPECT_EQ(values("int[]", "1 2"), List{"1 2"});
+    EXPECT_EQ(values("String[]", " red \n green "), (List{"red", "green"}));
+    EXPECT_EQ(values("string[]", " "), List{});
+}
+
 }  // namespace rois

@@ -82,6 +82,18 @@ TEST(Flattened, NamesThePartThatIncludesItself) {
         ThrowsMessage<std::runtime_error>("the component profile 'urn:self' includes itself"));
 }
 
+TEST(Profile, IsFoundByUrnOrName) {
+    std::vector known{profile({"urn:x-rois:def:component:OMG::RoISCommon"}), profile({"urn:x-rois:def:component:ATR::Lamp"}),
+                      profile({"urn:a"})};
+    known[1].object.name = "desk_lamp";
+    EXPECT_EQ(find_profile(known, " URN:X-ROIS:DEF:Component:omg::roiscommon "), &known[0]);
+    for (auto const* name : {"RoISCommon", "RoIS_Common", "roiscommon"}) EXPECT_EQ(find_profile(known, name), &known[0]) << name;
+    for (auto const* name : {"Lamp", "DeskLamp", "desk_lamp"}) EXPECT_EQ(find_profile(known, name), &known[1]) << name;
+    EXPECT_EQ(find_profile(known, "urn:x-rois:def:component:OMG::Lamp"), nullptr) << "another authority's";
+    EXPECT_EQ(find_profile(known, ""), nullptr);
+    EXPECT_EQ(find_profile(known, "a"), &known[2]);
+}
+
 TEST(Messages, AreFoundByKindAndName) {
     auto const p = profile({"urn:top", {}, {"start", "stop"}});
     EXPECT_EQ(find_message(p, MessageKind::command, "stop"), &p.messages[1]);

@@ -56,8 +56,7 @@ ComponentProfile component_profile() {
         {"urn:sub"},
         {},
         {parameter}};
-    profile.messages.push_back(
-        {MessageKind::command, "start", {parameter}, {parameter, other}, std::chrono::milliseconds{500}});
+    profile.messages.push_back({MessageKind::command, "start", {parameter}, {parameter, other}, std::chrono::milliseconds{500}});
     profile.messages.push_back({MessageKind::query, "where", {parameter}, {}, {}});
     profile.messages.push_back({MessageKind::event, "reached", {}, {}, {}});
     return profile;

@@ -41,6 +41,21 @@ TEST(DocumentFromAFile, IsWalkedByLocalNames) {
     EXPECT_FALSE(root.child("name"));
 }
 
+TEST(DocumentFromAFile, TellsTextsAndElementsInOrder) {
+    auto const content =
+        child(Document::parse(
+                  schemas(), "g.xml",
+                  "<g:grammar xmlns:g='http://www.w3.org/2001/06/grammar' version='1.0' xml:lang='en'><g:rule id='r'>one "
+                  "<g:tag>t</g:tag><!-- c --><![CDATA[two]]></g:rule></g:grammar>")
+                  .root(),
+              "rule")
+            .content();
+    ASSERT_EQ(content.size(), 3u);
+    EXPECT_EQ(std::get<std::string>(content[0]), "one ");
+    EXPECT_EQ(std::get<Element>(content[1]).name(), "tag");
+    EXPECT_EQ(std::get<std::string>(content[2]), "two");
+}
+
 TEST(DocumentFromAFile, LivesAsLongAsItsElements) {
     auto const identifier = child(Document::parse(schemas(), "c.xml", profile("")).root(), "identifier");
     EXPECT_EQ(identifier.text(), " urn:c ");
