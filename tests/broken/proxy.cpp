@@ -17,29 +17,31 @@ std::optional<Message> read_message(Socket& from) {
     auto const head = from.take_until("\r\n\r\n");
     if (!head) return {};
     Message message;
-    std::size_t length = 0;
+    std::vector<std::string> lengths;
     for (std::size_t begin = 0; begin + 2 < head->size();) {
         auto const end = head->find("\r\n", begin) + 2;
         auto const line = head->substr(begin, end - begin);
         begin = end;
         if (message.first_line.empty()) {
             message.first_line = line;
-        } else if (line.starts_with(length_field)) {
-            length = std::strtoul(line.c_str() + length_field.size(), nullptr, 10);
-            message.headers.push_back(line);
-        } else {
-            message.headers.push_back(line);
+            continue;
         }
+        if (line.starts_with(length_field)) lengths.push_back(line.substr(length_field.size()));
+        message.headers.push_back(line);
     }
-    auto const has_none = message.first_line.find(" 304 ") != std::string::npos;
-    if (auto body = from.take(has_none ? 0 : length)) message.body = std::move(*body);
+    bool const is_not_modified = message.first_line.find(" 304 ") != std::string::npos;
+    message.has_length = lengths.size() == 1 && lengths.front().find_first_not_of("0123456789\r\n") == std::string::npos;
+    if (!message.has_length || is_not_modified) return message;
+    if (auto body = from.take(std::strtoul(lengths.front().c_str(), nullptr, 10))) message.body = std::move(*body);
     return message;
 }
 
 void write_message(Socket& to, Message const& message) {
     auto text = message.first_line;
     for (auto const& line : message.headers)
-        text += line.starts_with(length_field) ? std::string{length_field} + std::to_string(message.body.size()) + "\r\n" : line;
+        text += message.has_length && line.starts_with(length_field)
+                    ? std::string{length_field} + std::to_string(message.body.size()) + "\r\n"
+                    : line;
     to.send(text + "\r\n" + message.body);
 }
 

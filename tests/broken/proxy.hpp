@@ -29,6 +29,7 @@ struct Message {
     std::string first_line;
     std::vector<std::string> headers;
     std::string body;
+    bool has_length = true;  // one Content-Length, which is a number; else it goes on as it is
 };
 
 // What the proxy does otherwise, for one connection. Without these, it changes nothing.
