@@ -50,7 +50,7 @@ struct Located {
     std::string of;   // name of the result that it completes
     std::string ref;  // code of the entity
     std::string crs;
-    std::array<double, 3> position;
+    std::array<double, 3> position{};
     std::vector<double> orientation;  // empty or three
     std::variant<std::monostate, Reliability, Covariance> certainty;
 
