@@ -75,6 +75,8 @@ private:
 
 void Engine::Core::publish(EventOccurred said, Instant now) {
     ++events_published_;
+    auto const& subscriptions = subscriptions_.of(said.event_type);
+    if (subscriptions.empty()) return;
     auto const results = std::make_shared<Results const>(std::move(said.results));
     std::string event_id;  // given when somebody hears of it
     Perspective anybodys{registry_, places_, nullptr, Perspective::Of::present};
@@ -83,7 +85,7 @@ void Engine::Core::publish(EventOccurred said, Instant now) {
         Perspective askers{registry_, places_, &asker, Perspective::Of::present};
         return subscription.filter.match(EventCandidate{askers.candidate(*said.component), *results}) == Match::yes;
     };
-    for (auto* subscription : subscriptions_.of(said.event_type)) {
+    for (auto* subscription : subscriptions) {
         bool const each = subscription->filter.depends_on_asker();
         if (!each && subscription->filter.match(candidate) != Match::yes) continue;
         if (event_id.empty()) {

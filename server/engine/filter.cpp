@@ -63,19 +63,20 @@ void Selection::sort(std::vector<Candidate const*>& candidates) const {
     if (keys_.empty()) return;
     struct Row {
         Candidate const* candidate;
+        std::size_t place;
         std::vector<std::optional<SortKey::Value>> values;
     };
     std::vector<Row> rows;
     rows.reserve(candidates.size());
     for (auto const* candidate : candidates) {
-        auto& row = rows.emplace_back(Row{candidate, {}});
+        auto& row = rows.emplace_back(Row{candidate, rows.size(), {}});
         row.values.reserve(keys_.size());
         for (auto const& key : keys_) row.values.push_back(key->value(*candidate));
     }
-    std::ranges::stable_sort(rows, [&](Row const& a, Row const& b) {
+    std::ranges::sort(rows, [&](Row const& a, Row const& b) {
         for (std::size_t i = 0; i < keys_.size(); ++i)
             if (int const order = keys_[i]->compare(a.values[i], b.values[i]); order != 0) return order < 0;
-        return false;
+        return a.place < b.place;
     });
     std::ranges::transform(rows, candidates.begin(), &Row::candidate);
 }

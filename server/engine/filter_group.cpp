@@ -153,6 +153,7 @@ PredicatePtr FilterCompiler::operator()(ComponentGroup const& group) {
     auto const around = vocabulary_;
     vocabulary_.results = nullptr;
     std::vector<PredicatePtr> members;
+    members.reserve(group.members.size());
     for (auto const& member : group.members) members.push_back(compile(member));
     aliases_ = group.aliases;
     auto filter = group.filter.empty() ? nullptr : compile(group.filter.front());

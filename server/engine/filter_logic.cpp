@@ -69,16 +69,16 @@ private:
     PredicatePtr operand_;
 };
 
-// What one operator has only one operand of stands for that operand.
-Condition const& innermost(Condition const& condition) {
-    if (auto const* all = std::get_if<And>(&condition.predicate); all != nullptr && all->operands.size() == 1)
-        return innermost(all->operands.front());
-    if (auto const* any = std::get_if<Or>(&condition.predicate); any != nullptr && any->operands.size() == 1)
-        return innermost(any->operands.front());
+// And or Or with one operand stands for that operand.
+Condition const* innermost(Condition const* condition) {
+    auto const* all = std::get_if<And>(&condition->predicate);
+    auto const* any = std::get_if<Or>(&condition->predicate);
+    if (all != nullptr && all->operands.size() == 1) return innermost(&all->operands.front());
+    if (any != nullptr && any->operands.size() == 1) return innermost(&any->operands.front());
     return condition;
 }
 
-// Operands in the operands' order of meaning, those of the same operator inside it among them, none twice.
+// Operands in the order of their meanings, those of the same operator inside among them, none twice.
 template <class Operator>
 class Flattened {
 public:
@@ -86,7 +86,7 @@ public:
 
     void add(Operator const& many) {
         for (auto const& each : many.operands) {
-            auto const& operand = innermost(each);
+            auto const& operand = *innermost(&each);
             if (auto const* same = std::get_if<Operator>(&operand.predicate)) {
                 add(*same);
             } else if (auto predicate = compiler_.compile(operand)) {
@@ -123,7 +123,7 @@ PredicatePtr FilterCompiler::operator()(Or const& either) {
 }
 
 PredicatePtr FilterCompiler::operator()(Not const& contrary) {
-    auto const& operand = innermost(contrary.operand.front());
+    auto const& operand = *innermost(&contrary.operand.front());
     if (auto const* twice = std::get_if<Not>(&operand.predicate)) return compile(twice->operand.front());
     auto predicate = compile(operand);
     return predicate ? std::make_unique<Contrary>(std::move(predicate)) : nullptr;

@@ -60,7 +60,7 @@ private:
     std::optional<std::string> plain_name() {
         std::size_t length = 0;
         while (length < rest_.size() && may_be_in_a_name(rest_[length])) ++length;
-        bool const begins_well = length > 0 && rest_[0] != '.' && rest_[0] != '-' && !(rest_[0] >= '0' && rest_[0] <= '9');
+        bool const begins_well = length > 0 && std::string_view{".-0123456789"}.find(rest_[0]) == std::string_view::npos;
         if (!begins_well) return {};
         std::string name{rest_.substr(0, length)};
         rest_.remove_prefix(length);

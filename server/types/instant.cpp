@@ -21,9 +21,9 @@ public:
     std::optional<int> number(std::size_t digits) {
         if (rest_.size() < digits) return {};
         int value = 0;
-        auto const end = rest_.data() + digits;
-        auto const [stop, problem] = std::from_chars(rest_.data(), end, value);
-        if (problem != std::errc{} || stop != end || rest_.front() == '-') return {};
+        auto const taken = rest_.substr(0, digits);
+        auto const [end, problem] = std::from_chars(taken.data(), taken.data() + taken.size(), value);
+        if (problem != std::errc{} || end != taken.data() + taken.size() || taken.front() == '-') return {};
         rest_.remove_prefix(digits);
         return value;
     }
