@@ -137,7 +137,7 @@ std::string Reference::objection(int session, Plan const& plan) const {
 
 std::string Reference::execute(int session, Plan const& plan) {
     if (auto const refused = objection(session, plan); !refused.empty()) return refused;
-    auto const execution = std::make_shared<Execution>();
+    auto* const execution = executions_.emplace_back(std::make_unique<Execution>()).get();
     for (std::size_t u = 0; u < plan.size(); ++u) {
         auto& unit = execution->units.emplace_back();
         for (std::size_t b = 0; b < plan[u].size(); ++b) {
@@ -157,7 +157,7 @@ std::string Reference::execute(int session, Plan const& plan) {
             unit.pop_back();
         }
     }
-    begin(execution, 0);
+    begin(*execution, 0);
     return "OK";
 }
 
@@ -166,11 +166,11 @@ std::string Reference::state_of(Session const& session, char name) const {
     return found == session.known.end() ? "BAD_PARAMETER" : found->second->state;
 }
 
-void Reference::begin(std::shared_ptr<Execution> const& execution, std::size_t unit) {
-    if (unit == execution->units.size()) return;
-    execution->failed = false;
-    execution->open_branches = execution->units[unit].size();
-    for (auto const& branch : execution->units[unit]) give_turn(branch.front());
+void Reference::begin(Execution& execution, std::size_t unit) {
+    if (unit == execution.units.size()) return;
+    execution.failed = false;
+    execution.open_branches = execution.units[unit].size();
+    for (auto const& branch : execution.units[unit]) give_turn(branch.front());
 }
 
 void Reference::give_turn(SharedCommand const& command) {
@@ -227,7 +227,7 @@ void Reference::end(SharedCommand const& command, std::string const& status) {
     session.ended.push_back(command->name);
     forget_old(session);
 
-    auto const execution = std::exchange(command->execution, nullptr);
+    auto* const execution = std::exchange(command->execution, nullptr);
     if (!execution) return;
     auto const& branch = execution->units[command->unit][command->branch];
     bool const goes_on = status == "OK" || is(Flaw::a_failure_ends_nothing);
@@ -238,7 +238,7 @@ void Reference::end(SharedCommand const& command, std::string const& status) {
         for (std::size_t i = command->place + 1; i < branch.size(); ++i) abort(branch[i]);
     }
     if (--execution->open_branches > 0) return;
-    if (!execution->failed) return begin(execution, command->unit + 1);
+    if (!execution->failed) return begin(*execution, command->unit + 1);
     for (std::size_t u = command->unit + 1; u < execution->units.size(); ++u)
         for (auto const& others : execution->units[u])
             for (auto const& other : others) {

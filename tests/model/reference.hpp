@@ -49,7 +49,7 @@ private:
         int component;
         int delay;
         int session;
-        std::shared_ptr<Execution> execution;
+        Execution* execution;  // null once it has ended
         std::size_t unit, branch, place;
         std::string state = "WAITING";  // RUNNING, or its status
         bool binding_lost = false;
@@ -90,7 +90,7 @@ private:
     std::string objection(int session, Plan const&) const;
     std::string state_of(Session const&, char name) const;
 
-    void begin(std::shared_ptr<Execution> const&, std::size_t unit);
+    void begin(Execution&, std::size_t unit);
     void give_turn(SharedCommand const&);
     void run(SharedCommand const&);
     void start(SharedCommand const&);
@@ -106,9 +106,10 @@ private:
     Flaw flaw_;
     std::array<std::optional<Session>, session_count> sessions_;
     std::array<Component, 3> components_{Component{.value = "0"}, Component{.value = "50"}, Component{}};
-    std::deque<SharedCommand> turns_;       // come, and not taken yet
-    std::deque<SharedCommand> activating_;  // starts of a function, which complete when all turns have been taken
-    std::vector<Due> due_;                  // delays, in the order in which they began
+    std::vector<std::unique_ptr<Execution>> executions_;  // all that ever were
+    std::deque<SharedCommand> turns_;                     // come, and not taken yet
+    std::deque<SharedCommand> activating_;                // starts of a function, which complete when all turns have been taken
+    std::vector<Due> due_;                                // delays, in the order in which they began
     int time_ = 0;
 };
 
