@@ -9,6 +9,7 @@
 #include "simulation/basic_components.hpp"
 #include "simulation/component_refs.hpp"
 #include "simulation/example_components.hpp"
+#include "types/listing.hpp"
 #include "types/texts.hpp"
 
 namespace rois::simulation {
@@ -60,9 +61,7 @@ std::vector<std::unique_ptr<Component>> Adapters::components(ComponentProfile co
     auto const all = adapters(schemas_);
     auto const found = all.find(name);
     if (found == all.end()) {
-        std::string names;
-        for (auto const& [each, make] : all) names += (names.empty() ? "" : ", ") + each;
-        throw std::runtime_error("there is no adapter " + quoted(name) + "; there are " + names);
+        throw std::runtime_error("there is no adapter " + quoted(name) + "; there are " + listed(all | std::views::keys));
     }
     auto const whole = flattened(profile, known);
     auto const shared = std::make_shared<ComponentProfile const>(profile);

@@ -4,6 +4,7 @@
 #include "simulation/basic_components.hpp"
 #include "simulation/parameter_reading.hpp"
 #include "simulation/wheels.hpp"
+#include "types/listing.hpp"
 #include "types/texts.hpp"
 
 namespace rois::simulation {
@@ -13,12 +14,6 @@ constexpr std::size_t most_targets = 100;
 
 // Somebody who stands on the way or the target for longer makes it one that cannot be reached.
 constexpr WorldTime patience{30'000};
-
-std::string names_of_places(FloorPlan const& plan) {
-    std::string names;
-    for (auto const& place : plan.places) names += (names.empty() ? "" : ", ") + place.name;
-    return names;
-}
 
 class Navigation final : public WheelAction {
 public:
@@ -44,7 +39,7 @@ private:
             if (!hall().target(text))
                 return "parameter 'target_position': " + quoted(text) +
                        R"( is neither "x, y" nor "x, y, th" (mm, mm, degree) nor one of the places )" +
-                       names_of_places(hall().plan());
+                       listed(hall().plan().places, &Place::name);
         return {};
     }
 

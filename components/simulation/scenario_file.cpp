@@ -7,6 +7,7 @@
 #include "simulation/person.hpp"
 #include "simulation/reaction_types.hpp"
 #include "simulation/wire_units.hpp"
+#include "types/listing.hpp"
 #include "types/texts.hpp"
 
 namespace rois::simulation {
@@ -116,9 +117,7 @@ private:
 
     static void check_gesture(xml::Element const& element, std::string const& id) {
         if (std::ranges::find(gestures(), id) != gestures().end()) return;
-        std::string all;
-        for (auto const gesture : gestures()) all += (all.empty() ? "" : ", ") + std::string{gesture};
-        throw element.complain("unknown gesture " + quoted(id) + "; known are " + all);
+        throw element.complain("unknown gesture " + quoted(id) + "; known are " + listed(gestures()));
     }
 
     FloorPlan const& plan_;

@@ -6,6 +6,7 @@
 #include "simulation/languages.hpp"
 #include "simulation/parameter_reading.hpp"
 #include "simulation/ssml.hpp"
+#include "types/listing.hpp"
 #include "types/texts.hpp"
 
 namespace rois::simulation {
@@ -14,12 +15,6 @@ namespace {
 constexpr std::int32_t default_volume = 50;
 constexpr std::size_t longest_text = 16'384;  // bytes
 constexpr std::array<std::string_view, 5> characters{"default", "female", "male", "child", "robot"};
-
-std::string names_of_characters() {
-    std::string names;
-    for (auto character : characters) names += (names.empty() ? "" : ", ") + std::string{character};
-    return names;
-}
 
 std::optional<std::string> too_long(ParameterList const& parameters, std::string_view name) {
     if (text_of(parameters, name).size() <= longest_text) return {};
@@ -55,7 +50,7 @@ private:
         if (auto problem = unknown_language(text_of(parameters, "language"), "parameter 'language'")) return problem;
         auto const character = text_of(parameters, "character");
         if (!character.empty() && std::ranges::find(characters, character) == characters.end())
-            return "parameter 'character': " + quoted(character) + " is unknown; known are " + names_of_characters();
+            return "parameter 'character': " + quoted(character) + " is unknown; known are " + listed(characters);
         if (auto problem = too_long(parameters, "speech_text")) return problem;
         if (auto problem = too_long(parameters, "SSML_text")) return problem;
         auto const document = text_of(parameters, "SSML_text");

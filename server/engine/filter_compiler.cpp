@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/space.hpp"
+#include "types/listing.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -10,8 +11,7 @@ namespace rois {
 namespace {
 
 std::string names_of(Places const& places) {
-    std::string names;
-    for (auto const& place : places.all) names += (names.empty() ? "" : ", ") + quoted(place.name);
+    auto const names = listed(places.all, [](auto const& place) { return quoted(place.name); });
     return names.empty() ? "none are" : names;
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "types/data_type.hpp"
+#include "types/listing.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -20,8 +21,7 @@ constexpr std::array<Spelling, 3> spellings{
     {{"target_positions", "target_position"}, {"grammer", "grammar"}, {"languages", "language"}}};
 
 std::string names_of(std::vector<ParameterProfile> const& profiles) {
-    std::string names;
-    for (auto const& profile : profiles) names += (names.empty() ? "" : ", ") + profile.name;
+    auto const names = listed(profiles, &ParameterProfile::name);
     return names.empty() ? "none" : names;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/parameters.hpp"
+#include "types/listing.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -15,9 +16,8 @@ std::string element(std::string const& path, std::string_view name, std::size_t 
 }
 
 std::string command_types_of(ComponentProfile const& profile) {
-    std::string names;
-    for (auto const& message : profile.messages)
-        if (message.kind == MessageKind::command) names += (names.empty() ? "" : ", ") + message.name;
+    auto const is_command = [](MessageProfile const& message) { return message.kind == MessageKind::command; };
+    auto const names = listed(profile.messages | std::views::filter(is_command), &MessageProfile::name);
     return names.empty() ? "none" : names;
 }
 
