@@ -96,6 +96,14 @@ TEST(Navigation, KeepsItsTimeLimit) {
     EXPECT_EQ(distance(stood, stage.robot().position), 0);
 }
 
+TEST(Navigation, ItsTimeLimitIsThatOfAllTargetsTogether) {
+    Stage stage;
+    stage["navigation"].start({to({"4000, 4000", "2000, 4000", "4000, 4000", "2000, 4000"}), integer("time_limit", 10'000)});
+    EXPECT_EQ(stage.outcome("navigation"), "TIMEOUT");
+    EXPECT_NEAR(in_seconds(stage.hall().now()), 10, 0.05);
+    EXPECT_GE(stage["navigation"].events("reached_target").size(), 1U) << "one target alone is reached in time";
+}
+
 TEST(Navigation, HasNoTimeLimitWhenItIsZero) {
     Stage stage;
     stage["navigation"].start({to({"10000, 4000"}), integer("time_limit", 0)});
