@@ -78,8 +78,9 @@ TEST(BasicProfiles, OfDetectionLocalizationAndIdentification) {
     for (auto const& [name, prefix] :
          {std::pair<std::string, std::string>{"Person", "person"}, {"Face", "face"}, {"Sound", "sound"}}) {
         EXPECT_EQ(methods(name + "Detection"), Methods{"event " + prefix + "_detected -> timestamp:DateTime number:int"});
-        EXPECT_EQ(methods(name + "Localization"), limits + ("event " + prefix + "_localized -> timestamp:DateTime " + prefix +
-                                                            "_ref:RoISIdentifier[] position_data:string[]"));
+        auto event = "event " + prefix;
+        event.append("_localized -> timestamp:DateTime ").append(prefix).append("_ref:RoISIdentifier[] position_data:string[]");
+        EXPECT_EQ(methods(name + "Localization"), limits + event);
     }
     EXPECT_EQ(methods("PersonIdentification"),
               Methods{"event person_identified -> timestamp:DateTime person_ref:RoISIdentifier[]"});
