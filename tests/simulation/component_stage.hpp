@@ -66,7 +66,11 @@ public:
     }
     void suspend() { component_->suspend(now_()); }
     void resume() { component_->resume(now_()); }
-    Results query(std::string_view type) { return component_->query(type, now_()).value_or(Results{}); }
+    std::vector<Results> rows(std::string_view type) { return component_->query(type, now_()); }
+    Results query(std::string_view type) {
+        auto all = rows(type);
+        return all.empty() ? Results{} : all.front();
+    }
     ParameterList const& stored() const { return stored_; }
 
     // How the last `start` ended, if it did.
