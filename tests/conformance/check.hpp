@@ -51,6 +51,7 @@ Clause sequence_clause();
 Clause query_clause();
 Clause event_clause();
 Clause component_clause();
+Clause stream_clause();
 
 std::vector<Clause> all_clauses();  // in the order in which they are played
 
