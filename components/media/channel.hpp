@@ -37,7 +37,7 @@ public:
     // The film's picture, as JPEG: the last one while it is fresh. Null as long as there is nothing to be seen.
     std::shared_ptr<std::string const> picture(Clock::time_point now);
 
-    Clock::time_point interest_until{};  // of those who ask for single pictures
+    Clock::time_point interest_until;  // of those who ask for single pictures
     bool interest_watched = false;
 
 private:
@@ -49,7 +49,7 @@ private:
     bool told_ = false;     // that there are receivers
     bool changed_ = false;  // since then
     std::shared_ptr<std::string const> picture_;
-    Clock::time_point drawn_{};
+    Clock::time_point drawn_;
 };
 
 // Counts as one who receives, as long as it lives.
