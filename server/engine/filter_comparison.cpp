@@ -35,7 +35,8 @@ struct Manner {
         Comparable value;
         if (kind == ValueKind::any) value.number = to_double(text);
         if (kind == ValueKind::any && !value.number) value.time = to_utc(text);
-        value.text = letters == Case::ignored ? folded_case(text) : std::move(text);
+        auto const said = trimmed(text);
+        value.text = letters == Case::ignored ? folded_case(said) : std::string{said};
         return value;
     }
 
