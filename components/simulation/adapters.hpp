@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/component.hpp"
+#include "media/media.hpp"
 #include "simulation/simulation.hpp"
 #include "xml/schemas.hpp"
 
@@ -12,8 +13,9 @@ namespace rois::simulation {
 
 class Adapters {
 public:
-    Adapters(std::shared_ptr<Simulation> simulation, std::shared_ptr<xml::Schemas const> schemas)
-        : simulation_{std::move(simulation)}, schemas_{std::move(schemas)} {}
+    Adapters(std::shared_ptr<Simulation> simulation, std::shared_ptr<media::Media> media,
+             std::shared_ptr<xml::Schemas const> schemas)
+        : simulation_{std::move(simulation)}, media_{std::move(media)}, schemas_{std::move(schemas)} {}
 
     // The components that a profile makes, one for each robot: fulfilled by the adapter that its metaDataProperty refers to,
     // urn:x-rois:def:adapter:simulation::<name>, else by that of the first basic component whose profile it includes. None when
@@ -23,6 +25,7 @@ public:
 
 private:
     std::shared_ptr<Simulation> simulation_;
+    std::shared_ptr<media::Media> media_;
     std::shared_ptr<xml::Schemas const> schemas_;
 };
 

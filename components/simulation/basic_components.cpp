@@ -5,7 +5,7 @@
 namespace rois::simulation {
 
 std::span<BasicComponent const> basic_components() {
-    static constexpr std::array<BasicComponent, 15> all{{{"system_information", "SystemInformation", system_information},
+    static constexpr std::array<BasicComponent, 17> all{{{"system_information", "SystemInformation", system_information},
                                                          {"person_detection", "PersonDetection", person_detection},
                                                          {"person_localization", "PersonLocalization", person_localization},
                                                          {"person_identification", "PersonIdentification", person_identification},
@@ -19,8 +19,16 @@ std::span<BasicComponent const> basic_components() {
                                                          {"reaction", "Reaction", reaction},
                                                          {"navigation", "Navigation", navigation},
                                                          {"follow", "Follow", follow},
-                                                         {"move", "Move", move}}};
+                                                         {"move", "Move", move},
+                                                         {"audio_streaming", "AudioStreaming", audio_streaming},
+                                                         {"video_streaming", "VideoStreaming", video_streaming}}};
     return all;
+}
+
+std::span<BasicComponent const> basic_components(std::shared_ptr<media::Media> const& media) {
+    constexpr std::size_t that_stream = 2;  // the last ones
+    auto const all = basic_components();
+    return media ? all : all.first(all.size() - that_stream);
 }
 
 }  // namespace rois::simulation

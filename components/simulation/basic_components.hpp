@@ -1,4 +1,4 @@
-// The basic components (7.6) and their makers, each defined in the file of its name.
+// The basic components (7.6, and the two of RoIS 2.0) and their makers, each defined in the file of its name.
 #pragma once
 
 #include <memory>
@@ -25,6 +25,8 @@ std::unique_ptr<Component> reaction(Fitting);
 std::unique_ptr<Component> navigation(Fitting);
 std::unique_ptr<Component> follow(Fitting);
 std::unique_ptr<Component> move(Fitting);
+std::unique_ptr<Component> audio_streaming(Fitting);
+std::unique_ptr<Component> video_streaming(Fitting);
 
 struct BasicComponent {
     std::string_view ref;       // as in table 31
@@ -34,6 +36,9 @@ struct BasicComponent {
 
 // All of them, in the order of the specification.
 std::span<BasicComponent const> basic_components();
+
+// Those that can be made: without media (null) none that stream.
+std::span<BasicComponent const> basic_components(std::shared_ptr<media::Media> const&);
 
 // Of its profile.
 inline std::string urn_of(BasicComponent const& basic) { return "urn:x-rois:def:component:OMG::" + std::string{basic.urn_name}; }

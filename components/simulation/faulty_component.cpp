@@ -77,9 +77,10 @@ public:
         return component_->readable_parameters();
     }
 
-    std::optional<Results> query(std::string_view query_type, Instant now) override {
+    std::vector<Results> query(std::string_view query_type, Instant now) override {
         fail_when_failed();
-        return is(Fault::Kind::silent) ? std::nullopt : component_->query(query_type, now);
+        if (is(Fault::Kind::silent)) return {};
+        return component_->query(query_type, now);
     }
 
 private:

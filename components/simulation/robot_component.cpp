@@ -7,15 +7,15 @@
 
 namespace rois::simulation {
 
-Fitting fitting(std::shared_ptr<Simulation> const& simulation, Robot const& robot, std::string_view name,
-                std::shared_ptr<ComponentProfile const> profile) {
+Fitting fitting(std::shared_ptr<Simulation> const& simulation, std::shared_ptr<media::Media> const& media, Robot const& robot,
+                std::string_view name, std::shared_ptr<ComponentProfile const> profile) {
     bool const first = robot.id == simulation->hall().robots().front().id;
     std::string const engine = first ? "" : robot.name;
     Identifier const identifier{.code = component_ref(name, engine),
                                 .authority = profile->object.code_space,
                                 .codebook_ref = profile->object.identifier,
                                 .version = {}};
-    return {.simulation = simulation, .robot = robot.id, .description = {identifier, engine, std::move(profile)}};
+    return {.simulation = simulation, .robot = robot.id, .description = {identifier, engine, std::move(profile)}, .media = media};
 }
 
 RobotComponent::RobotComponent(Fitting fitting) : fitting_{std::move(fitting)} {}
@@ -37,7 +37,7 @@ std::optional<Located> RobotComponent::location() const {
 
 std::optional<std::string> RobotComponent::refusal(std::string_view command_type, ParameterList const& parameters) const {
     bool const starts = command_type == "start";
-    if (!starts && command_type != "set_parameter") return {};
+    if (!starts && command_type != "set_parameter") return impossible(command_type, parameters);
     if (auto problem = unfit(parameters)) return problem;
     return starts ? missing(parameters) : std::nullopt;
 }

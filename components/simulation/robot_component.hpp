@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "engine/component.hpp"
+#include "media/media.hpp"
 #include "simulation/simulation.hpp"
 
 namespace rois::simulation {
@@ -17,10 +18,12 @@ struct Fitting {
     std::shared_ptr<Simulation> simulation;
     RobotId robot{};
     ComponentDescription description;
+    std::shared_ptr<media::Media> media;  // null where nothing is streamed
 };
 
 // Of a component of the robot that is named `name`, or with the robot's name before it (component_refs.hpp).
-Fitting fitting(std::shared_ptr<Simulation> const&, Robot const&, std::string_view name, std::shared_ptr<ComponentProfile const>);
+Fitting fitting(std::shared_ptr<Simulation> const&, std::shared_ptr<media::Media> const&, Robot const&, std::string_view name,
+                std::shared_ptr<ComponentProfile const>);
 
 // Looks at the hall after every step of the world. UNINITIALIZED before the first one.
 class RobotComponent : public Component, private Observer {
@@ -40,6 +43,7 @@ protected:
     Hall& hall() { return fitting_.simulation->hall(); }
     Hall const& hall() const { return fitting_.simulation->hall(); }
     RobotId robot() const { return fitting_.robot; }
+    media::Media& media() const { return *fitting_.media; }
     ComponentPort& port() { return *port_; }
     std::optional<Instant> const& last_step() const { return last_step_; }
 
@@ -50,6 +54,8 @@ protected:
     // What is wrong with a value among these, and what `start` lacks; nothing when all is well. Values are of their types.
     virtual std::optional<std::string> unfit(ParameterList const&) const { return {}; }
     virtual std::optional<std::string> missing(ParameterList const&) const { return {}; }
+    // Why a command of the profile cannot be carried out with these arguments.
+    virtual std::optional<std::string> impossible(std::string_view, ParameterList const&) const { return {}; }
 
 private:
     void observe(Instant when) final;

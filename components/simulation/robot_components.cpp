@@ -24,14 +24,15 @@ SharedProfile profile_of(BasicComponent const& basic, std::vector<ComponentProfi
 }  // namespace
 
 std::vector<std::unique_ptr<Component>> robot_components(std::shared_ptr<Simulation> const& simulation,
+                                                         std::shared_ptr<media::Media> const& media,
                                                          std::vector<ComponentProfile> const& profiles) {
     std::vector<SharedProfile> found;
-    for (auto const& basic : basic_components()) found.push_back(profile_of(basic, profiles));
+    for (auto const& basic : basic_components(media)) found.push_back(profile_of(basic, profiles));
     std::vector<std::unique_ptr<Component>> components;
     for (Robot const& robot : simulation->hall().robots()) {
         auto profile = found.begin();
-        for (auto const& basic : basic_components())
-            components.push_back(with_faults(basic.make(fitting(simulation, robot, basic.ref, *profile++)), simulation));
+        for (auto const& basic : basic_components(media))
+            components.push_back(with_faults(basic.make(fitting(simulation, media, robot, basic.ref, *profile++)), simulation));
     }
     return components;
 }

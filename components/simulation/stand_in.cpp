@@ -26,9 +26,10 @@ public:
         port().completed(command, CompletedStatus::ok, message == nullptr ? Results{} : defaults_of(message->results));
     }
 
-    std::optional<Results> query(std::string_view query_type, Instant) override {
+    std::vector<Results> query(std::string_view query_type, Instant) override {
         auto const* message = find_message(whole_, MessageKind::query, query_type);
-        return message == nullptr ? std::nullopt : std::optional{defaults_of(message->results)};
+        if (message == nullptr) return {};
+        return {defaults_of(message->results)};
     }
 
 private:

@@ -25,9 +25,9 @@ public:
     void suspend(Instant) override {}
     void resume(Instant) override {}
 
-    std::optional<Results> query(std::string_view query_type, Instant now) override {
-        if (query_type == "robot_position") return robot_position(last_step().value_or(now));
-        if (query_type == "engine_status") return engine_status();
+    std::vector<Results> query(std::string_view query_type, Instant now) override {
+        if (query_type == "robot_position") return {robot_position(last_step().value_or(now))};
+        if (query_type == "engine_status") return {engine_status()};
         return {};
     }
 

@@ -27,15 +27,15 @@ std::vector<Candidate const*> const& Perspective::robot(std::string_view engine)
     return found == robots_.end() ? none : found->second;
 }
 
-std::optional<Texts> EventCandidate::texts(Reference const& reference) const {
+std::optional<Texts> ToldCandidate::texts(Reference const& reference) const {
     return speaks_of_results(reference) ? texts_in(results_, reference) : component_.texts(reference);
 }
 
-std::optional<Positions> EventCandidate::positions(Reference const& reference) const {
+std::optional<Positions> ToldCandidate::positions(Reference const& reference) const {
     return speaks_of_results(reference) ? positions_in(results_, reference) : component_.positions(reference);
 }
 
-bool EventCandidate::has(Reference const& reference) const {
+bool ToldCandidate::has(Reference const& reference) const {
     return speaks_of_results(reference) ? is_in(results_, reference) : component_.has(reference);
 }
 

@@ -81,10 +81,10 @@ private:
     std::map<std::pair<void const*, std::string>, std::optional<Match>> verdicts_;  // of groups on robots
 };
 
-// A component together with the results of an event of it. What it refers to lives longer.
-class EventCandidate final : public Candidate {
+// A component together with the results of an event of it, or of its answer to a query. What it refers to lives longer.
+class ToldCandidate final : public Candidate {
 public:
-    EventCandidate(Candidate const& component, Results const& results) : component_{component}, results_{results} {}
+    ToldCandidate(Candidate const& component, Results const& results) : component_{component}, results_{results} {}
 
     std::optional<Texts> texts(Reference const&) const override;
     std::optional<Positions> positions(Reference const&) const override;

@@ -13,6 +13,6 @@ void Component::perform(CommandHandle, std::string_view command_type, ParameterL
                            "', but it does not perform it");
 }
 
-std::optional<Results> Component::query(std::string_view, Instant) { return {}; }
+std::vector<Results> Component::query(std::string_view, Instant) { return {}; }
 
 }  // namespace rois

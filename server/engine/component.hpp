@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "types/codes.hpp"
 #include "types/instant.hpp"
@@ -26,8 +27,9 @@ struct ComponentDescription {
 
 // What becomes of a component when a command of it has completed.
 enum class Afterwards : std::uint8_t {
-    idle,   // the action is over
-    active  // a continuous function now works until it is stopped (detection, recognition, ...)
+    as_before,  // the command's own action is over; a continuous function that worked before it still does
+    active,     // a continuous function now works until it is stopped (detection, recognition, an open stream, ...)
+    idle        // no function works any more
 };
 
 // What a component tells the engine. The engine owns it; it lives as long as the component. Every call returns at once: the
@@ -41,7 +43,7 @@ public:
     virtual void started(CommandHandle) = 0;
 
     // The command has ended; once for each. Answers to commands that have ended otherwise are counted and dropped.
-    virtual void completed(CommandHandle, CompletedStatus, Results = {}, Afterwards = Afterwards::idle) = 0;
+    virtual void completed(CommandHandle, CompletedStatus, Results = {}, Afterwards = Afterwards::as_before) = 0;
 
     // An event of the profile occurred.
     virtual void event(std::string_view event_type, Results) = 0;
@@ -99,9 +101,10 @@ public:
     // What get_parameter answers beside the stored parameters: those that can only be read (recognizable languages, ...).
     virtual ParameterList readable_parameters() const { return {}; }
 
-    // Answers a query of the profile other than component_status and get_parameter, from what is known now; nothing when it
-    // cannot be answered.
-    virtual std::optional<Results> query(std::string_view query_type, Instant now);
+    // Answers a query of the profile other than component_status and get_parameter, from what is known now: a row of results for
+    // each thing that there is to tell of, of which the query's condition chooses one; the first is told when it does not. None
+    // when it cannot be answered.
+    virtual std::vector<Results> query(std::string_view query_type, Instant now);
 };
 
 // What components stand on and time moves: advanced to the present before the engine looks at its components.

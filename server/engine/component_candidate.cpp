@@ -11,10 +11,12 @@ namespace rois {
 using To = Reference::To;
 using Part = Reference::Part;
 
-// Whatever becomes of the component: an event's results come one day, its status, binding, place and parameters may change; but a
-// parameter that it does not have stays away, and so does a result that none of its events has.
+// By itself it has no results: they are open until an event, or its answer to a query, brings them. Whatever becomes of the
+// component, its status, binding, place and parameters may change; but a parameter that it does not have stays away, and so does
+// a result that none of its messages has.
 bool ComponentCandidate::is_open(Reference const& reference) const {
-    if (perspective_.of() == Perspective::Of::present) return false;
+    if (perspective_.of() == Perspective::Of::present)
+        return reference.to == To::located || (reference.to == To::result && has(reference));
     switch (reference.to) {
         case To::status:
         case To::bound:
@@ -72,7 +74,7 @@ bool ComponentCandidate::has(Reference const& reference) const {
         case To::parameter:
             return component_.has_parameter(reference.name);
         case To::result:
-            return component_.has_event_result(reference.name);
+            return component_.tells(reference.name);
         case To::located:
             return false;
         case To::location:

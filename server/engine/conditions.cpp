@@ -20,10 +20,9 @@ std::vector<RegisteredComponent*> Engine::Core::select(Selection const& selectio
         auto const& candidate = present.candidate(*component);
         if (selection.match(candidate) == Match::yes) candidates.push_back(&candidate);
     }
-    selection.sort(candidates);
     std::vector<RegisteredComponent*> found;
     found.reserve(candidates.size());
-    for (auto const* candidate : candidates) found.push_back(registry_.find(candidate->rid()));
+    for (auto const place : selection.order(candidates)) found.push_back(registry_.find(candidates[place]->rid()));
     return found;
 }
 

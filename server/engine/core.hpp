@@ -72,7 +72,7 @@ private:
 
     // Query interface (query_interface.cpp)
     Reply perform(Session&, Query const&, Instant now);
-    Reply answer(Session&, RegisteredComponent&, std::string const& query_type, Instant now);
+    static std::vector<Results> answers(Session const&, RegisteredComponent&, std::string const& query_type, Instant now);
 
     // Event interface (event_interface.cpp)
     Reply perform(Session&, Subscribe const&, Instant now);

@@ -87,10 +87,10 @@ void Engine::Core::publish(EventOccurred said, Instant now) {
     auto const results = std::make_shared<Results const>(std::move(said.results));
     std::string event_id;  // given when somebody hears of it
     Perspective anybodys{registry_, places_, nullptr, Perspective::Of::present};
-    EventCandidate const candidate{anybodys.candidate(*said.component), *results};
+    ToldCandidate const candidate{anybodys.candidate(*said.component), *results};
     auto const matches = [&](Subscription const& subscription, Session const& asker) {
         Perspective askers{registry_, places_, &asker, Perspective::Of::present};
-        return subscription.filter.match(EventCandidate{askers.candidate(*said.component), *results}) == Match::yes;
+        return subscription.filter.match(ToldCandidate{askers.candidate(*said.component), *results}) == Match::yes;
     };
     for (auto* subscription : subscriptions) {
         bool const each = subscription->filter.depends_on_asker();

@@ -217,14 +217,21 @@ void Executor::completed(CommandEnded said, Instant now) {
         said.results = {};
     }
     if (said.status == CompletedStatus::ok) component.failed = false;
-    if (component.start == command) {
-        bool const active = said.afterwards == Afterwards::active && said.status == CompletedStatus::ok;
-        component.activity = active ? RegisteredComponent::Activity::active : RegisteredComponent::Activity::idle;
-        component.suspended = active && component.suspended;
-        component.start = nullptr;
-    }
+    follow_up(component, command, said.status == CompletedStatus::ok ? said.afterwards : Afterwards::as_before);
     end(command, said.status, std::move(said.results), now);
     run_ready(now);
+}
+
+// Nothing was active before a `start`: what was, was halted. Whatever else completes does not touch a `start` that still runs.
+void Executor::follow_up(RegisteredComponent& component, SharedCommand const& command, Afterwards afterwards) {
+    using Activity = RegisteredComponent::Activity;
+    bool const starts = component.start == command;
+    if (starts) component.start = nullptr;
+    if (component.start) return;
+    bool const active = afterwards == Afterwards::active ||
+                        (afterwards == Afterwards::as_before && !starts && component.activity == Activity::active);
+    component.activity = active ? Activity::active : Activity::idle;
+    component.suspended = active && component.suspended;
 }
 
 void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_start, Instant now) {

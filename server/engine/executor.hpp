@@ -81,6 +81,7 @@ private:
     void halt(RegisteredComponent&, CompletedStatus status_of_start, Instant now);
     void await_start(SharedCommand const&, Instant now);
     void start_timed_out(CommandHandle, Instant now);
+    static void follow_up(RegisteredComponent&, SharedCommand const&, Afterwards);
     void end(SharedCommand const&, CompletedStatus, Results, Instant now);
     void abort(SharedCommand const&, Instant now);
     Called store(Command const&);

@@ -1,6 +1,7 @@
 #include "engine/filter.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "engine/filter_compiler.hpp"
@@ -61,26 +62,18 @@ std::variant<Selection, std::string> Selection::compile(QueryExpression const& q
     return selection;
 }
 
-void Selection::sort(std::vector<Candidate const*>& candidates) const {
-    if (keys_.empty()) return;
-    struct Row {
-        Candidate const* candidate;
-        std::size_t place;
-        std::vector<std::optional<SortKey::Value>> values;
-    };
-    std::vector<Row> rows;
-    rows.reserve(candidates.size());
-    for (auto const* candidate : candidates) {
-        auto& row = rows.emplace_back(Row{candidate, rows.size(), {}});
-        row.values.reserve(keys_.size());
-        for (auto const& key : keys_) row.values.push_back(key->value(*candidate));
-    }
-    std::ranges::sort(rows, [&](Row const& a, Row const& b) {
+std::vector<std::size_t> Selection::order(std::vector<Candidate const*> const& candidates) const {
+    std::vector<std::vector<std::optional<SortKey::Value>>> values(candidates.size());
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+        for (auto const& key : keys_) values[i].push_back(key->value(*candidates[i]));
+    std::vector<std::size_t> places(candidates.size());
+    std::iota(places.begin(), places.end(), std::size_t{0});
+    std::ranges::sort(places, [&](std::size_t a, std::size_t b) {
         for (std::size_t i = 0; i < keys_.size(); ++i)
-            if (int const order = keys_[i]->compare(a.values[i], b.values[i]); order != 0) return order < 0;
-        return a.place < b.place;
+            if (int const order = keys_[i]->compare(values[a][i], values[b][i]); order != 0) return order < 0;
+        return a < b;
     });
-    std::ranges::transform(rows, candidates.begin(), &Row::candidate);
+    return places;
 }
 
 }  // namespace rois

@@ -2,6 +2,7 @@
 // against something only compares. docs/conditions.md says what they mean.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,8 +64,9 @@ public:
 
     bool sorts() const { return !keys_.empty(); }
 
-    // Puts them in order; those that SortBy does not tell apart stay as they are. What has no value comes last.
-    void sort(std::vector<Candidate const*>&) const;
+    // The places of these candidates in the order in which they come; those that SortBy does not tell apart stay as they are.
+    // What has no value comes last.
+    std::vector<std::size_t> order(std::vector<Candidate const*> const&) const;
 
 private:
     Selection();

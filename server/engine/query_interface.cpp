@@ -1,4 +1,7 @@
 // Query interface (7.4.2, table 4).
+#include <algorithm>
+#include <functional>
+#include <memory>
 #include <utility>
 
 #include "engine/core.hpp"
@@ -6,46 +9,99 @@
 
 namespace rois {
 
-// Decision 18: the one component that knows the query type, preferring READY, then the lowest ref or what SortBy says.
+namespace {
+
+// Who may answer a query, and with what; nothing when it is not asked yet.
+struct Possible {
+    RegisteredComponent* component;
+    std::optional<Results> row;
+};
+
+// A component is asked only when the condition or SortBy may depend on what it answers.
+std::vector<Possible> who_may_answer(std::vector<RegisteredComponent*> const& able, Selection const& selection,
+                                     Perspective& looked_at,
+                                     std::function<std::vector<Results>(RegisteredComponent&)> const& rows_of) {
+    std::vector<Possible> found;
+    for (auto* component : able) {
+        auto const& candidate = looked_at.candidate(*component);
+        auto const match = selection.match(candidate);
+        if (match == Match::no) continue;
+        bool const ask = match == Match::maybe || selection.sorts();
+        auto rows = ask ? rows_of(*component) : std::vector<Results>{};
+        if (rows.empty() && match == Match::yes) found.push_back({component, {}});
+        for (auto& row : rows)
+            if (selection.match(ToldCandidate{candidate, row}) == Match::yes) found.push_back({component, std::move(row)});
+    }
+    return found;
+}
+
+// In the order of the selection.
+std::vector<Possible> in_order(Selection const& selection, std::vector<Possible> found, Perspective& looked_at) {
+    if (!selection.sorts()) return found;
+    std::vector<std::unique_ptr<ToldCandidate>> told;
+    std::vector<Candidate const*> candidates;
+    for (auto const& [component, row] : found) {
+        candidates.push_back(&looked_at.candidate(*component));
+        if (row) candidates.back() = told.emplace_back(std::make_unique<ToldCandidate>(*candidates.back(), *row)).get();
+    }
+    auto const places = selection.order(candidates);
+    std::vector<Possible> ordered;
+    ordered.reserve(found.size());
+    for (auto const place : places) ordered.push_back(std::move(found[place]));
+    return ordered;
+}
+
+}  // namespace
+
+// Decision 18: the one component that knows the query type, preferring READY, then the lowest ref or what SortBy says; of its
+// rows, the first that matches.
 Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
-    auto compiled = Selection::compile(query.condition, vocabulary());
+    auto const& able = registry_.with(MessageKind::query, query.query_type);
+    Declarations results;
+    for (auto const* component : able)
+        results.add(find_message(component->profile(), MessageKind::query, query.query_type)->results);
+    auto vocabulary = this->vocabulary(&results);
+    vocabulary.first = Vocabulary::First::parameters;
+    auto compiled = Selection::compile(query.condition, vocabulary);
     if (auto* problem = std::get_if<std::string>(&compiled))
         return refused<Query::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto const& selection = std::get<Selection>(compiled);
-    auto const& able = registry_.with(MessageKind::query, query.query_type);
     Perspective looked_at{registry_, places_, &session, Perspective::Of::present};
-    RegisteredComponent* chosen = nullptr;
-    for (auto* component : selection.sorts() ? select(selection, able, session) : able) {
-        if (selection.match(looked_at.candidate(*component)) != Match::yes) continue;
-        bool const ready = component->status_for(&session) == ComponentStatus::ready;
-        if (chosen == nullptr || ready) chosen = component;
-        if (ready) break;
-    }
-    if (chosen == nullptr)
+    auto found = who_may_answer(able, selection, looked_at, [&](RegisteredComponent& component) {
+        return answers(session, component, query.query_type, now);
+    });
+    if (found.empty())
         return refused<Query::Reply>(ReturnCode::unsupported,
-                                     "no component that matches answers queries of the type " + quoted(query.query_type));
-    return answer(session, *chosen, query.query_type, now);
+                                     "nothing that matches is answered to queries of the type " + quoted(query.query_type));
+    found = in_order(selection, std::move(found), looked_at);
+    auto const ready = std::ranges::find_if(
+        found, [&](Possible const& possible) { return possible.component->status_for(&session) == ComponentStatus::ready; });
+    auto& chosen = ready == found.end() ? found.front() : *ready;
+    if (!chosen.row) {
+        auto rows = answers(session, *chosen.component, query.query_type, now);
+        if (!rows.empty()) chosen.row = std::move(rows.front());
+    }
+    if (!chosen.row)
+        return refused<Query::Reply>(ReturnCode::error,
+                                     "the component " + quoted(chosen.component->ref().code) + " could not answer");
+    Query::Reply reply;
+    reply.component_ref = chosen.component->ref();
+    reply.results = std::move(*chosen.row);
+    return reply;
 }
 
-Reply Engine::Core::answer(Session& session, RegisteredComponent& component, std::string const& query_type, Instant now) {
-    Query::Reply reply;
-    reply.component_ref = component.ref();
-    if (query_type == "component_status") {
-        reply.results.parameters.push_back(status_of("status", component.status_for(&session)));
-        return reply;
-    }
-    std::optional<Results> results;
+// Rows of results; none when it could not answer.
+std::vector<Results> Engine::Core::answers(Session const& session, RegisteredComponent& component, std::string const& query_type,
+                                           Instant now) {
+    if (query_type == "component_status") return {Results{{status_of("status", component.status_for(&session))}, {}}};
+    std::vector<Results> rows;
     if (query_type == "get_parameter") {
-        if (auto parameters = component.all_parameters()) results = Results{std::move(*parameters), {}};
+        if (auto parameters = component.all_parameters()) rows.push_back({std::move(*parameters), {}});
     } else {
-        results = component.answer(query_type, now);
+        rows = component.answer(query_type, now);
     }
-    if (results) {
-        component.failed = false;
-        reply.results = std::move(*results);
-        return reply;
-    }
-    return refused<Query::Reply>(ReturnCode::error, "the component " + quoted(component.ref().code) + " could not answer");
+    if (!rows.empty()) component.failed = false;
+    return rows;
 }
 
 }  // namespace rois

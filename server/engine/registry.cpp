@@ -98,11 +98,12 @@ RegisteredComponent::Answer RegisteredComponent::check(MessageKind kind, std::st
     return Answer::wrong;
 }
 
-std::optional<Results> RegisteredComponent::answer(std::string_view query_type, Instant now) const {
-    std::optional<Results> results;
-    call([&](Component& c) { results = c.query(query_type, now); }, Report::once);
-    if (results && check(MessageKind::query, query_type, *results, Report::once) == Answer::wrong) return {};
-    return results;
+std::vector<Results> RegisteredComponent::answer(std::string_view query_type, Instant now) const {
+    std::vector<Results> rows;
+    call([&](Component& c) { rows = c.query(query_type, now); }, Report::once);
+    for (auto const& row : rows)
+        if (check(MessageKind::query, query_type, row, Report::once) == Answer::wrong) return {};
+    return rows;
 }
 
 std::optional<ParameterList> RegisteredComponent::all_parameters() const {
@@ -118,9 +119,9 @@ bool RegisteredComponent::has_parameter(std::string_view name) const {
     return message != nullptr && find_parameter(message->results, name) != nullptr;
 }
 
-bool RegisteredComponent::has_event_result(std::string_view name) const {
+bool RegisteredComponent::tells(std::string_view name) const {
     return std::ranges::any_of(profile().messages, [&](MessageProfile const& message) {
-        return message.kind == MessageKind::event && find_parameter(message.results, name) != nullptr;
+        return message.kind != MessageKind::command && find_parameter(message.results, name) != nullptr;
     });
 }
 

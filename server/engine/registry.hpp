@@ -46,8 +46,8 @@ public:
     enum class Answer : std::uint8_t { right, wrong };
     Answer check(MessageKind, std::string_view message, Results const&, Report = Report::each) const;
 
-    // What it answers to a query of its profile; nothing when it failed, cannot answer, or answers wrong.
-    std::optional<Results> answer(std::string_view query_type, Instant now) const;
+    // What it answers to a query of its profile, a row or several; none when it failed, cannot answer, or answers wrong.
+    std::vector<Results> answer(std::string_view query_type, Instant now) const;
 
     // Decision 7: as `asker` sees it.
     ComponentStatus status_for(Session const* asker) const;
@@ -56,10 +56,10 @@ public:
     std::vector<ParameterProfile> const& settable() const { return settable_; }
     std::optional<ParameterList> all_parameters() const;
 
-    // What conditions ask: whether it has such a parameter, be it only to be read, or an event with such a result; and where it
-    // is, nothing also when it failed.
+    // What conditions ask: whether it has such a parameter, be it only to be read, or an event or a query with such a result; and
+    // where it is, nothing also when it failed.
     bool has_parameter(std::string_view name) const;
-    bool has_event_result(std::string_view name) const;
+    bool tells(std::string_view name) const;
     std::optional<Located> location() const;
 
     // `stored` with what arrived, as the component reconciles the two; nothing when it failed.

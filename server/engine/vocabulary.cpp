@@ -73,6 +73,7 @@ ValueKind kind_of(DataType const& type) {
             return ValueKind::time;
         case BaseType::identifier:
         case BaseType::component_status:
+        case BaseType::stream_status:
             return ValueKind::text;
         case BaseType::string:
         case BaseType::other:
@@ -162,8 +163,9 @@ std::optional<Reference> named(Vocabulary const& vocabulary, std::span<PathStep 
         if (vocabulary.results != nullptr && equal_ignoring_case(first.name, "located"))
             return Reference{.to = To::located, .name = {}, .entity = {}};
         if (auto found = word(vocabulary, first.name)) return found;
-        if (auto found = declared(vocabulary.results, To::result, first.name)) return found;
-        return declared(vocabulary.parameters, To::parameter, first.name);
+        auto told = declared(vocabulary.results, To::result, first.name);
+        auto set = declared(vocabulary.parameters, To::parameter, first.name);
+        return told && (!set || vocabulary.first == Vocabulary::First::results) ? told : set;
     }
     auto const looked_for = steps.size() == 2 ? last.name : *name;
     if (result) return declared(vocabulary.results, To::result, looked_for);
@@ -203,7 +205,7 @@ std::variant<Reference, std::string> Vocabulary::resolve(std::string_view writte
 }
 
 std::string_view Vocabulary::own_position() const {
-    if (results != nullptr) return "located";
+    if (results != nullptr && (parameters == nullptr || first == First::results)) return "located";
     return parameters != nullptr ? "location" : "";
 }
 

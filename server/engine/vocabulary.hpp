@@ -75,11 +75,15 @@ private:
 };
 
 // `parameters`: of components, null where a condition does not speak of components. `results`: null where it does not speak of
-// any. What it points to must live as long.
+// any. `first`: which of both a bare name means that both have, and an operator of space with one operand. What it points to must
+// live as long.
 struct Vocabulary {
+    enum class First : std::uint8_t { results, parameters };
+
     Places const* places = nullptr;
     Declarations const* parameters = nullptr;
     Declarations const* results = nullptr;
+    First first = First::results;
 
     // The reference, or why there is none. An alias is the first of several steps.
     std::variant<Reference, std::string> resolve(std::string_view path, std::span<std::string const> aliases = {}) const;

@@ -91,26 +91,58 @@ Key choice(std::string name, std::string help, Member<T> const& member, std::vec
     return key;
 }
 
+struct Address {
+    std::string host;
+    std::uint16_t port;
+};
+
 // "127.0.0.1:8080", "[::1]:8080", "localhost:0"
-bool set_listen(Settings& settings, std::string const& text) {
+std::optional<Address> read_address(std::string const& text) {
     auto const colon = text.rfind(':');
-    if (colon == std::string::npos || colon == 0) return false;
+    if (colon == std::string::npos || colon == 0) return {};
     auto host = text.substr(0, colon);
     bool const bracketed = host.size() > 2 && host.front() == '[' && host.back() == ']';
     if (bracketed) host = host.substr(1, host.size() - 2);
-    if (!bracketed && host.find(':') != std::string::npos) return false;
+    if (!bracketed && host.find(':') != std::string::npos) return {};
     std::uint16_t port = 0;
     auto const [end, error] = std::from_chars(text.data() + colon + 1, text.data() + text.size(), port);
-    if (error != std::errc{} || end != text.data() + text.size()) return false;
-    settings.net.host = host;
-    settings.net.port = port;
+    if (error != std::errc{} || end != text.data() + text.size()) return {};
+    return Address{host, port};
+}
+
+std::string show_address(std::string const& host, std::uint16_t port) {
+    bool const ipv6 = host.find(':') != std::string::npos;
+    return (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
+}
+
+bool set_listen(Settings& settings, std::string const& text) {
+    auto const read = read_address(text);
+    if (!read) return false;
+    settings.net.host = read->host;
+    settings.net.port = read->port;
     return true;
 }
 
-std::string show_listen(Settings const& settings) {
-    auto const& host = settings.net.host;
-    bool const ipv6 = host.find(':') != std::string::npos;
-    return (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(settings.net.port);
+std::string show_listen(Settings const& settings) { return show_address(settings.net.host, settings.net.port); }
+
+bool set_media(Settings& settings, std::string const& text) {
+    auto const read = text.empty() ? std::optional{Address{}} : read_address(text);
+    if (!read) return false;
+    settings.media.host = read->host;
+    settings.media.port = read->port;
+    return true;
+}
+
+std::string show_media(Settings const& settings) {
+    return settings.media.host.empty() ? "" : show_address(settings.media.host, settings.media.port);
+}
+
+// Where a reverse proxy serves the media; their addresses are this and a path.
+bool set_media_url(Settings& settings, std::string const& text) {
+    bool const is_url = (text.starts_with("http://") && text.size() > 7) || (text.starts_with("https://") && text.size() > 8);
+    if (!text.empty() && (!is_url || text.find_first_of(" \t\r\n?#\"<>") != std::string::npos)) return false;
+    settings.media.url = text;
+    return true;
 }
 
 // The engine's name becomes part of XML ids.
@@ -176,6 +208,22 @@ std::vector<Key> general_keys() {
          [](Settings const& s) { return s.profiles; }},
         {"allowed_origins", "web pages that may open WebSockets beside this server's own, separated by blanks", "ORIGINS",
          "origins such as https://console.example, separated by blanks", Key::Kind::text, set_origins, show_origins},
+    };
+}
+
+std::vector<Key> media_keys() {
+    return {
+        {"media", "address and port that streams are fetched from; port 0 takes any free one; empty: nothing is streamed",
+         "HOST:PORT", "HOST:PORT, such as 127.0.0.1:8081, or empty", Key::Kind::text, set_media, show_media},
+        {"media_url", "how applications reach what media serves; empty: http://HOST:PORT of media", "URL",
+         "a URL such as https://robots.example/media", Key::Kind::text, set_media_url,
+         [](Settings const& s) { return s.media.url; }},
+        choice<media::RtpTargets>("media_rtp", "whom streams are sent to by RTP: applications name the target",
+                                  [](Settings & s) -> auto& { return s.media.rtp_targets; },
+                                  {{"loopback", media::RtpTargets::loopback}, {"any", media::RtpTargets::any}}),
+        whole_number<std::size_t>(
+            "max_media_connections", "connections on which streams are fetched",
+            [](Settings & s) -> auto& { return s.media.max_connections; }, 1, 10'000),
     };
 }
 
@@ -261,12 +309,15 @@ std::string with_dashes(std::string name) {
 
 }  // namespace
 
-Settings::Settings() { net.threads = std::clamp(std::thread::hardware_concurrency(), 1u, 4u); }
+Settings::Settings() {
+    net.threads = std::clamp(std::thread::hardware_concurrency(), 1u, 4u);
+    media.host.clear();
+}
 
 std::vector<Key> const& keys() {
     static auto const all = [] {
         std::vector<Key> together;
-        for (auto const& part : {general_keys(), session_keys(), network_keys()}) {
+        for (auto const& part : {general_keys(), media_keys(), session_keys(), network_keys()}) {
             together.insert(together.end(), part.begin(), part.end());
         }
         return together;

@@ -16,6 +16,7 @@
 #include "main/logging.hpp"
 #include "main/profile_folder.hpp"
 #include "main/user_components.hpp"
+#include "media/server.hpp"
 #include "net/documents.hpp"
 #include "net/gateway.hpp"
 #include "net/health_check.hpp"
@@ -56,6 +57,11 @@ std::shared_ptr<simulation::Simulation> make_simulation(std::shared_ptr<xml::Sch
     auto scenario = simulation::read_scenario(schemas, named(settings.scenario, "reception-day.xml"),
                                               chosen(settings.scenario, "reception-day.xml"), plan);
     return std::make_shared<simulation::Simulation>(std::move(plan), std::move(scenario), settings.seed, settings.sim_speed);
+}
+
+// Null when nothing is to be streamed.
+std::shared_ptr<media::Server> make_media(media::Settings const& settings) {
+    return settings.host.empty() ? nullptr : std::make_shared<media::Server>(settings, net::fresh_secret);
 }
 
 // The value of a configuration key, as a text.
@@ -103,19 +109,24 @@ int serve(CommandLine const& command) {
         return done;
     }
     set_up_logging(settings.log_format, settings.log_level);
+    auto const media = make_media(settings.media);
     net::Readers readers;
     Engine engine{engine_profile(settings, simulation->hall().plan()), profiles, settings.engine, readers, net::fresh_secret};
     engine.add(simulation);
     engine.describe(simulation::named_places(simulation->hall().plan()));
-    for (auto& component : simulation::robot_components(simulation, profiles)) engine.add(std::move(component));
+    for (auto& component : simulation::robot_components(simulation, media, profiles)) engine.add(std::move(component));
     net::Telemetry telemetry;
     net::Gateway gateway{engine, readers, telemetry};
-    UserComponents user_components{
-        schemas, {simulation, schemas}, profiles, simulation::component_refs(simulation->hall().plan()), settings.profiles};
+    UserComponents user_components{schemas,
+                                   {simulation, media, schemas},
+                                   profiles,
+                                   simulation::component_refs(simulation->hall().plan()),
+                                   settings.profiles};
     if (!settings.profiles.empty()) gateway.change(user_components.read());
     net::Documents const documents{gateway, telemetry, *schemas, files::web().at("index.html")};
     net::Server server{settings.net, gateway, telemetry, documents, schemas};
     if (!settings.profiles.empty()) server.on_hang_up([&] { read_again(user_components, gateway); });
+    if (media) spdlog::info("media are served under {}", media->url());
     spdlog::info("listening on {}", server.url());
     server.run();
     spdlog::info("stopped");

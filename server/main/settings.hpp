@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/settings.hpp"
+#include "media/settings.hpp"
 #include "net/settings.hpp"
 
 namespace rois {
@@ -16,6 +17,7 @@ enum class LogLevel : std::uint8_t { debug, info, warning, error };
 struct Settings {
     net::Settings net;
     EngineSettings engine;
+    media::Settings media;  // without a host nothing is streamed
     std::string engine_name = "reception";
     double sim_speed = 1;
     std::uint64_t seed = 1;

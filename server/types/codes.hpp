@@ -1,4 +1,5 @@
-// The enumerations of the specification: tables 1 (7.3), 7 and 8 (7.4.2) and 33 (7.6). Their texts are the specification's.
+// The enumerations of the specification: tables 1 (7.3), 7 and 8 (7.4.2) and 33 (7.6), and Stream_Status of 2.0. Their texts are
+// the specification's.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +24,14 @@ enum class ErrorType : std::uint8_t {
 // How a component is (table 33). `busy` is relative to the asker: another session has it bound.
 enum class ComponentStatus : std::uint8_t { uninitialized, ready, busy, warning, error };
 
+// How a stream is (2.0, Stream_Status): connected without anybody who receives it, not or no longer connected, its media flow,
+// they are held, they flow again after that.
+enum class StreamStatus : std::uint8_t { not_running, not_connected, running, suspended, resumed };
+
 std::string_view to_text(ReturnCode);
 std::string_view to_text(CompletedStatus);
 std::string_view to_text(ErrorType);
 std::string_view to_text(ComponentStatus);
+std::string_view to_text(StreamStatus);
 
 }  // namespace rois

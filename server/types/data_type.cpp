@@ -17,7 +17,7 @@ struct Known {
 };
 
 // The first name of a base is the one that we write.
-constexpr std::array<Known, 13> known_types{{{"int", BaseType::integer},
+constexpr std::array<Known, 15> known_types{{{"int", BaseType::integer},
                                              {"integer", BaseType::integer},
                                              {"UnlimitedNatural", BaseType::integer},
                                              {"double", BaseType::real},
@@ -29,7 +29,9 @@ constexpr std::array<Known, 13> known_types{{{"int", BaseType::integer},
                                              {"RoISIdentifier", BaseType::identifier},
                                              {"RoIS_Identifier", BaseType::identifier},
                                              {"Component_Status", BaseType::component_status},
-                                             {"ComponentStatus", BaseType::component_status}}};
+                                             {"ComponentStatus", BaseType::component_status},
+                                             {"Stream_Status", BaseType::stream_status},
+                                             {"StreamStatus", BaseType::stream_status}}};
 
 // `urn:x-rois:def:DataType:<authority>::<name>` gives the name; what is no such URN stays as it is.
 std::string_view without_urn(std::string_view code) {
@@ -78,6 +80,13 @@ bool is_component_status(std::string_view text) {
     return false;
 }
 
+bool is_stream_status(std::string_view text) {
+    for (auto status : {StreamStatus::not_running, StreamStatus::not_connected, StreamStatus::running, StreamStatus::suspended,
+                        StreamStatus::resumed})
+        if (trimmed(text) == to_text(status)) return true;
+    return false;
+}
+
 bool is_of(BaseType base, std::string_view text) {
     switch (base) {
         case BaseType::integer:
@@ -93,6 +102,8 @@ bool is_of(BaseType base, std::string_view text) {
             return !trimmed(text).empty();
         case BaseType::component_status:
             return is_component_status(text);
+        case BaseType::stream_status:
+            return is_stream_status(text);
         case BaseType::string:
         case BaseType::other:
             return true;

@@ -11,7 +11,17 @@
 
 namespace rois {
 
-enum class BaseType : std::uint8_t { integer, real, boolean, string, date_time, identifier, component_status, other };
+enum class BaseType : std::uint8_t {
+    integer,
+    real,
+    boolean,
+    string,
+    date_time,
+    identifier,
+    component_status,
+    stream_status,
+    other
+};
 
 // A data_type_ref read: `int`, `string[]`, `urn:x-rois:def:DataType:ATR::Integer`, ... in any case.
 struct DataType {

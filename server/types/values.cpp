@@ -33,6 +33,10 @@ Parameter status_of(std::string name, ComponentStatus value) {
     return typed(std::move(name), "Component_Status", {std::string{to_text(value)}});
 }
 
+Parameter status_of(std::string name, StreamStatus value) {
+    return typed(std::move(name), "Stream_Status", {std::string{to_text(value)}});
+}
+
 Parameter reference(std::string name, std::string code, std::string codebook_ref) {
     return typed(std::move(name), "RoISIdentifier", {std::move(code)}, std::move(codebook_ref));
 }

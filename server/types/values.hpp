@@ -70,6 +70,7 @@ Parameter text(std::string name, std::string value);
 Parameter texts(std::string name, std::vector<std::string> values);
 Parameter date_time(std::string name, Utc value);
 Parameter status_of(std::string name, ComponentStatus value);
+Parameter status_of(std::string name, StreamStatus value);
 Parameter reference(std::string name, std::string code, std::string codebook_ref = {});
 Parameter references(std::string name, std::vector<std::string> codes, std::string codebook_ref = {});
 Parameter positions(std::string name, std::vector<std::string> points, std::string crs);  // each "x, y, th": mm, mm, degrees

@@ -52,8 +52,8 @@ std::set<std::string> broken_in(std::string const& report) {
 
 struct EmptyHall : GatewayProcess {
     EmptyHall()
-        : GatewayProcess{
-              {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--sim-speed", "20", "--seed", "1"}} {}
+        : GatewayProcess{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--sim-speed", "20", "--seed", "1",
+                          "--media", "127.0.0.1:0"}} {}
 };
 
 std::string url(std::uint16_t port) { return "http://127.0.0.1:" + std::to_string(port); }

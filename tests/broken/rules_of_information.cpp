@@ -56,10 +56,23 @@ Breaking tells_local_time() {
 std::string const no_results = "<results/>";
 std::string const nobody = "<component_ref rois:code=\"nobody\"/>";
 
+// A value.
+Edit replaces(std::string const& value, std::string const& instead) {
+    return [=](pugi::xml_node root) {
+        for_each_below(root, [&](pugi::xml_node node) {
+            if (node.text().get() == value) node.text().set(instead.c_str());
+        });
+    };
+}
+
 }  // namespace
 
 std::vector<BrokenRule> rules_of_information() {
-    return {{"a profile is missing", "each_component_has_a_profile", forgets_a_profile},
+    return {{"a stream that is held is told as running", "a_stream_is_suspended_until_it_is_resumed",
+             [] { return edits_answers("query", replaces("STREAMING_SUSPENDED", "STREAMING_RUNNING")); }},
+            {"the end of a stream is not told", "a_stream_is_connected_until_it_is_disconnected",
+             [] { return edits_notifications("receive_event", replaces("STREAMING_NOT_CONNECTED", "STREAMING_NOT_RUNNING")); }},
+            {"a profile is missing", "each_component_has_a_profile", forgets_a_profile},
             {"get_profile tells all, whatever is asked for", "get_profile_chooses_by_condition",
              [] { return edits_requests("get_profile", remove_condition); }},
             {"details of unknown errors are told", "details_of_an_unknown_error_are_refused",

@@ -56,11 +56,13 @@ bool is_item(std::string const& type, std::string const& text) {
     static std::regex const truth{"true|false|0|1"};
     static std::regex const time{"[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}([.][0-9]+)?Z"};
     static std::regex const status{"UNINITIALIZED|READY|BUSY|WARNING|ERROR"};
+    static std::regex const stream_status{"STREAMING_(NOT_RUNNING|NOT_CONNECTED|RUNNING|SUSPENDED|RESUMED)"};
     if (type == "int" || type == "integer") return std::regex_match(text, whole_number);
     if (type == "double") return std::regex_match(text, number);
     if (type == "bool" || type == "boolean") return std::regex_match(text, truth);
     if (type == "datetime") return std::regex_match(text, time);
     if (type == "component_status") return std::regex_match(text, status);
+    if (type == "stream_status") return std::regex_match(text, stream_status);
     return type != "roisidentifier" || !text.empty();
 }
 

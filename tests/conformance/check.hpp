@@ -52,6 +52,7 @@ Clause query_clause();
 Clause event_clause();
 Clause condition_clause();
 Clause component_clause();
+Clause stream_clause();
 
 std::vector<Clause> all_clauses();  // in the order in which they are played
 

@@ -139,7 +139,9 @@ void basic_components_have_their_messages(Stage& stage) {
         {"sounddetection", {{}, {"sound_detected"}}},
         {"soundlocalization", {{}, {"sound_localized"}}},
         {"speechrecognition", {{}, {"speech_recognized", "speech_input_started", "speech_input_finished"}}},
-        {"gesturerecognition", {{}, {"gesture_recognized"}}}};
+        {"gesturerecognition", {{}, {"gesture_recognized"}}},
+        {"audiostreaming", {{"get_stream_status"}, {"notify_stream_status"}}},
+        {"videostreaming", {{"get_stream_status"}, {"notify_stream_status"}}}};
     auto const has = [](std::vector<Message> const& messages, std::string const& name) {
         return std::ranges::find(messages, name, &Message::name) != messages.end();
     };
@@ -163,7 +165,9 @@ void basic_components_have_their_parameters(Stage& stage) {
         {"reaction", {"reaction_ref"}},
         {"navigation", {"target_position", "time_limit", "routing_policy"}},
         {"follow", {"target_object_ref", "distance", "time_limit"}},
-        {"move", {"line", "curve", "time"}}};
+        {"move", {"line", "curve", "time"}},
+        {"audiostreaming", {"encoding_parameters", "transport_parameters"}},
+        {"videostreaming", {"encoding_parameters", "transport_parameters"}}};
     for (auto const& component : stage.catalogue().components) {
         auto const found = tables.find(component.basic());
         if (found == tables.end()) continue;

@@ -128,6 +128,58 @@ TEST_F(Commands, AFunctionMayBecomeActiveWhileItIsHeld) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed hold OK", "2 completed look OK", "3 completed on OK"));
 }
 
+TEST_F(Commands, OfTheProfileMayMakeTheComponentActive) {
+    desk.execute(named("dock", command("dock", "navigation")));
+    world["navigation"].finishes(CompletedStatus::ok, {}, Afterwards::active);
+    desk.execute(named("hold", suspend("navigation")), named("on", resume("navigation")));
+    desk.execute(named("halt", stop("navigation")));
+    desk.execute(named("idle", suspend("navigation")));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock OK", "2 completed hold OK", "3 completed on OK",
+                                          "4 completed halt OK", "5 completed idle ERROR"));
+    EXPECT_THAT(world["navigation"].told, ElementsAre("dock", "suspend", "resume", "halt"));
+}
+
+TEST_F(Commands, OfTheProfileMayMakeTheComponentIdle) {
+    for (auto const afterwards : {Afterwards::active, Afterwards::as_before, Afterwards::idle}) {
+        desk.execute(command("dock", "navigation"));
+        world["navigation"].finishes(CompletedStatus::ok, {}, afterwards);
+    }
+    desk.heard();
+    desk.execute(named("idle", suspend("navigation")));
+    EXPECT_THAT(desk.heard(), ElementsAre("4 completed idle ERROR"));
+}
+
+TEST_F(Commands, OfTheProfileLeaveWhatIsActiveAsItIs) {
+    desk.execute(command("dock", "navigation"));
+    world["navigation"].finishes(CompletedStatus::ok, {}, Afterwards::active);
+    desk.execute(command("dock", "navigation"));
+    world["navigation"].finishes();
+    desk.execute(command("dock", "navigation"));
+    world["navigation"].finishes(CompletedStatus::error, {}, Afterwards::idle);
+    desk.heard();
+    desk.execute(named("hold", suspend("navigation")));
+    EXPECT_THAT(desk.heard(), ElementsAre("4 completed hold OK"));
+}
+
+TEST_F(Commands, OfTheProfileDoNotEndAStartThatRuns) {
+    desk.execute(go("go"));
+    auto const start = world["navigation"].latest();
+    for (auto const afterwards : {Afterwards::active, Afterwards::idle}) {
+        desk.execute(command("dock", "navigation"));
+        world["navigation"].finishes(CompletedStatus::ok, {}, afterwards);
+    }
+    world["navigation"].answers(start);
+    desk.execute(named("idle", suspend("navigation")));
+    EXPECT_THAT(desk.heard(), ElementsAre(testing::_, testing::_, "3 completed go OK", "4 completed idle ERROR"));
+}
+
+TEST_F(Commands, WhatOneOfTheProfileMadeActiveEndsWithTheBinding) {
+    desk.execute(command("dock", "navigation"));
+    world["navigation"].finishes(CompletedStatus::ok, {}, Afterwards::active);
+    desk.release("navigation");
+    EXPECT_THAT(world["navigation"].told, ElementsAre("dock", "halt"));
+}
+
 TEST_F(Commands, AFunctionThatFailsToStartIsNotActive) {
     world["detection"].on_start = OnStart::stays_silent;
     desk.execute(named("look", start("detection")));

@@ -59,7 +59,7 @@ ComponentProfile navigation_profile() {
                                               parameter("routing_policy", "string")}),
                     command("dock", {parameter("side", "string", "left"), parameter("times", "int", "1")},
                             {parameter("charge", "int")}, std::chrono::milliseconds{500}),
-                    query("route", {parameter("length", "double")}),
+                    query("route", {parameter("length", "double"), parameter("to", "string")}),
                     event("reached_target", {parameter("target", "string"), parameter("is_final_target", "bool")})},
                    parameters);
 }
@@ -232,10 +232,11 @@ ParameterList ScriptedComponent::readable_parameters() const {
     return {texts("synthesizable_languages", {"en", "ja"})};
 }
 
-std::optional<Results> ScriptedComponent::query(std::string_view query_type, Instant now) {
+std::vector<Results> ScriptedComponent::query(std::string_view query_type, Instant now) {
     called("query");
     if (query_type != "route" || throws_in.contains("nothing known")) return Component::query(query_type, now);
-    return Results{{Parameter{"length", {"double", {}, {}, {}}, {throws_in.contains("nothing right") ? "far" : "2.5"}}}, {}};
+    if (!knows.empty()) return knows;
+    return {{{Parameter{"length", {"double", {}, {}, {}}, {throws_in.contains("nothing right") ? "far" : "2.5"}}}, {}}};
 }
 
 }  // namespace rois

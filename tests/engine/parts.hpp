@@ -53,11 +53,12 @@ public:
     bool throws_no_exception = false;  // but something else
     std::vector<std::string> told;     // the calls that reached it
     ParameterList started_with;
+    std::vector<Results> knows;    // rows that it answers queries with, instead of what it says otherwise
     std::optional<Located> where;  // nothing: nobody knows
 
     // What it says by itself; the engine has heard it when the call returns.
     void begins();
-    void finishes(CompletedStatus = CompletedStatus::ok, Results = {}, Afterwards = Afterwards::idle);
+    void finishes(CompletedStatus = CompletedStatus::ok, Results = {}, Afterwards = Afterwards::as_before);
     void answers(CommandHandle, CompletedStatus = CompletedStatus::ok);
     void fires(std::string const& event_type, ParameterList results = {}, std::vector<Located> located = {});
     void reports(ErrorType, std::string const& text);
@@ -77,7 +78,7 @@ public:
     CompletedStatus status_when_stopped() const override;
     std::optional<Located> location() const override;
     ParameterList readable_parameters() const override;
-    std::optional<Results> query(std::string_view query_type, Instant now) override;
+    std::vector<Results> query(std::string_view query_type, Instant now) override;
 
 private:
     void called(std::string const& name) const;
@@ -93,7 +94,7 @@ private:
 extern ComponentProfile const common;
 
 // Drives: target_position is mandatory; tells `reached_target`; has the command `dock` (side, left by default; times, 1; within
-// 500 ms; results charge) and the query `route` (length).
+// 500 ms; results charge) and the query `route` (length, to).
 extern Part const navigation;
 // Speaks: speech_text or SSML_text, of which the later replaces the earlier; `start` within 2 s.
 extern Part const speech;

@@ -1,6 +1,7 @@
 // Decision 18: a query goes to the one component that can answer best.
 #include <gmock/gmock.h>
 
+#include "conditions.hpp"
 #include "world.hpp"
 
 namespace rois {
@@ -36,6 +37,66 @@ TEST(Query, GoesWhereTheConditionSays) {
     EXPECT_EQ(desk.query("route", equal("component_ref", "speech")).return_code, ReturnCode::unsupported);
     EXPECT_EQ(desk.query("route", equal("colour", "red")).return_code, ReturnCode::bad_parameter);
     EXPECT_EQ(desk.query("route", not_understood("what is this")).reason, "what is this");
+}
+
+namespace {
+
+Results route(std::string length, std::string to) {
+    return {{value("length", "double", {std::move(length)}), value("to", "string", {std::move(to)})}, {}};
+}
+
+}  // namespace
+
+TEST(Query, IsAnsweredWithTheFirstRowThatMatches) {
+    World world{navigation};
+    auto desk = world.connect();
+    world["navigation"].knows = {route("2.5", "desk"), route("7", "door"), route("9", "door")};
+    EXPECT_EQ(in_words(desk.query("route").results.parameters), "length=2.5 to=desk") << "without a condition, the first";
+    EXPECT_EQ(in_words(desk.query("route", equal("to", "door")).results.parameters), "length=7 to=door");
+    EXPECT_EQ(in_words(desk.query("route", equal("Result/length", "9.0")).results.parameters), "length=9 to=door");
+    EXPECT_EQ(in_words(desk.query("route", sorted(reference("length"), SortOrder::descending)).results.parameters),
+              "length=9 to=door");
+    auto const none = desk.query("route", equal("to", "moon"));
+    EXPECT_EQ(none.return_code, ReturnCode::unsupported);
+    EXPECT_EQ(none.reason, "nothing that matches is answered to queries of the type 'route'");
+}
+
+TEST(Query, FindsTheComponentThatHasTheRow) {
+    World world{named("robot_a", navigation), named("robot_b", navigation), named("robot_c", navigation)};
+    auto desk = world.connect();
+    world["robot_a"].knows = {route("1", "desk")};
+    world["robot_b"].knows = {route("5", "desk"), route("3", "door")};
+    world["robot_c"].knows = {route("2", "door")};
+    EXPECT_EQ(desk.query("route", equal("to", "door")).component_ref.code, "robot_b");
+    EXPECT_EQ(desk.query("route", both({equal("to", "door"), equal("component_ref", "robot_c")})).component_ref.code, "robot_c");
+    auto nearest_door = sorted(reference("length"));
+    nearest_door.filter = equal("to", "door");
+    EXPECT_EQ(desk.query("route", nearest_door).component_ref.code, "robot_c");
+    world["robot_b"].status_now = ComponentStatus::warning;
+    EXPECT_EQ(desk.query("route", equal("to", "door")).component_ref.code, "robot_c") << "what is READY comes first";
+    world["robot_c"].throws_in = {"query"};
+    EXPECT_EQ(desk.query("route", equal("to", "door")).component_ref.code, "robot_b") << "who fails has no rows";
+}
+
+TEST(Query, AsksOnlyWhomTheConditionLeaves) {
+    World world{named("robot_a", navigation), named("robot_b", navigation)};
+    auto desk = world.connect();
+    world["robot_a"].throws_in = {"query"};
+    EXPECT_EQ(desk.query("route", both({equal("name", "robot_b"), equal("length", "2.5")})).component_ref.code, "robot_b");
+    EXPECT_EQ(desk.query("component_status", equal("name", "robot_a")).results.parameters.front(),
+              status_of("status", ComponentStatus::ready))
+        << "robot_a was never asked";
+}
+
+TEST(Query, SpeaksOfComponentsFirst) {
+    World world{navigation, speech};
+    auto desk = world.connect();
+    world["navigation"].status_now = ComponentStatus::warning;
+    EXPECT_EQ(desk.query("component_status", equal("Result/status", "WARNING")).component_ref.code, "navigation");
+    EXPECT_EQ(desk.query("component_status", equal("status", "WARNING")).component_ref.code, "navigation");
+    EXPECT_EQ(desk.query("get_parameter", equal("volume", "50")).component_ref.code, "speech");
+    EXPECT_EQ(desk.query("get_parameter", equal("Result/volume", "50")).component_ref.code, "speech");
+    EXPECT_THAT(desk.query("route", equal("weight", "1")).reason, HasSubstr("length, to"));
 }
 
 TEST(Query, ThatNobodyKnowsIsUnsupported) {

@@ -22,6 +22,7 @@ Headers const spdlog{"spdlog/"};
 Headers const eigen{"Eigen/"};
 Headers const cli11{"CLI/"};
 Headers const json{"nlohmann/"};
+Headers const jpeg{"jpeglib.h"};
 Headers const posix{"arpa/",     "errno.h", "fcntl.h",  "netdb.h", "netinet/", "poll.h",
                     "pthread.h", "sched.h", "signal.h", "sys/",    "time.h",   "unistd.h"};
 
@@ -45,11 +46,12 @@ std::vector<Layer> const layers{
     {"server/files/", {"files/"}, {}, Time::passed_in},
     {"server/net/", {"net/", "engine/", "xml/", "types/"}, {boost, openssl, prometheus, spdlog, posix}, Time::read},
     {"server/main/",
-     {"main/", "net/", "engine/", "xml/", "types/", "files/", "simulation/"},
+     {"main/", "net/", "engine/", "xml/", "types/", "files/", "simulation/", "media/server.hpp", "media/settings.hpp"},
      {cli11, json, spdlog, posix},
      Time::read},
+    {"components/media/", {"media/"}, {boost, jpeg}, Time::read},
     {"components/simulation/",
-     {"simulation/", "engine/", "types/", "xml/document.hpp", "xml/schemas.hpp"},
+     {"simulation/", "engine/", "types/", "media/media.hpp", "xml/document.hpp", "xml/schemas.hpp"},
      {eigen},
      Time::passed_in},
 };

@@ -15,6 +15,7 @@
 
 #include "files/files.hpp"
 #include "simulation/adapters.hpp"
+#include "simulation/fake_media.hpp"
 #include "simulation/robot_components.hpp"
 #include "types/texts.hpp"
 #include "xml/profile_document.hpp"
@@ -66,7 +67,11 @@ public:
     }
     void suspend() { component_->suspend(now_()); }
     void resume() { component_->resume(now_()); }
-    Results query(std::string_view type) { return component_->query(type, now_()).value_or(Results{}); }
+    std::vector<Results> rows(std::string_view type) { return component_->query(type, now_()); }
+    Results query(std::string_view type) {
+        auto all = rows(type);
+        return all.empty() ? Results{} : all.front();
+    }
     ParameterList const& stored() const { return stored_; }
 
     // How the last `start` ended, if it did.
@@ -75,6 +80,10 @@ public:
             if (told->what.starts_with("completed")) return told->what.substr(std::string{"completed "}.size());
         return {};
     }
+
+    // Of the last command that completed.
+    Results const& results() const { return last_results_; }
+    Afterwards afterwards() const { return last_afterwards_; }
 
     std::vector<Told> const& log() const { return log_; }
     std::vector<std::string> words() const {
@@ -91,8 +100,10 @@ public:
     void forget() { log_.clear(); }
 
     void started(CommandHandle) override { tell("started", {}); }
-    void completed(CommandHandle command, CompletedStatus status, Results, Afterwards afterwards) override {
+    void completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards) override {
         EXPECT_EQ(static_cast<std::uint64_t>(command), last_);
+        last_results_ = std::move(results);
+        last_afterwards_ = afterwards;
         runs_ = afterwards == Afterwards::active;
         tell("completed " + std::string{to_text(status)} + (runs_ ? ", active" : ""), {});
     }
@@ -117,6 +128,8 @@ private:
     ParameterList stored_;
     std::uint64_t last_ = 0;
     bool runs_ = false;
+    Results last_results_;
+    Afterwards last_afterwards_ = Afterwards::as_before;
     std::vector<Told> log_;
 };
 
@@ -151,7 +164,7 @@ inline std::vector<ComponentProfile> bare_profiles() {
     std::vector<ComponentProfile> profiles;
     for (auto name : {"SystemInformation", "PersonDetection", "PersonLocalization", "PersonIdentification", "FaceDetection",
                       "FaceLocalization", "SoundDetection", "SoundLocalization", "SpeechRecognition", "GestureRecognition",
-                      "SpeechSynthesis", "Reaction", "Navigation", "Follow", "Move"}) {
+                      "SpeechSynthesis", "Reaction", "Navigation", "Follow", "Move", "AudioStreaming", "VideoStreaming"}) {
         ComponentProfile profile;
         profile.object.identifier = "urn:x-rois:def:Component:omg::" + std::string{name};
         profiles.push_back(std::move(profile));
@@ -219,12 +232,12 @@ public:
         scenario.faults = std::move(faults);
         scenario.roles = std::move(roles);
         simulation_ = std::make_shared<Simulation>(std::move(plan), std::move(scenario), 7, 1.0);
-        for (auto& component : robot_components(simulation_, bare_profiles())) operate(std::move(component));
+        for (auto& component : robot_components(simulation_, media_, bare_profiles())) operate(std::move(component));
     }
 
     // The first robot's component with the profile of this file.
     Operated& add(std::string const& profile) {
-        auto components = Adapters{simulation_, schemas()}.components(shipped_profile(profile), own_profiles());
+        auto components = Adapters{simulation_, media_, schemas()}.components(shipped_profile(profile), own_profiles());
         return operate(std::move(components.at(0)));
     }
 
@@ -235,6 +248,7 @@ public:
         return all;
     }
     Hall& hall() { return simulation_->hall(); }
+    FakeMedia& media() { return *media_; }
     Robot const& robot_state(std::uint32_t index = 0) { return hall().robot(RobotId{index}); }
     Pose robot(std::uint32_t index = 0) { return robot_state(index).pose; }
     Instant now() const { return now_; }
@@ -269,6 +283,7 @@ private:
     }
 
     std::shared_ptr<Simulation> simulation_;
+    std::shared_ptr<FakeMedia> media_ = std::make_shared<FakeMedia>();
     Instant now_{Steady{}, Utc{std::chrono::seconds{1'800'000'000}}};
     std::map<std::string, std::unique_ptr<Operated>, std::less<>> operated_;
 };

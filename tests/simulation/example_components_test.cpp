@@ -178,7 +178,7 @@ class AdaptersOf : public testing::Test {
 protected:
     std::shared_ptr<Simulation> simulation_ = std::make_shared<Simulation>(
         reception_with_two_robots(), Scenario{.name = "", .faults = {}, .roles = {}, .round = {}, .arrivals = {}}, 7, 1.0);
-    Adapters adapters_{simulation_, schemas()};
+    Adapters adapters_{simulation_, nullptr, schemas()};
 };
 
 TEST_F(AdaptersOf, EachRobotMakeAComponent) {
@@ -195,6 +195,16 @@ TEST_F(AdaptersOf, NothingAreNone) {
     profile.object.meta_data = "urn:x-rois:def:adapter:simulation::lamp";
     EXPECT_THAT([&] { adapters_.components(profile, {}); },
                 testing::ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("no adapter 'lamp'"), HasSubstr("stand_in"))));
+}
+
+TEST_F(AdaptersOf, WhatStreamsNeedMedia) {
+    ComponentProfile profile;
+    profile.object.identifier = "urn:baby_phone";
+    profile.object.meta_data = "urn:x-rois:def:adapter:simulation::audio_streaming";
+    EXPECT_THAT([&] { adapters_.components(profile, {}); },
+                testing::ThrowsMessage<std::runtime_error>(HasSubstr("no adapter 'audio_streaming'")));
+    Adapters const with_media{simulation_, std::make_shared<FakeMedia>(), schemas()};
+    EXPECT_THAT(with_media.components(profile, {}), SizeIs(2));
 }
 
 TEST(ComponentName, IsThatOfTheProfileOrOfItsUrn) {

@@ -14,6 +14,7 @@
 namespace rois::simulation::stage {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::IsSupersetOf;
@@ -21,18 +22,24 @@ using testing::SizeIs;
 using testing::UnorderedElementsAre;
 
 TEST(Robots, TheOnlyOneHasTheFifteenBasicComponents) {
-    Stage stage;
-    EXPECT_THAT(
-        stage.refs(),
-        UnorderedElementsAre("system_information", "person_detection", "person_localization", "person_identification",
-                             "face_detection", "face_localization", "sound_detection", "sound_localization", "speech_recognition",
-                             "gesture_recognition", "speech_synthesis", "reaction", "navigation", "follow", "move"));
-    EXPECT_EQ(stage["navigation"].component().description().engine, "");
+    auto const simulation = std::make_shared<Simulation>(reception(), Scenario{}, 1, 1.0);
+    std::vector<std::string> refs;
+    for (auto const& component : robot_components(simulation, nullptr, bare_profiles()))
+        refs.push_back(component->description().ref.code);
+    EXPECT_THAT(refs, UnorderedElementsAre("system_information", "person_detection", "person_localization",
+                                           "person_identification", "face_detection", "face_localization", "sound_detection",
+                                           "sound_localization", "speech_recognition", "gesture_recognition", "speech_synthesis",
+                                           "reaction", "navigation", "follow", "move"));
+    EXPECT_EQ(Stage{}["navigation"].component().description().engine, "");
+}
+
+TEST(Robots, StreamWithMedia) {
+    EXPECT_THAT(Stage{}.refs(), AllOf(SizeIs(17), Contains("audio_streaming"), Contains("video_streaming")));
 }
 
 TEST(Robots, AFurtherOneIsASubEngine) {
     Stage stage{{}, reception_with_two_robots()};
-    EXPECT_THAT(stage.refs(), SizeIs(30));
+    EXPECT_THAT(stage.refs(), SizeIs(34));
     EXPECT_THAT(stage.refs(), Contains("robot2.navigation"));
     EXPECT_EQ(stage["robot2.navigation"].component().description().engine, "robot2");
     EXPECT_EQ(stage["navigation"].component().description().engine, "");
@@ -42,7 +49,7 @@ TEST(Robots, NeedTheProfilesOfTheirComponents) {
     auto simulation = std::make_shared<Simulation>(reception(), Scenario{}, 1, 1.0);
     auto profiles = bare_profiles();
     profiles.pop_back();
-    EXPECT_THROW(robot_components(simulation, profiles), std::runtime_error);
+    EXPECT_THROW(robot_components(simulation, std::make_shared<FakeMedia>(), profiles), std::runtime_error);
 }
 
 TEST(Robots, SeeTheSamePersonByTheSameName) {
@@ -93,7 +100,8 @@ protected:
                      .arrivals = {}},
             7, 1.0);
         engine_->add(std::static_pointer_cast<Device>(simulation_));
-        for (auto& component : robot_components(simulation_, profiles_)) engine_->add(std::move(component));
+        for (auto& component : robot_components(simulation_, std::make_shared<FakeMedia>(), profiles_))
+            engine_->add(std::move(component));
         session_ = std::get<Connect::Reply>(ask(Connect{})).session;
         engine_->link_opened(session_);
     }
@@ -107,10 +115,10 @@ protected:
         }
     }
 
-    ReturnCode start(std::string ref, ParameterList arguments = {}) {
+    ReturnCode start(std::string ref, ParameterList arguments = {}, std::string command_type = "start") {
         EXPECT_EQ(std::get<Bind::Reply>(ask(Bind{coded(ref)})).return_code, ReturnCode::ok) << ref;
         CommandUnit unit;
-        unit.unit = CommandMessage{coded(ref), "start", {}, std::move(arguments)};
+        unit.unit = CommandMessage{coded(ref), std::move(command_type), {}, std::move(arguments)};
         auto const reply = std::get<Execute::Reply>(ask(Execute{{{unit}}}));
         EXPECT_EQ(reply.reason, "") << ref;
         return reply.return_code;
@@ -139,6 +147,7 @@ TEST_F(Engaged, ComponentsTellWhatTheirProfilesPromise) {
                      "sound_detection", "sound_localization", "speech_recognition", "gesture_recognition"})
         EXPECT_EQ(start(ref), ReturnCode::ok) << ref;
     EXPECT_EQ(start("navigation", {texts("target_position", {"desk"})}), ReturnCode::ok);
+    EXPECT_EQ(start("audio_streaming", {}, "connect_stream"), ReturnCode::ok);
     run(std::chrono::seconds{40});
 
     std::set<std::string> heard;

@@ -73,7 +73,7 @@ TEST(SystemInformation, WarnsWhileSomebodyIsInTheWay) {
 TEST(SystemInformation, KnowsNoOtherQuery) {
     Stage stage;
     stage.step();
-    EXPECT_FALSE(stage["system_information"].component().query("weather", stage.now()));
+    EXPECT_THAT(stage["system_information"].rows("weather"), testing::IsEmpty());
 }
 
 TEST(SystemInformation, IsOfItsOwnRobot) {

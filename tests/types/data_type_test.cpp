@@ -36,6 +36,8 @@ TEST(DataType, IsKnownInAnyCaseAndUnderItsOtherNames) {
     for (auto const* code : {"DateTime", "datetime"}) EXPECT_EQ(type(code), type("DateTime")) << code;
     for (auto const* code : {"RoISIdentifier", "rois_identifier"}) EXPECT_EQ(type(code), type("RoISIdentifier")) << code;
     for (auto const* code : {"Component_Status", "componentstatus"}) EXPECT_EQ(type(code), type("Component_Status")) << code;
+    for (auto const* code : {"Stream_Status", "stream_status", "StreamStatus", "urn:x-rois:def:DataType:OMG::Stream_Status"})
+        EXPECT_EQ(type(code), type("Stream_Status")) << code;
 }
 
 TEST(DataType, IsWrittenUnderItsFirstName) {
@@ -111,6 +113,15 @@ TEST(DataType, ComponentStatusIsOneOfFive) {
         EXPECT_TRUE(is("Component_Status", text)) << text;
     EXPECT_FALSE(is("Component_Status", "ready"));
     EXPECT_FALSE(is("Component_Status", "FINE"));
+}
+
+TEST(DataType, StreamStatusIsOneOfFive) {
+    for (auto const* text :
+         {"STREAMING_NOT_RUNNING", "STREAMING_NOT_CONNECTED", "STREAMING_RUNNING", " STREAMING_SUSPENDED ", "STREAMING_RESUMED"})
+        EXPECT_TRUE(is("Stream_Status", text)) << text;
+    EXPECT_FALSE(is("Stream_Status", "RUNNING"));
+    EXPECT_FALSE(is("Stream_Status", "streaming_running"));
+    EXPECT_EQ(reason("stream_status[]", {"FINE"}), "'FINE' is not of the type Stream_Status");
 }
 
 TEST(DataType, OfItsOwnTakesAnything) { EXPECT_TRUE(is("Shade", "red")); }

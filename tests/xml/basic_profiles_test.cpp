@@ -113,6 +113,22 @@ TEST(BasicProfiles, OfActions) {
     EXPECT_EQ(methods("Move"), with_parameters("line:int[] curve:int[] time:int"));
 }
 
+// RoIS 2.0; the argument of its query is named by the condition here, and a result.
+TEST(BasicProfiles, OfStreaming) {
+    for (auto const* name : {"AudioStreaming", "VideoStreaming"})
+        EXPECT_THAT(
+            methods(name),
+            ElementsAre("command set_parameter encoding_parameters:string transport_parameters:string",
+                        "command connect_stream -> stream_id:string encoding_parameters:string transport_parameters:string",
+                        "command disconnect_stream stream_id:string", "command suspend_stream stream_id:string",
+                        "command resume_stream stream_id:string",
+                        "query get_parameter -> encoding_parameters:string transport_parameters:string "
+                        "available_encodings:string available_transports:string",
+                        "query get_stream_status -> stream_id:string status:Stream_Status",
+                        "event notify_stream_status -> stream_id:string timestamp:DateTime status:Stream_Status"))
+            << name;
+}
+
 // 7.2: symbols only. Nothing of a camera, a microphone or a motor has a type here.
 TEST(BasicProfiles, NameSymbolicTypesOnly) {
     auto const symbolic = [](std::string const& name, std::vector<ParameterProfile> const& list) {

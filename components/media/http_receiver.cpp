@@ -1,0 +1,222 @@
+#include "media/http_receiver.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core/basic_stream.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/error.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/read.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "media/feed.hpp"
+
+namespace rois::media {
+
+namespace {
+
+namespace beast = boost::beast;
+namespace http = beast::http;
+
+using Stream = beast::basic_stream<asio::ip::tcp, Executor>;
+using Error = boost::system::error_code;
+
+constexpr auto between_looks = Clock::duration{std::chrono::milliseconds{100}};  // whether a channel has ended
+constexpr auto longest_parting = std::chrono::seconds{1};
+constexpr auto most_behind = Clock::duration{std::chrono::seconds{1}};  // what a slow receiver misses for good
+
+std::string head_of(std::string_view status, std::string_view content_type, std::string_view more = {}) {
+    std::string head{"HTTP/1.1 "};
+    head.append(status).append("\r\nContent-Type: ").append(content_type);
+    head.append("\r\nCache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nConnection: close\r\n");
+    return head.append(more).append("\r\n");
+}
+
+std::string whole(std::string_view status, std::string_view content_type, std::string_view content, bool with_content,
+                  std::string more = {}) {
+    more += "Content-Length: " + std::to_string(content.size()) + "\r\n";
+    auto answer = head_of(status, content_type, more);
+    if (with_content) answer += content;
+    return answer;
+}
+
+std::string refusal(std::string_view status, std::string_view reason, bool with_content = true, std::string more = {}) {
+    return whole(status, "text/plain", std::string{reason} + "\n", with_content, std::move(more));
+}
+
+// One connection; shared by the coroutine that answers and the one that watches whether the receiver is still there.
+struct Connection : std::enable_shared_from_this<Connection> {
+    Connection(Socket socket, Directory const& known, Settings const& how)
+        : stream{std::move(socket)}, directory{known}, settings{how} {}
+
+    Stream stream;
+    Directory const& directory;
+    Settings const& settings;
+    beast::flat_buffer received{};
+    bool watched = false;
+    bool gone = false;
+
+    Executor executor() { return stream.get_executor(); }
+};
+
+using SharedConnection = std::shared_ptr<Connection>;
+
+Task<> watch(SharedConnection connection) {
+    std::array<char, 512> ignored;
+    Error error;
+    while (!error) {
+        connection->stream.expires_never();
+        co_await connection->stream.async_read_some(asio::buffer(ignored), into(error));
+    }
+    connection->gone = true;
+}
+
+void begin_to_watch(Connection& connection) {
+    if (std::exchange(connection.watched, true)) return;
+    asio::co_spawn(connection.executor(), watch(connection.shared_from_this()), asio::detached);
+}
+
+// False when the receiver did not take it in time.
+Task<bool> write(Connection& connection, std::string_view text) {
+    Error error;
+    connection.stream.expires_after(connection.settings.write_timeout);
+    co_await asio::async_write(connection.stream, asio::buffer(text), into(error));
+    co_return !error;
+}
+
+Task<> flow(Connection& connection, Channel& channel, Feed& feed) {
+    Receiver const receiver{channel};
+    Timer timer{connection.executor()};
+    auto const over = [&] { return connection.gone || channel.ended(); };
+    for (auto due = Clock::now(); !over();) {
+        auto const now = Clock::now();
+        if (now < due) {
+            Error error;
+            timer.expires_at(std::min(due, now + between_looks));
+            co_await timer.async_wait(into(error));
+            continue;
+        }
+        due = std::max(due, now - most_behind) + feed.interval();
+        auto const piece = channel.held() ? std::string{} : feed.next(now);
+        if (piece.empty()) continue;
+        auto const taken = co_await write(connection, piece);
+        if (!taken) break;
+    }
+}
+
+Task<> watch_interest(std::shared_ptr<Channel> channel, Executor executor) {
+    Receiver const receiver{*channel};
+    Timer timer{executor};
+    while (!channel->ended()) {
+        auto const now = Clock::now();
+        if (now >= channel->interest_until) break;
+        Error error;
+        timer.expires_at(std::min(channel->interest_until, now + between_looks));
+        co_await timer.async_wait(into(error));
+    }
+    channel->interest_watched = false;
+}
+
+// Who asks for a picture counts as receiving for a while.
+void take_interest(std::shared_ptr<Channel> const& channel, Connection& connection) {
+    channel->interest_until = Clock::now() + connection.settings.picture_interest;
+    if (std::exchange(channel->interest_watched, true)) return;
+    asio::co_spawn(connection.executor(), watch_interest(channel, connection.executor()), asio::detached);
+}
+
+bool is_single_picture(Content const& content) {
+    auto const* film = std::get_if<Film>(&content);
+    return film != nullptr && film->form == Film::Form::jpeg;
+}
+
+std::string single_picture(Channel& channel, bool with_content) {
+    static std::string const soon = "Retry-After: 1\r\n";
+    if (channel.held()) return refusal("503 Service Unavailable", "the stream is suspended", with_content, soon);
+    auto const picture = channel.picture(Clock::now());
+    if (!picture) return refusal("503 Service Unavailable", "there is no picture yet", with_content, soon);
+    return whole("200 OK", "image/jpeg", *picture, with_content);
+}
+
+// What is answered at once; nothing when there is more to come.
+std::optional<std::string> short_answer(http::request<http::empty_body> const& request, std::shared_ptr<Channel> const& channel,
+                                        Connection& connection) {
+    bool const with_content = request.method() == http::verb::get;
+    if (!with_content && request.method() != http::verb::head)
+        return refusal("405 Method Not Allowed", "only GET and HEAD", true, "Allow: GET, HEAD\r\n");
+    if (!channel) return refusal("404 Not Found", "there is no such stream", with_content);
+    if (is_single_picture(channel->content())) {
+        take_interest(channel, connection);
+        return single_picture(*channel, with_content);
+    }
+    if (!with_content) return head_of("200 OK", feed_of(*channel)->content_type());
+    return {};
+}
+
+std::shared_ptr<Channel> channel_of(http::request<http::empty_body> const& request, Directory const& directory) {
+    std::string_view path{request.target().data(), request.target().size()};
+    path = path.substr(0, path.find('?'));
+    return path.starts_with('/') ? directory.find(path.substr(1)) : nullptr;
+}
+
+Task<> answer(SharedConnection connection, http::request<http::empty_body> request) {
+    auto const channel = channel_of(request, connection->directory);
+    if (auto const text = short_answer(request, channel, *connection)) {
+        co_await write(*connection, *text);
+        co_return;
+    }
+    auto const feed = feed_of(*channel);
+    auto const head = head_of("200 OK", feed->content_type());
+    auto const begun = co_await write(*connection, head);
+    if (!begun) co_return;
+    begin_to_watch(*connection);
+    co_await flow(*connection, *channel, *feed);
+}
+
+// About what was no request; empty when there is nobody to tell it.
+std::string complaint(Error const& error) {
+    if (error == http::error::header_limit) return refusal("431 Request Header Fields Too Large", "the header is too large");
+    bool const of_http = error.category() == http::make_error_code(http::error::bad_method).category();
+    if (!of_http || error == http::error::end_of_stream || error == http::error::partial_message) return {};
+    return refusal("400 Bad Request", "this is no HTTP request: " + error.message());
+}
+
+// What was sent arrives whole: the receiver has time to read it before the connection is gone.
+Task<> part(Connection& connection) {
+    Error error;
+    connection.stream.socket().shutdown(asio::socket_base::shutdown_send, error);
+    begin_to_watch(connection);
+    Timer timer{connection.executor()};
+    for (auto const end = Clock::now() + longest_parting; !connection.gone && Clock::now() < end;) {
+        timer.expires_after(between_looks / 10);
+        co_await timer.async_wait(into(error));
+    }
+}
+
+}  // namespace
+
+Task<> serve_receiver(Socket socket, Directory const& directory, Settings const& settings) {
+    auto const connection = std::make_shared<Connection>(std::move(socket), directory, settings);
+    Error error;
+    connection->stream.socket().set_option(asio::ip::tcp::no_delay{true}, error);
+    connection->stream.socket().set_option(asio::socket_base::keep_alive{true}, error);
+    http::request_parser<http::empty_body> parser;
+    parser.header_limit(static_cast<std::uint32_t>(settings.max_header));
+    connection->stream.expires_after(settings.request_timeout);
+    co_await http::async_read_header(connection->stream, connection->received, parser, into(error));
+    if (!error) {
+        co_await answer(connection, parser.release());
+    } else if (auto const text = complaint(error); !text.empty()) {
+        co_await write(*connection, text);
+    }
+    co_await part(*connection);
+    connection->stream.close();
+}
+
+}  // namespace rois::media

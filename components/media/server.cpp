@@ -1,0 +1,172 @@
+#include "media/server.hpp"
+
+#include "media/asio.hpp"
+
+#include <algorithm>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <random>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "media/channel.hpp"
+#include "media/http_receiver.hpp"
+#include "media/rtp.hpp"
+#include "media/rtp_sender.hpp"
+
+namespace rois::media {
+
+namespace {
+
+constexpr auto pause_when_full = std::chrono::milliseconds{50};
+
+std::string text_of(std::string const& host, std::uint16_t port) {
+    bool const ipv6 = host.find(':') != std::string::npos;
+    return (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
+}
+
+// Who listens on every address is reached here by the loopback.
+std::string reachable(std::string const& host) {
+    if (host == "0.0.0.0") return "127.0.0.1";
+    return host == "::" ? "::1" : host;
+}
+
+class SharedOutlet final : public Outlet {
+public:
+    SharedOutlet(std::shared_ptr<Channel> channel, std::string address, std::function<void()> closed)
+        : channel_{std::move(channel)}, address_{std::move(address)}, closed_{std::move(closed)} {}
+
+    ~SharedOutlet() override {
+        channel_->end();
+        if (closed_) closed_();
+    }
+    SharedOutlet(SharedOutlet const&) = delete;
+    SharedOutlet& operator=(SharedOutlet const&) = delete;
+
+    std::string const& address() const override { return address_; }
+    void hold() override { channel_->hold(); }
+    void go_on() override { channel_->go_on(); }
+    std::vector<Reception> receptions() override { return channel_->receptions(); }
+
+private:
+    std::shared_ptr<Channel> channel_;
+    std::string address_;
+    std::function<void()> closed_;
+};
+
+RtpPackets::Beginning drawn_by_lot() {
+    std::random_device random;
+    return {.ssrc = random(), .timestamp = random(), .sequence = static_cast<std::uint16_t>(random())};
+}
+
+}  // namespace
+
+class Server::Running {
+public:
+    Running(Settings settings, std::function<std::string()> fresh_id)
+        : settings_{std::move(settings)}, fresh_id_{std::move(fresh_id)}, acceptor_{io_.get_executor()} {
+        listen();
+        asio::co_spawn(io_, accept(), asio::detached);
+        thread_ = std::jthread{[this] { io_.run(); }};
+    }
+
+    ~Running() { io_.stop(); }
+    Running(Running const&) = delete;
+    Running& operator=(Running const&) = delete;
+
+    Settings const& settings() const { return settings_; }
+    std::string const& url() const { return url_; }
+
+    std::unique_ptr<Outlet> serve(Content content) {
+        auto channel = std::make_shared<Channel>(std::move(content));
+        auto const id = fresh_id_();
+        directory_->add(id, channel);
+        return std::make_unique<SharedOutlet>(std::move(channel), url_ + "/" + id,
+                                              [directory = directory_, id] { directory->remove(id); });
+    }
+
+    std::unique_ptr<Outlet> send(Tone const& tone, asio::ip::udp::endpoint const& target) {
+        auto const beginning = drawn_by_lot();
+        auto channel = std::make_shared<Channel>(Sound{tone, Sound::Form::l16});
+        boost::system::error_code error;
+        Datagrams socket{io_.get_executor()};
+        socket.open(target.protocol(), error);
+        if (error) throw std::runtime_error{"cannot send by RTP: " + error.message()};
+        auto address = "rtp://" + text_of(target.address().to_string(), target.port()) +
+                       ";payload_type=" + std::to_string(payload_type(tone)) + ";ssrc=" + std::to_string(beginning.ssrc);
+        asio::co_spawn(io_, send_by_rtp(channel, std::move(socket), target, RtpPackets{tone, beginning}), asio::detached);
+        return std::make_unique<SharedOutlet>(std::move(channel), std::move(address), nullptr);
+    }
+
+private:
+    void listen() {
+        try {
+            asio::ip::basic_resolver<asio::ip::tcp, Executor> resolver{acceptor_.get_executor()};
+            auto const found = resolver.resolve(settings_.host, std::to_string(settings_.port), asio::ip::resolver_base::passive);
+            auto const endpoint = found.begin()->endpoint();
+            acceptor_.open(endpoint.protocol());
+            acceptor_.set_option(asio::socket_base::reuse_address{true});
+            acceptor_.bind(endpoint);
+            acceptor_.listen();
+            auto const port = acceptor_.local_endpoint().port();
+            url_ = settings_.url.empty() ? "http://" + text_of(reachable(settings_.host), port) : settings_.url;
+            while (url_.ends_with('/')) url_.pop_back();
+        } catch (boost::system::system_error const& error) {
+            throw std::runtime_error{"cannot serve media on " + text_of(settings_.host, settings_.port) + ": " +
+                                     error.code().message()};
+        }
+    }
+
+    // Those beyond the limit wait until somebody has gone.
+    Task<> accept() {
+        Timer pause{acceptor_.get_executor()};
+        while (true) {
+            boost::system::error_code error;
+            if (connections_ < settings_.max_connections) {
+                auto socket = co_await acceptor_.async_accept(into(error));
+                if (!error) {
+                    ++connections_;
+                    asio::co_spawn(io_, serve_receiver(std::move(socket), *directory_, settings_),
+                                   [this](std::exception_ptr const&) { --connections_; });
+                    continue;
+                }
+            }
+            pause.expires_after(pause_when_full);
+            co_await pause.async_wait(into(error));
+        }
+    }
+
+    Settings const settings_;
+    std::function<std::string()> fresh_id_;
+    std::shared_ptr<Directory> const directory_ = std::make_shared<Directory>();
+    std::string url_;
+    std::size_t connections_ = 0;
+    asio::io_context io_{1};
+    Acceptor acceptor_;
+    std::jthread thread_;
+};
+
+Server::Server(Settings settings, std::function<std::string()> fresh_id)
+    : running_{std::make_unique<Running>(std::move(settings), std::move(fresh_id))} {}
+
+Server::~Server() = default;
+
+std::string const& Server::url() const { return running_->url(); }
+
+std::unique_ptr<Outlet> Server::serve(Content content) { return running_->serve(std::move(content)); }
+
+std::optional<std::string> Server::rtp_refusal(std::string_view target) const {
+    auto const endpoint = rtp_target(target);
+    if (!endpoint) return "an RTP target is rtp://HOST:PORT, with a numeric address or localhost";
+    if (running_->settings().rtp_targets == RtpTargets::loopback && !endpoint->address().is_loopback())
+        return "by RTP nothing is sent further than the loopback";
+    return {};
+}
+
+std::unique_ptr<Outlet> Server::send(Tone const& tone, std::string_view rtp_target) {
+    if (auto const problem = rtp_refusal(rtp_target)) throw std::runtime_error{*problem};
+    return running_->send(tone, *media::rtp_target(rtp_target));
+}
+
+}  // namespace rois::media

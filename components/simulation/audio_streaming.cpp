@@ -1,0 +1,43 @@
+// Audio streaming (RoIS 2.0): a tone of 440 Hz, which stands for what the robot's microphone hears.
+#include "simulation/basic_components.hpp"
+#include "simulation/streaming.hpp"
+
+namespace rois::simulation {
+namespace {
+
+class AudioStreaming final : public Streaming {
+public:
+    using Streaming::Streaming;
+
+private:
+    std::vector<std::string_view> encodings() const override { return {"audio/wav", "audio/L16"}; }
+    std::vector<std::string_view> transports() const override { return {"http", "rtp"}; }
+
+    std::optional<std::string> unreachable(MediaOffer const& transport) const override {
+        return transport.name == "http" ? std::nullopt : media().rtp_refusal(transport.name);
+    }
+
+    std::variant<Opening, std::string> opening(MediaOffer const& encoding, MediaOffer const& transport) const override {
+        MediaFields fields{encoding};
+        media::Tone tone;
+        tone.rate = static_cast<std::uint32_t>(fields.one_of("rate", {16'000, 8'000, 44'100, 48'000}));
+        tone.channels = static_cast<std::uint16_t>(fields.one_of("channels", {1, 2}));
+        if (auto problem = fields.problem()) return *problem;
+        bool const wav = encoding.name == "audio/wav";
+        auto const written = (wav ? "audio/wav" : "audio/L16") + (";rate=" + std::to_string(tone.rate)) +
+                             ";channels=" + std::to_string(tone.channels);
+        auto& media = this->media();
+        if (transport.name == "http") {
+            media::Sound const sound{tone, wav ? media::Sound::Form::wav : media::Sound::Form::l16};
+            return Opening{written, [&media, sound] { return media.serve(sound); }};
+        }
+        if (wav) return "audio/wav is not sent by RTP; audio/L16 is";
+        return Opening{written, [&media, tone, target = transport.name] { return media.send(tone, target); }};
+    }
+};
+
+}  // namespace
+
+std::unique_ptr<Component> audio_streaming(Fitting fitting) { return std::make_unique<AudioStreaming>(std::move(fitting)); }
+
+}  // namespace rois::simulation

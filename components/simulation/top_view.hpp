@@ -1,0 +1,62 @@
+// The hall seen from above, as a picture.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "media/media.hpp"
+#include "simulation/floor_plan.hpp"
+#include "simulation/person.hpp"
+#include "simulation/robot.hpp"
+
+namespace rois::simulation {
+
+struct Colour {
+    std::uint8_t red, green, blue;
+};
+
+inline constexpr Colour floor_colour{236, 234, 226}, desk_colour{172, 138, 96}, wall_colour{60, 60, 66},
+    robot_colour{24, 140, 70}, person_colour{40, 90, 200}, speaking_colour{230, 120, 20};
+
+// What moves, at one moment.
+struct Scene {
+    struct Figure {
+        Pose pose;
+        Metres radius;
+        Colour colour;
+    };
+    std::vector<Figure> figures;
+};
+
+// Those who speak have a colour of their own.
+Scene scene_of(FloorPlan const&, std::span<Robot const>, std::span<Person const>);
+
+// The plan fills the picture: north (y) is up. Neither side is longer than `longest`.
+media::Picture top_view(FloorPlan const&, Scene const&, std::uint16_t longest);
+
+// Where the last pixel row and column of a position are, in a picture of the plan that is `picture` wide and high.
+struct Pixel {
+    int column, row;
+};
+Pixel pixel_of(FloorPlan const&, media::Picture const&, Point const&);
+
+// Hands the scene from the engine's thread to the one that draws.
+class Camera {
+public:
+    explicit Camera(FloorPlan plan) : plan_{std::move(plan)} {}
+
+    void see(Scene);
+
+    // Nothing before the first scene.
+    std::optional<media::Picture> picture(std::uint16_t longest) const;
+
+private:
+    FloorPlan const plan_;
+    mutable std::mutex mutex_;
+    std::optional<Scene> scene_;
+};
+
+}  // namespace rois::simulation
