@@ -9,6 +9,7 @@
 
 #include "engine/component.hpp"
 #include "simulation/simulation.hpp"
+#include "simulation/wire_units.hpp"
 
 namespace rois::simulation {
 
@@ -18,6 +19,9 @@ struct Fitting {
     RobotId robot{};
     ComponentDescription description;
 };
+
+// Of a component that takes positions as values of this parameter (decision 27).
+Fitting taking_positions(Fitting, std::string parameter);
 
 // Of a component of the robot that is named `name`, or with the robot's name before it (component_refs.hpp).
 Fitting fitting(std::shared_ptr<Simulation> const&, Robot const&, std::string_view name, std::shared_ptr<ComponentProfile const>);
@@ -43,6 +47,15 @@ protected:
     ComponentPort& port() { return *port_; }
     std::optional<Instant> const& last_step() const { return last_step_; }
 
+    // What is in the hall, as this robot's messages have it: in the robot's own frame when it has one, named by crs(). A text as
+    // of to_wire(), and the structured form as of located().
+    std::string const& crs() const;
+    std::string told(Pose const&) const;
+    Located told_located(std::string of, std::string ref, Pose const&, Metres height,
+                         std::optional<Covariance> const& covariance) const;
+    // The other way: a position in the robot's frame, or the name of a place; nothing when it is neither.
+    std::optional<Target> target(std::string_view text) const;
+
     virtual void stepped(Instant when) = 0;
     // Once the world has begun: READY or WARNING.
     virtual ComponentStatus condition() const { return ComponentStatus::ready; }
@@ -53,6 +66,7 @@ protected:
 
 private:
     void observe(Instant when) final;
+    RobotFrame const* own_frame() const;  // null: the hall's
 
     Fitting fitting_;
     ComponentPort* port_ = nullptr;

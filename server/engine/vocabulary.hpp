@@ -75,7 +75,7 @@ private:
 };
 
 // `parameters`: of components, null where a condition does not speak of components. `results`: null where it does not speak of
-// any. What it points to must live as long.
+// any. What it points to must live as long, and the places as long as what is compiled with it.
 struct Vocabulary {
     Places const* places = nullptr;
     Declarations const* parameters = nullptr;
