@@ -204,6 +204,9 @@ TEST(ScenarioFile, FaultsAreOfComponentsThatAreThere) {
     EXPECT_THAT(complaint_of_scenario(unwell("<fault component=\"move\" kind=\"silent\" from=\"5\" until=\"5\"/>")),
                 AllOf(StartsWith("day.xml:2:1:"), HasSubstr("until")));
     EXPECT_THAT(complaint_of_scenario(unwell("<fault component=\"move\" kind=\"tired\"/>")), StartsWith("day.xml:2:"));
+    auto const of_a_user = read_scenario(schemas(), "day.xml", unwell("<fault component=\"dishwasher\" kind=\"silent\"/>"),
+                                         read_plan(plan_text(places, robots)), {"dishwasher"});
+    EXPECT_EQ(of_a_user.faults.at(0).component, "dishwasher");
 }
 
 TEST(ShippedFiles, AreWithoutFlaw) {
