@@ -15,6 +15,7 @@
 #include "main/keys.hpp"
 #include "main/logging.hpp"
 #include "main/profile_folder.hpp"
+#include "main/speech_log.hpp"
 #include "main/user_components.hpp"
 #include "net/documents.hpp"
 #include "net/gateway.hpp"
@@ -118,6 +119,7 @@ int serve(CommandLine const& command) {
     engine.add(simulation);
     engine.describe(simulation::named_places(simulation->hall().plan()));
     for (auto& component : simulation::robot_components(simulation, profiles)) engine.add(std::move(component));
+    SpeechLog const speech_log{simulation};
     net::Telemetry telemetry;
     net::Gateway gateway{engine, readers, telemetry};
     UserComponents user_components{
