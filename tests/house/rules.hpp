@@ -31,4 +31,9 @@ Complaints against_links(Tree const&);
 // docs/dependencies.md names every package that CMake looks for and every one that ./dev installs.
 Complaints against_named_dependencies(Tree const&);
 
+// In docs/conformance*.md each row names tests and source files that there are and has a state that there is; every table, figure
+// and annex of the specification and every decision has a row, every decision a test that carries its number; the summary is
+// true.
+Complaints against_proof(Tree const&);
+
 }  // namespace rois::house

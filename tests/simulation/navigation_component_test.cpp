@@ -84,6 +84,27 @@ TEST(Navigation, FailsWhenTheTargetIsWithinAWall) {
     EXPECT_EQ(stage.outcome("navigation"), "ERROR");
 }
 
+TEST(Navigation, FailsWhenSomebodyStaysInTheWay) {
+    FloorPlan plan = reception();
+    plan.walls = {{Point{6, 0}, Point{6, 3.5}}, {Point{6, 4.5}, Point{6, 8}}};  // a door, and somebody who stands in it
+    Stage stage{{visitor("guest", {does(Walk{at(6, 4)}), does(Wait{1000})})}, plan};
+    stage.run(12);
+    auto const begun = stage.hall().now();
+    stage["navigation"].start({to({"10000, 4000"})});
+    bool warned = false;
+    stage.run_until(
+        [&] {
+            warned = warned || stage["navigation"].component().status() == ComponentStatus::warning;
+            return stage["navigation"].ended().has_value();
+        },
+        120);
+    EXPECT_EQ(stage["navigation"].ended(), "ERROR");
+    EXPECT_GE(stage.hall().now() - begun, WorldTime{30'000});
+    EXPECT_TRUE(warned);
+    EXPECT_LT(stage.robot().position.x(), 6);
+    EXPECT_EQ(stage["navigation"].component().status(), ComponentStatus::ready);
+}
+
 TEST(Navigation, KeepsItsTimeLimit) {
     Stage stage;
     stage["navigation"].start({to({"11000, 4000"}), integer("time_limit", 2000)});
@@ -93,6 +114,14 @@ TEST(Navigation, KeepsItsTimeLimit) {
     auto const stood = (stage.run(2), stage.robot().position);
     stage.run(2);
     EXPECT_EQ(distance(stood, stage.robot().position), 0);
+}
+
+TEST(Navigation, ItsTimeLimitIsThatOfAllTargetsTogether) {
+    Stage stage;
+    stage["navigation"].start({to({"4000, 4000", "2000, 4000", "4000, 4000", "2000, 4000"}), integer("time_limit", 10'000)});
+    EXPECT_EQ(stage.outcome("navigation"), "TIMEOUT");
+    EXPECT_NEAR(in_seconds(stage.hall().now()), 10, 0.05);
+    EXPECT_GE(stage["navigation"].events("reached_target").size(), 1U) << "one target alone is reached in time";
 }
 
 TEST(Navigation, HasNoTimeLimitWhenItIsZero) {

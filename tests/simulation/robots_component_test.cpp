@@ -189,6 +189,19 @@ TEST_F(Engaged, ActionsStartWithTheDefaultsOfTheirProfiles) {
     EXPECT_EQ(ok, 3);
 }
 
+// Table 34: the one basic component without the methods of table 32.
+TEST_F(Engaged, SystemInformationHasNothingToStart) {
+    run(std::chrono::seconds{1});
+    EXPECT_EQ(std::get<Bind::Reply>(ask(Bind{coded("system_information")})).return_code, ReturnCode::ok);
+    for (auto const* type : {"start", "stop", "suspend", "resume"}) {
+        CommandUnit unit;
+        unit.unit = CommandMessage{coded("system_information"), type, {}, {}};
+        auto const reply = std::get<Execute::Reply>(ask(Execute{{{unit}}}));
+        EXPECT_EQ(reply.return_code, ReturnCode::bad_parameter) << type;
+        EXPECT_THAT(reply.reason, testing::HasSubstr("has no command '" + std::string{type} + "'"));
+    }
+}
+
 TEST_F(Engaged, AStoppedFollowHasDoneItsDuty) {
     run(std::chrono::seconds{10});
     EXPECT_EQ(start("follow", {reference("target_object_ref", "person-1"), integer("distance", 1000)}), ReturnCode::ok);

@@ -55,12 +55,22 @@ TEST(Codes, HaveTheTextsOfTheSpecification) {
     std::vector<std::string_view> texts;
     for (auto code : {ok, error, bad_parameter, unsupported, out_of_resources, timeout}) texts.push_back(to_text(code));
     EXPECT_THAT(texts, ElementsAre("OK", "ERROR", "BAD_PARAMETER", "UNSUPPORTED", "OUT_OF_RESOURCES", "TIMEOUT"));
-    EXPECT_EQ(to_text(CompletedStatus::abort), "ABORT");
-    EXPECT_EQ(to_text(CompletedStatus::timeout), "TIMEOUT");
-    EXPECT_EQ(to_text(ErrorType::engine_internal_error), "ENGINE_INTERNAL_ERROR");
-    EXPECT_EQ(to_text(ErrorType::user_defined_error), "USER_DEFINED_ERROR");
-    EXPECT_EQ(to_text(ComponentStatus::uninitialized), "UNINITIALIZED");
-    EXPECT_EQ(to_text(ComponentStatus::error), "ERROR");
+    texts.clear();
+    for (auto status : {CompletedStatus::ok, CompletedStatus::error, CompletedStatus::abort, CompletedStatus::out_of_resources,
+                        CompletedStatus::timeout})
+        texts.push_back(to_text(status));
+    EXPECT_THAT(texts, ElementsAre("OK", "ERROR", "ABORT", "OUT_OF_RESOURCES", "TIMEOUT"));
+    texts.clear();
+    for (auto type : {ErrorType::engine_internal_error, ErrorType::component_internal_error, ErrorType::component_not_responding,
+                      ErrorType::user_defined_error})
+        texts.push_back(to_text(type));
+    EXPECT_THAT(texts, ElementsAre("ENGINE_INTERNAL_ERROR", "COMPONENT_INTERNAL_ERROR", "COMPONENT_NOT_RESPONDING",
+                                   "USER_DEFINED_ERROR"));
+    texts.clear();
+    for (auto status : {ComponentStatus::uninitialized, ComponentStatus::ready, ComponentStatus::busy, ComponentStatus::warning,
+                        ComponentStatus::error})
+        texts.push_back(to_text(status));
+    EXPECT_THAT(texts, ElementsAre("UNINITIALIZED", "READY", "BUSY", "WARNING", "ERROR"));
     EXPECT_EQ(to_text(FaultCode::not_well_formed), "not_well_formed");
     EXPECT_EQ(to_text(FaultCode::no_session), "no_session");
     EXPECT_EQ(to_text(FaultCode::shutting_down), "shutting_down");

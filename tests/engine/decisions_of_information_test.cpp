@@ -1,0 +1,227 @@
+// Decisions 18 to 28 by number, as far as the engine keeps them: queries, events, notifications, errors, values.
+#include <gmock/gmock.h>
+
+#include "conditions.hpp"
+#include "world.hpp"
+
+namespace rois {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+namespace {
+
+ParameterList people(int number) { return {integer("number", number)}; }
+
+}  // namespace
+
+TEST(Decision18, TheConditionChoosesWhoAnswers) {
+    World world{named("robot_b", navigation), named("robot_a", navigation), in_engine("sub1", navigation), speech};
+    auto desk = world.connect(), hall = world.connect();
+    EXPECT_EQ(desk.query("route").component_ref.code, "robot_a") << "READY, then the lowest ref";
+    hall.bind("robot_a");
+    EXPECT_EQ(desk.query("route").component_ref.code, "robot_b");
+    EXPECT_EQ(desk.query("route", equal("engine", "sub1")).component_ref.code, "sub1.navigation");
+    EXPECT_EQ(desk.query("weather").return_code, ReturnCode::unsupported);
+    EXPECT_EQ(desk.query("route", equal("component_ref", "speech")).return_code, ReturnCode::unsupported);
+    EXPECT_EQ(in_words(desk.query("get_parameter", equal("name", "speech")).results.parameters),
+              "synthesizable_languages=en|ja volume=50 language=en")
+        << "parameters are read without a binding";
+    desk.subscribe("reached_target");
+    for (auto const* ref : {"robot_a", "sub1.navigation"}) world[ref].fires("reached_target");
+    EXPECT_THAT(desk.heard(), ElementsAre("1 reached_target robot_a", "2 reached_target sub1.navigation"))
+        << "without a condition all of them are heard";
+    EXPECT_EQ(desk.subscribe("earthquake").return_code, ReturnCode::unsupported);
+}
+
+TEST(Decision18, ReferencesAreThoseOfTheVocabulary) {
+    World world{navigation, speech};
+    auto desk = world.connect();
+    desk.bind("speech");
+    world["speech"].where = Located{"location", "speech", "", {100, 100, 0}, {}, {}};
+    for (auto const& condition :
+         {equal("component_ref", "speech"), equal("name", "speech"), equal("engine", "main"),
+          equal("component_type", "urn:x-rois:def:component:OMG::SpeechSynthesis"), equal("status", "READY"),
+          equal("bound", "true"), equal("Property/volume", "50"), within("location", {box(0, 0, 200, 200)})})
+        EXPECT_THAT(desk.search(condition), testing::Contains("speech"));
+    EXPECT_THAT(desk.search(equal("colour", "red")), ElementsAre("BAD_PARAMETER"));
+}
+
+TEST(Decision19, OnlyMatchingEventsAndResultsAreTold) {
+    World world{detection, localization, navigation};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.subscribe("person_detected", greater("number", "0"), true);
+    for (int number : {0, 2, 0}) world["detection"].fires("person_detected", people(number));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection number=2"));
+    auto const event = desk.last_heard<ReceiveEvent>().event_id;
+    EXPECT_EQ(in_words(desk.detail_of(event, greater("number", "1")).results.parameters), "number=2");
+    EXPECT_THAT(desk.detail_of(event, greater("number", "2")).results.parameters, IsEmpty());
+    desk.subscribe("person_localized", within("position_data", {box(0, 0, 1'000, 1'000)}));
+    for (auto const* point : {"5000, 0, 0", "500, 500, 90"})
+        world["localization"].fires("person_localized", {texts("position_data", {point})});
+    EXPECT_THAT(desk.heard(), ElementsAre("2 person_localized localization"));
+    desk.execute(named("stop", stop("navigation")));
+    EXPECT_EQ(desk.result_of("stop", equal("status", "OK")), "OK");
+    EXPECT_EQ(desk.result_of("stop", equal("status", "ERROR")), "");
+    world["navigation"].reports(ErrorType::user_defined_error, "a wheel is stuck");
+    desk.heard();
+    auto const error = desk.last_heard<ReceiveError>().error_id;
+    EXPECT_THAT(desk.detail_of(error, like("text", "*wheel*")).results.parameters, testing::SizeIs(3));
+    EXPECT_THAT(desk.detail_of(error, like("text", "*voice*")).results.parameters, IsEmpty());
+}
+
+TEST(Decision20, TheSameSubscriptionIsOne) {
+    World world{detection};
+    auto desk = world.connect(), hall = world.connect();
+    auto const a = equal("component_ref", "detection"), b = greater("number", "0");
+    auto const id = desk.subscribe("person_detected", both({a, b})).subscribe_id;
+    EXPECT_EQ(desk.subscribe("person_detected", both({b, a}), true).subscribe_id, id) << "the same after canonicalisation";
+    world["detection"].fires("person_detected", people(1));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection number=1")) << "told once, and the last wish wins";
+    EXPECT_EQ(hall.subscribe("person_detected", both({a, b})).subscribe_id, id) << "an id names type and condition";
+    EXPECT_EQ(desk.unsubscribe(id), ReturnCode::ok);
+    world["detection"].fires("person_detected", people(1));
+    EXPECT_THAT(desk.heard(), IsEmpty());
+    EXPECT_THAT(hall.heard(), ElementsAre("1 person_detected detection"));
+    EXPECT_EQ(desk.unsubscribe(id), ReturnCode::ok);
+    EXPECT_EQ(desk.unsubscribe({"made-up"}), ReturnCode::ok);
+}
+
+TEST(Decision21, DetailsAreKeptUntilTheyExpire) {
+    World world{detection};
+    auto desk = world.connect(), hall = world.connect();
+    desk.subscribe("person_detected");
+    hall.subscribe("person_detected", {}, true);
+    world["detection"].fires("person_detected", people(2));
+    EXPECT_THAT(hall.heard(), ElementsAre("1 person_detected detection number=2")) << "this saves the round trip";
+    EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection"));
+    auto const told = desk.last_heard<ReceiveEvent>();
+    EXPECT_EQ(told.expire, world.now.utc + 60s);
+    world.advance(59'950ms);
+    EXPECT_EQ(in_words(desk.detail_of(told.event_id).results.parameters), "number=2");
+    world.advance(50ms);
+    EXPECT_EQ(desk.detail_of(told.event_id).return_code, ReturnCode::bad_parameter);
+    EXPECT_THAT(desk.detail_of(told.event_id).reason, HasSubstr("expired"));
+}
+
+TEST(Decision22, NotificationsAreNumberedAsThingsHappen) {
+    World world{detection, navigation};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.subscribe("person_detected");
+    auto const answer = desk.notifications().hold();
+    desk.execute(named("a", stop("navigation")), go("b"));
+    EXPECT_THAT(desk.heard(), IsEmpty()) << "the answer comes before what it causes";
+    desk.notifications().release(answer);
+    world["detection"].fires("person_detected");
+    world["navigation"].finishes();
+    world["navigation"].reports(ErrorType::user_defined_error, "tired");
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed a OK", "2 person_detected detection", "3 completed b OK",
+                                          "4 USER_DEFINED_ERROR navigation"));
+}
+
+TEST(Decision23, EventsAreDroppedAndWhatMustBeToldIsNot) {
+    EngineSettings settings;
+    settings.max_waiting_notifications = 4;
+    settings.max_sent_notifications = 4;
+    World world{{detection, navigation}, settings};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.subscribe("person_detected");
+    desk.execute(named("a", stop("navigation")));
+    for (int i = 0; i < 6; ++i) world["detection"].fires("person_detected");
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed a OK", "4 lost 3", "5 person_detected detection",
+                                          "6 person_detected detection", "7 person_detected detection"));
+    EXPECT_EQ(desk.notifications().read(4, 100).size(), 3U) << "reading discards nothing";
+    for (auto const* id : {"1", "2", "3", "4"}) desk.execute(named(id, stop("navigation")));
+    EXPECT_FALSE(desk.told_of_the_end());
+    desk.execute(named("5", stop("navigation")));
+    EXPECT_TRUE(desk.told_of_the_end()) << "they alone fill it";
+    EXPECT_EQ(desk.heard().size(), 5U) << "and are told all the same";
+}
+
+TEST(Decision23, APositionOlderThanTheRingBeginsWithWhatIsLost) {
+    EngineSettings settings;
+    settings.max_sent_notifications = 2;
+    World world{{detection}, settings};
+    auto desk = world.connect();
+    desk.subscribe("person_detected");
+    for (int i = 0; i < 5; ++i) world["detection"].fires("person_detected");
+    desk.heard();
+    auto const again = desk.notifications().read(0, 100);
+    ASSERT_EQ(again.size(), 3U);
+    EXPECT_EQ(again.front().sequence, 3U);
+    EXPECT_EQ(std::get<Lost>(again.front().notification->body).count, 3U);
+}
+
+TEST(Decision24, ErrorsGoToThoseWhomTheyConcern) {
+    struct Floor : Device {
+        void advance(Instant) override { throw std::runtime_error("the floor is gone"); }
+    };
+    World world{navigation, speech};
+    auto bound = world.connect(), subscribed = world.connect(), other = world.connect();
+    bound.bind("navigation");
+    subscribed.subscribe("reached_target");
+    other.bind("speech");
+    world["navigation"].reports(ErrorType::user_defined_error, "a wheel is stuck");
+    EXPECT_THAT(bound.heard(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
+    EXPECT_THAT(subscribed.heard(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
+    EXPECT_THAT(other.heard(), IsEmpty());
+    auto const id = bound.last_heard<ReceiveError>().error_id;
+    EXPECT_EQ(in_words(bound.detail_of(id).results.parameters),
+              "component_ref=navigation time=" + to_text(world.now.utc) + " text=a wheel is stuck");
+    world.advance(10min - 50ms);
+    EXPECT_EQ(bound.detail_of(id).return_code, ReturnCode::ok);
+    world.advance(50ms);
+    EXPECT_EQ(bound.detail_of(id).return_code, ReturnCode::bad_parameter);
+    world.engine->add(std::make_shared<Floor>());
+    world.advance(50ms);
+    for (auto* each : {&bound, &subscribed, &other}) EXPECT_THAT(each->heard().back(), HasSubstr("ENGINE_INTERNAL_ERROR"));
+}
+
+TEST(Decision25, ComponentsHaveNamesAndTypes) {
+    World world{navigation, in_engine("sub1", navigation)};
+    auto desk = world.connect();
+    auto const found = desk.ask(Search{equal("component_type", "URN:X-ROIS:DEF:COMPONENT:omg::navigation")}).component_ref_list;
+    ASSERT_EQ(found.size(), 2U) << "types have no case";
+    EXPECT_EQ(found[0], (Identifier{"navigation", "OMG", {}, {}}));
+    EXPECT_EQ(found[1].code, "sub1.navigation") << "a sub engine's component has its name before its own";
+    EXPECT_THROW((World{navigation, navigation}), std::runtime_error) << "a name is there once";
+}
+
+TEST(Decision26, ValuesAreOfTheirDeclaredTypes) {
+    World world{desk_lamp};
+    auto desk = world.connect();
+    desk.bind("lamp");
+    auto const set = [&](Parameter parameter) {
+        auto const reply = desk.set_parameter("lamp", {std::move(parameter)});
+        return reply.return_code == ReturnCode::ok ? std::string{"OK"} : reply.reason;
+    };
+    EXPECT_EQ(in_words(desk.get_parameter("lamp").parameters), "counts=1 2 labels=red|green") << "unset ones are left out";
+    for (auto const& good : {value("count", "int", {"7"}), value("Count", "URN:x-rois:def:DataType:ATR::Integer", {"8"}),
+                             value("ratio", "double", {"0.5"}), value("lit", "bool", {"true"}),
+                             value("since", "DateTime", {"2026-11-20T12:00:00Z"}), value("owner", "RoISIdentifier", {"tanaka"}),
+                             value("counts", "int[]", {"1 2 3"}), value("labels", "String[]", {"one", "two words"}),
+                             value("owners", "RoISIdentifier[]", {}), value("grammer", "string", {"yes | no"})})
+        EXPECT_EQ(set(good), "OK") << good.name;
+    EXPECT_NE(find(desk.get_parameter("lamp").parameters, "grammar"), nullptr) << "its right spelling";
+    EXPECT_EQ(set(value("count", "int", {"2147483648"})), "parameter 'count': '2147483648' is not of the type int");
+    EXPECT_THAT(set(value("count", "string", {"7"})), HasSubstr("'count' is declared as 'string', its type is int"));
+    EXPECT_THAT(set(value("count", "int", {"1", "2"})), HasSubstr("'count': a single value of the type int needs exactly one"));
+    EXPECT_THAT(set(value("colour", "string", {"red"})), HasSubstr("unknown parameter 'colour'"));
+}
+
+TEST(Decision28, TimesAreUtc) {
+    World world{detection, navigation};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    world["navigation"].reports(ErrorType::user_defined_error, "tired");
+    desk.heard();
+    auto const detail = desk.detail_of(desk.last_heard<ReceiveError>().error_id);
+    EXPECT_THAT(find(detail.results.parameters, "time")->values, ElementsAre("2026-11-20T12:00:00.000Z"));
+}
+
+}  // namespace rois

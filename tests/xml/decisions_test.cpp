@@ -1,0 +1,99 @@
+// Decisions 26, 27 and 29 by number, as far as documents keep them.
+#include <gmock/gmock.h>
+
+#include "speaking.hpp"
+
+namespace rois::xml {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+constexpr std::string_view lamp = "<component_ref rois:code='lamp'/>";
+
+std::string parameter(std::string const& type, std::string const& values) {
+    return "<parameter rois:name='p'><rois:data_type_ref rois:code='" + type + "'/>" + values + "</parameter>";
+}
+
+std::vector<std::string> values(std::string const& type, std::string const& written) {
+    return operation<SetParameter>(
+               document("set_parameter", std::string{lamp} + "<parameters>" + parameter(type, written) + "</parameters>"))
+        .parameters.at(0)
+        .values;
+}
+
+TEST(Decision26, ListsAreOneValueOrOneAnItem) {
+    EXPECT_THAT(values("int", "<rois:value>7</rois:value>"), ElementsAre("7"));
+    EXPECT_THAT(values("int[]", "<rois:value>1 2 3</rois:value>"), ElementsAre("1 2 3"));
+    EXPECT_THAT(values("string[]", "<rois:value>one two</rois:value><rois:value/>"), ElementsAre("one two", ""));
+    EXPECT_THAT(values("string[]", ""), IsEmpty());
+}
+
+TEST(Decision27, LocatedDataHaveATextAndAStructure) {
+    Located where{"position_data", "person-1", "urn:x-rois:def:crs:simulation::hall", {9500, 6000.5, 0}, {0, 0, 90}, {}};
+    where.certainty = Located::Covariance{{2500, 0, 0, 0, 2500, 0, 0, 0, 64}};
+    GetEventDetail::Reply reply;
+    reply.results = {{positions("position_data", {"9500, 6000.5, 90"}, where.crs)}, {where}};
+    auto const written = encode(Reply{reply}, "");
+    EXPECT_EQ(problem("answer.xml", written), "");
+    EXPECT_THAT(
+        written,
+        HasSubstr("rois:codebook_ref=\"urn:x-rois:def:crs:simulation::hall\"/><rois:value>9500, 6000.5, 90</rois:value>"));
+    EXPECT_THAT(written, HasSubstr("<located of=\"position_data\" ref=\"person-1\" crs=\"urn:x-rois:def:crs:simulation::hall\">"
+                                   "<position>9500 6000.5 0</position><orientation>0 0 90</orientation>"
+                                   "<covariance>2500 0 0 0 2500 0 0 0 64</covariance></located>"));
+}
+
+// Names of other versions, in documents from files.
+TEST(Decision29, WhatOthersCallOtherwiseIsRead) {
+    auto const read = read_profile_document(
+        schemas(), "p.xml",
+        "<rois:HRIComponentProfile xmlns:rois='http://www.omg.org/spec/RoIS/20151201' xmlns:gml='http://www.opengis.net/gml/3.2' "
+        "xmlns:xsi='http://www.w3.org/2001/XMLSchema-instance' gml:id='p'><gml:identifier>urn:x-rois:def:HRIComponent:ATR::Lamp"
+        "</gml:identifier><rois:MessageProfile xsi:type='rois:CommaneMessageProfileType' rois:name='start'/>"
+        "<rois:ParameterProfile rois:name='volume'><rois:data_type_ref rois:code='urn:x-rois:def:DataType:ATR::Integer'/>"
+        "</rois:ParameterProfile></rois:HRIComponentProfile>");
+    auto const profile = std::get<ComponentProfile>(read.profile);
+    EXPECT_EQ(profile.messages.at(0).kind, MessageKind::command);
+    auto const written = encode(profile, "profile.lamp");
+    EXPECT_EQ(problem("again.xml", written), "");
+    EXPECT_THAT(written, HasSubstr("http://www.omg.org/spec/RoIS/20240801")) << "the published names of today";
+    EXPECT_THAT(written, HasSubstr("\"rois:CommandMessageProfileType\""));
+}
+
+// The seed's nesting and the published forms of later versions are read, and written as they came.
+TEST(Decision29, SequencesOfAllVersionsAreRead) {
+    std::string const command =
+        "xsi:type='rois:CommandMessageType' rois:command_type='stop' rois:command_id='c'><rois:component_ref rois:code='lamp'/>";
+    auto const unit = [&](std::string const& name) { return "<rois:" + name + " " + command + "</rois:" + name + ">"; };
+    auto const sequence = [](std::string const& inside) {
+        return operation<Execute>(document("execute", "<rois:CommandUnitSequence>" + inside + "</rois:CommandUnitSequence>"))
+            .command_unit_list.command_unit_list.at(0)
+            .unit;
+    };
+    auto const of_type = [](std::string const& type, std::string const& inside) {
+        return "<rois:command_unit_list xsi:type='rois:" + type + "'>" + inside + "</rois:command_unit_list>";
+    };
+    EXPECT_TRUE(std::holds_alternative<ParallelCommandUnit>(
+        sequence(of_type("ParallelCommandUnitType",
+                         unit("command_unit_list") + of_type("SequentialCommandUnitType", unit("command_unit_list"))))));
+    auto const branches =
+        sequence(of_type("ConcurrentCommandsType", "<rois:branch_list>" + unit("command_list") + "</rois:branch_list>"));
+    EXPECT_EQ(std::get<ConcurrentCommands>(branches).form, ConcurrentCommands::Form::branch_list);
+    auto const flat = sequence(of_type("ConcurrentCommandsType", unit("command_list")));
+    EXPECT_EQ(std::get<ConcurrentCommands>(flat).form, ConcurrentCommands::Form::command_list);
+}
+
+TEST(Decision29, NotificationsHaveTheNamesOfTheSeed) {
+    auto const written = [](Notification const& notification) {
+        return notification_head(notification, 1) + notification_tail(notification);
+    };
+    EXPECT_THAT(written(ReceiveEvent{{"e-1"}, "seen", {"s-1"}, {}, {"lamp", {}, {}, {}}, {}}), StartsWith("<receive_event "));
+    EXPECT_THAT(written(ReceiveError{{"x-1"}, ErrorType::user_defined_error, {}}), StartsWith("<receive_error "));
+    EXPECT_THAT(written(Completed{{"c-1"}, CompletedStatus::ok}), StartsWith("<completed "));
+}
+
+}  // namespace
+}  // namespace rois::xml
