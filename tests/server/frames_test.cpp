@@ -19,14 +19,14 @@ using testing::Pair;
 std::string const hall_frame = "urn:x-rois:def:crs:simulation::hall";
 std::string const map_frame = "urn:x-rois:def:crs:simulation::robot2_map";
 
-struct Frames : testing::TestWithParam<Way> {
+struct FramesOfRobots : testing::TestWithParam<Way> {
     static GatewayProcess& hall() {
         static GatewayProcess two{{"--floor-plan", ROIS_SOURCE_DIR "/components/simulation/data/two-robots.xml", "--scenario",
                                    ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--sim-speed", "20", "--seed", "1"}};
         return two;
     }
 
-    Frames() {
+    FramesOfRobots() {
         desk.connect();
         desk.bind("robot2.navigation");
     }
@@ -40,14 +40,14 @@ struct Frames : testing::TestWithParam<Way> {
 
     Application desk{GetParam(), hall()};
 };
-ROIS_OVER_BOTH_WAYS(Frames);
+ROIS_OVER_BOTH_WAYS(FramesOfRobots);
 
 std::vector<double> numbers(pugi::xml_node node) {
     std::istringstream text{node.text().get()};
     return {std::istream_iterator<double>{text}, {}};
 }
 
-TEST_P(Frames, AreChangedIntoTheEnginesOwnWithTheirCertainty) {
+TEST_P(FramesOfRobots, AreChangedIntoTheEnginesOwnWithTheirCertainty) {
     auto const answer = desk.query("robot_position", where(equal("component_ref", "robot2.system_information")));
     EXPECT_THAT(answer, IsOk());
     EXPECT_EQ(answer.root()
@@ -74,7 +74,7 @@ TEST_P(Frames, AreChangedIntoTheEnginesOwnWithTheirCertainty) {
 }
 
 // (6000, 5000) of the map is (15000, 6000) of the hall.
-TEST_P(Frames, AreTakenFromApplications) {
+TEST_P(FramesOfRobots, AreTakenFromApplications) {
     EXPECT_THAT(desk.subscribe("reached_target", "", true), IsOk());
     EXPECT_THAT(drive_to("6000, 5000", map_frame), IsOk());
     desk.execute({.component = "robot2.navigation", .id = "go"});
@@ -92,7 +92,7 @@ TEST_P(Frames, AreTakenFromApplications) {
     EXPECT_EQ(desk.status_of("back"), "OK");
 }
 
-TEST_P(Frames, MustBeKnown) {
+TEST_P(FramesOfRobots, MustBeKnown) {
     auto const answer = drive_to("1, 2", "urn:street");
     EXPECT_THAT(answer, IsRefused("BAD_PARAMETER",
                                   "the frame 'urn:street' is not known here; known are " + hall_frame + ", " + map_frame));
