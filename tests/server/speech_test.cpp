@@ -14,12 +14,13 @@ TEST(Speech, IsLoggedPassageByPassage) {
         Application desk{Way::http, gateway};
         desk.connect();
         desk.bind("speech_synthesis");
-        desk.execute({.component = "speech_synthesis",
-                      .id = "greet",
-                      .arguments = {{"SSML_text",
-                                     "string",
-                                     {"&lt;speak xml:lang='en'>Welcome, &lt;lang xml:lang='ja'>ようこそ&lt;/lang> &lt;break "
-                                      "time='1s'/>&lt;/speak>"}}}});
+        desk.execute(
+            Command{.component = "speech_synthesis",
+                    .id = "greet",
+                    .arguments = {{"SSML_text",
+                                   "string",
+                                   {"&lt;speak xml:lang='en'>Welcome, &lt;lang xml:lang='ja'>ようこそ&lt;/lang> &lt;break "
+                                    "time='1s'/>&lt;/speak>"}}}});
         EXPECT_EQ(desk.status_of("greet"), "OK");
     }
     gateway.signal(SIGTERM);
