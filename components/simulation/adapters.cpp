@@ -9,6 +9,7 @@
 #include "simulation/basic_components.hpp"
 #include "simulation/component_refs.hpp"
 #include "simulation/example_components.hpp"
+#include "simulation/faulty_component.hpp"
 #include "types/listing.hpp"
 #include "types/texts.hpp"
 
@@ -69,7 +70,8 @@ std::vector<std::unique_ptr<Component>> Adapters::components(ComponentProfile co
     auto const shared = std::make_shared<ComponentProfile const>(profile);
     std::vector<std::unique_ptr<Component>> made;
     for (Robot const& robot : simulation_->hall().robots())
-        made.push_back(found->second(fitting(simulation_, media_, robot, component_name(profile), shared), whole));
+        made.push_back(
+            with_faults(found->second(fitting(simulation_, media_, robot, component_name(profile), shared), whole), simulation_));
     return made;
 }
 

@@ -28,6 +28,7 @@ struct Happening {
     Point place = Point::Zero();  // where they were
     std::string text;
     std::string language;
+    Seconds lasts = 0;  // speech_started of a robot: how long it takes when nothing holds it up
 };
 
 // Append only; keeps the last `capacity` happenings.

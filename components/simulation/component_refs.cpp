@@ -27,7 +27,7 @@ constexpr std::array<Range, 11> letters{{{0xC0, 0xD6},
                                          {0x3001, 0xD7FF},
                                          {0xF900, 0xFDCF},
                                          {0xFDF0, 0xEFFFF}}};
-constexpr std::array<Range, 3> further{{{0xB7, 0xB7}, {0x300, 0x36F}, {0x203F, 0x2040}}};
+constexpr std::array<Range, 3> inside_names{{{0xB7, 0xB7}, {0x300, 0x36F}, {0x203F, 0x2040}}};
 
 bool is_in(std::span<Range const> ranges, char32_t c) {
     return std::ranges::any_of(ranges, [&](Range const& range) { return range.first <= c && c <= range.last; });
@@ -36,7 +36,7 @@ bool is_in(std::span<Range const> ranges, char32_t c) {
 bool is_letter(char32_t c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || is_in(letters, c); }
 bool is_small_or_digit(char32_t c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9'); }
 bool is_big(char32_t c) { return c >= 'A' && c <= 'Z'; }
-bool is_in_names(char32_t c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-' || is_in(further, c); }
+bool is_in_names(char32_t c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-' || is_in(inside_names, c); }
 
 // A name of XML without dots and colons.
 bool is_name(std::string_view text) {
@@ -53,11 +53,13 @@ std::string component_ref(std::string_view component, std::string_view engine) {
     return engine.empty() ? std::string{component} : std::string{engine} + "." + std::string{component};
 }
 
-std::vector<std::string> component_refs(FloorPlan const& plan) {
+std::vector<std::string> component_refs(FloorPlan const& plan, std::vector<std::string> const& further) {
     std::vector<std::string> refs;
     for (auto const& robot : plan.robots) {
         bool const first = &robot == &plan.robots.front();
-        for (auto const& basic : basic_components()) refs.push_back(component_ref(basic.ref, first ? "" : robot.name));
+        auto const engine = first ? "" : robot.name;
+        for (auto const& basic : basic_components()) refs.push_back(component_ref(basic.ref, engine));
+        for (auto const& name : further) refs.push_back(component_ref(name, engine));
     }
     return refs;
 }

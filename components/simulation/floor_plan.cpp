@@ -5,6 +5,7 @@
 #include <set>
 
 #include "simulation/person.hpp"
+#include "types/texts.hpp"
 
 namespace rois::simulation {
 namespace {
@@ -23,6 +24,17 @@ std::optional<PlanFlaw> flaw_of_places(FloorPlan const& plan) {
     }
     if (!names.contains("entrance")) return PlanFlaw{PlanFlaw::Of::plan, 0, "there is no place named entrance"};
     if (!names.contains("desk")) return PlanFlaw{PlanFlaw::Of::plan, 0, "there is no place named desk"};
+    return std::nullopt;
+}
+
+// A frame that has another's name; names have no case.
+std::optional<PlanFlaw> flaw_of_frames(FloorPlan const& plan) {
+    std::set<std::string> names{lower_case(plan.crs)};
+    for (std::size_t i = 0; i < plan.robots.size(); ++i) {
+        auto const& frame = plan.robots[i].frame;
+        if (frame && !names.insert(lower_case(frame->crs)).second)
+            return PlanFlaw{PlanFlaw::Of::robot, i, "a second frame named " + frame->crs};
+    }
     return std::nullopt;
 }
 
@@ -75,6 +87,7 @@ std::optional<PlanFlaw> flaw(FloorPlan const& plan) {
     Point const size = plan.bounds.high - plan.bounds.low;
     if (size.minCoeff() < 1 || size.maxCoeff() > 200) return PlanFlaw{PlanFlaw::Of::plan, 0, "a hall has 1 to 200 m a side"};
     if (auto found = flaw_of_places(plan)) return found;
+    if (auto found = flaw_of_frames(plan)) return found;
     return flaw_of_robots(plan);
 }
 

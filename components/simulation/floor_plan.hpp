@@ -51,6 +51,15 @@ struct Sensors {
     } gestures;
 };
 
+// The frame of a robot's own map.
+struct RobotFrame {
+    std::string crs;
+    Pose origin;  // in the hall, as the robot has it: in truth
+    // How certain those who change between the frames are of that: standard deviations.
+    Metres sigma = 0;
+    Radians heading_sigma = 0;
+};
+
 // A robot with differential drive, round.
 struct RobotPlan {
     std::string name;
@@ -61,6 +70,7 @@ struct RobotPlan {
     RadiansPerSecond max_turn_rate = 1.6;
     double max_turn_acceleration = 3.0;  // rad/s^2
     Sensors sensors;
+    std::optional<RobotFrame> frame;  // in which its components tell and take positions; absent: the hall's
 
     Agility agility() const { return {max_speed, max_acceleration, max_turn_rate, max_turn_acceleration}; }
 };

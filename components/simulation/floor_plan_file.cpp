@@ -65,6 +65,12 @@ Sensors sensors(xml::Element const& robot) {
     return all;
 }
 
+RobotFrame robot_frame(xml::Element const& element) {
+    RobotFrame frame{.crs = element.attribute("crs", ""), .origin = pose(element)};
+    read_noise(element, frame);
+    return frame;
+}
+
 Place place(xml::Element const& element) {
     Place place{.name = element.attribute("name", ""), .pose = pose(element)};
     read_length(element, "width", place.width);
@@ -82,6 +88,7 @@ RobotPlan robot(xml::Element const& element) {
     read_angle(element, "max_turn_rate", plan.max_turn_rate);
     read_angle(element, "max_turn_acceleration", plan.max_turn_acceleration);
     plan.sensors = sensors(element);
+    if (auto const frame = element.child("frame")) plan.frame = robot_frame(*frame);
     return plan;
 }
 

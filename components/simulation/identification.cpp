@@ -32,8 +32,7 @@ private:
             ids.push_back(person.ref);
             auto const sighting = std::ranges::find(seen, person.person, &SeenPerson::person);
             if (sighting == seen.end()) continue;
-            results.located.push_back(
-                located("person_ref", person.ref, hall().plan().crs, sighting->pose, 0, sighting->covariance));
+            results.located.push_back(told_located("person_ref", person.ref, sighting->pose, 0, sighting->covariance));
         }
         results.parameters = {date_time("timestamp", when.utc),
                               references("person_ref", std::move(ids), std::string{codebook::visitor})};

@@ -98,20 +98,19 @@ private:
     }
 
     Results results(std::span<Sighting const> sightings, Instant when) const {
-        std::string const& crs = hall().plan().crs;
         std::vector<std::string> refs;
         std::vector<std::string> points;
         Results results;
         for (auto const& s : sightings) {
             refs.push_back(s.ref);
-            points.push_back(to_wire(s.pose));
-            auto entity = located("position_data", s.ref, crs, s.pose, s.height, s.covariance);
+            points.push_back(told(s.pose));
+            auto entity = told_located("position_data", s.ref, s.pose, s.height, s.covariance);
             bool const oriented = kind_.heading == Kind::Heading::orientation;
             results.located.push_back(oriented ? std::move(entity) : without_orientation(std::move(entity)));
         }
         results.parameters = {date_time("timestamp", when.utc),
                               references(std::string{kind_.refs}, std::move(refs), std::string{codebook::track}),
-                              positions("position_data", std::move(points), crs)};
+                              positions("position_data", std::move(points), crs())};
         return results;
     }
 

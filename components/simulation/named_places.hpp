@@ -6,7 +6,7 @@
 
 namespace rois::simulation {
 
-// The hall under its own name, and its places, in the hall's frame.
+// The hall under its own name, and its places, in the hall's frame; and the frames of robots that have one of their own.
 Places named_places(FloorPlan const&);
 
 }  // namespace rois::simulation

@@ -17,7 +17,7 @@ constexpr WorldTime patience{30'000};
 
 class Navigation final : public WheelAction {
 public:
-    explicit Navigation(Fitting fitting) : WheelAction{std::move(fitting), "navigation"} {}
+    explicit Navigation(Fitting fitting) : WheelAction{taking_positions(std::move(fitting), "target_position"), "navigation"} {}
 
 private:
     std::optional<std::string> unfit(ParameterList const& parameters) const override {
@@ -30,13 +30,10 @@ private:
     }
 
     std::optional<std::string> unfit_targets(Parameter const& targets) const {
-        auto const& crs = targets.data_type_ref.codebook_ref;
-        if (!crs.empty() && !equal_ignoring_case(crs, hall().plan().crs))
-            return "parameter 'target_position': positions are in " + hall().plan().crs + ", not in " + quoted(crs, 200);
         if (targets.values.size() > most_targets)
             return "parameter 'target_position' has more than " + std::to_string(most_targets) + " positions";
         for (auto const& text : targets.values)
-            if (!hall().target(text))
+            if (!target(text))
                 return "parameter 'target_position': " + quoted(text) +
                        R"( is neither "x, y" nor "x, y, th" (mm, mm, degree) nor one of the places )" +
                        listed(hall().plan().places, &Place::name);
@@ -56,7 +53,7 @@ private:
         told_ = 0;
         GoTo way;
         way.policy = text_of(parameters, "routing_policy") == "distance" ? RoutingPolicy::distance : RoutingPolicy::time;
-        for (auto const& name : names_) way.targets.push_back(*hall().target(name));
+        for (auto const& name : names_) way.targets.push_back(*target(name));
         auto const is_hopeless = [&](Target const& target) { return hall().plan().clearance(target.position) <= 0; };
         if (std::ranges::any_of(way.targets, is_hopeless)) return end(CompletedStatus::error);
         drive(std::move(way));
@@ -72,8 +69,9 @@ private:
     }
 
     void tell_reached() {
-        std::string const& target = names_[told_++];
-        port().event("reached_target", {{text("target", target), boolean("is_final_target", told_ == names_.size())}, {}});
+        auto reached = text("target", names_[told_++]);
+        reached.data_type_ref.codebook_ref = description().crs;
+        port().event("reached_target", {{std::move(reached), boolean("is_final_target", told_ == names_.size())}, {}});
     }
 
     void give_up(CompletedStatus status) {
@@ -81,7 +79,7 @@ private:
         end(status);
     }
 
-    std::vector<std::string> names_;  // of the targets, as the application wrote them
+    std::vector<std::string> names_;  // of the targets, in the robot's frame
     std::size_t told_ = 0;            // of them
     WorldTime limit_{};               // 0: none
 };

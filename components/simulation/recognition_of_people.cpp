@@ -38,8 +38,7 @@ private:
             refs.push_back(recognized.track);
             auto const sighting = std::ranges::find(seen, recognized.person, &SeenPerson::person);
             if (sighting != seen.end())
-                results.located.push_back(
-                    located("person_ref", recognized.track, hall().plan().crs, sighting->pose, 0, sighting->covariance));
+                results.located.push_back(told_located("person_ref", recognized.track, sighting->pose, 0, sighting->covariance));
         }
         if (news.empty()) return;
         results.parameters = {date_time("timestamp", when.utc),

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "simulation/drive.hpp"
 #include "simulation/person.hpp"
@@ -13,11 +15,21 @@ namespace rois::simulation {
 // Names one utterance of one robot.
 enum class UtteranceId : std::uint64_t {};
 
+// Some of what a robot says, in one language.
+struct Passage {
+    std::string text;      // plain
+    std::string language;  // ISO 639-1
+    Seconds duration = 0;  // with its pauses
+
+    bool operator==(Passage const&) const = default;
+};
+
 struct Utterance {
     std::string text;  // plain
     std::string language = "en";
     double loudness = 0.5;            // 0 to 1: visitors hear 0.5 at 5 m
     std::optional<Seconds> duration;  // absent: speech_duration(text)
+    std::vector<Passage> further{};   // said after it, each heard as speech of its own
 };
 
 enum class SpeechState : std::uint8_t {
@@ -29,6 +41,8 @@ enum class SpeechState : std::uint8_t {
 
 // How long somebody speaks a text: by its characters, at least half a second. Scripts without spaces count more per character.
 Seconds speech_duration(std::string_view text);
+// The same of a part of a text, which may be shorter.
+Seconds spoken_seconds(std::string_view text);
 
 // What a robot shows at the moment.
 struct Showing {

@@ -6,6 +6,19 @@
 #include "simulation/wire_units.hpp"
 
 namespace rois::simulation {
+namespace {
+
+// Null when it is the hall's.
+RobotFrame const* frame_of(FloorPlan const& plan, RobotId robot) {
+    auto const& frame = plan.robots.at(static_cast<std::size_t>(robot)).frame;
+    return frame ? &*frame : nullptr;
+}
+
+Pose moved(Pose const& pose, Eigen::Isometry2d const& by, Radians turn) {
+    return {by * pose.position, wrapped(pose.heading + turn)};
+}
+
+}  // namespace
 
 Fitting fitting(std::shared_ptr<Simulation> const& simulation, std::shared_ptr<media::Media> const& media, Robot const& robot,
                 std::string_view name, std::shared_ptr<ComponentProfile const> profile) {
@@ -15,7 +28,20 @@ Fitting fitting(std::shared_ptr<Simulation> const& simulation, std::shared_ptr<m
                                 .authority = profile->object.code_space,
                                 .codebook_ref = profile->object.identifier,
                                 .version = {}};
-    return {.simulation = simulation, .robot = robot.id, .description = {identifier, engine, std::move(profile)}, .media = media};
+    auto const* const frame = frame_of(simulation->hall().plan(), robot.id);
+    return {.simulation = simulation,
+            .robot = robot.id,
+            .description = {.ref = identifier,
+                            .engine = engine,
+                            .profile = std::move(profile),
+                            .crs = frame == nullptr ? "" : frame->crs,
+                            .positions = {}},
+            .media = media};
+}
+
+Fitting taking_positions(Fitting fitting, std::string parameter) {
+    fitting.description.positions.push_back(std::move(parameter));
+    return fitting;
 }
 
 RobotComponent::RobotComponent(Fitting fitting) : fitting_{std::move(fitting)} {}
@@ -32,7 +58,7 @@ ComponentStatus RobotComponent::status() const { return last_step_ ? condition()
 // Where the robot is.
 std::optional<Located> RobotComponent::location() const {
     Robot const& self = hall().robot(robot());
-    return located("location", self.name, hall().plan().crs, self.pose, 0, {});
+    return told_located("location", self.name, self.pose, 0, {});
 }
 
 std::optional<std::string> RobotComponent::refusal(std::string_view command_type, ParameterList const& parameters) const {
@@ -40,6 +66,41 @@ std::optional<std::string> RobotComponent::refusal(std::string_view command_type
     if (!starts && command_type != "set_parameter") return impossible(command_type, parameters);
     if (auto problem = unfit(parameters)) return problem;
     return starts ? missing(parameters) : std::nullopt;
+}
+
+RobotFrame const* RobotComponent::own_frame() const { return frame_of(hall().plan(), robot()); }
+
+std::string const& RobotComponent::crs() const {
+    auto const* const frame = own_frame();
+    return frame == nullptr ? hall().plan().crs : frame->crs;
+}
+
+std::string RobotComponent::told(Pose const& pose) const {
+    auto const* const own = own_frame();
+    return to_wire(own == nullptr ? pose : moved(pose, frame(own->origin).inverse(), -own->origin.heading));
+}
+
+Located RobotComponent::told_located(std::string of, std::string ref, Pose const& pose, Metres height,
+                                     std::optional<Covariance> const& covariance) const {
+    auto const* const own = own_frame();
+    if (own == nullptr) return located(std::move(of), std::move(ref), crs(), pose, height, covariance);
+    auto const into = frame(own->origin).inverse();
+    std::optional<Covariance> turned = covariance;
+    if (turned) {
+        Covariance turn = Covariance::Identity();
+        turn.topLeftCorner<2, 2>() = into.linear();
+        turned = turn * *covariance * turn.transpose();
+    }
+    return located(std::move(of), std::move(ref), own->crs, moved(pose, into, -own->origin.heading), height, turned);
+}
+
+std::optional<Target> RobotComponent::target(std::string_view text) const {
+    auto const* const own = own_frame();
+    auto meant = own == nullptr ? std::nullopt : target_from_wire(text);
+    if (!meant) return hall().target(text);
+    meant->position = frame(own->origin) * meant->position;
+    if (meant->heading) meant->heading = wrapped(*meant->heading + own->origin.heading);
+    return meant;
 }
 
 void RobotComponent::observe(Instant when) {

@@ -10,6 +10,7 @@
 #include "engine/component.hpp"
 #include "media/media.hpp"
 #include "simulation/simulation.hpp"
+#include "simulation/wire_units.hpp"
 
 namespace rois::simulation {
 
@@ -20,6 +21,9 @@ struct Fitting {
     ComponentDescription description;
     std::shared_ptr<media::Media> media;  // null where nothing is streamed
 };
+
+// Of a component that takes positions as values of this parameter (decision 27).
+Fitting taking_positions(Fitting, std::string parameter);
 
 // Of a component of the robot that is named `name`, or with the robot's name before it (component_refs.hpp).
 Fitting fitting(std::shared_ptr<Simulation> const&, std::shared_ptr<media::Media> const&, Robot const&, std::string_view name,
@@ -47,6 +51,15 @@ protected:
     ComponentPort& port() { return *port_; }
     std::optional<Instant> const& last_step() const { return last_step_; }
 
+    // What is in the hall, as this robot's messages have it: in the robot's own frame when it has one, named by crs(). A text as
+    // of to_wire(), and the structured form as of located().
+    std::string const& crs() const;
+    std::string told(Pose const&) const;
+    Located told_located(std::string of, std::string ref, Pose const&, Metres height,
+                         std::optional<Covariance> const& covariance) const;
+    // The other way: a position in the robot's frame, or the name of a place; nothing when it is neither.
+    std::optional<Target> target(std::string_view text) const;
+
     virtual void stepped(Instant when) = 0;
     // Once the world has begun: READY or WARNING.
     virtual ComponentStatus condition() const { return ComponentStatus::ready; }
@@ -59,6 +72,7 @@ protected:
 
 private:
     void observe(Instant when) final;
+    RobotFrame const* own_frame() const;  // null: the hall's
 
     Fitting fitting_;
     ComponentPort* port_ = nullptr;

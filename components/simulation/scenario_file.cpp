@@ -123,14 +123,14 @@ private:
     FloorPlan const& plan_;
 };
 
-Fault fault(xml::Element const& element, FloorPlan const& plan) {
-    auto const refs = component_refs(plan);
+Fault fault(xml::Element const& element, std::vector<std::string> const& refs) {
     Fault read{.component = element.attribute("component", ""),
                .kind = element.attribute("kind", "") == "failed" ? Fault::Kind::failed : Fault::Kind::silent,
                .from = element.number("from", 0),
                .until = {}};
     if (std::ranges::find(refs, read.component) == refs.end())
-        throw element.complain("the robots of the floor plan have no component " + quoted(read.component));
+        throw element.complain("the robots of the floor plan have no component " + quoted(read.component) +
+                               ", neither a basic one nor one of the profiles' folder");
     if (element.attribute("until")) read.until = element.number("until");
     if (read.until && *read.until <= read.from) throw element.complain("until is not after from");
     return read;
@@ -146,7 +146,8 @@ Arrivals arrivals(xml::Element const& element) {
 
 }  // namespace
 
-Scenario read_scenario(std::shared_ptr<xml::Schemas const> schemas, std::string name, std::string text, FloorPlan const& plan) {
+Scenario read_scenario(std::shared_ptr<xml::Schemas const> schemas, std::string name, std::string text, FloorPlan const& plan,
+                       std::vector<std::string> const& components) {
     auto const document = xml::Document::parse(std::move(schemas), std::move(name), std::move(text));
     auto const root = document.root();
     if (root.name() != "scenario") throw root.complain("this is no scenario: expected the element scenario");
@@ -154,7 +155,8 @@ Scenario read_scenario(std::shared_ptr<xml::Schemas const> schemas, std::string 
     scenario.name = root.attribute("name", "");
     if (root.attribute("round")) scenario.round = root.number("round");
     if (auto const element = root.child("arrivals")) scenario.arrivals = arrivals(*element);
-    for (auto const& element : root.children("fault")) scenario.faults.push_back(fault(element, plan));
+    auto const refs = component_refs(plan, components);
+    for (auto const& element : root.children("fault")) scenario.faults.push_back(fault(element, refs));
     ScenarioReader const reader{plan};
     for (auto const& person : root.children("person")) {
         auto role = reader.role(person);

@@ -21,9 +21,9 @@ std::optional<std::string> too_long(ParameterList const& parameters, std::string
     return "parameter '" + std::string{name} + "' is longer than " + std::to_string(longest_text) + " bytes";
 }
 
-std::optional<std::string> unknown_language(std::string_view language, std::string_view where) {
+std::optional<std::string> unknown_language(std::string_view language) {
     if (language.empty() || is_language(language)) return {};
-    return std::string{where} + ": " + quoted(language) + " cannot be synthesized; those that can are " + names_of_languages();
+    return "parameter 'language': " + quoted(language) + " cannot be synthesized; those that can are " + names_of_languages();
 }
 
 class SpeechSynthesis final : public Action {
@@ -47,7 +47,7 @@ public:
 private:
     std::optional<std::string> unfit(ParameterList const& parameters) const override {
         if (auto problem = not_between(parameters, "volume", 0, 100)) return problem;
-        if (auto problem = unknown_language(text_of(parameters, "language"), "parameter 'language'")) return problem;
+        if (auto problem = unknown_language(text_of(parameters, "language"))) return problem;
         auto const character = text_of(parameters, "character");
         if (!character.empty() && std::ranges::find(characters, character) == characters.end())
             return "parameter 'character': " + quoted(character) + " is unknown; known are " + listed(characters);
@@ -58,15 +58,16 @@ private:
         if (!text_of(parameters, "speech_text").empty()) return "either 'speech_text' or 'SSML_text' can be said, not both";
         auto const& read = marked_up(document);
         if (auto const* bad = std::get_if<BadSsml>(&read)) return "parameter 'SSML_text': " + bad->reason;
-        return unknown_language(std::get<SpokenText>(read).language, "parameter 'SSML_text', xml:lang");
+        return {};
     }
 
     std::optional<std::string> missing(ParameterList const& parameters) const override {
         if (!text_of(parameters, "speech_text").empty()) return {};
         auto const document = text_of(parameters, "SSML_text");
         if (document.empty()) return "there is nothing to say: 'speech_text' or 'SSML_text' is mandatory";
-        auto const& spoken = std::get<SpokenText>(marked_up(document));
-        if (spoken.text.empty() && spoken.pauses <= 0) return "there is nothing to say in 'SSML_text'";
+        auto const& passages = std::get<SpokenText>(marked_up(document)).passages;
+        auto const takes_time = [](Passage const& passage) { return passage.duration > 0; };
+        if (std::ranges::none_of(passages, takes_time)) return "there is nothing to say in 'SSML_text'";
         return {};
     }
 
@@ -78,11 +79,13 @@ private:
         if (auto const language = text_of(parameters, "language"); !language.empty()) utterance.language = language;
         utterance.text = text_of(parameters, "speech_text");
         if (!utterance.text.empty()) return utterance;
-        auto const& spoken = std::get<SpokenText>(marked_up(text_of(parameters, "SSML_text")));
-        Seconds const words = spoken.text.empty() ? 0 : speech_duration(spoken.text) * spoken.stretch;
-        utterance.duration = words + spoken.pauses;
-        utterance.text = spoken.text;
-        if (!spoken.language.empty()) utterance.language = spoken.language;
+        utterance.further = std::get<SpokenText>(marked_up(text_of(parameters, "SSML_text"))).passages;
+        for (auto& passage : utterance.further)
+            if (passage.language.empty()) passage.language = utterance.language;
+        utterance.text = std::move(utterance.further.front().text);
+        utterance.language = std::move(utterance.further.front().language);
+        utterance.duration = utterance.further.front().duration;
+        utterance.further.erase(utterance.further.begin());
         return utterance;
     }
 

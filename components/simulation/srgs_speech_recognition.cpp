@@ -89,7 +89,7 @@ Parameter typed(std::string name, std::string type, std::string value) {
 class SrgsSpeechRecognition final : public Listening {
 public:
     SrgsSpeechRecognition(Fitting fitting, std::shared_ptr<xml::Schemas const> schemas)
-        : Listening{std::move(fitting)}, schemas_{std::move(schemas)} {}
+        : Listening{taking_positions(std::move(fitting), "position_of_sound")}, schemas_{std::move(schemas)} {}
 
     ParameterList readable_parameters() const override {
         return {texts("recognizable_languages", {languages.begin(), languages.end()})};
@@ -150,7 +150,7 @@ private:
         languages_ = wanted != nullptr ? wanted->values : std::vector<std::string>{own.substr(0, own.find('-'))};
         place_.reset();
         auto const* position = find(parameters, "position_of_sound");
-        if (position != nullptr && !position->values.empty()) place_ = target_from_wire(position->values.front())->position;
+        if (position != nullptr && !position->values.empty()) place_ = target(position->values.front())->position;
     }
 
     bool listens_to(Point const& place) const override { return !place_ || distance(*place_, place) <= near; }
@@ -175,10 +175,9 @@ private:
                               typed("lattice", "LatticeType", lattice_text(hypotheses, speech.language)),
                               texts("meaning", hypotheses.front().tags)};
         if (!speech.from) return results;
-        auto const& crs = hall().plan().crs;
         auto const& from = *speech.from;
-        results.parameters.push_back(positions("position_of_sound", {to_wire(from.pose)}, crs));
-        results.located.push_back(located("position_of_sound", from.ref, crs, from.pose, from.height, from.covariance));
+        results.parameters.push_back(positions("position_of_sound", {told(from.pose)}, crs()));
+        results.located.push_back(told_located("position_of_sound", from.ref, from.pose, from.height, from.covariance));
         return results;
     }
 

@@ -3,59 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
+#include "simulation/languages.hpp"
+#include "simulation/ssml_meaning.hpp"
 #include "types/texts.hpp"
 
 namespace rois::simulation {
 namespace {
 
-constexpr Seconds longest_break = 60;
-constexpr double least_rate = 0.2;
-constexpr double greatest_rate = 5;
 constexpr std::size_t most_attributes = 32;
-
-struct Word {
-    std::string_view name;
-    double value;
-};
-constexpr std::array<Word, 6> rates{
-    {{"x-slow", 0.5}, {"slow", 0.75}, {"medium", 1}, {"default", 1}, {"fast", 1.5}, {"x-fast", 2}}};
-constexpr std::array<Word, 6> strengths{
-    {{"none", 0}, {"x-weak", 0.1}, {"weak", 0.25}, {"medium", 0.5}, {"strong", 0.75}, {"x-strong", 1.5}}};
-
-std::optional<double> look_up(std::span<Word const> words, std::string_view name) {
-    auto const found = std::ranges::find(words, name, &Word::name);
-    if (found == words.end()) return {};
-    return found->value;
-}
-
-// "150%", "+20%", "-20%" or a plain factor; nothing for what is none of them.
-std::optional<double> rate_of(std::string_view text) {
-    if (auto const named = look_up(rates, text)) return named;
-    bool const percent = text.ends_with('%');
-    bool const relative = percent && (text.starts_with('+') || text.starts_with('-'));
-    if (percent) text.remove_suffix(1);
-    auto const number = to_double(text);
-    if (!number || !(std::abs(*number) < 1e6)) return {};
-    double const factor = percent ? *number / 100 : *number;
-    return relative ? 1 + factor : factor;
-}
-
-// "500ms" or "1.5s"; nothing for what is neither.
-std::optional<Seconds> time_of(std::string_view text) {
-    bool const milliseconds = text.ends_with("ms");
-    if (!text.ends_with('s')) return {};
-    text.remove_suffix(milliseconds ? 2 : 1);
-    auto const number = to_double(text);
-    if (!number || !(*number >= 0)) return {};
-    return std::min(milliseconds ? *number / 1000 : *number, longest_break);
-}
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
@@ -91,16 +51,8 @@ std::optional<std::uint32_t> character_number(std::string_view digits) {
     return number;
 }
 
-struct Attribute {
-    std::string_view name;
-    std::string value;
-};
-
-struct Element {
-    std::string_view name;
-    double rate = 1;
-    bool silent = false;  // what is in it is not spoken
-};
+// Without its prefix.
+std::string_view local(std::string_view name) { return name.substr(name.find(':') + 1); }
 
 class Reader {
 public:
@@ -110,12 +62,10 @@ public:
         if (document_.starts_with("\xEF\xBB\xBF")) at_ = 3;
         if (rest().starts_with("<?xml")) past("?>", "the XML declaration is not closed");
         while (!flaw_ && at_ < document_.size()) step();
-        if (!flaw_ && !open_.empty()) complain(at_, "<" + std::string{open_.back().name} + "> is not closed");
+        if (!flaw_ && !open_.empty()) complain(at_, "<" + std::string{open_.back()} + "> is not closed");
         if (!flaw_ && !root_seen_) complain(at_, "there is no <speak> element");
         if (flaw_) return *flaw_;
-        spoken_.text = trimmed(spoken_.text);
-        if (bytes_ > 0) spoken_.stretch = stretched_ / bytes_;
-        return std::move(spoken_);
+        return SpokenText{meaning_.passages()};
     }
 
 private:
@@ -157,7 +107,7 @@ private:
             if (!trimmed(content).empty()) complain(from, "there is text outside of the <speak> element");
             return;
         }
-        say(content);
+        meaning_.say(content);
     }
 
     void cdata() {
@@ -167,7 +117,7 @@ private:
         past("]]>", "the CDATA section is not closed");
         if (flaw_) return;
         if (open_.empty()) return complain(from, "there is text outside of the <speak> element");
-        say(document_.substr(content, at_ - content - 3));
+        meaning_.say(document_.substr(content, at_ - content - 3));
     }
 
     // Reads up to `end`, entities replaced.
@@ -223,12 +173,11 @@ private:
         auto const closed = name();
         blanks();
         if (!take('>')) return complain(from, "the end tag is not closed");
-        if (open_.empty() || open_.back().name != closed)
-            return complain(from,
-                            "</" + std::string{closed} + "> closes nothing; " +
-                                (open_.empty() ? "no element is open" : "<" + std::string{open_.back().name} + "> is open"));
+        if (open_.empty() || open_.back() != closed)
+            return complain(from, "</" + std::string{closed} + "> closes nothing; " +
+                                      (open_.empty() ? "no element is open" : "<" + std::string{open_.back()} + "> is open"));
         open_.pop_back();
-        part_words(closed);
+        meaning_.end();
     }
 
     void start_tag() {
@@ -239,16 +188,16 @@ private:
         if (flaw_) return;
         bool const empty = take('/');
         if (!take('>')) return complain(from, "the tag <" + std::string{opened} + " is not closed");
-        if (open_.empty() && !begin_root(opened, attributes, from)) return;
-        Element element = open_.empty() ? Element{} : open_.back();
-        element.name = opened;
-        begin(element, attributes);
-        part_words(opened);
-        if (!empty) open_.push_back(element);
+        if (open_.empty() && !begin_root(opened, from)) return;
+        if (auto const language = meaning_.begin(local(opened), attributes))
+            return complain(
+                from, "the language " + quoted(*language) + " cannot be synthesized; those that can are " + names_of_languages());
+        if (empty) return meaning_.end();
+        open_.push_back(opened);
     }
 
-    std::vector<Attribute> read_attributes(std::size_t tag) {
-        std::vector<Attribute> attributes;
+    std::vector<SsmlAttribute> read_attributes(std::size_t tag) {
+        std::vector<SsmlAttribute> attributes;
         while (!flaw_) {
             auto const before = at_;
             blanks();
@@ -257,7 +206,7 @@ private:
             auto const attribute = name();
             if (attribute.empty() || before == from) complain(from, "an attribute was expected");
             if (attributes.size() == most_attributes) complain(from, "the tag has too many attributes");
-            if (std::ranges::find(attributes, attribute, &Attribute::name) != attributes.end())
+            if (std::ranges::find(attributes, attribute, &SsmlAttribute::name) != attributes.end())
                 complain(from, "the attribute " + quoted(attribute) + " is there twice");
             attributes.push_back({attribute, attribute_value(tag)});
         }
@@ -282,70 +231,17 @@ private:
         return value;
     }
 
-    bool begin_root(std::string_view opened, std::vector<Attribute> const& attributes, std::size_t from) {
+    bool begin_root(std::string_view opened, std::size_t from) {
         if (std::exchange(root_seen_, true)) complain(from, "there is a second root element");
-        if (opened.substr(opened.find(':') + 1) != "speak")
-            complain(from, "the root element is " + quoted(opened) + ", not 'speak'");
-        if (auto const* language = value_of(attributes, "xml:lang"))
-            spoken_.language = lower_case(language->substr(0, language->find('-')));
+        if (local(opened) != "speak") complain(from, "the root element is " + quoted(opened) + ", not 'speak'");
         return !flaw_;
-    }
-
-    static std::string const* value_of(std::vector<Attribute> const& attributes, std::string_view name) {
-        auto const found = std::ranges::find(attributes, name, &Attribute::name);
-        return found == attributes.end() ? nullptr : &found->value;
-    }
-
-    // What the elements that are honoured mean.
-    void begin(Element& element, std::vector<Attribute> const& attributes) {
-        auto const kind = element.name.substr(element.name.find(':') + 1);
-        if (kind == "metadata" || kind == "desc" || kind == "lexicon") element.silent = true;
-        if (kind == "break" && !element.silent) spoken_.pauses += break_time(attributes);
-        if (auto const* rate = value_of(attributes, "rate"); rate != nullptr && kind == "prosody")
-            element.rate = std::clamp(element.rate * rate_of(trimmed(*rate)).value_or(1), least_rate, greatest_rate);
-        if (auto const* alias = value_of(attributes, "alias"); alias != nullptr && kind == "sub" && !element.silent) {
-            open_.push_back(element);
-            say(*alias);
-            open_.pop_back();
-            element.silent = true;
-        }
-    }
-
-    static Seconds break_time(std::vector<Attribute> const& attributes) {
-        if (auto const* time = value_of(attributes, "time"))
-            if (auto const seconds = time_of(trimmed(*time))) return *seconds;
-        auto const* strength = value_of(attributes, "strength");
-        return (strength == nullptr ? std::nullopt : look_up(strengths, trimmed(*strength))).value_or(0.5);
-    }
-
-    // Around these elements one word ends and another begins; others may stand within a word.
-    void part_words(std::string_view element) {
-        auto const kind = element.substr(element.find(':') + 1);
-        if (kind == "break" || kind == "p" || kind == "s" || kind == "sub" || kind == "audio") gap_ = true;
-    }
-
-    void say(std::string_view content) {
-        if (open_.back().silent) return;
-        for (char const c : content) {
-            if (is_blank(c)) {
-                gap_ = true;
-                continue;
-            }
-            if (std::exchange(gap_, false) && !spoken_.text.empty()) spoken_.text += ' ';
-            spoken_.text += c;
-            bytes_ += 1;
-            stretched_ += 1 / open_.back().rate;
-        }
     }
 
     std::string_view document_;
     std::size_t at_ = 0;
-    std::vector<Element> open_;
+    std::vector<std::string_view> open_;  // names of elements
     bool root_seen_ = false;
-    bool gap_ = false;      // white space before the next word
-    double bytes_ = 0;      // of words said
-    double stretched_ = 0;  // the same, each by the inverse of its rate
-    SpokenText spoken_;
+    SsmlMeaning meaning_;
     std::optional<BadSsml> flaw_;
 };
 

@@ -1,29 +1,30 @@
-// Reading W3C SSML as far as a voice without prosody of its own needs it (7.6.11): the words, the pauses and the pace.
+// Reading W3C SSML 1.0 and 1.1 as far as a voice without prosody of its own needs it (7.6.11): the words, their languages, and
+// how long they take.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
-#include "simulation/pose.hpp"
+#include "simulation/robot.hpp"
 
 namespace rois::simulation {
 
+// What is to be said, a passage for each change of language; none when there is nothing. White space in it is collapsed. A
+// passage has no language when the document says none for it.
 struct SpokenText {
-    std::string text;      // plain, white space collapsed
-    std::string language;  // of the document's xml:lang, without its region ("en" of "en-US"); empty when it has none
-    double stretch = 1;    // how much longer than at a usual pace the text takes
-    Seconds pauses = 0;    // to be added
+    std::vector<Passage> passages;
 };
 
-// Not well-formed, or no SSML at all: says what and where, "line 1, column 12: ...".
+// Not well-formed, no SSML at all, or in a language that cannot be spoken: says what and where, "line 1, column 12: ...".
 struct BadSsml {
     std::string reason;
 };
 
-// Honours `break` (time, strength; 60 s at most), the rate of `prosody`, `sub` and xml:lang of the root; other elements are
-// skipped and what they hold is spoken, but for metadata and descriptions. Document types, entities beyond the five of XML and
-// processing instructions are refused.
+// Honours `break` (time, strength; 60 s at most), `prosody` (rate; duration, 600 s at most), `emphasis` (by its pace), `sub`, and
+// xml:lang with `onlangfailure` of any element; other elements are skipped and what they hold is spoken, but for metadata and
+// descriptions. Document types, entities beyond the five of XML and processing instructions are refused.
 std::variant<SpokenText, BadSsml> read_ssml(std::string_view document);
 
 }  // namespace rois::simulation

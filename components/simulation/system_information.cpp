@@ -44,13 +44,12 @@ private:
 
     Results robot_position(Instant measured_at) const {
         Robot const& self = hall().robot(robot());
-        std::string const& crs = hall().plan().crs;
         Pose const pose = measured(self.pose);
         Covariance const covariance =
             Eigen::Vector3d{sigma * sigma, sigma * sigma, heading_sigma * heading_sigma}.asDiagonal().toDenseMatrix();
         return {{date_time("timestamp", measured_at.utc), references("robot_ref", {self.name}, std::string{codebook::robot}),
-                 positions("position_data", {to_wire(pose)}, crs)},
-                {located("position_data", self.name, crs, pose, 0, covariance)}};
+                 positions("position_data", {told(pose)}, crs())},
+                {told_located("position_data", self.name, pose, 0, covariance)}};
     }
 
     // The same however often it is asked within a step.

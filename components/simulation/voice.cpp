@@ -1,10 +1,11 @@
 #include "simulation/voice.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace rois::simulation {
 
-Seconds speech_duration(std::string_view text) {
+Seconds spoken_seconds(std::string_view text) {
     constexpr Seconds per_letter = 0.065;    // about 15 letters a second
     constexpr Seconds per_wide_sign = 0.15;  // a kana or an ideograph: three bytes or more in UTF-8
     Seconds sum = 0;
@@ -15,18 +16,25 @@ Seconds speech_duration(std::string_view text) {
             sum += per_letter;
         }
     }
-    return std::max(0.5, sum);
+    return sum;
 }
+
+Seconds speech_duration(std::string_view text) { return std::max(0.5, spoken_seconds(text)); }
 
 UtteranceId Voice::speak(Utterance utterance, WorldTime now, Point const& place, Chronicle& chronicle) {
     if (state_ == SpeechState::speaking || state_ == SpeechState::held) finish(SpeechState::broken, now, place, chronicle);
     last_ = UtteranceId{static_cast<std::uint64_t>(last_) + 1};
     state_ = SpeechState::speaking;
     loudness_ = std::clamp(utterance.loudness, 0.0, 1.0);
-    WorldTime const length = world_time(utterance.duration.value_or(speech_duration(utterance.text)));
-    speech_ = {std::move(utterance.text), std::move(utterance.language), now, now + length};
-    chronicle.add({0, now, Happening::Kind::speech_started, robot_, place, speech_.text, speech_.language});
+    Seconds const length = utterance.duration.value_or(speech_duration(utterance.text));
+    further_.assign(std::make_move_iterator(utterance.further.begin()), std::make_move_iterator(utterance.further.end()));
+    begin({std::move(utterance.text), std::move(utterance.language), length}, now, place, chronicle);
     return last_;
+}
+
+void Voice::begin(Passage passage, WorldTime now, Point const& place, Chronicle& chronicle) {
+    speech_ = {std::move(passage.text), std::move(passage.language), now, now + world_time(passage.duration)};
+    chronicle.add({0, now, Happening::Kind::speech_started, robot_, place, speech_.text, speech_.language, passage.duration});
 }
 
 SpeechState Voice::state(UtteranceId id) const {
@@ -53,7 +61,12 @@ void Voice::go_on(UtteranceId id, WorldTime now) {
 }
 
 void Voice::step(WorldTime now, Point const& place, Chronicle& chronicle) {
-    if (state_ == SpeechState::speaking && now >= speech_.ends) finish(SpeechState::spoken, now, place, chronicle);
+    if (state_ != SpeechState::speaking || now < speech_.ends) return;
+    if (further_.empty()) return finish(SpeechState::spoken, now, place, chronicle);
+    chronicle.add({0, now, Happening::Kind::speech_finished, robot_, place, speech_.text, speech_.language});
+    auto next = std::move(further_.front());
+    further_.pop_front();
+    begin(std::move(next), now, place, chronicle);
 }
 
 std::optional<Speech> Voice::speech() const { return state_ == SpeechState::speaking ? std::optional{speech_} : std::nullopt; }
@@ -61,6 +74,7 @@ std::optional<Speech> Voice::speech() const { return state_ == SpeechState::spea
 void Voice::finish(SpeechState state, WorldTime now, Point const& place, Chronicle& chronicle) {
     constexpr std::size_t remembered = 16;
     state_ = state;
+    further_.clear();
     ended_.emplace_back(last_, state);
     if (ended_.size() > remembered) ended_.pop_front();
     auto const kind = state == SpeechState::spoken ? Happening::Kind::speech_finished : Happening::Kind::speech_broken;

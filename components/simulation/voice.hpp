@@ -1,6 +1,7 @@
 // The voice of one robot: one utterance at a time, which ends by itself.
 #pragma once
 
+#include <deque>
 #include <string>
 #include <utility>
 
@@ -28,12 +29,14 @@ public:
     double loudness() const { return loudness_; }  // of the last utterance
 
 private:
+    void begin(Passage, WorldTime now, Point const& place, Chronicle&);
     void finish(SpeechState, WorldTime now, Point const& place, Chronicle&);
 
     RobotId robot_;
     UtteranceId last_{};
     SpeechState state_ = SpeechState::spoken;
     Speech speech_;
+    std::deque<Passage> further_;  // of the last utterance, to be said
     WorldTime left_when_held_{};
     double loudness_ = 0.5;
     std::deque<std::pair<UtteranceId, SpeechState>> ended_;  // the last few

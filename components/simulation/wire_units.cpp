@@ -3,6 +3,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "types/texts.hpp"
 
@@ -15,6 +17,17 @@ std::string whole(double value) { return std::to_string(std::lround(value)); }
 
 // To a thousandth: finer than anything here is measured.
 double fine(double value) { return std::round(value * 1000.0) / 1000.0; }
+
+// Row by row, to a thousandth.
+std::vector<double> rows_of(Covariance const& covariance) {
+    Eigen::Vector3d const units{mm, mm, to_degrees(1.0)};
+    Covariance const scaled = units.asDiagonal() * covariance * units.asDiagonal();
+    std::vector<double> rows;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) rows.push_back(fine(scaled(row, column)));
+    }
+    return rows;
+}
 
 std::optional<double> number(std::string_view text) {
     text = trimmed(text);
@@ -56,15 +69,16 @@ Located located(std::string of, std::string ref, std::string crs, Pose const& po
     made.crs = std::move(crs);
     made.position = {fine(pose.position.x() * mm), fine(pose.position.y() * mm), fine(height * mm)};
     made.orientation = {0, 0, fine(to_degrees(wrapped(pose.heading)))};
-    if (!covariance) return made;
-    Eigen::Vector3d const units{mm, mm, to_degrees(1.0)};
-    Covariance const scaled = units.asDiagonal() * *covariance * units.asDiagonal();
-    Located::Covariance rows;
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) rows.rows.push_back(fine(scaled(row, column)));
-    }
-    made.certainty = std::move(rows);
+    if (covariance) made.certainty = Located::Covariance{rows_of(*covariance)};
     return made;
+}
+
+Frame placed(std::string crs, std::string base, Pose const& pose, Covariance const& covariance) {
+    return {.crs = std::move(crs),
+            .base = std::move(base),
+            .position = {fine(pose.position.x() * mm), fine(pose.position.y() * mm), 0},
+            .orientation = {0, 0, fine(to_degrees(wrapped(pose.heading)))},
+            .covariance = rows_of(covariance)};
 }
 
 Geometry area(std::string crs, Box const& box) {

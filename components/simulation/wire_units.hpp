@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "engine/frames.hpp"
 #include "simulation/geometry.hpp"
 #include "simulation/pose.hpp"
 #include "types/condition.hpp"
@@ -26,6 +27,9 @@ std::optional<Target> target_from_wire(std::string_view);
 
 // The structured form of one position: `height` becomes z, the covariance (when there is one) x, y, th in mm and degrees.
 Located located(std::string of, std::string ref, std::string crs, Pose const&, Metres height, std::optional<Covariance> const&);
+
+// A frame that is placed in `base` like this.
+Frame placed(std::string crs, std::string base, Pose const&, Covariance const&);
 
 // A box of the floor as conditions have it.
 Geometry area(std::string crs, Box const&);

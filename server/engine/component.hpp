@@ -23,6 +23,12 @@ struct ComponentDescription {
     Identifier ref;                                   // code = the instance's name, unique in the engine (decision 25)
     std::string engine;                               // name of the sub engine that it belongs to; empty for the main engine
     std::shared_ptr<ComponentProfile const> profile;  // as its document says; the engine adds the messages of the sub components
+
+    // The frame in which it takes positions; empty: the engine's own. What it tells says its frame by itself (codebook_ref, crs).
+    std::string crs{};
+    // Which of its parameters are positions (located data, decision 27): in the engine's frame when they do not say another, and
+    // refused when they say one that nobody knows. Others are positions when they say a known frame.
+    std::vector<std::string> positions{};
 };
 
 // What becomes of a component when a command of it has completed.
@@ -54,8 +60,8 @@ public:
 
 // A component of the engine. The engine calls it from one thread at a time; it must answer quickly and never block. It keeps the
 // rules of 7.6 that are the same for all (who has it bound, what `stop` does to a running `start`, which values a parameter
-// takes) away from here: a component is only asked for what can be done now. An exception that leaves a call ends the
-// command with ERROR and is reported as COMPONENT_INTERNAL_ERROR; others are not touched by it.
+// takes, in which frame positions are) away from here: a component is only asked for what can be done now. An exception that
+// leaves a call ends the command with ERROR and is reported as COMPONENT_INTERNAL_ERROR; others are not touched by it.
 class Component {
 public:
     virtual ~Component() = default;
@@ -73,6 +79,7 @@ public:
     virtual std::optional<std::string> refusal(std::string_view command_type, ParameterList const& parameters) const = 0;
 
     // `arrived` was just merged into `stored`: drop from `stored` what the new values replace (the alternative of a pair).
+    // Positions are as the application told them, in whatever frame.
     virtual void reconcile(ParameterList& stored, ParameterList const& arrived) const;
 
     // Begin to act with these parameters. Never called while an earlier start still runs: the engine halts that first.

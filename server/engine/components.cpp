@@ -38,7 +38,8 @@ Engine::Core::SharedComponent Engine::Core::made(std::unique_ptr<Component> comp
     auto const& description = component->description();
     auto whole = flattened(*description.profile, known);
     auto engine = description.engine.empty() ? profile_->object.name : description.engine;
-    return std::make_shared<RegisteredComponent>(std::move(component), std::move(whole), std::move(engine), agenda_);
+    return std::make_shared<RegisteredComponent>(std::move(component), std::move(whole), std::move(engine), agenda_,
+                                                 places_.frames);
 }
 
 void Engine::Core::enter(SharedComponent component, EngineProfile& profile) {

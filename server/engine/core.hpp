@@ -103,8 +103,8 @@ private:
     std::vector<ComponentProfile> known_profiles_;
     std::shared_ptr<EngineProfile const> profile_;  // never changed: another takes its place
     Agenda agenda_;
-    Registry registry_;
     Places places_;
+    Registry registry_;
     std::vector<std::shared_ptr<Device>> devices_;
     std::unordered_map<SessionId, std::unique_ptr<Session>, IdHash> sessions_;
     Subscriptions subscriptions_;

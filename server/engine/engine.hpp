@@ -71,7 +71,8 @@ public:
     // subscriptions stay, and hear it again should it come back. All sessions are told when any component came or went.
     void change(ComponentChange, Instant now);
 
-    // The space that conditions speak of; none is known before. Once, before the first session.
+    // The frames that components and applications tell positions in, and the places that conditions speak of; none is known
+    // before. Once, before the first session.
     void describe(Places);
 
     // Performs an operation for the session (an empty id: for nobody yet). The notifications that it causes are in the session's

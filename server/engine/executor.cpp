@@ -112,7 +112,9 @@ void Executor::run(SharedCommand const& command, Instant now) {
 void Executor::run_set_parameter(SharedCommand const& command, Instant now) {
     auto const& component = *command->component;
     auto called = store(*command);
-    if (called == Called::ok) called = component.call([&](Component& c) { c.parameters_changed(component.parameters, now); });
+    ParameterList room;
+    auto const& parameters = component.taken(component.parameters, room);
+    if (called == Called::ok) called = component.call([&](Component& c) { c.parameters_changed(parameters, now); });
     end(command, called == Called::ok ? CompletedStatus::ok : CompletedStatus::error, {}, now);
 }
 
@@ -131,7 +133,9 @@ void Executor::run_start(SharedCommand const& command, Instant now) {
     component.activity = RegisteredComponent::Activity::running;
     component.start = command;
     await_start(command, now);
-    if (component.call([&](Component& c) { c.start(command->handle, component.parameters, now); }) == Called::ok) return;
+    ParameterList room;
+    auto const& parameters = component.taken(component.parameters, room);
+    if (component.call([&](Component& c) { c.start(command->handle, parameters, now); }) == Called::ok) return;
     component.activity = RegisteredComponent::Activity::idle;
     component.start = nullptr;
     end(command, CompletedStatus::error, {}, now);
@@ -166,8 +170,10 @@ void Executor::run_resume(SharedCommand const& command, Instant now) {
 
 void Executor::run_function(SharedCommand const& command, Instant now) {
     await_start(command, now);
+    ParameterList room;
+    auto const& arguments = command->component->taken(command->arguments, room);
     auto const called =
-        command->component->call([&](Component& c) { c.perform(command->handle, command->type, command->arguments, now); });
+        command->component->call([&](Component& c) { c.perform(command->handle, command->type, arguments, now); });
     if (called == Called::failed) end(command, CompletedStatus::error, {}, now);
 }
 

@@ -45,9 +45,11 @@ std::optional<std::vector<double>> Distance::of(Candidate const& candidate) cons
     if (!one || !other) return {};
     std::vector<double> nearest;
     if (make_too_many_pairs(*one, *other)) return nearest;
+    auto const apart = [](Geometry const& a, Geometry const& b) { return rois::distance(a, b); };
     for (auto const& a : *one)
         for (auto const& b : *other)
-            if (share_a_frame(a, b)) nearest = {nearest.empty() ? distance(a, b) : std::min(nearest.front(), distance(a, b))};
+            if (auto const length = in_one_frame(*frames, a, b, apart))
+                nearest = {nearest.empty() ? *length : std::min(nearest.front(), *length)};
     return nearest;
 }
 
@@ -74,11 +76,13 @@ std::optional<Whereabouts> FilterCompiler::whereabouts(Expression const& express
     auto const& places = *vocabulary_.places;
     if (auto const* not_understood = std::get_if<NotUnderstood>(&expression.value)) return refuse(not_understood->reason);
     if (auto const* geometry = std::get_if<Geometry>(&expression.value)) {
+        auto const& frames = places.frames;
         Geometry here = *geometry;
-        if (here.crs.empty()) here.crs = places.crs;
-        if (!places.crs.empty() && !equal_ignoring_case(here.crs, places.crs))
-            return refuse("the condition has the frame " + quoted(here.crs) + ", which is not known here; known is " +
-                          quoted(places.crs));
+        if (here.crs.empty()) here.crs = frames.own();
+        if (!frames.own().empty() && !frames.know(here.crs))
+            return refuse("the condition has the frame " + quoted(here.crs, 200) + ", which is not known here; known are " +
+                          listed(frames.names()));
+        if (auto moved = frames.moved(here, frames.own())) return std::move(*moved);
         return here;
     }
     if (auto const* reference = std::get_if<ValueReference>(&expression.value)) {
@@ -92,7 +96,7 @@ std::optional<Whereabouts> FilterCompiler::whereabouts(Expression const& express
     if (literal == nullptr) return refuse("the condition relates something to a place that is none");
     auto const text = trimmed(literal->text);
     if (auto const* place = places.find(text)) return place->area;
-    if (auto read = point(text, places.crs)) return std::move(*read);
+    if (auto read = point(text, places.frames.own())) return std::move(*read);
     return refuse("the condition has the place " + quoted(text) + ", which is not known here; known are " + names_of(places));
 }
 
@@ -100,10 +104,22 @@ std::optional<Distance> FilterCompiler::distance(Function const& function) {
     if (!equal_ignoring_case(function.name, "distance"))
         return refuse("the condition has the function " + quoted(function.name) + ", which is not known here; known is distance");
     if (function.arguments.size() != 2) return refuse("the function distance of the condition has not two arguments");
-    auto from = whereabouts(function.arguments[0]);
-    auto to = from ? whereabouts(function.arguments[1]) : std::nullopt;
-    if (!to) return {};
-    return Distance{std::move(*from), std::move(*to)};
+    auto both = related(function.arguments[0], function.arguments[1]);
+    if (!both) return {};
+    return Distance{std::move(both->first), std::move(both->second), &vocabulary_.places->frames};
+}
+
+// Two boxes have to be in one frame: turned into another, a box is none.
+std::optional<std::pair<Whereabouts, Whereabouts>> FilterCompiler::related(Expression const& one, Expression const& other) {
+    auto first = whereabouts(one);
+    auto second = first ? whereabouts(other) : std::nullopt;
+    if (!second) return {};
+    auto const nothing = [](auto const&...) { return true; };
+    auto const *a = first->known(), *b = second->known();
+    if (a != nullptr && b != nullptr && !in_one_frame(vocabulary_.places->frames, *a, *b, nothing))
+        return refuse("the condition relates a box in the frame " + quoted(a->crs, 200) + " to one in " + quoted(b->crs, 200) +
+                      ": tell both in the same frame");
+    return std::pair{std::move(*first), std::move(*second)};
 }
 
 std::nullopt_t FilterCompiler::refuse(std::string reason) {

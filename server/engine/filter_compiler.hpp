@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/candidate.hpp"
+#include "engine/frames.hpp"
 #include "engine/vocabulary.hpp"
 #include "types/condition.hpp"
 
@@ -33,7 +34,7 @@ public:
     Whereabouts(Geometry geometry) : where_{std::move(geometry)} {}
     Whereabouts(Reference reference) : where_{std::move(reference)} {}
 
-    bool is_known() const { return std::holds_alternative<Geometry>(where_); }
+    Geometry const* known() const { return std::get_if<Geometry>(&where_); }  // null when a candidate tells
     std::optional<Positions> of(Candidate const&) const;
     std::string canonical() const;
 
@@ -46,6 +47,7 @@ private:
 struct Distance {
     Whereabouts from;
     Whereabouts to;
+    Frames const* frames;
 
     std::optional<std::vector<double>> of(Candidate const&) const;
     std::string canonical() const;
@@ -72,6 +74,9 @@ public:
     std::optional<Reference> resolve(std::string_view path);
     std::optional<Whereabouts> whereabouts(Expression const&);
     std::optional<Distance> distance(Function const&);
+
+    // Two things that a condition relates; nothing when refused.
+    std::optional<std::pair<Whereabouts, Whereabouts>> related(Expression const&, Expression const&);
 
     // Always nothing.
     std::nullopt_t refuse(std::string reason);

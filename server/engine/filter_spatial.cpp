@@ -32,7 +32,8 @@ bool holds(Relation relation, Geometry const& a, Geometry const& b, double mm) {
 // Positions that have no frame in common meet nothing.
 class Spatial final : public Predicate {
 public:
-    Spatial(Relation relation, Pair operands, double mm) : relation_{relation}, operands_{std::move(operands)}, mm_{mm} {}
+    Spatial(Relation relation, Pair operands, double mm, Frames const& frames)
+        : relation_{relation}, operands_{std::move(operands)}, mm_{mm}, frames_{frames} {}
 
     Match match(Candidate const& candidate) const override {
         auto const left = operands_.first.of(candidate), right = operands_.second.of(candidate);
@@ -40,11 +41,12 @@ public:
         if (!left || !right) return Match::maybe;
         if (make_too_many_pairs(*left, *right)) return Match::no;
         bool comparable = false, met = false;
+        auto const is_met = [&](Geometry const& a, Geometry const& b) { return holds(relation_, a, b, mm_); };
         for (auto const& a : *left) {
             for (auto const& b : *right) {
-                if (!share_a_frame(a, b)) continue;
-                comparable = true;
-                met = met || holds(relation_, a, b, mm_);
+                auto const found = in_one_frame(frames_, a, b, is_met);
+                comparable = comparable || found;
+                met = met || found.value_or(false);
             }
         }
         bool const contrary = relation_ == Relation::disjoint || relation_ == Relation::beyond;
@@ -64,6 +66,7 @@ private:
     Relation relation_;
     Pair operands_;
     double mm_;
+    Frames const& frames_;
 };
 
 struct Unit {
@@ -85,10 +88,7 @@ std::optional<Pair> pair_of(FilterCompiler& compiler, std::vector<Expression> co
     if (operands.size() < 2 && own.empty())
         return compiler.refuse("the condition has a spatial operator with one operand, which means nothing here");
     auto const reference = Expression{ValueReference{std::string{own}}};
-    auto left = compiler.whereabouts(operands.size() < 2 ? reference : operands.front());
-    auto right = left ? compiler.whereabouts(operands.back()) : std::nullopt;
-    if (!right) return {};
-    return Pair{std::move(*left), std::move(*right)};
+    return compiler.related(operands.size() < 2 ? reference : operands.front(), operands.back());
 }
 
 }  // namespace
@@ -97,10 +97,11 @@ std::optional<Pair> pair_of(FilterCompiler& compiler, std::vector<Expression> co
 PredicatePtr FilterCompiler::operator()(SpatialComparison const& comparison) {
     auto pair = pair_of(*this, comparison.operands);
     if (!pair) return nullptr;
-    if (comparison.relation == SpatialRelation::within && pair->first.is_known() && !pair->second.is_known())
+    if (comparison.relation == SpatialRelation::within && pair->first.known() != nullptr && pair->second.known() == nullptr)
         std::swap(pair->first, pair->second);
     static constexpr std::array<Relation, 3> relations{Relation::within, Relation::intersects, Relation::disjoint};
-    return std::make_unique<Spatial>(relations.at(static_cast<std::size_t>(comparison.relation)), std::move(*pair), 0);
+    return std::make_unique<Spatial>(relations.at(static_cast<std::size_t>(comparison.relation)), std::move(*pair), 0,
+                                     vocabulary_.places->frames);
 }
 
 PredicatePtr FilterCompiler::operator()(DistanceComparison const& comparison) {
@@ -116,7 +117,7 @@ PredicatePtr FilterCompiler::operator()(DistanceComparison const& comparison) {
     auto pair = pair_of(*this, comparison.operands);
     if (!pair) return nullptr;
     auto const relation = comparison.relation == DistanceRelation::beyond ? Relation::beyond : Relation::near;
-    return std::make_unique<Spatial>(relation, std::move(*pair), comparison.distance * unit->mm);
+    return std::make_unique<Spatial>(relation, std::move(*pair), comparison.distance * unit->mm, vocabulary_.places->frames);
 }
 
 }  // namespace rois

@@ -1,4 +1,4 @@
-// The space that the engine's components share, as whoever knows the floor plan tells it: its frame, and places with names.
+// The space that the engine's components share, as whoever knows the floor plan tells it: its frames, and places with names.
 #pragma once
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/frames.hpp"
 #include "types/condition.hpp"
 
 namespace rois {
@@ -17,7 +18,7 @@ struct NamedPlace {
 };
 
 struct Places {
-    std::string crs;  // of all areas, and of coordinates that say none; empty: any frame is taken as it is
+    Frames frames;  // the areas, and coordinates that say none, are in the engine's own
     std::vector<NamedPlace> all;
 
     // Null when there is none of that name, to the letter.

@@ -8,6 +8,7 @@
 #include "engine/parameters.hpp"
 #include "engine/session.hpp"
 #include "types/data_type.hpp"
+#include "types/listing.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -44,11 +45,13 @@ void add_parameter_messages(ComponentProfile& profile, std::vector<ParameterProf
 }  // namespace
 
 RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, ComponentProfile profile, std::string engine,
-                                         Agenda& agenda)
-    : component_{std::move(component)}, settable_{settable_of(profile)}, agenda_{agenda} {
+                                         Agenda& agenda, Frames const& frames)
+    : component_{std::move(component)}, settable_{settable_of(profile)}, agenda_{agenda}, frames_{frames} {
     add_parameter_messages(profile, settable_);
     auto const& description = component_->description();
     ref_ = description.ref;
+    crs_ = description.crs;
+    positions_ = description.positions;
     auto type = profile.object.identifier;
     entry_ = {.ref = ref_.code,
               .type = std::move(type),
@@ -101,14 +104,20 @@ RegisteredComponent::Answer RegisteredComponent::check(MessageKind kind, std::st
 std::vector<Results> RegisteredComponent::answer(std::string_view query_type, Instant now) const {
     std::vector<Results> rows;
     call([&](Component& c) { rows = c.query(query_type, now); }, Report::once);
-    for (auto const& row : rows)
+    for (auto& row : rows) {
         if (check(MessageKind::query, query_type, row, Report::once) == Answer::wrong) return {};
+        auto as_told = told(std::move(row), query_type, Report::once);
+        if (!as_told) return {};
+        row = std::move(*as_told);
+    }
     return rows;
 }
 
 std::optional<ParameterList> RegisteredComponent::all_parameters() const {
-    ParameterList all;
-    if (call([&](Component& c) { all = c.readable_parameters(); }, Report::once) == Called::failed) return {};
+    Results readable;
+    if (call([&](Component& c) { readable.parameters = c.readable_parameters(); }, Report::once) == Called::failed) return {};
+    frames_.change_to_own(readable);
+    auto all = std::move(readable.parameters);
     all.insert(all.end(), parameters.begin(), parameters.end());
     return all;
 }
@@ -128,7 +137,42 @@ bool RegisteredComponent::tells(std::string_view name) const {
 std::optional<Located> RegisteredComponent::location() const {
     std::optional<Located> where;
     call([&](Component& c) { where = c.location(); }, Report::once);
-    return where;
+    if (!where || frames_.are_one()) return where;
+    auto const problem = frames_.change(*where, frames_.own());
+    if (!problem) return where;
+    report_failure("wrong location: " + *problem, Report::once);
+    return {};
+}
+
+std::optional<Results> RegisteredComponent::told(Results results, std::string_view message, Report report) const {
+    auto const problem = frames_.change_to_own(results);
+    if (!problem) return results;
+    report_failure("wrong results of " + quoted(message) + ": " + *problem, report);
+    return {};
+}
+
+bool RegisteredComponent::is_position(std::string_view parameter) const {
+    return std::ranges::any_of(positions_, [&](auto const& name) { return equal_ignoring_case(name, parameter); });
+}
+
+std::optional<std::string> RegisteredComponent::why_no_frame(ParameterList const& normalized) const {
+    if (frames_.own().empty()) return {};
+    for (auto const& parameter : normalized) {
+        auto const& crs = parameter.data_type_ref.codebook_ref;
+        if (is_position(parameter.name) && !frames_.know(crs))
+            return "parameter " + quoted(parameter.name) + ": the frame " + quoted(crs, 200) + " is not known here; known are " +
+                   listed(frames_.names());
+    }
+    return {};
+}
+
+ParameterList const& RegisteredComponent::taken(ParameterList const& list, ParameterList& room) const {
+    if (frames_.are_one()) return list;
+    room = list;
+    for (auto& parameter : room)
+        if (!parameter.data_type_ref.codebook_ref.empty() || is_position(parameter.name))
+            frames_.change(parameter, crs_, Frames::Rounding::millionth);
+    return room;
 }
 
 std::optional<ParameterList> RegisteredComponent::merged(ParameterList stored, ParameterList const& arrived) const {
@@ -140,12 +184,15 @@ std::optional<ParameterList> RegisteredComponent::merged(ParameterList stored, P
 void RegisteredComponent::started(CommandHandle command) { agenda_.add(CommandStarted{command}); }
 
 void RegisteredComponent::completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards) {
-    agenda_.add(CommandEnded{command, status, std::move(results), afterwards});
+    auto told_results = told(std::move(results), "a command", Report::each);
+    if (!told_results) status = CompletedStatus::error;
+    agenda_.add(CommandEnded{command, status, std::move(told_results).value_or(Results{}), afterwards});
 }
 
 void RegisteredComponent::event(std::string_view event_type, Results results) {
     if (check(MessageKind::event, event_type, results, Report::once) == Answer::wrong) return;
-    agenda_.add(EventOccurred{this, std::string{event_type}, std::move(results)});
+    if (auto here = told(std::move(results), event_type, Report::once))
+        agenda_.add(EventOccurred{this, std::string{event_type}, std::move(*here)});
 }
 
 void RegisteredComponent::error(ErrorType type, std::string text) { agenda_.add(ErrorOccurred{this, type, std::move(text)}); }

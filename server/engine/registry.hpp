@@ -12,6 +12,7 @@
 #include "engine/agenda.hpp"
 #include "engine/command.hpp"
 #include "engine/component.hpp"
+#include "engine/frames.hpp"
 #include "engine/vocabulary.hpp"
 #include "types/messages.hpp"
 
@@ -25,8 +26,9 @@ public:
     // What the component does, as far as commands are concerned.
     enum class Activity : std::uint8_t { idle, running, active };
 
-    // `profile` has the messages of the sub components; `engine` is the name of the engine or sub engine that has it.
-    RegisteredComponent(std::unique_ptr<Component>, ComponentProfile profile, std::string engine, Agenda&);
+    // `profile` has the messages of the sub components; `engine` is the name of the engine or sub engine that has it. What it
+    // tells in a frame of `frames` is told on in the engine's own.
+    RegisteredComponent(std::unique_ptr<Component>, ComponentProfile profile, std::string engine, Agenda&, Frames const& frames);
 
     Identifier const& ref() const { return ref_; }
     ComponentEntry const& entry() const { return entry_; }
@@ -62,6 +64,13 @@ public:
     bool tells(std::string_view name) const;
     std::optional<Located> location() const;
 
+    // Why these parameters cannot be taken: positions are in a frame that nobody knows. `normalized` ones.
+    std::optional<std::string> why_no_frame(ParameterList const& normalized) const;
+
+    // The parameters as the component takes them, positions in its own frame: the list itself, or `room` when that makes a
+    // difference.
+    ParameterList const& taken(ParameterList const& list, ParameterList& room) const;
+
     // `stored` with what arrived, as the component reconciles the two; nothing when it failed.
     std::optional<ParameterList> merged(ParameterList stored, ParameterList const& arrived) const;
 
@@ -79,12 +88,18 @@ public:
 
 private:
     void report_failure(std::string problem, Report) const;
+    // Nothing when it failed, because what it told cannot be told in the engine's frame.
+    std::optional<Results> told(Results, std::string_view message, Report) const;
+    bool is_position(std::string_view parameter) const;
 
     std::unique_ptr<Component> component_;
     Identifier ref_;
     ComponentEntry entry_;
     std::vector<ParameterProfile> settable_;
     Agenda& agenda_;
+    Frames const& frames_;
+    std::string crs_;
+    std::vector<std::string> positions_;
 };
 
 // All components of the engine, by ref.

@@ -92,6 +92,7 @@ std::optional<Objection> SequenceCheck::values(CommandMessage const& message, Re
                              "; it has " + command_types_of(component.profile()));
     if (auto problem = why_not(*profiles, message.arguments)) return bad_parameter(std::move(*problem));
     auto parameters = normalized(*profiles, message.arguments);
+    if (auto problem = component.why_no_frame(parameters)) return bad_parameter(std::move(*problem));
     if (profiles == &component.settable()) {
         auto const stored = stored_.try_emplace(&component, component.parameters).first;
         auto merged = component.merged(stored->second, parameters);
@@ -102,7 +103,9 @@ std::optional<Objection> SequenceCheck::values(CommandMessage const& message, Re
         parameters = with_defaults(*profiles, parameters);
     }
     std::optional<std::string> refusal;
-    auto const called = component.call([&](Component& c) { refusal = c.refusal(message.command_type, parameters); });
+    ParameterList room;
+    auto const& taken = component.taken(parameters, room);
+    auto const called = component.call([&](Component& c) { refusal = c.refusal(message.command_type, taken); });
     if (called == RegisteredComponent::Called::failed) return failed(component);
     if (refusal) return bad_parameter(std::move(*refusal));
     return {};

@@ -76,7 +76,7 @@ private:
 
 // `parameters`: of components, null where a condition does not speak of components. `results`: null where it does not speak of
 // any. `first`: which of both a bare name means that both have, and an operator of space with one operand. What it points to must
-// live as long.
+// live as long, and the places as long as what is compiled with it.
 struct Vocabulary {
     enum class First : std::uint8_t { results, parameters };
 

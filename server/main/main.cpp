@@ -15,6 +15,7 @@
 #include "main/keys.hpp"
 #include "main/logging.hpp"
 #include "main/profile_folder.hpp"
+#include "main/speech_log.hpp"
 #include "main/user_components.hpp"
 #include "media/server.hpp"
 #include "net/documents.hpp"
@@ -49,13 +50,24 @@ std::string chosen(std::string const& file, std::string_view built_in) {
     return file.empty() ? std::string{files::simulation().at(std::string{built_in})} : text_of_file(file);
 }
 
+// How the components are named that come of the folder of profiles, as it is now.
+std::vector<std::string> user_names(std::shared_ptr<xml::Schemas const> const& schemas, Settings const& settings,
+                                    std::vector<ComponentProfile> const& own) {
+    std::vector<std::string> names;
+    if (settings.profiles.empty()) return names;
+    for (auto const& file : read_profile_folder(schemas, settings.profiles, own))
+        if (file.profile) names.push_back(simulation::component_name(*file.profile));
+    return names;
+}
+
 std::shared_ptr<simulation::Simulation> make_simulation(std::shared_ptr<xml::Schemas const> const& schemas,
-                                                        Settings const& settings) {
+                                                        Settings const& settings, std::vector<ComponentProfile> const& profiles) {
     auto const named = [](std::string const& file, std::string const& built_in) { return file.empty() ? built_in : file; };
     auto plan = simulation::read_floor_plan(schemas, named(settings.floor_plan, "reception-hall.xml"),
                                             chosen(settings.floor_plan, "reception-hall.xml"));
-    auto scenario = simulation::read_scenario(schemas, named(settings.scenario, "reception-day.xml"),
-                                              chosen(settings.scenario, "reception-day.xml"), plan);
+    auto scenario =
+        simulation::read_scenario(schemas, named(settings.scenario, "reception-day.xml"),
+                                  chosen(settings.scenario, "reception-day.xml"), plan, user_names(schemas, settings, profiles));
     return std::make_shared<simulation::Simulation>(std::move(plan), std::move(scenario), settings.seed, settings.sim_speed);
 }
 
@@ -82,8 +94,9 @@ EngineProfile engine_profile(Settings const& settings, simulation::FloorPlan con
     profile.object.identifier = "urn:x-rois:def:HRIEngine:RoISGateway::" + settings.engine_name;
     profile.object.code_space = "urn:ietf:rfc:2141";
     profile.object.name = settings.engine_name;
-    profile.parameters = {engine_parameter("sim_speed", "double", shown("sim_speed", settings), "Simulated seconds in a second."),
-                          engine_parameter("crs", "string", plan.crs, "The frame in which positions are told and taken.")};
+    profile.parameters = {
+        engine_parameter("sim_speed", "double", shown("sim_speed", settings), "Simulated seconds in a second."),
+        engine_parameter("crs", "string", plan.crs, "The frame in which positions are told; others may be taken, too.")};
     return profile;
 }
 
@@ -102,9 +115,8 @@ int serve(CommandLine const& command) {
     auto const& settings = command.settings;
     auto const schemas = std::make_shared<xml::Schemas const>(files::schemas());
     auto const profiles = read_profiles(schemas);
-    auto const simulation = make_simulation(schemas, settings);
+    auto const simulation = make_simulation(schemas, settings, profiles);
     if (command.wish == CommandLine::Wish::check_config) {
-        if (!settings.profiles.empty()) read_profile_folder(schemas, settings.profiles, profiles);
         std::puts("configuration ok");
         return done;
     }
@@ -115,6 +127,7 @@ int serve(CommandLine const& command) {
     engine.add(simulation);
     engine.describe(simulation::named_places(simulation->hall().plan()));
     for (auto& component : simulation::robot_components(simulation, media, profiles)) engine.add(std::move(component));
+    SpeechLog const speech_log{simulation};
     net::Telemetry telemetry;
     net::Gateway gateway{engine, readers, telemetry};
     UserComponents user_components{schemas,

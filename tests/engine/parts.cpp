@@ -117,6 +117,8 @@ ScriptedComponent::ScriptedComponent(Part const& part, std::function<void(std::f
     : on_start{part.on_start}, part_{part}, happen_{std::move(happen)} {
     description_.ref = {.code = part.ref, .authority = "OMG", .codebook_ref = {}, .version = {}};
     description_.engine = part.engine;
+    description_.crs = part.crs;
+    description_.positions = part.positions;
     description_.profile = std::make_shared<ComponentProfile const>(part.profile);
 }
 

@@ -39,6 +39,8 @@ struct Part {
     std::vector<std::vector<std::string>> mandatory;  // of each group of alternatives, one value must be there to start
     CompletedStatus status_when_stopped = CompletedStatus::abort;
     std::string engine;  // of a sub engine
+    std::string crs{};   // the frame in which it takes positions, and which parameters are positions
+    std::vector<std::string> positions{};
 };
 
 class ScriptedComponent final : public Component {

@@ -28,7 +28,7 @@ struct Hall : testing::Test {
 
     Hall() {
         world.engine->describe(
-            {.crs = "hall", .all = {{"hall", box(0, 0, 10'000, 10'000, "hall")}, {"desk", box(0, 0, 2'000, 1'000, "hall")}}});
+            {.frames = {"hall"}, .all = {{"hall", box(0, 0, 10'000, 10'000, "hall")}, {"desk", box(0, 0, 2'000, 1'000, "hall")}}});
         world["near"].where = at(1'000, 1'000, "robot1");
         world["far"].where = at(9'000, 7'000, "robot2");
     }
@@ -99,7 +99,7 @@ TEST_F(Hall, ARobotIsKnownByItsName) {
 TEST_F(Hall, FramesMustBeKnown) {
     EXPECT_THAT(found(within("location", {box(0, 0, 1'000, 1'000, "HALL")})), ElementsAre("near"));
     EXPECT_EQ(reason(within("location", {box(0, 0, 1, 1, "street")})),
-              "the condition has the frame 'street', which is not known here; known is 'hall'");
+              "the condition has the frame 'street', which is not known here; known are hall");
     world["far"].where = at(500, 500, "robot2", "street");
     EXPECT_THAT(found(within("location", {box(0, 0, 1'000, 1'000)})), ElementsAre("near"))
         << "coordinates of two frames have nothing in common";

@@ -131,7 +131,7 @@ TEST(Settings, AreThoseOfTheDecisions) {
 // 7.5.1: the profile of an engine may be asked for by where it is, and by the components that it has.
 TEST(Profile, MayBeChosenByPlace) {
     World world{navigation, in_engine("sub1", navigation), in_engine("sub1", speech)};
-    world.engine->describe({.crs = "hall", .all = {{"desk", box(0, 0, 1'000, 1'000, "hall")}}});
+    world.engine->describe({.frames = {"hall"}, .all = {{"desk", box(0, 0, 1'000, 1'000, "hall")}}});
     auto const stands = [&](std::string const& ref, double x) {
         world[ref].where = Located{"location", ref, "hall", {x, 500, 0}, {}, {}};
     };

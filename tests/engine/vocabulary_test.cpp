@@ -246,7 +246,7 @@ struct Meanings : testing::Test {
     World world{named("lamp", desk_lamp), localization, detection};
     Application desk = world.connect();
 
-    Meanings() { world.engine->describe({.crs = "hall", .all = {{"desk", box(0, 0, 10, 10, "hall")}}}); }
+    Meanings() { world.engine->describe({.frames = {"hall"}, .all = {{"desk", box(0, 0, 10, 10, "hall")}}}); }
 
     std::string id(std::string const& event, Condition condition) {
         auto const reply = desk.subscribe(event, std::move(condition));

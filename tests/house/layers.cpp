@@ -42,7 +42,7 @@ struct Layer {
 std::vector<Layer> const layers{
     {"server/types/", {"types/"}, {}, Time::passed_in},
     {"server/xml/", {"xml/", "types/"}, {xerces, pugixml}, Time::passed_in},
-    {"server/engine/", {"engine/", "types/"}, {}, Time::passed_in},
+    {"server/engine/", {"engine/", "types/"}, {eigen}, Time::passed_in},
     {"server/files/", {"files/"}, {}, Time::passed_in},
     {"server/net/", {"net/", "engine/", "xml/", "types/"}, {boost, openssl, prometheus, spdlog, posix}, Time::read},
     {"server/main/",

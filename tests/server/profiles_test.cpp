@@ -124,6 +124,20 @@ TEST_P(ProfilesOfUsers, MakeComponents) {
     EXPECT_EQ(desk.status_of("b"), "OK");
 }
 
+TEST_P(ProfilesOfUsers, MakeComponentsThatAScenarioLetsFail) {
+    folder_.put("fan.xml", fan());
+    folder_.put("day.scenario",
+                "<scenario xmlns='urn:x-rois:simulation:hall:1' name='day'>\n<fault component='fan' kind='failed'/></scenario>");
+    auto const scenario = folder_.name() + "/day.scenario";
+    GatewayProcess const gateway{{"--profiles", folder_.name(), "--scenario", scenario}};
+    Application desk{GetParam(), gateway};
+    desk.connect();
+    EXPECT_THAT(desk.search(where(equal("status", "ERROR"))), ElementsAre("fan"));
+    auto const without = run_gateway({"--scenario", scenario, "--check-config"});
+    EXPECT_EQ(without.exit_code, 2);
+    EXPECT_THAT(without.error, HasSubstr("day.scenario:2:1: the robots of the floor plan have no component 'fan'"));
+}
+
 TEST_P(ProfilesOfUsers, MayListenWithAGrammar) {
     GatewayProcess gateway{{"--profiles", ROIS_SOURCE_DIR "/components/simulation/profiles", "--scenario",
                             ROIS_SOURCE_DIR "/tests/server/data/greeting.xml", "--sim-speed", "20"}};

@@ -90,6 +90,16 @@ TEST_F(Faults, ConcernNoOtherComponent) {
 TEST_F(Faults, AreKnownByTheRefsOfAllComponents) {
     Stage stage{{}, reception_with_two_robots()};
     EXPECT_THAT(component_refs(reception_with_two_robots()), UnorderedElementsAreArray(stage.refs()));
+    auto const with_a_lamp = component_refs(reception_with_two_robots(), {"lamp"});
+    EXPECT_THAT(with_a_lamp, testing::IsSupersetOf({"lamp", "robot2.lamp"}));
+    EXPECT_EQ(with_a_lamp.size(), 32u);
+}
+
+TEST_F(Faults, ConcernComponentsOfUsersToo) {
+    auto stage = unwell("person_age_recognition", Fault::Kind::failed);
+    stage.add("person_age_recognition.xml");
+    stage.step();
+    EXPECT_EQ(stage["person_age_recognition"].component().status(), ComponentStatus::error);
 }
 
 }  // namespace

@@ -57,13 +57,35 @@ TEST(FloorPlanFile, IsReadIntoMetresAndRadians) {
     EXPECT_NEAR(robot.sensors.faces.turned_within, from_degrees(30), 1e-12);
 }
 
+// The robot's map begins at (9000, 1000), turned by 90 degrees: (2000, 3000) of the hall is 2000 along its x axis and 7000 along
+// its y axis, which leads to the left of the hall.
+TEST(FloorPlanFile, HasTheFramesOfRobots) {
+    auto const robot = [](std::string const& frame) {
+        return "<robot name=\"robot1\" x=\"2000\" y=\"4000\"><frame crs=\"" + frame +
+               "\" x=\"9000\" y=\"1000\" heading=\"90\" sigma=\"20\" heading_sigma=\"0.5\"/></robot>\n";
+    };
+    FloorPlan const plan = read_plan(plan_text(places, robot("map")));
+    auto const frames = named_places(plan).frames;
+    EXPECT_THAT(frames.names(), testing::ElementsAre(plan.crs, "map"));
+    auto target = positions("target_position", {"2000, 3000, 180"}, plan.crs);
+    frames.change(target, "map", Frames::Rounding::thousandth);
+    EXPECT_EQ(target, positions("target_position", {"2000, 7000, 90"}, "map"));
+    Located origin{.of = "", .ref = "", .crs = "map", .position = {}, .orientation = {0, 0, 0}, .certainty = {}};
+    origin.certainty = Located::Covariance{std::vector<double>(9, 0.0)};
+    frames.change(origin, plan.crs);
+    EXPECT_EQ(std::get<Located::Covariance>(origin.certainty).rows, (std::vector<double>{400, 0, 0, 0, 400, 0, 0, 0, 0.25}));
+    EXPECT_THAT(complaint([&] { read_plan(plan_text(places, robot("URN:x-rois:def:crs:simulation::hall"))); }),
+                testing::AllOf(StartsWith("hall.xml:6:1:"), HasSubstr("a second frame named URN:x-rois")));
+    EXPECT_THAT(complaint([&] { read_plan(plan_text(places, robot(""))); }), StartsWith("hall.xml:6:"));
+}
+
 TEST(FloorPlanFile, HasAreasForConditions) {
     FloorPlan const plan =
         read_plan(plan_text("<place name=\"entrance\" x=\"9000\" y=\"4000\"/>\n"
                             "<place name=\"desk\" x=\"7000\" y=\"7000\" width=\"4000\" depth=\"1000\"/>\n",
                             robots));
     auto const known = named_places(plan);
-    EXPECT_EQ(known.crs, plan.crs);
+    EXPECT_EQ(known.frames.own(), plan.crs);
     auto const area_of = [&](std::string const& name) {
         auto const* place = known.find(name);
         return place == nullptr ? Geometry{} : place->area;
@@ -182,6 +204,9 @@ TEST(ScenarioFile, FaultsAreOfComponentsThatAreThere) {
     EXPECT_THAT(complaint_of_scenario(unwell("<fault component=\"move\" kind=\"silent\" from=\"5\" until=\"5\"/>")),
                 AllOf(StartsWith("day.xml:2:1:"), HasSubstr("until")));
     EXPECT_THAT(complaint_of_scenario(unwell("<fault component=\"move\" kind=\"tired\"/>")), StartsWith("day.xml:2:"));
+    auto const of_a_user = read_scenario(schemas(), "day.xml", unwell("<fault component=\"dishwasher\" kind=\"silent\"/>"),
+                                         read_plan(plan_text(places, robots)), {"dishwasher"});
+    EXPECT_EQ(of_a_user.faults.at(0).component, "dishwasher");
 }
 
 TEST(ShippedFiles, AreWithoutFlaw) {

@@ -174,13 +174,76 @@ TEST(SpeechSynthesis, HonoursPausesAndPaceOfSsml) {
 TEST(SpeechSynthesis, NamesThePlaceOfAMistakeInSsml) {
     EXPECT_THAT(refusal({text("SSML_text", "<speak>\n  Hello <emphasis>you</speak>")}), HasSubstr("line 2, column 22"));
     EXPECT_THAT(refusal({text("SSML_text", "<speak>Hello")}, "set_parameter"), HasSubstr("<speak> is not closed"));
-    EXPECT_THAT(refusal({text("SSML_text", "<speak xml:lang='xx'>Hello</speak>")}), HasSubstr("'xx'"));
+    EXPECT_THAT(refusal({text("SSML_text", "<speak xml:lang='xx'>Hello</speak>")}),
+                HasSubstr("line 1, column 1: the language 'xx'"));
+    EXPECT_THAT(refusal({text("SSML_text", "<speak>Hello,\n <lang xml:lang='tlh'>nuqneH</lang></speak>")}),
+                HasSubstr("line 2, column 2: the language 'tlh' cannot be synthesized; those that can are de, en,"));
+}
+
+// Each passage is speech of its own, in its language, for its time; the action is done after the last one.
+TEST(SpeechSynthesis, SpeaksEachPassageInItsLanguage) {
+    Stage stage;
+    stage.step();
+    auto const before = stage.hall().chronicle().last();
+    auto const begun = stage.hall().now();
+    stage["speech_synthesis"].start({text("language", "de"), text("SSML_text",
+                                                                  "<speak>Guten Tag, <lang xml:lang='ja-JP'>田中さん</lang>"
+                                                                  "<break time='2s'/>, willkommen!</speak>")});
+    EXPECT_EQ(stage.outcome("speech_synthesis"), "OK");
+    std::vector<std::string> said;
+    Seconds sum = 0;
+    for (auto const& happening : stage.hall().chronicle().since(before)) {
+        if (happening.kind != Happening::Kind::speech_started) continue;
+        said.push_back(happening.language + ": " + happening.text);
+        sum += happening.lasts;
+        EXPECT_NEAR(in_seconds(happening.at - begun), sum - happening.lasts, 0.07);
+    }
+    EXPECT_THAT(said, ElementsAre("de: Guten Tag,", "ja: 田中さん", "de: , willkommen!"));
+    EXPECT_NEAR(sum, in_seconds(stage.hall().now() - begun), 0.07);
+    EXPECT_NEAR(sum, 10 * 0.065 + 4 * 0.15 + 2 + 13 * 0.065, 0.001);
+}
+
+TEST(SpeechSynthesis, SaysNoMoreWhenItIsStoppedWithinAPassage) {
+    Stage stage;
+    stage["speech_synthesis"].start(
+        {text("SSML_text", "<speak><p xml:lang='en'>One two three.</p><p xml:lang='de'>Vier.</p></speak>")});
+    stage.run(0.4);
+    stage["speech_synthesis"].stop();
+    stage.run(5);
+    for (auto const& happening : stage.hall().chronicle().since(0)) EXPECT_NE(happening.text, "Vier.");
+}
+
+TEST(SpeechSynthesis, HoldsWithinAPassage) {
+    Stage stage;
+    auto& synthesis = stage["speech_synthesis"];
+    synthesis.start(
+        {text("SSML_text", "<speak><p xml:lang='en'>One two three four.</p><p xml:lang='de'>Vier f&#252;nf sechs.</p></speak>")});
+    stage.run(0.5);
+    synthesis.suspend();
+    stage.run(10);
+    EXPECT_FALSE(synthesis.ended());
+    synthesis.resume();
+    EXPECT_EQ(stage.outcome("speech_synthesis"), "OK");
+}
+
+std::vector<Passage> passages(std::string_view document) {
+    auto const read = read_ssml(document);
+    if (auto const* bad = std::get_if<BadSsml>(&read)) return {{bad->reason, "bad", 0}};
+    return std::get<SpokenText>(read).passages;
 }
 
 std::string spoken(std::string_view document) {
-    auto const read = read_ssml(document);
-    if (auto const* bad = std::get_if<BadSsml>(&read)) return "bad: " + bad->reason;
-    return std::get<SpokenText>(read).text;
+    std::string all;
+    for (auto const& passage : passages(document))
+        all += std::string{all.empty() ? "" : " | "} + (passage.language == "bad" ? "bad: " : "") + passage.text;
+    return all;
+}
+
+// In seconds, of ten letters a unit of usual pace.
+Seconds units(std::string const& document) {
+    Seconds sum = 0;
+    for (auto const& passage : passages("<speak>" + document + "</speak>")) sum += passage.duration;
+    return sum / spoken_seconds("aaaaaaaaaa");
 }
 
 TEST(Ssml, IsReadWithoutItsTags) {
@@ -197,18 +260,56 @@ TEST(Ssml, IsReadWithoutItsTags) {
               "Said World Wide Web");
 }
 
+TEST(Ssml, SkipsWhatItDoesNotKnow) {
+    EXPECT_EQ(spoken("<speak>At <say-as interpret-as='time'>2:30</say-as>, <prosody pitch='high' volume='loud'>Tanaka</prosody> "
+                     "<x:warble>comes</x:warble>"
+                     "<mark name='m'/><audio src='bell.wav'>(a bell)<desc>A bell.</desc></audio>.</speak>"),
+              "At 2:30, Tanaka comes (a bell) .");
+    EXPECT_EQ(spoken("<s:speak xmlns:s='http://www.w3.org/2001/10/synthesis'><s:metadata><a>no</a></s:metadata><s:meta name='a' "
+                     "content='b'/><s:lexicon uri='u'/>yes</s:speak>"),
+              "yes");
+    EXPECT_EQ(spoken("<speak><w>bank</w><token>note</token></speak>"), "bank note") << "words of their own";
+}
+
 TEST(Ssml, HasALanguage) {
-    EXPECT_EQ(std::get<SpokenText>(read_ssml("<speak xml:lang=\"en-US\">Hi</speak>")).language, "en");
-    EXPECT_EQ(std::get<SpokenText>(read_ssml("<speak>Hi</speak>")).language, "");
+    EXPECT_EQ(passages("<speak xml:lang=\"en-US\">Hi</speak>").at(0).language, "en");
+    EXPECT_EQ(passages("<speak>Hi</speak>").at(0).language, "");
+    EXPECT_EQ(spoken("<speak xml:lang='en'>One <s xml:lang='de'>Zwei</s><voice xml:lang='DE'>drei</voice> four</speak>"),
+              "One | Zwei drei | four");
+    EXPECT_EQ(spoken("<speak>One <break/><lang xml:lang='de'><break/></lang> two</speak>"), "One two")
+        << "silence has no language";
+}
+
+TEST(Ssml, FailsInALanguageAsItSays) {
+    EXPECT_THAT(spoken("<speak>a<lang xml:lang='tlh'>b</lang></speak>"), HasSubstr("bad: line 1, column 9: the language 'tlh'"));
+    EXPECT_THAT(spoken("<speak onlangfailure='changevoice'><p xml:lang='xx'>b</p></speak>"), HasSubstr("bad: "));
+    EXPECT_EQ(spoken("<speak>a<lang xml:lang='tlh' onlangfailure='ignoretext'> b <em>c</em></lang> d</speak>"), "a d");
+    EXPECT_EQ(spoken("<speak xml:lang='en' onlangfailure='ignorelang'>a<lang xml:lang='tlh'> b</lang></speak>"), "a b");
+    EXPECT_EQ(spoken("<speak>a<metadata xml:lang='tlh'>b</metadata></speak>"), "a") << "what is not spoken needs no voice";
+}
+
+TEST(Ssml, HasItsTime) {
+    std::string const ten(10, 'a');
+    EXPECT_NEAR(units(ten + "<emphasis>" + ten + "</emphasis>"), 1 + 1 / 0.9, 1e-9);
+    EXPECT_NEAR(units("<emphasis level='strong'>" + ten + "</emphasis>"), 1 / 0.8, 1e-9);
+    EXPECT_NEAR(units("<emphasis level='none'>" + ten + "</emphasis>"), 1, 1e-9);
+    EXPECT_NEAR(units("<prosody rate='slow'><emphasis level='strong'>" + ten + "</emphasis></prosody>"), 1 / 0.6, 1e-9);
+    EXPECT_NEAR(units("<prosody rate='200%'>" + ten + ten + "</prosody>" + ten), 2, 1e-9);
+    EXPECT_NEAR(units(ten + "<prosody duration='6.5s'>" + ten + "<break time='100ms'/>" + ten + "</prosody>"), 11, 1e-9);
+    EXPECT_NEAR(units("<prosody duration='soon'>" + ten + "</prosody>"), 1, 1e-9);
+    EXPECT_NEAR(units("a"), 0.5 / spoken_seconds(ten), 1e-9) << "no speech is shorter than half a second";
 }
 
 TEST(Ssml, BoundsPausesAndPace) {
-    EXPECT_EQ(std::get<SpokenText>(read_ssml("<speak><break time='1e9s'/></speak>")).pauses, 60);
-    EXPECT_EQ(std::get<SpokenText>(read_ssml("<speak><break strength='none'/></speak>")).pauses, 0);
-    EXPECT_EQ(std::get<SpokenText>(read_ssml("<speak><break time='soon'/></speak>")).pauses, 0.5);
-    EXPECT_EQ(std::get<SpokenText>(read_ssml("<speak><prosody rate='0'>a</prosody></speak>")).stretch, 5);
-    EXPECT_EQ(std::get<SpokenText>(read_ssml("<speak><prosody rate='quickly'>a</prosody></speak>")).stretch, 1);
-    EXPECT_EQ(std::get<SpokenText>(read_ssml("<speak><prosody rate='-50%'>a</prosody></speak>")).stretch, 2);
+    auto const seconds = [](std::string const& document) { return units(document) * spoken_seconds("aaaaaaaaaa"); };
+    std::string const ten(10, 'a');
+    EXPECT_NEAR(seconds("<break time='1e9s'/>"), 60, 1e-9);
+    EXPECT_NEAR(seconds("<break strength='none'/>"), 0, 1e-9);
+    EXPECT_NEAR(seconds("<break time='soon'/>"), 0.5, 1e-9);
+    EXPECT_NEAR(seconds("<prosody duration='1e9s'>a</prosody>"), 600, 1e-9);
+    EXPECT_NEAR(units("<prosody rate='0'>" + ten + "</prosody>"), 5, 1e-9);
+    EXPECT_NEAR(units("<prosody rate='quickly'>" + ten + "</prosody>"), 1, 1e-9);
+    EXPECT_NEAR(units("<prosody rate='-50%'>" + ten + "</prosody>"), 2, 1e-9);
 }
 
 TEST(Ssml, MustBeWellFormed) {

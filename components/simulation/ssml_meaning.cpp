@@ -1,0 +1,189 @@
+#include "simulation/ssml_meaning.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "simulation/languages.hpp"
+#include "types/texts.hpp"
+
+namespace rois::simulation {
+namespace {
+
+constexpr Seconds longest_break = 60;
+constexpr Seconds longest_duration = 600;
+constexpr Seconds shortest_speech = 0.5;
+constexpr double least_rate = 0.2;
+constexpr double greatest_rate = 5;
+
+struct Word {
+    std::string_view name;
+    double value;
+};
+constexpr std::array<Word, 6> rates{
+    {{"x-slow", 0.5}, {"slow", 0.75}, {"medium", 1}, {"default", 1}, {"fast", 1.5}, {"x-fast", 2}}};
+constexpr std::array<Word, 6> strengths{
+    {{"none", 0}, {"x-weak", 0.1}, {"weak", 0.25}, {"medium", 0.5}, {"strong", 0.75}, {"x-strong", 1.5}}};
+constexpr std::array<Word, 4> emphases{{{"strong", 0.8}, {"moderate", 0.9}, {"none", 1}, {"reduced", 1.1}}};
+
+// What is said, but for the readers of the document.
+constexpr std::array<std::string_view, 4> silent_kinds{"metadata", "meta", "desc", "lexicon"};
+
+// Around these one word ends and another begins; others may stand within a word.
+constexpr std::array<std::string_view, 7> word_ends{"break", "p", "s", "sub", "audio", "w", "token"};
+
+template <std::size_t size>
+bool is_one_of(std::array<std::string_view, size> const& all, std::string_view kind) {
+    return std::ranges::find(all, kind) != all.end();
+}
+
+std::optional<double> look_up(std::span<Word const> words, std::string_view name) {
+    auto const found = std::ranges::find(words, name, &Word::name);
+    if (found == words.end()) return {};
+    return found->value;
+}
+
+// "150%", "+20%", "-20%" or a plain factor; nothing for what is none of them.
+std::optional<double> rate_of(std::string_view text) {
+    if (auto const named = look_up(rates, text)) return named;
+    bool const percent = text.ends_with('%');
+    bool const relative = percent && (text.starts_with('+') || text.starts_with('-'));
+    if (percent) text.remove_suffix(1);
+    auto const number = to_double(text);
+    if (!number || !(std::abs(*number) < 1e6)) return {};
+    double const factor = percent ? *number / 100 : *number;
+    return relative ? 1 + factor : factor;
+}
+
+// "500ms" or "1.5s"; nothing for what is neither.
+std::optional<Seconds> time_of(std::string_view text, Seconds longest) {
+    bool const milliseconds = text.ends_with("ms");
+    if (!text.ends_with('s')) return {};
+    text.remove_suffix(milliseconds ? 2 : 1);
+    auto const number = to_double(text);
+    if (!number || !(*number >= 0)) return {};
+    return std::min(milliseconds ? *number / 1000 : *number, longest);
+}
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+// Without white space at the ends; nothing when it is not there.
+std::optional<std::string_view> value_of(std::span<SsmlAttribute const> attributes, std::string_view name) {
+    auto const found = std::ranges::find(attributes, name, &SsmlAttribute::name);
+    if (found == attributes.end()) return {};
+    return trimmed(found->value);
+}
+
+Seconds break_time(std::span<SsmlAttribute const> attributes) {
+    if (auto const time = value_of(attributes, "time"))
+        if (auto const seconds = time_of(*time, longest_break)) return *seconds;
+    auto const strength = value_of(attributes, "strength");
+    return (strength ? look_up(strengths, *strength) : std::nullopt).value_or(0.5);
+}
+
+}  // namespace
+
+std::optional<std::string> SsmlMeaning::begin(std::string_view kind, std::span<SsmlAttribute const> attributes) {
+    Element element = open_.empty() ? Element{} : open_.back();
+    element.kind = kind;
+    element.duration.reset();
+    element.first_piece = pieces_.size();
+    if (is_one_of(silent_kinds, kind)) element.silent = true;
+    auto in_vain = speak_language(element, attributes);
+    set_pace(element, attributes);
+    part_words(kind);
+    if (kind == "break" && !element.silent)
+        pieces_.push_back(
+            {passages_.empty() ? passage_of(element.language) : passages_.size() - 1, break_time(attributes), Piece::Of::pause});
+    open_.push_back(std::move(element));
+    if (auto const alias = value_of(attributes, "alias"); alias && kind == "sub") {
+        say(*alias);
+        open_.back().silent = true;
+    }
+    return in_vain;
+}
+
+// The region of a language is of no matter here: "en" of "en-US".
+std::optional<std::string> SsmlMeaning::speak_language(Element& element, std::span<SsmlAttribute const> attributes) {
+    if (auto const what = value_of(attributes, "onlangfailure")) {
+        element.in_vain = *what == "ignoretext"   ? InVain::say_nothing
+                          : *what == "ignorelang" ? InVain::keep_language
+                                                  : InVain::refuse;
+    }
+    auto const said = value_of(attributes, "xml:lang");
+    if (!said || element.silent) return {};
+    auto language = lower_case(said->substr(0, said->find('-')));
+    if (language.empty() || is_language(language)) {
+        element.language = std::move(language);
+        return {};
+    }
+    if (element.in_vain == InVain::refuse) return std::string{*said};
+    element.silent = element.in_vain == InVain::say_nothing;
+    return {};
+}
+
+void SsmlMeaning::set_pace(Element& element, std::span<SsmlAttribute const> attributes) {
+    double factor = 1;
+    if (element.kind == "prosody") {
+        if (auto const rate = value_of(attributes, "rate")) factor = rate_of(*rate).value_or(1);
+        if (auto const duration = value_of(attributes, "duration")) element.duration = time_of(*duration, longest_duration);
+    } else if (element.kind == "emphasis") {
+        factor = look_up(emphases, value_of(attributes, "level").value_or("moderate")).value_or(1);
+    }
+    element.rate = std::clamp(element.rate * factor, least_rate, greatest_rate);
+}
+
+void SsmlMeaning::end() {
+    auto const element = std::move(open_.back());
+    open_.pop_back();
+    part_words(element.kind);
+    if (!element.duration) return;
+    Seconds usual = 0;
+    auto const inside = std::span{pieces_}.subspan(element.first_piece);
+    for (Piece const& piece : inside) usual += piece.seconds;
+    if (usual <= 0) return;
+    for (Piece& piece : inside) piece.seconds *= *element.duration / usual;
+}
+
+void SsmlMeaning::part_words(std::string_view kind) { gap_ = gap_ || is_one_of(word_ends, kind); }
+
+// Another language begins another passage.
+std::size_t SsmlMeaning::passage_of(std::string const& language) {
+    if (passages_.empty() || (!passages_.back().text.empty() && passages_.back().language != language))
+        passages_.push_back({.text = {}, .language = language, .duration = 0});
+    passages_.back().language = language;
+    return passages_.size() - 1;
+}
+
+void SsmlMeaning::say(std::string_view content) {
+    auto const& element = open_.back();
+    if (element.silent) return;
+    std::string said;
+    Passage* passage = nullptr;
+    for (char const c : content) {
+        if (is_blank(c)) {
+            gap_ = true;
+            continue;
+        }
+        if (passage == nullptr) passage = &passages_[passage_of(element.language)];
+        if (std::exchange(gap_, false) && !(passage->text.empty() && said.empty())) said += ' ';
+        said += c;
+    }
+    if (passage == nullptr) return;
+    passage->text += said;
+    pieces_.push_back({passages_.size() - 1, spoken_seconds(said) / element.rate, Piece::Of::words});
+}
+
+std::vector<Passage> SsmlMeaning::passages() const {
+    auto all = passages_;
+    Seconds words = 0;
+    for (Piece const& piece : pieces_) {
+        all[piece.passage].duration += piece.seconds;
+        if (piece.of == Piece::Of::words) words += piece.seconds;
+    }
+    if (words > 0 && words < shortest_speech) all.front().duration += shortest_speech - words;
+    return all;
+}
+
+}  // namespace rois::simulation

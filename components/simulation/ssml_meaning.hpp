@@ -1,0 +1,63 @@
+// What the markup of W3C SSML means to a voice without prosody of its own: words, languages and time. The reader of the document
+// (ssml.cpp) feeds it.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "simulation/robot.hpp"
+
+namespace rois::simulation {
+
+struct SsmlAttribute {
+    std::string_view name;
+    std::string value;
+};
+
+class SsmlMeaning {
+public:
+    // An element without its prefix begins. Says which language it asks for in vain, when that is to be refused.
+    std::optional<std::string> begin(std::string_view kind, std::span<SsmlAttribute const>);
+    void end();
+
+    // Text, within an element.
+    void say(std::string_view content);
+
+    std::vector<Passage> passages() const;
+
+private:
+    // What to do when the voice has not the language of an element (`onlangfailure`).
+    enum class InVain : std::uint8_t { refuse, say_nothing, keep_language };
+
+    struct Element {
+        std::string kind;
+        double rate = 1;
+        bool silent = false;   // what is in it is not spoken
+        std::string language;  // empty: not said
+        InVain in_vain = InVain::refuse;
+        std::optional<Seconds> duration;  // in which all that is in it is to be said
+        std::size_t first_piece = 0;
+    };
+
+    // Some of the time that a passage takes.
+    struct Piece {
+        std::size_t passage;
+        Seconds seconds;
+        enum class Of : std::uint8_t { words, pause } of;
+    };
+
+    std::optional<std::string> speak_language(Element&, std::span<SsmlAttribute const>);
+    void set_pace(Element&, std::span<SsmlAttribute const>);
+    void part_words(std::string_view kind);
+    std::size_t passage_of(std::string const& language);
+
+    std::vector<Element> open_;
+    std::vector<Passage> passages_;
+    std::vector<Piece> pieces_;
+    bool gap_ = false;  // white space before the next word
+};
+
+}  // namespace rois::simulation

@@ -1,0 +1,33 @@
+// What the robots say, in the log.
+#include <csignal>
+
+#include "server/conversation.hpp"
+
+namespace rois::test {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Speech, IsLoggedPassageByPassage) {
+    GatewayProcess gateway{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--sim-speed", "20"}};
+    {
+        Application desk{Way::http, gateway};
+        desk.connect();
+        desk.bind("speech_synthesis");
+        desk.execute(
+            Command{.component = "speech_synthesis",
+                    .id = "greet",
+                    .arguments = {{"SSML_text",
+                                   "string",
+                                   {"&lt;speak xml:lang='en'>Welcome, &lt;lang xml:lang='ja'>ようこそ&lt;/lang> &lt;break "
+                                    "time='1s'/>&lt;/speak>"}}}});
+        EXPECT_EQ(desk.status_of("greet"), "OK");
+    }
+    gateway.signal(SIGTERM);
+    auto const log = gateway.wait().error;
+    EXPECT_THAT(log, HasSubstr("info robot1 says in en, 0.52 s: 'Welcome,'"));
+    EXPECT_THAT(log, HasSubstr("info robot1 says in ja, 1.60 s: 'ようこそ'"));
+}
+
+}  // namespace
+}  // namespace rois::test
