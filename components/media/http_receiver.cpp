@@ -59,7 +59,7 @@ struct Connection : std::enable_shared_from_this<Connection> {
     Stream stream;
     Directory const& directory;
     Settings const& settings;
-    beast::flat_buffer received{};
+    beast::flat_buffer received;
     bool watched = false;
     bool gone = false;
 
@@ -69,7 +69,7 @@ struct Connection : std::enable_shared_from_this<Connection> {
 using SharedConnection = std::shared_ptr<Connection>;
 
 Task<> watch(SharedConnection connection) {
-    std::array<char, 512> ignored;
+    std::array<char, 512> ignored{};
     Error error;
     while (!error) {
         connection->stream.expires_never();

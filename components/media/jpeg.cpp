@@ -28,8 +28,8 @@ struct Encoded {
 };
 
 void encode(Picture const& picture, Encoded& encoded) {
-    jpeg_compress_struct codec;
-    Errors errors;
+    jpeg_compress_struct codec{};
+    Errors errors{};
     codec.err = jpeg_std_error(&errors.manager);
     errors.manager.error_exit = leave;
     if (setjmp(errors.way_out) != 0) {

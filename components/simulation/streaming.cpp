@@ -20,6 +20,7 @@ Results row(std::string const& id, StreamStatus status) { return {{text("stream_
 
 std::vector<MediaOffer> all_of(std::vector<std::string_view> const& names) {
     std::vector<MediaOffer> all;
+    all.reserve(names.size());
     for (auto const name : names) all.push_back({std::string{name}, {}});
     return all;
 }

@@ -15,7 +15,7 @@
 namespace rois::simulation {
 
 struct Colour {
-    std::uint8_t red, green, blue;
+    std::uint8_t red = 0, green = 0, blue = 0;
 };
 
 inline constexpr Colour floor_colour{236, 234, 226}, desk_colour{172, 138, 96}, wall_colour{60, 60, 66},
@@ -25,8 +25,8 @@ inline constexpr Colour floor_colour{236, 234, 226}, desk_colour{172, 138, 96}, 
 struct Scene {
     struct Figure {
         Pose pose;
-        Metres radius;
-        Colour colour;
+        Metres radius = 0;
+        Colour colour{};
     };
     std::vector<Figure> figures;
 };

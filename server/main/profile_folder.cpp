@@ -140,7 +140,7 @@ void warn_of_ambiguous(std::vector<Read>& all, std::vector<ComponentProfile> con
         for (std::size_t i = 0; i < parts.size(); ++i) {
             auto const meant = find_profiles(together, parts[i]);
             if (meant.size() < 2) continue;
-            warn(each.file, each.sub_component_places[i] + ": " + quoted(parts[i]) + " may mean " +
+            warn(each.file, each.sub_component_places[i] + ": " + rois::quoted(parts[i]) + " may mean " +
                                 quoted(meant[0]->object.identifier, 200) + " or " + quoted(meant[1]->object.identifier, 200) +
                                 ", and is taken for the first: write the whole identifier");
         }
