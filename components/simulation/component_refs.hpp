@@ -14,8 +14,8 @@ namespace rois::simulation {
 // its sub engine: "robot2.navigation". `engine` is empty for the first.
 std::string component_ref(std::string_view component, std::string_view engine);
 
-// Of every basic component of every robot, and of those that have one of these further names.
-std::vector<std::string> component_refs(FloorPlan const&, std::vector<std::string> const& further = {});
+// Of every basic component of every robot, and of those that have one of these names.
+std::vector<std::string> component_refs(FloorPlan const&, std::vector<std::string> const& names = {});
 
 // How a component with this profile is named: as the profile (gml:name) when that is a name without dots, else after its URN, in
 // small letters with underscores ("PersonMonitor": "person_monitor").

@@ -31,28 +31,33 @@ bool ComponentCandidate::is_open(Reference const& reference) const {
 
 std::optional<Texts> ComponentCandidate::texts(Reference const& reference) const {
     if (is_open(reference)) return {};
+    return reference.to == To::parameter ? texts_in(parameter(reference.name), reference)
+                                         : at_its_place(own_texts(reference), reference);
+}
+
+// All but parameters.
+Texts ComponentCandidate::own_texts(Reference const& reference) const {
     switch (reference.to) {
         case To::component_ref:
             return identifier_texts(reference.part);
         case To::component_type:
-            return Texts{component_.entry().type};
+            return {component_.entry().type};
         case To::engine:
-            return Texts{component_.entry().engine};
+            return {component_.entry().engine};
         case To::robot_id:
-            return Texts{location() ? location()->ref : component_.entry().engine};
+            return {location() ? location()->ref : component_.entry().engine};
         case To::status:
-            return Texts{std::string{to_text(component_.status_for(perspective_.asker()))}};
+            return {std::string{to_text(component_.status_for(perspective_.asker()))}};
         case To::bound:
-            return Texts{component_.bound_to != nullptr ? "true" : "false"};
+            return {component_.bound_to != nullptr ? "true" : "false"};
         case To::location:
-            return at_its_place(location_texts(reference.part), reference);
+            return location_texts(reference.part);
         case To::parameter:
-            return texts_in(parameter(reference.name), reference);
         case To::result:
         case To::located:
             break;
     }
-    return Texts{};
+    return {};
 }
 
 std::optional<Positions> ComponentCandidate::positions(Reference const& reference) const {
@@ -87,16 +92,11 @@ std::optional<Match>* ComponentCandidate::verdict(void const* group) const {
 
 Texts ComponentCandidate::identifier_texts(Part part) const {
     auto const& ref = component_.ref();
-    switch (part) {
-        case Part::authority:
-            return {ref.authority};
-        case Part::codebook_ref:
-            return {ref.codebook_ref};
-        case Part::version:
-            return {ref.version};
-        default:
-            return {ref.code};
-    }
+    auto const& text = part == Part::authority      ? ref.authority
+                       : part == Part::codebook_ref ? ref.codebook_ref
+                       : part == Part::version      ? ref.version
+                                                    : ref.code;
+    return text.empty() ? Texts{} : Texts{text};
 }
 
 // As a text, a place is the names of those that it lies in.

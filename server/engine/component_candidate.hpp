@@ -22,6 +22,7 @@ public:
 
 private:
     bool is_open(Reference const&) const;
+    Texts own_texts(Reference const&) const;
     Texts identifier_texts(Reference::Part) const;
     Texts location_texts(Reference::Part) const;
     Parameter const* parameter(std::string_view name) const;

@@ -25,7 +25,9 @@ std::variant<Filter, std::string> Filter::compile(std::optional<Condition> const
     FilterCompiler compiler{vocabulary};
     filter.predicate_ = compiler.compile(*condition);
     if (compiler.problem()) return *compiler.problem();
+    filter.predicates_ = compiler.predicates();
     filter.meaning_ = filter.predicate_->canonical();
+    if (filter.meaning_ == met_by_everything) return Filter{};
     filter.depends_on_asker_ = compiler.depends_on_asker();
     return filter;
 }

@@ -34,6 +34,9 @@ public:
     // The condition's canonical text: the same for conditions that mean the same (decision 20).
     std::string const& meaning() const { return meaning_; }
 
+    // How many predicates it is made of: what it costs to hold it against something.
+    std::size_t predicates() const { return predicates_; }
+
     // Whether the answer may differ from asker to asker (`status` does, decision 7).
     bool depends_on_asker() const { return depends_on_asker_; }
 
@@ -43,6 +46,7 @@ private:
 
     std::unique_ptr<Predicate const> predicate_;  // null: restricts nothing
     std::string meaning_;
+    std::size_t predicates_ = 0;
     bool depends_on_asker_ = false;
 };
 

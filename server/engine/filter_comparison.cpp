@@ -25,7 +25,7 @@ struct Manner {
     ValueKind kind = ValueKind::any;
     Case letters = Case::matched;
 
-    Comparable read(std::string text) const {
+    Comparable read(std::string_view text) const {
         if (kind == ValueKind::number) return {.text = {}, .number = to_double(text), .time = {}};
         if (kind == ValueKind::time) return {.text = {}, .number = {}, .time = to_utc(text)};
         if (kind == ValueKind::boolean) {
@@ -35,7 +35,8 @@ struct Manner {
         Comparable value;
         if (kind == ValueKind::any) value.number = to_double(text);
         if (kind == ValueKind::any && !value.number) value.time = to_utc(text);
-        value.text = letters == Case::ignored ? folded_case(text) : std::move(text);
+        auto const said = trimmed(text);
+        value.text = letters == Case::ignored ? folded_case(said) : std::string{said};
         return value;
     }
 
@@ -88,9 +89,9 @@ public:
         }
         auto const* reference = std::get_if<Reference>(&told_);
         if (reference == nullptr) return &known_;
-        auto texts = candidate.texts(*reference);
+        auto const texts = candidate.texts(*reference);
         if (!texts) return nullptr;
-        for (auto& text : *texts) told.push_back(manner.read(std::move(text)));
+        for (auto const& text : *texts) told.push_back(manner.read(text));
         return &told;
     }
 

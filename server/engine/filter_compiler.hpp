@@ -25,6 +25,9 @@ public:
 
 using PredicatePtr = std::unique_ptr<Predicate const>;
 
+// The canonical text of And without operands.
+inline constexpr char met_by_everything[] = "&";
+
 // Where something is: known beforehand, or told by a candidate.
 class Whereabouts {
 public:
@@ -80,6 +83,7 @@ public:
 
     std::optional<std::string> const& problem() const { return problem_; }
     bool depends_on_asker() const { return depends_on_asker_; }
+    std::size_t predicates() const { return predicates_; }
     Vocabulary const& vocabulary() const { return vocabulary_; }
 
     PredicatePtr operator()(PropertyComparison const&);

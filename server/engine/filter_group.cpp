@@ -160,6 +160,7 @@ PredicatePtr FilterCompiler::operator()(ComponentGroup const& group) {
     aliases_.clear();
     vocabulary_ = around;
     if (problem_) return nullptr;
+    if (group.types.empty() && members.empty() && filter == nullptr) return (*this)(And{});
     return std::make_unique<Group>(group.types, std::move(filter), std::move(members));
 }
 

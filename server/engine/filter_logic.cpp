@@ -16,6 +16,7 @@ std::string joined(char name, Predicates const& operands) {
     return text;
 }
 
+// Met by everything when it has no operands.
 class All final : public Predicate {
 public:
     explicit All(Predicates operands) : operands_{std::move(operands)} {}
@@ -96,8 +97,13 @@ public:
         }
     }
 
+    // What everything meets adds nothing to And, and decides Or.
     template <class Made>
     PredicatePtr made() && {
+        if (by_meaning_.contains(met_by_everything)) {
+            if (std::is_same_v<Operator, Or>) return std::make_unique<All>(Predicates{});
+            by_meaning_.erase(met_by_everything);
+        }
         Predicates operands;
         for (auto& [meaning, predicate] : by_meaning_) operands.push_back(std::move(predicate));
         return operands.size() == 1 ? std::move(operands.front()) : std::make_unique<Made>(std::move(operands));

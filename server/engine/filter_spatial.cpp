@@ -111,7 +111,7 @@ PredicatePtr FilterCompiler::operator()(DistanceComparison const& comparison) {
         return nullptr;
     }
     if (!(comparison.distance >= 0)) {
-        refuse("the condition has a distance below 0");
+        refuse("the condition has a distance that is no number from 0 on");
         return nullptr;
     }
     auto pair = pair_of(*this, comparison.operands);

@@ -20,8 +20,9 @@ public:
     Match match(Candidate const& candidate) const override {
         auto const texts = candidate.texts(reference_);
         if (!texts) return Match::maybe;
-        bool const met = std::ranges::any_of(*texts, [&](std::string const& text) {
-            return pattern_.matches(letters_ == Case::ignored ? folded_case(text) : text);
+        bool const met = std::ranges::any_of(*texts, [&](std::string_view text) {
+            text = trimmed(text);
+            return letters_ == Case::ignored ? pattern_.matches(folded_case(text)) : pattern_.matches(text);
         });
         return met ? Match::yes : Match::no;
     }
@@ -107,7 +108,7 @@ PredicatePtr FilterCompiler::operator()(PropertyIsLike const& like) {
     if (!resolved) return nullptr;
     auto characters = like;
     characters.match_case = like.match_case && resolved->kind != ValueKind::name;
-    auto pattern = LikePattern::compile(literal->text, characters);
+    auto pattern = LikePattern::compile(trimmed(literal->text), characters);
     if (auto* problem = std::get_if<std::string>(&pattern)) {
         refuse(std::move(*problem));
         return nullptr;

@@ -198,9 +198,7 @@ RegisteredComponent& Registry::add(std::shared_ptr<RegisteredComponent> componen
     if (!added) throw std::runtime_error("there are two components with the ref " + quoted(ref));
     place->second = std::move(component);
     auto& registered = *place->second;
-    parameters_.add(registered.settable());
-    if (auto const* message = find_message(registered.profile(), MessageKind::query, "get_parameter"))
-        parameters_.add(message->results);
+    parameters_.reset();
     for (auto const& message : registered.profile().messages) {
         auto& list = by_message_[{message.kind, message.name}];
         list.insert(std::ranges::upper_bound(
@@ -214,6 +212,18 @@ void Registry::remove(RegisteredComponent const& component) {
     for (auto const& message : component.profile().messages)
         std::erase_if(by_message_[{message.kind, message.name}], [&](auto const* each) { return each == &component; });
     components_.erase(component.ref().code);
+    parameters_.reset();
+}
+
+Declarations const& Registry::parameters() const {
+    if (parameters_) return *parameters_;
+    auto& gathered = parameters_.emplace();
+    for (auto const& [ref, component] : components_) {
+        gathered.add(component->settable());
+        if (auto const* message = find_message(component->profile(), MessageKind::query, "get_parameter"))
+            gathered.add(message->results);
+    }
+    return gathered;
 }
 
 RegisteredComponent* Registry::find(std::string_view ref) const {

@@ -119,15 +119,15 @@ public:
     // The components whose profile has this message, ordered by ref.
     std::vector<RegisteredComponent*> const& with(MessageKind, std::string_view message) const;
 
-    // The parameters of all components: what conditions may speak of.
-    Declarations const& parameters() const { return parameters_; }
+    // The parameters of all components: what conditions may speak of. Good until the next change.
+    Declarations const& parameters() const;
 
     enum class Bound : std::uint8_t { ok, taken };
     static Bound bind(RegisteredComponent&, Session&);
 
 private:
     Components components_;
-    Declarations parameters_;
+    mutable std::optional<Declarations> parameters_;  // nothing when they are to be gathered anew
     std::map<std::pair<MessageKind, std::string>, std::vector<RegisteredComponent*>> by_message_;
 };
 

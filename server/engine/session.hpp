@@ -27,6 +27,7 @@ struct Session {
 
     std::set<RegisteredComponent*> bound;
     std::set<Subscription*> subscriptions;
+    std::size_t predicates = 0;                                                // in the conditions of these
     std::unordered_map<CommandId, std::shared_ptr<Command>, IdHash> commands;  // all that are known (decision 17)
     std::deque<std::shared_ptr<Command>> ended;                                // of these, in the order in which they ended
 

@@ -11,9 +11,10 @@ enum class OnSessionEnd : std::uint8_t { stop, continue_ };
 
 struct EngineSettings {
     std::size_t max_sessions = 1'000;
-    std::size_t max_waiting_notifications = 1'024;  // a session (decision 23)
-    std::size_t max_sent_notifications = 1'024;     // kept for resuming, a session
-    std::size_t max_command_results = 1'000;        // kept, a session (decision 17)
+    std::size_t max_waiting_notifications = 1'024;   // a session (decision 23)
+    std::size_t max_sent_notifications = 1'024;      // kept for resuming, a session
+    std::size_t max_command_results = 1'000;         // kept, a session (decision 17)
+    std::size_t max_subscribed_predicates = 10'000;  // in the conditions of a session's subscriptions (docs/conditions.md)
     std::chrono::milliseconds command_results = std::chrono::minutes{10};
     std::chrono::milliseconds event_details = std::chrono::seconds{60};  // `expire` (decision 21)
     std::chrono::milliseconds error_details = std::chrono::minutes{10};  // decision 24

@@ -29,6 +29,9 @@ struct Subscription {
 // Kept both ways: a subscription knows its sessions, a session its subscriptions.
 class Subscriptions {
 public:
+    // Null when nobody has this one.
+    Subscription* find(std::string_view event_type, Filter const&) const;
+
     // The same type and condition give the same subscription; the last `inline_results` wins.
     Subscription& add(Session&, std::string const& event_type, Filter, bool inline_results);
 
@@ -45,10 +48,16 @@ public:
     std::size_t size() const { return by_id_.size(); }
 
 private:
+    struct OfType {
+        std::vector<Subscription*> all;
+        std::unordered_map<std::string_view, Subscription*> by_meaning;  // of their filters
+    };
+
+    static void part(Session&, Subscription&);
     void forget_if_unheard(Subscription&);
 
     std::unordered_map<SubscribeId, std::unique_ptr<Subscription>, IdHash> by_id_;
-    std::map<std::string, std::vector<Subscription*>, std::less<>> by_type_;
+    std::map<std::string, OfType, std::less<>> by_type_;
     std::uint64_t last_ = 0;
 };
 

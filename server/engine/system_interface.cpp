@@ -1,4 +1,6 @@
 // System interface (7.4.1, table 2): connection, profiles, details of errors.
+#include <algorithm>
+
 #include "engine/core.hpp"
 #include "types/texts.hpp"
 
@@ -34,14 +36,30 @@ Reply Engine::Core::perform(Session& session, Disconnect const&, Instant now) {
     return Disconnect::Reply{};
 }
 
+namespace {
+
+// The profile of the sub engine that has all of these; of the main engine when there is none.
+std::shared_ptr<EngineProfile const> profile_of_those(std::shared_ptr<EngineProfile const> const& main,
+                                                      std::vector<ComponentEntry> const& components) {
+    if (components.empty()) return main;
+    auto const sub = std::ranges::find(
+        main->sub_profiles, components.front().engine,
+        [](EngineProfile const& profile) -> auto const& { return profile.object.name; });
+    bool const has_all = sub != main->sub_profiles.end() &&
+                         std::ranges::all_of(components, [&](auto const& c) { return c.engine == sub->object.name; });
+    return has_all ? std::shared_ptr<EngineProfile const>{main, &*sub} : main;
+}
+
+}  // namespace
+
 Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
     auto selection = Selection::compile(get.condition, vocabulary());
     if (auto* problem = std::get_if<std::string>(&selection))
         return refused<GetProfile::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     GetProfile::Reply reply;
-    reply.profile = profile_;
     for (auto const* component : select(std::get<Selection>(selection), everyone(), session))
         reply.components.push_back(component->entry());
+    reply.profile = profile_of_those(profile_, reply.components);
     return reply;
 }
 

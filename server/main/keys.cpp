@@ -213,6 +213,9 @@ std::vector<Key> session_keys() {
         whole_number<std::size_t>(
             "max_command_results", "ended commands of a session whose results are kept",
             [](Settings & s) -> auto& { return s.engine.max_command_results; }, 1, 1e6),
+        whole_number<std::size_t>(
+            "max_subscribed_predicates", "predicates in the conditions of a session's subscriptions together",
+            [](Settings & s) -> auto& { return s.engine.max_subscribed_predicates; }, 256, 1e6),
     };
 }
 

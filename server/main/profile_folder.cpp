@@ -132,6 +132,21 @@ void refuse_incomplete(std::vector<Read>& all, std::vector<ComponentProfile> con
     } while (refuse(all, known, includes_itself) == Refused::some);
 }
 
+void warn_of_ambiguous(std::vector<Read>& all, std::vector<ComponentProfile> const& known) {
+    auto const together = with_known(all, known);
+    for (auto& each : all) {
+        if (!each.file.profile) continue;
+        auto const& parts = each.file.profile->sub_components;
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            auto const meant = find_profiles(together, parts[i]);
+            if (meant.size() < 2) continue;
+            warn(each.file, each.sub_component_places[i] + ": " + quoted(parts[i]) + " may mean " +
+                                quoted(meant[0]->object.identifier, 200) + " or " + quoted(meant[1]->object.identifier, 200) +
+                                ", and is taken for the first: write the whole identifier");
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<ProfileFile> read_profile_folder(std::shared_ptr<xml::Schemas const> const& schemas, std::string const& folder,
@@ -140,6 +155,7 @@ std::vector<ProfileFile> read_profile_folder(std::shared_ptr<xml::Schemas const>
     for (auto const& path : documents_in(folder)) all.push_back(read(schemas, path));
     refuse_doubles(all, known);
     refuse_incomplete(all, known);
+    warn_of_ambiguous(all, known);
     std::vector<ProfileFile> files;
     files.reserve(all.size());
     for (auto& each : all) files.push_back(std::move(each.file));

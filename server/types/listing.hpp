@@ -4,6 +4,7 @@
 #include <functional>
 #include <ranges>
 #include <string>
+#include <utility>
 
 namespace rois {
 
@@ -11,7 +12,7 @@ namespace rois {
 template <std::ranges::input_range Range, class Text = std::identity>
 std::string listed(Range&& range, Text text = {}) {
     std::string all;
-    for (auto const& each : range) {
+    for (auto const& each : std::views::all(std::forward<Range>(range))) {
         if (!all.empty()) all += ", ";
         all += std::invoke(text, each);
     }

@@ -51,14 +51,21 @@ ComponentProfile flattened(ComponentProfile const& profile, std::vector<Componen
     return whole;
 }
 
-ComponentProfile const* find_profile(std::vector<ComponentProfile> const& known, std::string_view urn_or_name) {
+std::vector<ComponentProfile const*> find_profiles(std::vector<ComponentProfile> const& known, std::string_view urn_or_name) {
     auto const wanted = trimmed(urn_or_name);
-    auto found = std::ranges::find_if(known, [&](auto const& p) { return equal_ignoring_case(p.object.identifier, wanted); });
-    if (found == known.end() && wanted.find(':') == wanted.npos && !wanted.empty())
-        found = std::ranges::find_if(known, [&](auto const& p) {
-            return same_name(p.object.name, wanted) || same_name(last_part(p.object.identifier), wanted);
-        });
-    return found == known.end() ? nullptr : &*found;
+    auto const urn = std::ranges::find_if(known, [&](auto const& p) { return equal_ignoring_case(p.object.identifier, wanted); });
+    if (urn != known.end()) return {&*urn};
+    std::vector<ComponentProfile const*> found;
+    if (wanted.find(':') != wanted.npos || wanted.empty()) return found;
+    for (auto const& profile : known)
+        if (same_name(profile.object.name, wanted) || same_name(last_part(profile.object.identifier), wanted))
+            found.push_back(&profile);
+    return found;
+}
+
+ComponentProfile const* find_profile(std::vector<ComponentProfile> const& known, std::string_view urn_or_name) {
+    auto const found = find_profiles(known, urn_or_name);
+    return found.empty() ? nullptr : found.front();
 }
 
 MessageProfile const* find_message(ComponentProfile const& profile, MessageKind kind, std::string_view name) {

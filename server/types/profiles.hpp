@@ -73,6 +73,9 @@ ComponentProfile flattened(ComponentProfile const&, std::vector<ComponentProfile
 // last part of its URN, without regard to case and underscores. Null when there is none.
 ComponentProfile const* find_profile(std::vector<ComponentProfile> const& known, std::string_view urn_or_name);
 
+// All that the text may mean, in their order; the first is the one that is found.
+std::vector<ComponentProfile const*> find_profiles(std::vector<ComponentProfile> const& known, std::string_view urn_or_name);
+
 // Null when the profile has no such message or parameter. Names of messages are compared to the letter, names of parameters
 // without regard to case (decision 26).
 MessageProfile const* find_message(ComponentProfile const&, MessageKind, std::string_view name);

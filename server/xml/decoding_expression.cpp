@@ -37,6 +37,7 @@ bool all_words_are(std::string_view text, std::string_view word) {
 // What an element says of the frame of its coordinates, taken over what the one around it says.
 struct Frame {
     std::string crs;
+    std::size_t dimensions = 0;  // 0: not said
     std::optional<NotUnderstood> problem;
 
     void read(pugi::xml_node node) {
@@ -45,8 +46,9 @@ struct Frame {
         auto const axes = attribute_text(node, "axisLabels");
         if (!axes.empty() && axes != "x y" && axes != "x y z") problem = not_understood("axisLabels other than x y z");
         auto const dimension = attribute(node, "srsDimension");
-        if (dimension && trimmed(dimension.value()) != "2" && trimmed(dimension.value()) != "3")
-            problem = not_understood("srsDimension other than 2 and 3");
+        if (!dimension) return;
+        dimensions = trimmed(dimension.value()) == "2" ? 2 : 3;
+        if (dimensions == 3 && trimmed(dimension.value()) != "3") problem = not_understood("srsDimension other than 2 and 3");
     }
 };
 
@@ -65,7 +67,11 @@ Expression decode_corners(Frame frame, std::vector<pugi::xml_node> const& corner
     for (auto const& point : points) {
         if (point.size() != dimensions || dimensions < 2 || dimensions > 3)
             return {NotUnderstood{"a position of the condition has neither two nor three coordinates"}};
-        if (std::ranges::any_of(point, [](double number) { return std::isnan(number); })) return {not_understood("NaN")};
+        if (frame.dimensions != 0 && frame.dimensions != dimensions)
+            return {NotUnderstood{"a position of the condition has other than the " + std::to_string(frame.dimensions) +
+                                  " coordinates of its srsDimension"}};
+        if (std::ranges::any_of(point, [](double number) { return std::isnan(number); }))
+            return {NotUnderstood{"a coordinate of the condition is NaN or beyond what a double can hold"}};
     }
     geometry.crs = frame.crs;
     geometry.dimensions = static_cast<std::uint8_t>(dimensions);

@@ -175,6 +175,9 @@ Walk::Found Walk::attribute(pugi::xml_node node, pugi::xml_attribute attribute, 
     std::vector<std::string> known;
     for (auto const& [defined, definition] : type == nullptr ? none : definitions_of(*type)) {
         if (defined == name) return attribute_value(node, attribute, *definition);
+        if (defined.local_name == name.local_name && !name.name_space.empty() && !defined.name_space.empty())
+            return at(node, "attribute " + shown(attribute.name()) + " of " + shown(node.name()) + " must be in the namespace " +
+                                quoted(defined.name_space) + ", not in " + quoted(name.name_space));
         known.push_back(to_text(defined));
     }
     return at(node, "unknown attribute " + shown(attribute.name()) + " of " + shown(node.name()) + ": expected " + listed(known));

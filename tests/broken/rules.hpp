@@ -22,6 +22,7 @@ struct BrokenRule {
 std::vector<BrokenRule> rules_of_sessions();
 std::vector<BrokenRule> rules_of_commands();
 std::vector<BrokenRule> rules_of_information();  // queries, events, profiles
+std::vector<BrokenRule> rules_of_conditions();
 std::vector<BrokenRule> rules_of_http();
 
 // The rules in parts.
@@ -32,6 +33,7 @@ struct Part {
 inline constexpr Part all_parts[] = {{"Sessions", rules_of_sessions},
                                      {"Commands", rules_of_commands},
                                      {"Information", rules_of_information},
+                                     {"Conditions", rules_of_conditions},
                                      {"Http", rules_of_http}};
 
 inline std::ostream& operator<<(std::ostream& out, Part const& part) { return out << part.name; }

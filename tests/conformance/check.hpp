@@ -50,6 +50,7 @@ Clause completion_clause();
 Clause sequence_clause();
 Clause query_clause();
 Clause event_clause();
+Clause condition_clause();
 Clause component_clause();
 
 std::vector<Clause> all_clauses();  // in the order in which they are played

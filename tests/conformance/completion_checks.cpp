@@ -144,6 +144,43 @@ void events_of_an_action_come_before_its_end(Stage& stage) {
             navigation.events.front().name + " should come once before the command completes");
 }
 
+// Follow goes on until it is stopped, also while it waits for somebody whom it does not see.
+Command endless_follow(Component const& follow, std::vector<Argument> const& more) {
+    std::vector<Argument> arguments{{"target_object_ref", "RoISIdentifier", {"conformance-nobody"}},
+                                    {"distance", "int", {"1000"}}};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return {.component = follow.ref, .arguments = std::move(arguments)};
+}
+
+// The id of a follow that goes on; NotPlayed when the gateway follows only whom it knows.
+std::string begun_follow(Guest& guest, Command const& command) {
+    auto const answer = guest.execute(command);
+    if (answer.return_code() == "BAD_PARAMETER") throw NotPlayed{"it follows only whom it knows: " + answer.reason()};
+    return client::command_ids(ok(answer)).front();
+}
+
+void follow_goes_on_until_it_is_stopped(Stage& stage) {
+    auto const& follow = stage.one_of({"follow"});
+    Guest guest{stage};
+    guest.take(follow);
+    auto const id = begun_follow(guest, endless_follow(follow, {}));
+    guest.settle(follow);
+    if (!guest.endings(id).empty()) throw NotPlayed{"it follows only whom it sees: " + list(guest.endings(id))};
+    same("the status of stop", "OK", guest.ending(command(follow, "stop")));
+    guest.settle(follow);
+    require_once(guest, id, "OK");
+}
+
+void follow_ends_at_its_time_limit(Stage& stage) {
+    auto const& follow = stage.one_of({"follow"});
+    Guest guest{stage};
+    guest.take(follow);
+    auto const id = begun_follow(guest, endless_follow(follow, {client::time_limit("200")}));
+    auto const status = guest.status_of(id);
+    if (status == "ERROR") throw NotPlayed{"it follows only whom it sees"};
+    same("the status of a follow whose time_limit has passed", "TIMEOUT", status);
+}
+
 }  // namespace
 
 Clause completion_clause() {
@@ -160,6 +197,8 @@ Clause completion_clause() {
          {"results_are_chosen_by_condition", "tables 3, 20; decision 19", results_are_chosen_by_condition},
          {"results_of_an_unknown_or_anothers_command_are_refused", "table 3; decision 17",
           results_of_an_unknown_or_anothers_command_are_refused},
+         {"follow_goes_on_until_it_is_stopped", "table 47; decisions 8, 9", follow_goes_on_until_it_is_stopped},
+         {"follow_ends_at_its_time_limit", "tables 8, 47; decisions 8, 16", follow_ends_at_its_time_limit},
          {"events_of_an_action_come_before_its_end", "table 46; decision 8", events_of_an_action_come_before_its_end}}};
 }
 

@@ -188,6 +188,21 @@ TEST(Profile, ListsTheComponentsAndTheirEngines) {
     EXPECT_EQ(reply.components[2].engine, "sub1");
 }
 
+TEST(Profile, IsThatOfTheSubEngineWhoseComponentsAreChosen) {
+    World world{navigation, in_engine("sub1", speech), in_engine("sub1", navigation), in_engine("sub2", speech)};
+    auto desk = world.connect();
+    auto const engine = [&](Condition condition) {
+        auto const profile = desk.ask(GetProfile{std::move(condition)}).profile;
+        return profile->sub_profiles.empty() ? profile->object.name : "main";
+    };
+    EXPECT_EQ(engine(equal("engine", "sub1")), "sub1");
+    EXPECT_EQ(engine(both({equal("component_type", speech.profile.object.identifier), equal("engine", "sub2")})), "sub2");
+    EXPECT_EQ(engine(equal("component_type", speech.profile.object.identifier)), "main") << "two engines have one";
+    EXPECT_EQ(engine(equal("name", "navigation")), "main");
+    EXPECT_EQ(engine(equal("engine", "nowhere")), "main");
+    EXPECT_EQ(desk.ask(GetProfile{equal("engine", "sub1")}).profile->components.size(), 2U);
+}
+
 TEST(Profile, ListsTheChosenComponentsOnly) {
     World world{navigation, speech};
     auto desk = world.connect();

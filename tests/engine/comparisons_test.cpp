@@ -104,6 +104,16 @@ TEST_F(Comparisons, CaseCountsUnlessItIsSaidNotTo) {
     EXPECT_THAT(found(alike("label", "grün")), ElementsAre("bright", "dim"));
 }
 
+TEST_F(Comparisons, WhiteSpaceAroundTextsDoesNotCount) {
+    set("dim", "labels", "string[]", {" hi\n"});
+    for (auto const* text : {" hi\n", "hi", "  hi"}) {
+        EXPECT_THAT(found(equal("labels", text)), ElementsAre("dim")) << text;
+        EXPECT_THAT(found(alike("labels", text)), ElementsAre("dim")) << text;
+    }
+    EXPECT_THAT(found(like("labels", "\n h?\n")), ElementsAre("dim"));
+    EXPECT_THAT(found(equal("labels", "h i")), IsEmpty());
+}
+
 TEST_F(Comparisons, SeveralValuesMatchAnyAllOrOne) {
     set("dim", "counts", "int[]", {"1 2 2"});
     set("bright", "counts", "int[]", {"3 4"});

@@ -74,6 +74,30 @@ TEST_F(Events, ThatNobodyHasAreUnsupported) {
     EXPECT_EQ(desk.subscribe("person_detected", not_understood("what is this")).reason, "what is this");
 }
 
+TEST(ManySubscriptions, HaveTenThousandPredicatesASession) {
+    EngineSettings settings;
+    settings.max_subscribed_predicates = 3;
+    World world{{detection}, settings};
+    auto desk = world.connect(), hall = world.connect();
+    auto const answer = [](Application& application, std::vector<std::string> const& names) {
+        std::vector<Condition> each;
+        for (auto const& name : names) each.push_back(equal("name", name));
+        return application.subscribe("person_detected", either(std::move(each)));
+    };
+    auto const one = answer(desk, {"detection"});
+    EXPECT_EQ(answer(desk, {"detection", "a"}).return_code, ReturnCode::out_of_resources);
+    auto const two = desk.subscribe("person_detected", both({equal("name", "detection"), equal("bound", "false")}));
+    EXPECT_EQ(two.return_code, ReturnCode::out_of_resources) << "And counts, too";
+    EXPECT_EQ(two.reason,
+              "the conditions of a session's subscriptions may have 3 predicates together: unsubscribe from what is not needed "
+              "any more");
+    EXPECT_EQ(desk.subscribe("person_detected").return_code, ReturnCode::ok) << "without a condition there is none";
+    EXPECT_EQ(answer(desk, {"detection"}).subscribe_id, one.subscribe_id) << "what is there already costs nothing";
+    EXPECT_EQ(answer(hall, {"detection", "a"}).return_code, ReturnCode::ok) << "each session has its own";
+    desk.unsubscribe(one.subscribe_id);
+    EXPECT_EQ(answer(desk, {"detection", "a"}).return_code, ReturnCode::ok);
+}
+
 TEST_F(Events, OfTheSameMeaningAreTheSameSubscription) {
     auto const a = equal("component_ref", "detection"), b = equal("number", "2");
     auto const id = desk.subscribe("person_detected", both({a, b})).subscribe_id;

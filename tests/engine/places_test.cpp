@@ -114,7 +114,7 @@ TEST_F(Hall, AComponentThatFailsToSayWhereItIsHasNoPlace) {
 
 TEST_F(Hall, UnitsAndDistancesMustBeKnown) {
     EXPECT_THAT(reason(near("location", {spot(0, 0)}, 1, "ft")), HasSubstr("'ft'"));
-    EXPECT_THAT(reason(near("location", {spot(0, 0)}, -1)), HasSubstr("below 0"));
+    EXPECT_THAT(reason(near("location", {spot(0, 0)}, -1)), HasSubstr("a distance that is no number from 0 on"));
     EXPECT_THAT(reason(within("component_ref", {spot(0, 0)})), HasSubstr("'component_ref'"));
     EXPECT_THAT(reason(within("time_limit", {spot(0, 0)})), HasSubstr("'time_limit'"));
     EXPECT_THAT(reason(within("location", {Period{}})), HasSubstr("place that is none"));

@@ -1,6 +1,8 @@
 // What value references may speak of, and how they are written (decision 18; the minimum XPath of ISO 19143).
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "conditions.hpp"
 #include "world.hpp"
 
@@ -56,6 +58,32 @@ TEST_F(References, MayEndInAnAttribute) {
     EXPECT_THAT(found(equal("component_ref/@authority", "OMG")), SizeIs(4));
     EXPECT_THAT(found(equal("Property/volume/@data_type_ref", "INT")), ElementsAre("speech", "sub1.speech"));
     EXPECT_THAT(found(equal("Property/volume/@name", "volume")), ElementsAre("speech", "sub1.speech"));
+}
+
+TEST_F(References, HaveOneValueWhereThereIsOne) {
+    for (auto const* path : {"name[2]", "component_ref[2]/@code", "status[7]", "engine[2]", "RobotId[2]", "bound[2]"}) {
+        EXPECT_THAT(found(is_null(path)), SizeIs(4)) << path;
+        EXPECT_THAT(found(contrary(is_null(path))), IsEmpty()) << path;
+    }
+    EXPECT_THAT(found(equal("name[1]", "speech")), ElementsAre("speech"));
+}
+
+TEST_F(References, ToAnAttributeThatIsNotThereMeetNothing) {
+    EXPECT_THAT(found(is_null("component_ref/@version")), SizeIs(4));
+    EXPECT_THAT(found(equal("component_ref/@version", "")), IsEmpty());
+    EXPECT_THAT(found(not_equal("component_ref/@version", "1")), IsEmpty());
+}
+
+TEST_F(References, ToParametersGoWithTheirComponents) {
+    ASSERT_EQ(reason(equal("ratio", "1")), "");
+    ASSERT_EQ(reason(equal("label", "x")), "");
+    world.change({"lamp"}, {});
+    EXPECT_THAT(reason(equal("ratio", "1")), HasSubstr("which is not known here; known are component_ref"));
+    EXPECT_THAT(reason(equal("ratio", "1")), testing::Not(HasSubstr("labels")));
+    auto lamp = named("lamp", desk_lamp);
+    std::ranges::find(lamp.profile.parameters, "label", &ParameterProfile::name)->data_type_ref.code = "int";
+    world.change({}, {lamp});
+    EXPECT_THAT(reason(equal("label", "x")), HasSubstr("compares a number with 'x'"));
 }
 
 TEST_F(References, OfAnotherGrammarAreRefused) {
@@ -281,6 +309,16 @@ TEST_F(Meanings, OfPlacesAndTimes) {
               localized(temporal(TemporalRelation::before, {literal("2026-11-20"), reference("timestamp")})));
     EXPECT_NE(localized(temporal(TemporalRelation::after, {reference("timestamp"), day})),
               localized(temporal(TemporalRelation::before, {reference("timestamp"), day})));
+}
+
+TEST_F(Meanings, OfWhatEverythingMeets) {
+    auto const all = desk.subscribe("person_detected").subscribe_id.text;
+    Condition const everything{And{}};
+    EXPECT_EQ(detected(everything), all);
+    EXPECT_EQ(detected(Condition{ComponentGroup{}}), all);
+    EXPECT_EQ(detected(either({greater("number", "1"), everything})), all);
+    EXPECT_EQ(detected(both({everything, greater("number", "1")})), detected(greater("number", "1")));
+    EXPECT_EQ(desk.subscribe("person_detected", contrary(everything)).return_code, ReturnCode::unsupported);
 }
 
 TEST_F(Meanings, OfGroups) {

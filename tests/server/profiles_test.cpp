@@ -60,6 +60,17 @@ TEST(CheckProfiles, IsContentWithWarnings) {
     EXPECT_THAT(ended.out, HasSubstr("2 files: 1 ok, 1 with warnings, 0 refused\n"));
 }
 
+TEST(CheckProfiles, WarnsOfNamesThatMayMeanTwoProfiles) {
+    ProfileFolder const folder;
+    folder.put("a.xml", profile_document("urn:a::Lamp", includes_common));
+    folder.put("b.xml", profile_document("urn:b::Lamp", includes_common));
+    folder.put("c.xml", profile_document("urn:c", "<rois:SubComponentProfile>Lamp</rois:SubComponentProfile>"));
+    auto const ended = run_gateway({"--check-profiles", folder.name()});
+    EXPECT_EQ(ended.exit_code, 0) << ended.out;
+    EXPECT_THAT(ended.out, HasSubstr("warning: c.xml:3:1: 'Lamp' may mean 'urn:a::Lamp' or 'urn:b::Lamp', and is taken for the "
+                                     "first: write the whole identifier\n"));
+}
+
 TEST(CheckProfiles, WithoutAFolderIsBadUse) {
     auto const ended = run_gateway({"--check-profiles", "/nowhere/at.all"});
     EXPECT_EQ(ended.exit_code, 2);

@@ -207,6 +207,16 @@ TEST(ComponentName, IsThatOfTheProfileOrOfItsUrn) {
     EXPECT_EQ(component_name(profile), "monitor-1");
     profile.object = {.identifier = "urn:a:3D.Scanner", .code_space = {}, .name = {}, .description = {}, .meta_data = {}};
     EXPECT_EQ(component_name(profile), "_3_d_scanner");
+    for (auto const* name : {"受付", "größe", "Café"}) {
+        profile.object.name = name;
+        EXPECT_EQ(component_name(profile), name);
+    }
+    for (auto const* no_name : {"受付　案内", "a b", "a×b", "a.b"}) {
+        profile.object.name = no_name;
+        EXPECT_EQ(component_name(profile), "_3_d_scanner") << no_name;
+    }
+    profile.object = {.identifier = "urn:a::受付Robot:案内 2", .code_space = {}, .name = {}, .description = {}, .meta_data = {}};
+    EXPECT_EQ(component_name(profile), "案内_2");
 }
 
 }  // namespace

@@ -164,7 +164,12 @@ TEST(Condition, NamesTheGeometriesThatItDoesNotRead) {
                 HasSubstr("'LineString'"));
     EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos>1</gml:pos></gml:Point>")), HasSubstr("neither two nor three"));
     EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos>1 2 3 4</gml:pos></gml:Point>")), HasSubstr("neither two nor three"));
-    EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos>1 NaN</gml:pos></gml:Point>")), HasSubstr("'NaN'"));
+    EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos>1 NaN</gml:pos></gml:Point>")), HasSubstr("is NaN or beyond"));
+    EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos>1 1e999</gml:pos></gml:Point>")), HasSubstr("is NaN or beyond"));
+    EXPECT_THAT(reason_in(geometry("<gml:Point srsDimension='3'><gml:pos>1 2</gml:pos></gml:Point>")),
+                HasSubstr("other than the 3 coordinates of its srsDimension"));
+    EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos srsDimension='2'>1 2 3</gml:pos></gml:Point>")),
+                HasSubstr("other than the 2 coordinates"));
     EXPECT_THAT(reason_in(geometry("<gml:Point uomLabels='m m'><gml:pos>1 2</gml:pos></gml:Point>")), HasSubstr("uomLabels"));
     EXPECT_THAT(reason_in(geometry("<gml:Point axisLabels='y x'><gml:pos>1 2</gml:pos></gml:Point>")), HasSubstr("axisLabels"));
     EXPECT_THAT(reason_in(geometry("<gml:Envelope><gml:pos>1 2</gml:pos><gml:pos>1 2 3</gml:pos></gml:Envelope>")),

@@ -1,0 +1,277 @@
+// Conditions (ISO 19143; table 4 and wherever else a condition is an argument; decisions 4, 18, 19). What they choose is seen
+// from `search`, where they speak of components, and from the details of an event, where they speak of results.
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <sstream>
+
+#include "conformance/stage.hpp"
+
+namespace rois::conformance {
+
+namespace {
+
+using client::compared;
+using client::contrary;
+using client::equal;
+using client::where;
+
+using Refs = std::vector<std::string>;
+
+Refs found(Guest& guest, std::string const& condition) {
+    auto refs = guest.search(condition);
+    std::ranges::sort(refs);
+    return refs;
+}
+
+void same_refs(std::string const& what, Refs const& expected, Refs const& found) {
+    require(expected == found, what + " should find " + list(expected) + ", and finds " + list(found));
+}
+
+// The refs of all components for which this holds, in order.
+template <typename Predicate>
+Refs refs_of(Stage const& stage, Predicate holds) {
+    Refs refs;
+    for (auto const& component : stage.catalogue().components)
+        if (holds(component)) refs.push_back(component.ref);
+    return refs;
+}
+
+void logic_chooses_components(Stage& stage) {
+    Guest guest{stage};
+    auto const [one, other] = stage.two_common();
+    auto const is_one = equal("component_ref", one->ref), is_other = equal("component_ref", other->ref);
+    auto const but_one = refs_of(stage, [&](Component const& component) { return component.ref != one->ref; });
+    same_refs("Or", {std::min(one->ref, other->ref), std::max(one->ref, other->ref)},
+              found(guest, where(client::either(is_one, is_other))));
+    same_refs("And of what excludes one another", {}, found(guest, where(client::both(is_one, is_other))));
+    same_refs("Not", but_one, found(guest, where(contrary(is_one))));
+    same_refs("PropertyIsNotEqualTo", but_one, found(guest, where(compared("NotEqualTo", "component_ref", one->ref))));
+    same_refs("Not within And", {one->ref}, found(guest, where(client::both(is_one, contrary(is_other)))));
+}
+
+void operands_stand_in_either_order(Stage& stage) {
+    Guest guest{stage};
+    auto const& ref = stage.two_common().first->ref;
+    same_refs("a literal before the reference", {ref}, found(guest, where(client::literal_first(ref, "component_ref"))));
+}
+
+void component_types_have_no_case(Stage& stage) {
+    Guest guest{stage};
+    auto const& one = *stage.two_common().first;
+    auto type = one.type;
+    std::ranges::transform(type, type.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    auto const due = refs_of(stage, [&](Component const& component) { return component.type == one.type; });
+    same_refs("component_type = " + type, due, found(guest, where(equal("component_type", type))));
+}
+
+void like_has_wildcards(Stage& stage) {
+    Guest guest{stage};
+    auto const& ref = stage.two_common().first->ref;
+    auto const tail = ref.substr(1), head = ref.substr(0, ref.size() - 1);
+    auto const ends = refs_of(stage, [&](Component const& component) { return component.ref.ends_with(tail); });
+    auto const begins = refs_of(stage, [&](Component const& component) { return component.ref.starts_with(head); });
+    auto const one_before = refs_of(
+        stage, [&](Component const& component) { return component.ref.size() == ref.size() && component.ref.ends_with(tail); });
+    same_refs("component_ref like *" + tail, ends, found(guest, where(client::like("component_ref", "*" + tail))));
+    same_refs("component_ref like " + head + "*", begins, found(guest, where(client::like("component_ref", head + "*"))));
+    same_refs("component_ref like ?" + tail, one_before, found(guest, where(client::like("component_ref", "?" + tail))));
+    same_refs("component_ref like !*" + tail, {}, found(guest, where(client::like("component_ref", "!*" + tail))));
+}
+
+void identifiers_choose_resources(Stage& stage) {
+    Guest guest{stage};
+    auto const& ref = stage.two_common().first->ref;
+    same_refs("ResourceId", {ref}, found(guest, where("<fes:ResourceId rid=\"" + ref + "\"/>")));
+}
+
+void what_is_found_can_be_sorted(Stage& stage) {
+    Guest guest{stage};
+    auto const all = refs_of(stage, [](Component const&) { return true; });
+    auto rising = guest.search(client::ordered("", client::sorted_by("component_ref", "ASC")));
+    auto falling = guest.search(client::ordered("", client::sorted_by("component_ref", "DESC")));
+    auto sorted = rising;
+    std::ranges::sort(sorted);
+    same_refs("SortBy alone", all, sorted);
+    require(std::ranges::is_sorted(rising), "components sorted by their refs should rise, and are " + list(rising));
+    std::ranges::reverse(falling);
+    same_refs("the contrary of DESC", rising, falling);
+}
+
+void the_published_wrapper_is_read(Stage& stage) {
+    Guest guest{stage};
+    auto const& one = *stage.two_common().first;
+    auto const due = refs_of(stage, [&](Component const& component) { return component.type == one.type; });
+    same_refs("unr:SearchCondition of the type " + one.type, due,
+              found(guest,
+                    "<condition><unr:SearchCondition xmlns:unr=\"http://www.irc.atr.jp/std/unr/0.1\">"
+                    "<unr:ComponentCondition type=\"" +
+                        one.type + "\"/></unr:SearchCondition></condition>"));
+}
+
+void what_is_not_understood_is_named(Stage& stage) {
+    Guest guest{stage};
+    auto const box = client::box("0 0", "1 1");
+    refused(guest.ask("search", where(equal("colour", "red"))), "BAD_PARAMETER", "colour");
+    refused(guest.ask("search", where(client::touching("location"))), "BAD_PARAMETER", "Touches");
+    refused(
+        guest.ask("search", where(client::related("DWithin", "location", box + "<fes:Distance uom=\"parsec\">1</fes:Distance>"))),
+        "BAD_PARAMETER", "parsec");
+    refused(guest.ask("search", where(client::related("Within", "location", client::box("0 0", "1 1", "urn:nowhere")))),
+            "BAD_PARAMETER", "urn:nowhere");
+}
+
+// The details of a detection, which have a number and a time.
+class Detection {
+public:
+    explicit Detection(Stage& stage) : owner_{stage} {
+        auto const& detector = stage.detector();
+        owner_.take(detector);
+        auto const type = detector.events.front().name;
+        ok(owner_.subscribe(type, only(detector)));
+        owner_.require_success(owner_.order(command(detector, "start")), detector);
+        id_ = owner_.hear_event(type).text("event_id");
+        auto const results = ok(owner_.get_event_detail(id_)).values();
+        require(results.contains("number") && results.contains("timestamp"),
+                "a detection has a number and a timestamp (tables 35, 38, 40)");
+        auto const text = results.at("number").front();
+        std::from_chars(text.data(), text.data() + text.size(), number);
+        timestamp = results.at("timestamp").front();
+    }
+
+    void holds(std::string const& filter) { expect(filter, true); }
+    void does_not_hold(std::string const& filter) { expect(filter, false); }
+
+    int number = 0;
+    std::string timestamp;
+
+private:
+    void expect(std::string const& filter, bool due) {
+        bool const told = !ok(owner_.get_event_detail(id_, where(filter))).values().empty();
+        require(told == due, "of a detection with the number " + std::to_string(number) + " at " + timestamp + ", this should " +
+                                 (due ? "" : "not ") + "hold: " + filter);
+    }
+
+    Guest owner_;
+    std::string id_;
+};
+
+std::string number_between(int low, int high) {
+    return "<fes:PropertyIsBetween><fes:ValueReference>number</fes:ValueReference><fes:LowerBoundary><fes:Literal>" +
+           std::to_string(low) + "</fes:Literal></fes:LowerBoundary><fes:UpperBoundary><fes:Literal>" + std::to_string(high) +
+           "</fes:Literal></fes:UpperBoundary></fes:PropertyIsBetween>";
+}
+
+void numbers_are_compared_as_numbers(Stage& stage) {
+    Detection detection{stage};
+    auto const number = detection.number;
+    auto const than = [](int value) { return std::to_string(value); };
+    detection.holds(equal("number", than(number) + ".0"));
+    detection.holds(equal("number", "00" + than(number)));
+    detection.does_not_hold(equal("number", than(number + 1)));
+    detection.holds(compared("LessThan", "number", "1" + than(number) + "0"));
+    detection.does_not_hold(compared("LessThan", "number", than(number)));
+    detection.holds(compared("LessThanOrEqualTo", "number", than(number)));
+    detection.holds(compared("GreaterThan", "number", "-5"));
+    detection.does_not_hold(compared("GreaterThan", "number", than(number)));
+    detection.holds(compared("GreaterThanOrEqualTo", "number", than(number)));
+    detection.holds(number_between(number, number));
+    detection.does_not_hold(number_between(number + 1, number + 9));
+    detection.does_not_hold(client::is_null("number"));
+    detection.holds(contrary(client::is_null("number")));
+}
+
+std::string instant(std::string const& time) {
+    return "<gml:TimeInstant gml:id=\"t\"><gml:timePosition>" + time + "</gml:timePosition></gml:TimeInstant>";
+}
+
+std::string period(std::string const& begin, std::string const& end) {
+    return "<gml:TimePeriod gml:id=\"p\"><gml:beginPosition>" + begin + "</gml:beginPosition><gml:endPosition>" + end +
+           "</gml:endPosition></gml:TimePeriod>";
+}
+
+std::string timed(std::string const& relation, std::string const& time) {
+    auto filter = client::related(relation, "timestamp", time);
+    return filter.insert(filter.find('>'), " xmlns:gml=\"http://www.opengis.net/gml/3.2\"");
+}
+
+void times_are_compared_as_times(Stage& stage) {
+    Detection detection{stage};
+    detection.holds(timed("After", instant("2011-05-23T00:00:00Z")));
+    detection.does_not_hold(timed("Before", instant("2011-05-23T00:00:00Z")));
+    detection.holds(timed("Before", instant("9000-01-01T00:00:00Z")));
+    detection.holds(timed("TEquals", instant(detection.timestamp)));
+    detection.holds(timed("During", period("2011-05-23T00:00:00Z", "9000-01-01T00:00:00Z")));
+    detection.does_not_hold(timed("During", period("2011-05-23T00:00:00Z", "2011-05-24T00:00:00Z")));
+    auto const here = detection.timestamp.substr(0, detection.timestamp.size() - 1);
+    detection.holds(equal("timestamp", here + "+00:00"));
+    detection.does_not_hold(equal("timestamp", here + "+01:00"));
+}
+
+// Where a robot is, as the gateway says it, and around it: far more than any measurement errs.
+struct Surroundings {
+    Component const* system;
+    double x, y;
+
+    std::string box_at(double dx) const {
+        return client::box(std::to_string(x + dx - 5'000) + " " + std::to_string(y - 5'000),
+                           std::to_string(x + dx + 5'000) + " " + std::to_string(y + 5'000));
+    }
+    std::string point_at(double dx) const {
+        return "<gml:Point xmlns:gml=\"http://www.opengis.net/gml/3.2\"><gml:pos>" + std::to_string(x + dx) + " " +
+               std::to_string(y) + "</gml:pos></gml:Point>";
+    }
+};
+
+Surroundings surroundings(Stage& stage, Guest& guest) {
+    auto const& system = stage.one_of({"systeminformation"});
+    auto const answer = guest.query("robot_position", only(system));
+    for (auto const located : answer.root().child("results").children("located")) {
+        std::istringstream position{located.child("position").text().get()};
+        Surroundings here{&system, 0, 0};
+        if (position >> here.x >> here.y) return here;
+    }
+    throw NotPlayed{"no robot says where it is"};
+}
+
+void space_chooses_components(Stage& stage) {
+    Guest guest{stage};
+    auto const here = surroundings(stage, guest);
+    auto const chooses = [&](std::string const& relation, std::string const& other, bool due) {
+        auto const filter = client::related(relation, "location", other);
+        auto const refs = found(guest, where(filter));
+        require((std::ranges::find(refs, here.system->ref) != refs.end()) == due,
+                here.system->ref + " should " + (due ? "" : "not ") + "be found by " + filter + ", found is " + list(refs));
+    };
+    constexpr double far = 1e6;
+    for (auto const* const relation : {"Within", "BBOX", "Intersects"}) {
+        chooses(relation, here.box_at(0), true);
+        chooses(relation, here.box_at(far), false);
+    }
+    chooses("Disjoint", here.box_at(0), false);
+    chooses("Disjoint", here.box_at(far), true);
+    chooses("DWithin", here.point_at(0) + client::distance("5000"), true);
+    chooses("DWithin", here.point_at(far) + client::distance("5000"), false);
+    chooses("DWithin", here.point_at(far) + "<fes:Distance uom=\"km\">1.1</fes:Distance>", true);
+    chooses("Beyond", here.point_at(0) + client::distance("5000"), false);
+    chooses("Beyond", here.point_at(far) + client::distance("5000"), true);
+}
+
+}  // namespace
+
+Clause condition_clause() {
+    return {"Conditions (ISO 19143)",
+            {{"logic_chooses_components", "Minimum Standard Filter", logic_chooses_components},
+             {"operands_stand_in_either_order", "Minimum Standard Filter", operands_stand_in_either_order},
+             {"component_types_have_no_case", "decision 25", component_types_have_no_case},
+             {"numbers_are_compared_as_numbers", "Standard Filter", numbers_are_compared_as_numbers},
+             {"like_has_wildcards", "Standard Filter", like_has_wildcards},
+             {"times_are_compared_as_times", "Temporal Filter; decision 28", times_are_compared_as_times},
+             {"space_chooses_components", "Spatial Filter; decision 18", space_chooses_components},
+             {"identifiers_choose_resources", "Resource Identification", identifiers_choose_resources},
+             {"what_is_found_can_be_sorted", "Sorting", what_is_found_can_be_sorted},
+             {"the_published_wrapper_is_read", "the published examples", the_published_wrapper_is_read},
+             {"what_is_not_understood_is_named", "table 1; decisions 4, 18", what_is_not_understood_is_named}}};
+}
+
+}  // namespace rois::conformance
