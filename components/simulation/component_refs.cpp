@@ -53,13 +53,13 @@ std::string component_ref(std::string_view component, std::string_view engine) {
     return engine.empty() ? std::string{component} : std::string{engine} + "." + std::string{component};
 }
 
-std::vector<std::string> component_refs(FloorPlan const& plan, std::vector<std::string> const& further) {
+std::vector<std::string> component_refs(FloorPlan const& plan, std::vector<std::string> const& names) {
     std::vector<std::string> refs;
     for (auto const& robot : plan.robots) {
         bool const first = &robot == &plan.robots.front();
         auto const engine = first ? "" : robot.name;
         for (auto const& basic : basic_components()) refs.push_back(component_ref(basic.ref, engine));
-        for (auto const& name : further) refs.push_back(component_ref(name, engine));
+        for (auto const& name : names) refs.push_back(component_ref(name, engine));
     }
     return refs;
 }

@@ -14,9 +14,9 @@ namespace rois::simulation {
 // its sub engine: "robot2.navigation". `engine` is empty for the first.
 std::string component_ref(std::string_view component, std::string_view engine);
 
-// Of every component of every robot, also of those that are there with media only, and of those that have one of these further
+// Of every component of every robot, also of those that are there with media only, and of those that have one of these
 // names.
-std::vector<std::string> component_refs(FloorPlan const&, std::vector<std::string> const& further = {});
+std::vector<std::string> component_refs(FloorPlan const&, std::vector<std::string> const& names = {});
 
 // How a component with this profile is named: as the profile (gml:name) when that is a name without dots, else after its URN, in
 // small letters with underscores ("PersonMonitor": "person_monitor").

@@ -29,7 +29,7 @@ struct Utterance {
     std::string language = "en";
     double loudness = 0.5;            // 0 to 1: visitors hear 0.5 at 5 m
     std::optional<Seconds> duration;  // absent: speech_duration(text)
-    std::vector<Passage> further{};   // said after it, each heard as speech of its own
+    std::vector<Passage> further;     // said after it, each heard as speech of its own
 };
 
 enum class SpeechState : std::uint8_t {

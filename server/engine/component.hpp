@@ -25,10 +25,10 @@ struct ComponentDescription {
     std::shared_ptr<ComponentProfile const> profile;  // as its document says; the engine adds the messages of the sub components
 
     // The frame in which it takes positions; empty: the engine's own. What it tells says its frame by itself (codebook_ref, crs).
-    std::string crs{};
+    std::string crs;
     // Which of its parameters are positions (located data, decision 27): in the engine's frame when they do not say another, and
     // refused when they say one that nobody knows. Others are positions when they say a known frame.
-    std::vector<std::string> positions{};
+    std::vector<std::string> positions;
 };
 
 // What becomes of a component when a command of it has completed.
