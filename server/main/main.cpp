@@ -88,8 +88,9 @@ EngineProfile engine_profile(Settings const& settings, simulation::FloorPlan con
     profile.object.identifier = "urn:x-rois:def:HRIEngine:RoISGateway::" + settings.engine_name;
     profile.object.code_space = "urn:ietf:rfc:2141";
     profile.object.name = settings.engine_name;
-    profile.parameters = {engine_parameter("sim_speed", "double", shown("sim_speed", settings), "Simulated seconds in a second."),
-                          engine_parameter("crs", "string", plan.crs, "The frame in which positions are told; others may be taken, too.")};
+    profile.parameters = {
+        engine_parameter("sim_speed", "double", shown("sim_speed", settings), "Simulated seconds in a second."),
+        engine_parameter("crs", "string", plan.crs, "The frame in which positions are told; others may be taken, too.")};
     return profile;
 }
 
