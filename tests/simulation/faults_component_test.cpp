@@ -92,7 +92,7 @@ TEST_F(Faults, AreKnownByTheRefsOfAllComponents) {
     EXPECT_THAT(component_refs(reception_with_two_robots()), UnorderedElementsAreArray(stage.refs()));
     auto const with_a_lamp = component_refs(reception_with_two_robots(), {"lamp"});
     EXPECT_THAT(with_a_lamp, testing::IsSupersetOf({"lamp", "robot2.lamp"}));
-    EXPECT_EQ(with_a_lamp.size(), 32u);
+    EXPECT_EQ(with_a_lamp.size(), 36u);
 }
 
 TEST_F(Faults, ConcernComponentsOfUsersToo) {
