@@ -27,8 +27,8 @@ struct Hall : testing::Test {
     Application desk = world.connect();
 
     Hall() {
-        world.engine->describe(
-            {.frames = {"hall"}, .all = {{"hall", box(0, 0, 10'000, 10'000, "hall")}, {"desk", box(0, 0, 2'000, 1'000, "hall")}}});
+        world.engine->describe({.frames = {"hall"},
+                                .all = {{"hall", box(0, 0, 10'000, 10'000, "hall")}, {"desk", box(0, 0, 2'000, 1'000, "hall")}}});
         world["near"].where = at(1'000, 1'000, "robot1");
         world["far"].where = at(9'000, 7'000, "robot2");
     }
