@@ -98,7 +98,7 @@ Covariance6 covariance_of(Frame const& frame) {
     Covariance6 whole = Covariance6::Zero();
     if (frame.covariance.empty()) return whole;
     auto const size = frame.covariance.size() == 9 ? 3 : 6;
-    if (frame.covariance.size() != static_cast<std::size_t>(size * size))
+    if (frame.covariance.size() != 9 && frame.covariance.size() != 36)
         refuse(frame, "the covariance of its placement has " + std::to_string(frame.covariance.size()) +
                           " numbers; it has 9 (x, y, yaw) or 36 (x, y, z, roll, pitch, yaw)");
     if (!is_finite(frame.covariance)) refuse(frame, "the covariance of its placement is not finite");

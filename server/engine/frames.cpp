@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -141,8 +142,9 @@ std::optional<std::vector<Frames::Step>> Frames::way(std::string_view from, std:
         down.pop_back();
     }
     std::vector<Step> steps;
+    steps.reserve(up.size() + down.size());
     for (auto const* placed : up) steps.push_back({to_base, placed});
-    for (auto placed = down.rbegin(); placed != down.rend(); ++placed) steps.push_back({from_base, *placed});
+    for (auto const* placed : std::views::reverse(down)) steps.push_back({from_base, placed});
     return steps;
 }
 

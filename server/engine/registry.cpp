@@ -166,13 +166,12 @@ std::optional<std::string> RegisteredComponent::why_no_frame(ParameterList const
     return {};
 }
 
-ParameterList const& RegisteredComponent::taken(ParameterList const& list, ParameterList& room) const {
+ParameterList RegisteredComponent::taken(ParameterList list) const {
     if (frames_.are_one()) return list;
-    room = list;
-    for (auto& parameter : room)
+    for (auto& parameter : list)
         if (!parameter.data_type_ref.codebook_ref.empty() || is_position(parameter.name))
             frames_.change(parameter, crs_, Frames::Rounding::millionth);
-    return room;
+    return list;
 }
 
 std::optional<ParameterList> RegisteredComponent::merged(ParameterList stored, ParameterList const& arrived) const {

@@ -67,9 +67,8 @@ public:
     // Why these parameters cannot be taken: positions are in a frame that nobody knows. `normalized` ones.
     std::optional<std::string> why_no_frame(ParameterList const& normalized) const;
 
-    // The parameters as the component takes them, positions in its own frame: the list itself, or `room` when that makes a
-    // difference.
-    ParameterList const& taken(ParameterList const& list, ParameterList& room) const;
+    // The parameters as the component takes them, positions in its own frame.
+    ParameterList taken(ParameterList) const;
 
     // `stored` with what arrived, as the component reconciles the two; nothing when it failed.
     std::optional<ParameterList> merged(ParameterList stored, ParameterList const& arrived) const;
