@@ -105,6 +105,8 @@ void judge(Row const& row, std::set<std::string> const& tests, Complaints& compl
         complaints.push_back(here + "'" + row.state + "' needs a reason after a colon");
     if (kind == "done" && row.state != kind) complaints.push_back(here + "what is done needs no word more");
     std::sregex_iterator found(row.tests.begin(), row.tests.end(), name), end;
+    if (std::regex_replace(row.tests, name, "").find_first_not_of(", -") != std::string::npos)
+        complaints.push_back(here + "tests are named between backticks: " + row.tests);
     if (kind == "done" && found == end) complaints.push_back(here + "what is done has a test");
     for (; found != end; ++found)
         if (!tests.contains((*found)[1])) complaints.push_back(here + "there is no test " + (*found)[1].str());

@@ -88,6 +88,11 @@ TEST(Proof, NamesFilesThatThereAre) {
     EXPECT_THAT(against_proof(tree), IsEmpty());
 }
 
+TEST(Proof, HasItsTestsBetweenBackticks) {
+    EXPECT_THAT(in_document("`Lamp.Shines`", "`Lamp.Shines`, Lamp.Burns"),
+                ElementsAre("docs/conformance.md:9: tests are named between backticks: `Lamp.Shines`, Lamp.Burns"));
+}
+
 TEST(Proof, WithoutATestIsNone) {
     EXPECT_THAT(in_document("`Lamp.Shines`", "-"), ElementsAre("docs/conformance.md:9: what is done has a test"));
 }
