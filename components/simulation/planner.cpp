@@ -300,7 +300,7 @@ std::vector<Point> Planner::improved(Pose const& from, std::vector<Point> way, R
     auto const can_go = [&](std::size_t a, std::size_t b) {
         bool const next = b == a + 1 ? b < known : a + 1 == known && b > crossing.over.size();  // one of the way's own legs
         if (next) return true;
-        return !(leads_away && a == 0) && straight(point(a), point(b), kept_clear);
+        return (!leads_away || a != 0) && straight(point(a), point(b), kept_clear);
     };
     auto better = best_legs(crossing, can_go, policy, agility_, cost);
     return better.empty() ? way : better;
