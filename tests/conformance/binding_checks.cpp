@@ -138,7 +138,7 @@ void after_release_nothing_is_allowed(Stage& stage) {
     refused(guest.get_parameter(component.ref), "ERROR");
     refused(guest.set_parameter(component.ref, {}), "ERROR");
     refused(guest.execute(command(component, "stop")), "ERROR");
-    ok(next.bind(component.ref));
+    next.take(component);
 }
 
 void release_of_what_is_not_mine_does_nothing(Stage& stage) {
@@ -157,7 +157,7 @@ void release_stops_what_runs(Stage& stage) {
     auto const id = guest.order(long_speech(speaker, ""));
     ok(guest.release(speaker.ref));
     same("the status of the speech", "ABORT", guest.status_of(id));
-    ok(guest.bind(speaker.ref));
+    guest.take(speaker);
     same("the status of what is suspended when nothing runs", "ERROR", guest.ending(command(speaker, "suspend")));
 }
 

@@ -47,7 +47,10 @@ void with_each(Stage& stage, Guest& guest, void (*play)(Guest&, Component const&
     bool played = false;
     for (auto const& component : stage.catalogue().components) {
         if (guest.bind(component.ref).return_code() != "OK") continue;
-        play(guest, component);
+        {
+            Keeping const keeping{guest, component};
+            play(guest, component);
+        }
         ok(guest.release(component.ref));
         played = true;
     }
@@ -60,7 +63,7 @@ void start_and_stop(Guest& guest, Component const& component) {
     if (!arguments) return;
     auto const answer = guest.execute({.component = component.ref, .arguments = *arguments});
     if (answer.return_code() == "BAD_PARAMETER" && component.basic() == "follow") return;  // nobody follows oneself
-    auto const start = client::command_ids(ok(answer)).front();
+    auto const start = first("a command in the answer", client::command_ids(ok(answer)));
     auto const stop = guest.order(command(component, "stop"));
     same("the status of stop of " + component.ref, "OK", guest.status_of(stop));
     guest.settle(component);

@@ -14,7 +14,7 @@ class Watch {
 public:
     explicit Watch(Stage& stage) : detector{stage.detector()}, owner{stage} { owner.take(detector); }
 
-    std::string type() const { return detector.events.front().name; }
+    std::string type() const { return detector.detection(); }
     Document subscribe(Guest& guest, std::string const& condition = "", bool inline_results = false) const {
         return ok(guest.subscribe(type(), condition.empty() ? only(detector) : condition, inline_results));
     }
@@ -57,9 +57,10 @@ void details_of_an_event(Stage& stage) {
     watch.detect();
     auto const answer = ok(watch.owner.get_event_detail(watch.owner.hear_event(watch.type()).text("event_id")));
     auto const results = answer.values();
-    for (auto const& due : watch.detector.events.front().results) {
-        require(results.contains(due.name), "the details lack " + due.name + ": " + answer.whole());
-        require(is_of_type(due.type, results.at(due.name)), due.name + " is not of the type " + due.type + ": " + answer.whole());
+    for (auto const& due : watch.detector.event(watch.type())->results) {
+        auto const told = results.find(due.name);
+        require(told != results.end(), "the details lack " + due.name + ": " + answer.whole());
+        require(is_of_type(due.type, told->second), due.name + " is not of the type " + due.type + ": " + answer.whole());
     }
 }
 
@@ -69,8 +70,7 @@ void details_are_chosen_by_condition(Stage& stage) {
     watch.detect();
     auto const id = watch.owner.hear_event(watch.type()).text("event_id");
     auto const results = ok(watch.owner.get_event_detail(id)).values();
-    require(results.contains("number"), "a detection has a number (tables 35, 38, 40)");
-    auto const number = results.at("number").front();
+    auto const number = value_of(results, "number");
     require(ok(watch.owner.get_event_detail(id, where(client::equal("number", number)))).values() == results,
             "the condition number = " + number + " holds, but the results are not told");
     require(ok(watch.owner.get_event_detail(id, where(client::equal("number", "-7")))).values().empty(),
@@ -148,7 +148,7 @@ void after_unsubscribe_nothing_is_heard(Stage& stage) {
 void unsubscribe_of_what_is_over_is_ok(Stage& stage) {
     Guest guest{stage};
     auto const& detector = stage.detector();
-    auto const id = ok(guest.subscribe(detector.events.front().name)).text("subscribe_id");
+    auto const id = ok(guest.subscribe(detector.detection())).text("subscribe_id");
     ok(guest.unsubscribe(id));
     ok(guest.unsubscribe(id));
     ok(guest.unsubscribe("nobody"));
@@ -168,8 +168,8 @@ void what_cannot_happen_is_unsupported(Stage& stage) {
     Guest guest{stage};
     auto const& detector = stage.detector();
     refused(guest.subscribe("dinner_ready"), "UNSUPPORTED");
-    refused(guest.subscribe(detector.events.front().name, where(client::equal("component_ref", "nobody"))), "UNSUPPORTED");
-    refused(guest.subscribe(detector.events.front().name, where(client::equal("colour", "red"))), "BAD_PARAMETER", "colour");
+    refused(guest.subscribe(detector.detection(), where(client::equal("component_ref", "nobody"))), "UNSUPPORTED");
+    refused(guest.subscribe(detector.detection(), where(client::equal("colour", "red"))), "BAD_PARAMETER", "colour");
 }
 
 void without_a_condition_all_components_are_heard(Stage& stage) {

@@ -30,6 +30,7 @@ void the_answer_echoes_the_commands(Stage& stage) {
     auto const dial = dial_of(stage);
     Guest guest{stage};
     guest.take(*dial.component);
+    Keeping const keeping{guest, *dial.component};
     auto const answer = ok(
         guest.execute({.component = dial.component->ref, .type = "set_parameter", .arguments = {turned(dial, 50)}, .delay = 1}));
     auto const echoed = answer.root().first_child().first_child();
@@ -39,7 +40,7 @@ void the_answer_echoes_the_commands(Stage& stage) {
     auto const argument = echoed.child("rois:arguments").child("rois:parameter");
     same("the argument's name", dial.parameter, argument.attribute("rois:name").value());
     same("the argument's value", "50", argument.child("rois:value").text().get());
-    guest.status_of(client::command_ids(answer).front());
+    guest.status_of(first("a command in the answer", client::command_ids(answer)));
 }
 
 void a_name_is_used_once(Stage& stage) {
@@ -80,6 +81,7 @@ void of_a_bad_sequence_nothing_runs(Stage& stage) {
     auto const dial = dial_of(stage);
     Guest guest{stage};
     guest.take(*dial.component);
+    Keeping const keeping{guest, *dial.component};
     guest.set_parameter(dial.component->ref, {turned(dial, 51)});
     auto const name = unique_name();
     Command const good{.component = dial.component->ref, .type = "set_parameter", .id = name, .arguments = {turned(dial, 52)}};

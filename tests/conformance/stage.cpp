@@ -26,6 +26,14 @@ Component const& Stage::one_of(std::vector<std::string> const& kinds) const {
     throw NotPlayed{"there is no component of the type " + list(kinds)};
 }
 
+Component const& Stage::detector() const {
+    std::vector<std::string> const kinds{"persondetection", "facedetection", "sounddetection"};
+    for (auto const& kind : kinds)
+        for (auto const& component : catalogue_.components)
+            if (component.basic() == kind && component.event(component.detection())) return component;
+    throw NotPlayed{"there is no component of the type " + list(kinds) + " that tells what it detects"};
+}
+
 std::pair<Component const*, Component const*> Stage::two_common() const {
     std::vector<Component const*> common;
     for (auto const& component : catalogue_.components)
@@ -58,7 +66,7 @@ void Guest::take(Component const& component) {
 std::string Guest::order(Command const& command) {
     auto const ids = client::command_ids(ok(execute(command)));
     require(ids.size() == 1, "the answer should name one command");
-    return ids.front();
+    return first("a command", ids);
 }
 
 std::string Guest::status_of(std::string const& command_id) {
@@ -68,25 +76,38 @@ std::string Guest::status_of(std::string const& command_id) {
 
 void Guest::require_success(std::string const& command_id, Component const& component) {
     auto const status = status_of(command_id);
+    if (status == "OUT_OF_RESOURCES") throw NotPlayed{"another application uses what " + component.ref + " needs"};
     if ((status == "ERROR" || status == "TIMEOUT") && hear().name() == "receive_error")
         throw NotPlayed{component.ref + " has failed: " + status};
     same("the status of the command of " + component.ref, "OK", status);
 }
 
+Keeping::Keeping(Guest& guest, Component const& component)
+    : guest_{guest}, component_{component}, before_{guest.get_parameter(component.ref).values("parameters")} {}
+
+// One by one: what is refused leaves the others be.
+Keeping::~Keeping() {
+    try {
+        auto const now = guest_.get_parameter(component_.ref).values("parameters");
+        for (auto const& [name, type, default_value] : component_.parameters) {
+            auto const before = before_.find(name);
+            auto const after = now.find(name);
+            if (before == before_.end() || (after != now.end() && after->second == before->second)) continue;
+            guest_.set_parameter(component_.ref, {{name, type, client::escaped(before->second)}});
+        }
+    } catch (std::exception const&) {
+        // The gateway does not answer any more, which the check has said.
+    }
+}
+
 void Guest::settle(Component const& component) { ending(command(component, "resume")); }
 
 std::string Guest::state_of(std::string const& command_id) {
-    auto const values = ok(get_command_result(command_id)).values();
-    auto const status = values.find("status");
-    require(status != values.end() && status->second.size() == 1, "the results of a command have its status");
-    return status->second.front();
+    return value_of(ok(get_command_result(command_id)).values(), "status");
 }
 
 std::string Guest::component_status(std::string const& ref) {
-    auto const values = ok(query("component_status", client::where(client::equal("component_ref", ref)))).values();
-    auto const status = values.find("status");
-    require(status != values.end() && status->second.size() == 1, "component_status has one status");
-    return status->second.front();
+    return value_of(ok(query("component_status", client::where(client::equal("component_ref", ref)))).values(), "status");
 }
 
 std::vector<std::string> Guest::endings(std::string const& command_id) const {

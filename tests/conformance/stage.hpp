@@ -33,7 +33,7 @@ public:
     Component const& one_of(std::vector<std::string> const& kinds) const;
     Component const& speaker() const { return one_of({"speechsynthesis"}); }
     // Its first measurement after `start` is an event (decision 8), also when nobody is there.
-    Component const& detector() const { return one_of({"persondetection", "facedetection", "sounddetection"}); }
+    Component const& detector() const;
     // A component with start and stop, and another one.
     std::pair<Component const*, Component const*> two_common() const;
 
@@ -86,6 +86,20 @@ private:
     std::set<std::string> completed_;  // ids
     std::set<std::string> subscriptions_;
     std::vector<std::string> errors_;  // ids
+};
+
+// The parameters of a component, which are set back in the end if the guest has it bound still.
+class Keeping {
+public:
+    Keeping(Guest& guest, Component const& component);
+    ~Keeping();
+    Keeping(Keeping const&) = delete;
+    Keeping& operator=(Keeping const&) = delete;
+
+private:
+    Guest& guest_;
+    Component const& component_;
+    client::Values before_;
 };
 
 // One parameter of the component that takes any whole number from 40 to 60, if there is one.
