@@ -101,6 +101,7 @@ Catalogue Catalogue::read(client::Document const& answer) {
         Component component;
         component.ref = node.attribute("ref").value();
         component.type = node.attribute("type").value();
+        component.engine = node.attribute("engine").value();
         auto const id = "profile." + component.ref;
         read_profile(component, root.find_child_by_attribute("rois:HRIComponentProfile", "gml:id", id.c_str()));
         catalogue.components.push_back(std::move(component));

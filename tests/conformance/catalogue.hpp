@@ -24,6 +24,7 @@ struct Message {
 struct Component {
     std::string ref;
     std::string type;  // URN, as written
+    std::string engine;
     std::vector<Message> commands, queries, events;
     std::vector<TypedName> parameters;
     bool is_common = false;  // start, stop, suspend, resume and component_status (table 32)

@@ -111,6 +111,15 @@ void the_same_subscription_again_changes_nothing(Stage& stage) {
     require(again == 1, "an event came " + std::to_string(again) + " times to one subscription");
 }
 
+void inline_results_are_taken_back(Stage& stage) {
+    Watch watch{stage};
+    watch.subscribe(watch.owner, "", true);
+    watch.subscribe(watch.owner, "", false);
+    watch.detect();
+    auto const event = watch.owner.hear_event(watch.type());
+    require(!event.root().child("results"), "the last time, results were not asked for: " + event.whole());
+}
+
 void what_was_not_subscribed_is_not_heard(Stage& stage) {
     Watch watch{stage};
     Guest other{stage};
@@ -196,6 +205,7 @@ Clause event_clause() {
          {"results_come_inline_when_asked_for", "decision 21", results_come_inline_when_asked_for},
          {"details_of_an_unknown_event_are_refused", "table 5; decision 21", details_of_an_unknown_event_are_refused},
          {"the_same_subscription_again_changes_nothing", "7.4.1.5; decision 20", the_same_subscription_again_changes_nothing},
+         {"inline_results_are_taken_back", "decision 20", inline_results_are_taken_back},
          {"what_was_not_subscribed_is_not_heard", "7.4.1.5", what_was_not_subscribed_is_not_heard},
          {"two_applications_hear_the_same_event", "7.4.1.5; decision 20", two_applications_hear_the_same_event},
          {"after_unsubscribe_nothing_is_heard", "figure 13", after_unsubscribe_nothing_is_heard},

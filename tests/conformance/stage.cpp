@@ -1,6 +1,8 @@
 #include "conformance/stage.hpp"
 
 #include <algorithm>
+#include <array>
+#include <ctime>
 
 #include "client/line.hpp"
 
@@ -9,6 +11,16 @@ namespace rois::conformance {
 namespace {
 
 constexpr std::chrono::seconds longest_check{60};
+constexpr std::chrono::hours clocks_differ{1};  // at most, the gateway's and this one
+
+// "2026-11-22T10:00:00", before which nothing that is still to come can be.
+std::string now_less_tolerance() {
+    auto const time = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now() - clocks_differ);
+    std::tm utc{};
+    gmtime_r(&time, &utc);
+    std::array<char, 32> text;
+    return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &utc)};
+}
 
 }  // namespace
 
@@ -139,6 +151,8 @@ void Guest::check_answer(Document const& answer, std::string const& operation, s
         completed_.clear();
         subscriptions_.clear();
         errors_.clear();
+        events_.clear();
+        told_.clear();
     }
     for (auto const& id : client::command_ids(answer)) commands_.insert(id);
     if (auto const id = answer.text("command_id"); !id.empty()) commands_.insert(id);
@@ -164,7 +178,14 @@ void Guest::check_notification(Document const& notification, std::uint64_t seque
 void Guest::check_event(Document const& event) {
     auto& traffic = stage_.traffic();
     traffic.see("events_are_those_that_were_subscribed", subscriptions_.contains(event.text("subscribe_id")), event.whole());
-    traffic.see("times_are_utc", is_of_type("DateTime", {event.text("expire")}), event.whole());
+    auto const expire = event.text("expire"), id = event.text("event_id");
+    traffic.see("times_are_utc", is_of_type("DateTime", {expire}), event.whole());
+    traffic.see("events_expire_in_the_future", expire.substr(0, now_less_tolerance().size()) >= now_less_tolerance(),
+                "it is over already: " + event.whole());
+    auto const about = event.text("event_type") + " of " + event.ref() + ", which expires at " + expire;
+    auto const& known = events_.try_emplace(id, about).first->second;
+    traffic.see("an_event_id_names_one_event", known == about && told_.emplace(id, event.text("subscribe_id")).second,
+                id + " was " + known + ", and is now " + event.whole());
     auto const ref = event.ref();
     auto const* const component = stage_.catalogue().find(ref);
     traffic.see(

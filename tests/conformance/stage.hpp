@@ -85,7 +85,9 @@ private:
     std::set<std::string> commands_;   // ids that answers gave
     std::set<std::string> completed_;  // ids
     std::set<std::string> subscriptions_;
-    std::vector<std::string> errors_;  // ids
+    std::vector<std::string> errors_;                     // ids
+    std::map<std::string, std::string> events_;           // by id: what is the same for all subscriptions
+    std::set<std::pair<std::string, std::string>> told_;  // events and subscriptions, by their ids
 };
 
 // The parameters of a component, which are set back in the end if the guest has it bound still.
