@@ -136,7 +136,6 @@ void events_of_an_action_come_before_its_end(Stage& stage) {
     if (!navigation.event(event)) throw NotPlayed{navigation.ref + " has no event " + event};
     Guest guest{stage};
     guest.take(navigation);
-    Keeping const keeping{guest, navigation};
     auto const here = guest.query("robot_position").values();
     if (!here.contains("position_data") || here.at("position_data").empty()) throw NotPlayed{"no robot says where it is"};
     ok(guest.subscribe(event, only(navigation)));
@@ -166,7 +165,6 @@ void follow_goes_on_until_it_is_stopped(Stage& stage) {
     auto const& follow = stage.one_of({"follow"});
     Guest guest{stage};
     guest.take(follow);
-    Keeping const keeping{guest, follow};
     auto const id = begun_follow(guest, endless_follow(follow, {client::time_limit("0")}));
     guest.settle(follow);
     if (!guest.endings(id).empty()) throw NotPlayed{"it follows only whom it sees: " + list(guest.endings(id))};
@@ -179,7 +177,6 @@ void follow_ends_at_its_time_limit(Stage& stage) {
     auto const& follow = stage.one_of({"follow"});
     Guest guest{stage};
     guest.take(follow);
-    Keeping const keeping{guest, follow};
     auto const id = begun_follow(guest, endless_follow(follow, {client::time_limit("200")}));
     auto const status = guest.status_of(id);
     if (status == "ERROR") throw NotPlayed{"it follows only whom it sees"};

@@ -51,6 +51,19 @@ void an_event_is_heard_with_its_ids(Stage& stage) {
     require(!event.root().child("results"), "results were not asked for: " + event.whole());
 }
 
+void each_event_has_an_id_of_its_own(Stage& stage) {
+    Watch watch{stage};
+    watch.subscribe(watch.owner);
+    watch.detect();
+    auto const first = watch.owner.hear_event(watch.type()).text("event_id");
+    auto const details = ok(watch.owner.get_event_detail(first)).values();
+    watch.end();
+    watch.detect();
+    auto const second = watch.owner.hear_event(watch.type()).text("event_id");
+    require(first != second, "two events have the id " + first);
+    require(ok(watch.owner.get_event_detail(first)).values() == details, "the details of an event changed with the next one");
+}
+
 void details_of_an_event(Stage& stage) {
     Watch watch{stage};
     watch.subscribe(watch.owner);
@@ -114,7 +127,8 @@ void the_same_subscription_again_changes_nothing(Stage& stage) {
 void inline_results_are_taken_back(Stage& stage) {
     Watch watch{stage};
     watch.subscribe(watch.owner, "", true);
-    watch.subscribe(watch.owner, "", false);
+    ok(watch.owner.ask("subscribe", "<event_type>" + watch.type() + "</event_type>" + only(watch.detector),
+                       "inline_results=\"false\""));
     watch.detect();
     auto const event = watch.owner.hear_event(watch.type());
     require(!event.root().child("results"), "the last time, results were not asked for: " + event.whole());
@@ -200,6 +214,7 @@ Clause event_clause() {
         "7.4.1.5 Event interface",
         {{"every_event_can_be_subscribed", "figure 13; tables 5, 35 to 46", every_event_can_be_subscribed},
          {"an_event_is_heard_with_its_ids", "figure 13; tables 6, 22", an_event_is_heard_with_its_ids},
+         {"each_event_has_an_id_of_its_own", "tables 6, 22; decision 8", each_event_has_an_id_of_its_own},
          {"details_of_an_event", "figure 13; tables 5, 23, 35", details_of_an_event},
          {"details_are_chosen_by_condition", "tables 5, 23; decision 19", details_are_chosen_by_condition},
          {"results_come_inline_when_asked_for", "decision 21", results_come_inline_when_asked_for},

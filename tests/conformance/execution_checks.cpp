@@ -30,7 +30,6 @@ void the_answer_echoes_the_commands(Stage& stage) {
     auto const dial = dial_of(stage);
     Guest guest{stage};
     guest.take(*dial.component);
-    Keeping const keeping{guest, *dial.component};
     auto const answer = ok(
         guest.execute({.component = dial.component->ref, .type = "set_parameter", .arguments = {turned(dial, 50)}, .delay = 1}));
     auto const echoed = answer.root().first_child().first_child();
@@ -64,7 +63,6 @@ void the_answer_echoes_the_structure(Stage& stage) {
     auto const dial = dial_of(stage);
     Guest guest{stage};
     guest.take(*dial.component);
-    Keeping const keeping{guest, *dial.component};
     auto const stop = command(*dial.component, "stop");
     Command const set{.component = dial.component->ref, .type = "set_parameter", .arguments = {turned(dial, 50)}};
     auto const sequence = client::sequence(client::side_by_side(client::one_after_another(unit(stop) + unit(set)) + unit(stop)) +
@@ -116,7 +114,6 @@ void of_a_bad_sequence_nothing_runs(Stage& stage) {
     auto const dial = dial_of(stage);
     Guest guest{stage};
     guest.take(*dial.component);
-    Keeping const keeping{guest, *dial.component};
     guest.set_parameter(dial.component->ref, {turned(dial, 51)});
     auto const name = unique_name();
     Command const good{.component = dial.component->ref, .type = "set_parameter", .id = name, .arguments = {turned(dial, 52)}};

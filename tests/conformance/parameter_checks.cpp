@@ -14,10 +14,10 @@ std::string upper(std::string text) {
     return text;
 }
 
-// With a dial that the guest has bound, and that is turned back in the end.
+// With a dial that the guest has bound.
 class Turning {
 public:
-    explicit Turning(Stage& stage) : dial{dial_of(stage)}, guest{stage}, keeping_{bound(), *dial.component} {}
+    explicit Turning(Stage& stage) : dial{dial_of(stage)}, guest{stage} { guest.take(*dial.component); }
 
     std::string value() {
         auto const values = ok(guest.get_parameter(dial.component->ref)).values("parameters");
@@ -28,14 +28,6 @@ public:
 
     Dial dial;
     Guest guest;
-
-private:
-    Guest& bound() {
-        guest.take(*dial.component);
-        return guest;
-    }
-
-    Keeping keeping_;
 };
 
 void set_parameter_completes_once_and_stores(Stage& stage) {

@@ -37,18 +37,25 @@ std::vector<std::string> profiles_in(Document const& answer) {
     return refs;
 }
 
+// Those of its sub engines, too.
+std::vector<std::string> refs_of_engine(pugi::xml_node root) {
+    std::set<std::string> refs;
+    for (auto const component : root.select_nodes(".//rois:HRIComponent")) refs.insert(component.node().text().get());
+    return {refs.begin(), refs.end()};
+}
+
 void the_engine_tells_its_components(Stage& stage) {
     Guest guest{stage};
     auto const answer = ok(guest.ask("get_profile"));
     auto const refs = refs_in(answer);
     require(!refs.empty(), "an engine has at least one component (table 30): " + answer.whole());
     require(std::set(refs.begin(), refs.end()).size() == refs.size(), "a component is there twice: " + list(refs));
-    std::set<std::string> of_engine;
-    for (auto const node : answer.root().select_nodes("//rois:HRIComponent")) of_engine.insert(node.node().text().get());
+    auto const of_engine = refs_of_engine(answer.root());
     for (auto const& ref : of_engine)
         require(std::ranges::binary_search(refs, ref), "the engine's profile names " + ref + ", the list of components does not");
     for (auto const& ref : refs)
-        require(of_engine.contains(ref), "the list of components names " + ref + ", the engine's profile does not");
+        require(std::ranges::binary_search(of_engine, ref),
+                "the list of components names " + ref + ", the engine's profile does not");
 }
 
 void each_component_has_a_profile(Stage& stage) {
@@ -87,6 +94,15 @@ void a_condition_that_cannot_be_read_is_refused(Stage& stage) {
     refused(guest.query("component_status", unknown), "BAD_PARAMETER", "colour");
 }
 
+// "rois:EventMessageProfileType person_detected": its messages and parameters, in order.
+std::vector<std::string> contents_of(pugi::xml_node profile) {
+    std::vector<std::string> contents;
+    for (auto const child : profile.children())
+        if (auto const name = child.attribute("rois:name"))
+            contents.push_back(std::string{child.attribute("xsi:type").value()} + " " + name.value());
+    return contents;
+}
+
 // Over the operation and as documents.
 void profiles_are_served_as_documents(Stage& stage) {
     client::HttpClient client{stage.address()};
@@ -94,12 +110,18 @@ void profiles_are_served_as_documents(Stage& stage) {
     require(engine.status == 200, "/rois/profile answers with " + std::to_string(engine.status));
     stage.traffic().validate(engine.body);
     same("the document at /rois/profile", "rois:HRIEngineProfile", engine.root().name());
+    same("the components at /rois/profile", list(refs_of(stage.catalogue())), list(refs_of_engine(engine.root())));
+    Guest guest{stage};
+    auto const told = ok(guest.ask("get_profile"));
     for (auto const& ref : refs_of(stage.catalogue())) {
         auto const path = "/rois/profile/" + ref;
         auto const reply = client.get(path);
         require(reply.status == 200, path + " answers with " + std::to_string(reply.status));
         stage.traffic().validate(reply.body);
         same("the gml:id at " + path, "profile." + ref, reply.root().attribute("gml:id").value());
+        auto const profile =
+            told.root().find_child_by_attribute("rois:HRIComponentProfile", "gml:id", ("profile." + ref).c_str());
+        same("what is at " + path, list(contents_of(profile)), list(contents_of(reply.root())));
     }
     same("the fault at a component that is not there", "not_found", client.get("/rois/profile/nobody").fault());
 }

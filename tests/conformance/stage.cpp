@@ -61,6 +61,7 @@ Guest::Guest(Stage& stage, Comes comes) : Application{client::wire_to(stage.addr
 }
 
 Guest::~Guest() {
+    kept_.clear();
     try {
         ask_for_details();
         leave();
@@ -73,6 +74,7 @@ void Guest::take(Component const& component) {
     auto const answer = bind(component.ref);
     if (answer.return_code() == "OUT_OF_RESOURCES") throw NotPlayed{"another application uses " + component.ref};
     ok(answer);
+    kept_.try_emplace(component.ref, *this, component);
 }
 
 std::string Guest::order(Command const& command) {
@@ -100,7 +102,9 @@ Keeping::Keeping(Guest& guest, Component const& component)
 // One by one: what is refused leaves the others be.
 Keeping::~Keeping() {
     try {
-        auto const now = guest_.get_parameter(component_.ref).values("parameters");
+        auto const answer = guest_.get_parameter(component_.ref);
+        if (answer.return_code() != "OK") return;
+        auto const now = answer.values("parameters");
         for (auto const& [name, type, default_value] : component_.parameters) {
             auto const before = before_.find(name);
             auto const after = now.find(name);

@@ -48,6 +48,22 @@ private:
     std::chrono::steady_clock::time_point end_;
 };
 
+class Guest;
+
+// The parameters of a component, which are set back in the end if the guest has it bound still.
+class Keeping {
+public:
+    Keeping(Guest& guest, Component const& component);
+    ~Keeping();
+    Keeping(Keeping const&) = delete;
+    Keeping& operator=(Keeping const&) = delete;
+
+private:
+    Guest& guest_;
+    Component const& component_;
+    client::Values before_;
+};
+
 // A service application. It looks at all that it hears, and leaves nothing behind.
 class Guest : public client::Application {
 public:
@@ -55,7 +71,7 @@ public:
     explicit Guest(Stage&, Comes = Comes::connected);
     ~Guest() override;
 
-    // Binds it; NotPlayed when another application has it.
+    // Binds it; NotPlayed when another application has it. Its parameters are set back in the end.
     void take(Component const&);
     // Executes one command, and gives its id.
     std::string order(Command const&);
@@ -82,26 +98,13 @@ private:
     void ask_for_details();
 
     Stage& stage_;
-    std::set<std::string> commands_;   // ids that answers gave
-    std::set<std::string> completed_;  // ids
+    std::map<std::string, Keeping> kept_;  // by component_ref
+    std::set<std::string> commands_;       // ids that answers gave
+    std::set<std::string> completed_;      // ids
     std::set<std::string> subscriptions_;
     std::vector<std::string> errors_;                     // ids
     std::map<std::string, std::string> events_;           // by id: what is the same for all subscriptions
     std::set<std::pair<std::string, std::string>> told_;  // events and subscriptions, by their ids
-};
-
-// The parameters of a component, which are set back in the end if the guest has it bound still.
-class Keeping {
-public:
-    Keeping(Guest& guest, Component const& component);
-    ~Keeping();
-    Keeping(Keeping const&) = delete;
-    Keeping& operator=(Keeping const&) = delete;
-
-private:
-    Guest& guest_;
-    Component const& component_;
-    client::Values before_;
 };
 
 // One parameter of the component that takes any whole number from 40 to 60, if there is one.
