@@ -81,6 +81,17 @@ Breaking tells_a_profile_too_many() {
     }};
 }
 
+// Whatever completes, the last event comes once more, under another id.
+Breaking is_never_silent() {
+    auto last = std::make_shared<std::string>();
+    return {.notification = [last](std::string const& notification) -> Documents {
+        if (is(notification, "receive_event"))
+            *last = edited(notification, [](pugi::xml_node root) { root.child("event_id").text().set("e-0"); });
+        if (!is(notification, "completed") || last->empty()) return {notification};
+        return {notification, *last};
+    }};
+}
+
 Breaking names_another_subscription() {
     return edits_notifications("receive_event", [](pugi::xml_node root) { root.child("subscribe_id").text().set("s-0"); });
 }
@@ -140,6 +151,7 @@ std::vector<BrokenRule> rules_of_information() {
             {"events expired long ago", "events_expire_in_the_future", expired_long_ago},
             {"results stay inline", "inline_results_are_taken_back", keeps_inlining},
             {"get_profile tells profiles that were not chosen", "get_profile_chooses_by_condition", tells_a_profile_too_many},
+            {"functions are never silent", "what_does_not_run_is_silent", is_never_silent},
             {"times are local", "times_are_utc", tells_local_time}};
 }
 

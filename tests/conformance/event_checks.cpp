@@ -147,6 +147,33 @@ void what_was_not_subscribed_is_not_heard(Stage& stage) {
     require(other.heard_events(watch.type()) == 0, "an event came to an application that has not subscribed");
 }
 
+// Between the end of what silences it and that of a command for which it waits a while.
+void what_does_not_run_is_silent(Stage& stage) {
+    constexpr int a_while = 200;  // ms
+    Watch watch{stage};
+    auto& owner = watch.owner;
+    auto const [one, another] = stage.two_common();
+    auto const& other = one->ref == watch.detector.ref ? *another : *one;
+    owner.take(other);
+    watch.subscribe(owner);
+    watch.detect();
+    owner.hear_event(watch.type());
+    auto const silent = [&](std::string const& when) {
+        auto const before = owner.heard_events(watch.type());
+        owner.ending(command(other, "stop", "", a_while));
+        require(owner.heard_events(watch.type()) == before, "an event came after " + when + " of " + watch.detector.ref);
+    };
+    same("the status of suspend", "OK", owner.ending(command(watch.detector, "suspend")));
+    silent("suspend");
+    same("the status of stop", "OK", owner.ending(command(watch.detector, "stop")));
+    silent("stop");
+    watch.detect();
+    owner.hear_event(watch.type());
+    ok(owner.release(watch.detector.ref));
+    owner.settle(other);
+    silent("release");
+}
+
 void two_applications_hear_the_same_event(Stage& stage) {
     Watch watch{stage};
     Guest other{stage};
@@ -222,6 +249,7 @@ Clause event_clause() {
          {"the_same_subscription_again_changes_nothing", "7.4.1.5; decision 20", the_same_subscription_again_changes_nothing},
          {"inline_results_are_taken_back", "decision 20", inline_results_are_taken_back},
          {"what_was_not_subscribed_is_not_heard", "7.4.1.5", what_was_not_subscribed_is_not_heard},
+         {"what_does_not_run_is_silent", "table 32; decisions 6, 9", what_does_not_run_is_silent},
          {"two_applications_hear_the_same_event", "7.4.1.5; decision 20", two_applications_hear_the_same_event},
          {"after_unsubscribe_nothing_is_heard", "figure 13", after_unsubscribe_nothing_is_heard},
          {"unsubscribe_of_what_is_over_is_ok", "7.4.1.5; decision 20", unsubscribe_of_what_is_over_is_ok},
