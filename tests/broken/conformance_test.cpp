@@ -4,15 +4,20 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <pugixml.hpp>
+#include <regex>
 #include <set>
+#include <sstream>
 #include <thread>
 
+#include "broken/breaking.hpp"
 #include "broken/rules.hpp"
 #include "server/gateway_process.hpp"
 
@@ -88,12 +93,110 @@ TEST(Conformance, NeedsAGateway) {
     EXPECT_EQ(judge("--help").exit_code, 0);
 }
 
+TEST(Conformance, SaysBeforeItPlaysWhatIsWrongWithItsOptions) {
+    EmptyHall gateway;
+    auto const nothing = judge(url(gateway.port()) + " --only nothing_like_this");
+    EXPECT_EQ(nothing.exit_code, 2);
+    EXPECT_EQ(nothing.text, "rois-conformance: no check has \"nothing_like_this\" in its name (--only)\n");
+    auto const nowhere = judge(url(gateway.port()) + " --report /nowhere/report.xml");
+    EXPECT_EQ(nowhere.exit_code, 2);
+    EXPECT_EQ(nowhere.text, "rois-conformance: the report cannot be written to /nowhere/report.xml\n");
+}
+
 // A proxy that breaks nothing is found whole: what is found below is the broken rule's doing.
 TEST(Conformance, OfAProxyThatBreaksNothingIsWhole) {
     EmptyHall gateway;
     Proxy const proxy{gateway.port(), [] { return Breaking{}; }};
     auto const judged = judge(url(proxy.port()));
     EXPECT_EQ(judged.exit_code, 0) << judged.text;
+}
+
+void replace_all(std::string& text, std::string_view part, std::string_view by) {
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + by.size()))
+        text.replace(at, part.size(), by);
+}
+
+// The same document with other prefixes: names within namespaces are what counts.
+std::string with_other_prefixes(std::string document) {
+    static std::regex const message_name{"<(/?)([a-z]\\w*)(?=[ />])"};
+    replace_all(document, "xmlns=\"urn:x-rois:psm", "xmlns:m=\"urn:x-rois:psm");
+    document = std::regex_replace(document, message_name, "<$1m:$2");
+    for (auto const& [prefix, other] : {std::pair<std::string, std::string>{"rois", "r"}, {"gml", "geo"}, {"xsi", "i"}}) {
+        for (std::string const before : {"<", "</", " ", "\"", "xmlns:"}) {
+            auto const after = before == "xmlns:" ? "=" : ":";
+            replace_all(document, before + prefix + after, before + other + after);
+        }
+    }
+    return document;
+}
+
+Breaking writes_other_prefixes() {
+    return {
+        .answer = [](std::string const&, std::string const& answer, Link&) -> Documents { return {with_other_prefixes(answer)}; },
+        .notification = [](std::string const& notification) -> Documents { return {with_other_prefixes(notification)}; },
+        .http_reply =
+            [](Message const& request, Message& reply) {
+                for (auto const* const documents : {"GET /rois/notifications?", "GET /rois/profile"})
+                    if (request.first_line.starts_with(documents)) reply.body = with_other_prefixes(reply.body);
+            }};
+}
+
+// Bodies in chunks, header fields in lower case without a blank (RFC 9112, 5 and 7.1).
+Breaking writes_other_http() {
+    return {.http_reply = [](Message const&, Message& reply) {
+        constexpr std::size_t longest_chunk = 100;
+        for (auto& line : reply.headers) {
+            auto const colon = line.find(": ");
+            std::ranges::transform(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(colon), line.begin(),
+                                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+            line.erase(colon + 1, 1);
+        }
+        if (reply.body.empty()) return;
+        reply.has_length = false;
+        std::erase_if(reply.headers, [](auto const& line) { return line.starts_with("content-length"); });
+        reply.headers.emplace_back("transfer-encoding:chunked\r\n");
+        std::ostringstream chunks;
+        for (std::size_t at = 0; at < reply.body.size(); at += longest_chunk) {
+            auto const chunk = reply.body.substr(at, longest_chunk);
+            chunks << std::hex << chunk.size() << "\r\n" << chunk << "\r\n";
+        }
+        reply.body = chunks.str() + "0\r\n\r\n";
+    }};
+}
+
+TEST(Conformance, OfAGatewayThatWritesOtherPrefixesIsWhole) {
+    EmptyHall gateway;
+    Proxy const proxy{gateway.port(), writes_other_prefixes};
+    auto const judged = judge(url(proxy.port()));
+    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+}
+
+TEST(Conformance, OfAGatewayThatWritesOtherHttpIsWhole) {
+    EmptyHall gateway;
+    Proxy const proxy{gateway.port(), writes_other_http};
+    auto const judged = judge(url(proxy.port()) + " --over http");
+    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+}
+
+// Whatever is free again, another application takes it at once.
+TEST(Conformance, OfAGatewayInUseBlamesNobody) {
+    EmptyHall gateway;
+    auto const is_taken = std::make_shared<std::atomic<bool>>(false);
+    Proxy const proxy{gateway.port(), [=]() -> Breaking {
+                          return {.answer = [=](std::string const& request, std::string const& answer, Link&) -> Documents {
+                              if (is(request, "release") || is(request, "disconnect")) *is_taken = true;
+                              if (is(request, "bind") && is_taken->exchange(false))
+                                  return {response(request, "OUT_OF_RESOURCES", "<reason>another application</reason>")};
+                              return {answer};
+                          }};
+                      }};
+    for (auto const* const check : {"disconnect_releases_components", "disconnect_stops_what_runs",
+                                    "after_release_nothing_is_allowed", "release_stops_what_runs", "follow_"}) {
+        *is_taken = false;
+        auto const judged = judge(url(proxy.port()) + " --only " + check);
+        EXPECT_EQ(judged.exit_code, 0) << judged.text;
+        EXPECT_THAT(judged.text, testing::HasSubstr("another application uses")) << check;
+    }
 }
 
 TEST(Conformance, BrokenRulesAreManyAndNamedOnce) {

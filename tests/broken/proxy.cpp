@@ -199,7 +199,9 @@ private:
             auto const documents = breaking_.answer(asked, reply->body, *this);
             if (!documents.empty() && documents.front() != reply->body) {
                 reply->body = documents.front();
-                if (reply->body.find("<fault") == std::string::npos) reply->first_line = "HTTP/1.1 200 OK\r\n";
+                bool const is_fault =
+                    reply->body.find("<fault") != std::string::npos || reply->body.find(":fault ") != std::string::npos;
+                if (!is_fault) reply->first_line = "HTTP/1.1 200 OK\r\n";
             }
         }
         if (breaking_.http_reply) breaking_.http_reply(request, *reply);

@@ -66,6 +66,13 @@ Breaking passes_over_zones() {
     });
 }
 
+// One reference is taken for `name`.
+Breaking takes_for_name(std::string const& reference) {
+    return edits_conditions("search", "fes:ValueReference", [=](pugi::xml_node node) {
+        if (node.text().get() == reference) node.text().set("name");
+    });
+}
+
 // What Follow's start completes with, whatever ends it.
 Breaking ends_follow_with(char const* due, char const* status) {
     auto follows = std::make_shared<std::set<std::string>>();
@@ -101,6 +108,9 @@ std::vector<BrokenRule> rules_of_conditions() {
              [] { return takes_for("search", "fes:Disjoint", "fes:Within"); }},
             {"units of distances are passed over", "space_chooses_components", knows_no_units},
             {"frames are passed over", "what_is_not_understood_is_named", knows_no_frames},
+            {"bound means nothing", "references_mean_what_they_say", [] { return takes_for_name("bound"); }},
+            {"status means nothing", "references_mean_what_they_say", [] { return takes_for_name("status"); }},
+            {"engine means nothing", "references_mean_what_they_say", [] { return takes_for_name("engine"); }},
             {"nothing is sorted", "what_is_found_can_be_sorted", sorts_nothing},
             {"a follow that was stopped is told as aborted", "follow_goes_on_until_it_is_stopped",
              [] { return ends_follow_with("OK", "ABORT"); }},

@@ -41,6 +41,57 @@ Breaking never_inlines() {
     return edits_requests("subscribe", [](pugi::xml_node root) { root.remove_attribute("inline_results"); });
 }
 
+// One id for all, under which the details of the last one are told.
+Breaking uses_one_event_id() {
+    auto last = std::make_shared<std::string>();
+    auto breaking = edits_notifications("receive_event", [last](pugi::xml_node root) {
+        auto text = root.child("event_id").text();
+        *last = text.get();
+        text.set("e-1");
+    });
+    breaking.request = edits_requests("get_event_detail", [last](pugi::xml_node root) {
+                           if (auto text = root.child("event_id").text(); text.get() == std::string_view{"e-1"})
+                               text.set(last->c_str());
+                       }).request;
+    return breaking;
+}
+
+Breaking expired_long_ago() {
+    return edits_notifications("receive_event",
+                               [](pugi::xml_node root) { root.child("expire").text().set("2000-01-01T00:00:00.000Z"); });
+}
+
+// Once it was asked for.
+Breaking keeps_inlining() {
+    auto is_asked_for = std::make_shared<bool>(false);
+    return edits_requests("subscribe", [=](pugi::xml_node root) {
+        auto asked = root.attribute("inline_results");
+        if (asked.as_bool()) *is_asked_for = true;
+        if (*is_asked_for) asked.set_value(true);
+    });
+}
+
+Breaking tells_a_profile_too_many() {
+    return {.answer = [](std::string const& request, std::string const& answer, Link&) -> Documents {
+        if (!is(request, "get_profile") || request.find("<condition") == std::string::npos) return {answer};
+        return {edited(answer, [](pugi::xml_node root) {
+            if (auto const profile = root.child("rois:HRIComponentProfile"))
+                root.append_copy(profile).attribute("gml:id").set_value("profile.another");
+        })};
+    }};
+}
+
+// Whatever completes, the last event comes once more, under another id.
+Breaking is_never_silent() {
+    auto last = std::make_shared<std::string>();
+    return {.notification = [last](std::string const& notification) -> Documents {
+        if (is(notification, "receive_event"))
+            *last = edited(notification, [](pugi::xml_node root) { root.child("event_id").text().set("e-0"); });
+        if (!is(notification, "completed") || last->empty()) return {notification};
+        return {notification, *last};
+    }};
+}
+
 Breaking names_another_subscription() {
     return edits_notifications("receive_event", [](pugi::xml_node root) { root.child("subscribe_id").text().set("s-0"); });
 }
@@ -96,6 +147,11 @@ std::vector<BrokenRule> rules_of_information() {
              [] { return says("subscribe", "UNSUPPORTED", "OK", "<subscribe_id>s-0</subscribe_id>"); }},
             {"all events are sent, whatever is asked for", "only_events_that_match_are_heard",
              [] { return edits_requests("subscribe", remove_condition); }},
+            {"ids of events are used again", "each_event_has_an_id_of_its_own", uses_one_event_id},
+            {"events expired long ago", "events_expire_in_the_future", expired_long_ago},
+            {"results stay inline", "inline_results_are_taken_back", keeps_inlining},
+            {"get_profile tells profiles that were not chosen", "get_profile_chooses_by_condition", tells_a_profile_too_many},
+            {"functions are never silent", "what_does_not_run_is_silent", is_never_silent},
             {"times are local", "times_are_utc", tells_local_time}};
 }
 

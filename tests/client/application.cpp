@@ -20,7 +20,9 @@ public:
         auto const reply = client_.notifications(last_, patience_);
         if (!reply.root().first_child())
             throw LineEnded{"no notification for " + std::to_string(patience_) + " s: " + reply.body};
-        for (auto const notification : reply.root().children()) {
+        pugi::xml_document as_written;
+        as_written.load_buffer(reply.body.data(), reply.body.size());
+        for (auto const notification : as_written.document_element().children()) {
             last_ = notification.attribute("sequence").as_uint();
             news.push_back(document_of(notification));
         }

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <utility>
+
+#include "client/names.hpp"
 
 namespace rois::client {
 
@@ -13,13 +16,18 @@ std::string lower(std::string text) {
     return text;
 }
 
+std::string trimmed(std::string const& text) {
+    auto const begin = text.find_first_not_of(" \t");
+    return begin == text.npos ? "" : text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
+}
+
 Headers read_headers(std::string const& head) {
     Headers headers;
     for (auto begin = head.find("\r\n") + 2; begin < head.size() - 2;) {
         auto const end = head.find("\r\n", begin);
-        auto const colon = head.find(": ", begin);
+        auto const colon = head.find(':', begin);
         if (end == std::string::npos || colon > end) break;
-        headers[lower(head.substr(begin, colon - begin))] = head.substr(colon + 2, end - colon - 2);
+        headers[lower(head.substr(begin, colon - begin))] = trimmed(head.substr(colon + 1, end - colon - 1));
         begin = end + 2;
     }
     return headers;
@@ -34,7 +42,10 @@ std::string lines_of(Headers const& headers) {
 }  // namespace
 
 pugi::xml_node HttpReply::root() const {
-    if (!document_.document_element()) document_.load_buffer(body.data(), body.size());
+    if (!document_.document_element()) {
+        document_.load_buffer(body.data(), body.size());
+        give_known_prefixes(document_);
+    }
     return document_.document_element();
 }
 
@@ -73,7 +84,7 @@ HttpClient::~HttpClient() {
         line.send("POST /rois HTTP/1.1\r\nConnection: close\r\nContent-Type: text/xml\r\n" + always() +
                   "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
         line.rest();
-    } catch (LineEnded const&) {
+    } catch (std::exception const&) {
         // The gateway has gone, and the session with it.
     }
 }
@@ -84,27 +95,72 @@ std::string HttpClient::always() const {
 }
 
 HttpReply HttpClient::say(std::string_view bytes, std::string_view method) {
-    line_.send(bytes);
+    line_->send(bytes);
     return read(method);
 }
 
 HttpReply HttpClient::read(std::string_view method) {
     HttpReply reply;
-    auto const head = line_.take_until("\r\n\r\n");
+    auto const head = line_->take_until("\r\n\r\n");
     if (!head.starts_with("HTTP/1.1 ") || head.size() < 12) throw LineEnded{"this is no HTTP answer: " + head};
     reply.status = std::atoi(head.substr(9, 3).c_str());
     reply.headers = read_headers(head);
+    reopens_ = lower(reply.header("connection")).find("close") != std::string::npos;
+    is_chunked_ = lower(reply.header("transfer-encoding")).ends_with("chunked");
+    if (method == "HEAD" || reply.status < 200 || reply.status == 204 || reply.status == 304 ||
+        reply.header("content-type").starts_with("text/event-stream"))
+        return reply;
     auto const length = reply.header("content-length");
-    if (method != "HEAD" && reply.status != 304 && !length.empty())
-        reply.body = line_.take(std::strtoul(length.c_str(), nullptr, 10));
+    if (is_chunked_) {
+        for (auto chunk = next_chunk(); !chunk.empty(); chunk = next_chunk()) reply.body += chunk;
+    } else if (!length.empty()) {
+        reply.body = line_->take(std::strtoul(length.c_str(), nullptr, 10));
+    } else {
+        reply.body = line_->rest();
+        reopens_ = true;
+    }
     return reply;
 }
 
+std::string HttpClient::next_chunk() {
+    auto const size = line_->take_until("\r\n");
+    char* end = nullptr;
+    auto const length = std::strtoul(size.c_str(), &end, 16);
+    if (end == size.c_str()) throw LineEnded{"this is no size of a chunk: " + size};
+    if (length == 0) {
+        while (line_->take_until("\r\n") != "\r\n") {  // trailers
+        }
+        return {};
+    }
+    auto chunk = line_->take(length);
+    if (line_->take(2) != "\r\n") throw LineEnded{"a chunk is longer than it says: " + size};
+    return chunk;
+}
+
+std::string HttpClient::next_line() {
+    if (!is_chunked_) return line_->take_until("\n");
+    for (auto end = streamed_.find('\n'); end == std::string::npos; end = streamed_.find('\n')) {
+        auto const chunk = next_chunk();
+        if (chunk.empty()) throw LineEnded{"the stream has ended after: " + streamed_};
+        streamed_ += chunk;
+    }
+    auto const end = streamed_.find('\n') + 1;
+    auto line = streamed_.substr(0, end);
+    streamed_.erase(0, end);
+    return line;
+}
+
+void HttpClient::reopen_when_closed() {
+    if (std::exchange(reopens_, false)) line_ = std::make_unique<Line>(address_);
+}
+
 HttpReply HttpClient::get(std::string const& target, Headers const& headers, std::string const& method) {
+    reopen_when_closed();
     return say(method + " " + target + " HTTP/1.1\r\n" + always() + lines_of(headers) + "\r\n", method);
 }
 
 HttpReply HttpClient::post(std::string const& body, Headers const& headers) {
+    reopen_when_closed();
     return say("POST /rois HTTP/1.1\r\n" + always() + lines_of(headers) + "Content-Length: " + std::to_string(body.size()) +
                "\r\n\r\n" + body);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <pugixml.hpp>
 #include <string>
 #include <string_view>
@@ -17,7 +18,7 @@ struct HttpReply {
     Headers headers;
     std::string body;
 
-    pugi::xml_node root() const;      // of the body's document
+    pugi::xml_node root() const;      // of the body's document, in the names of wire.md
     std::string fault() const;        // the code when the body is a fault, else empty
     std::string reason() const;       // of a fault or an answer
     std::string return_code() const;  // of an answer
@@ -41,16 +42,18 @@ std::string parameters(std::string const& name, int value);
 // Disconnects its session in the end, so that others find the components free.
 class HttpClient {
 public:
-    explicit HttpClient(Address const& address) : address_{address}, line_{address_} {}
+    explicit HttpClient(Address const& address) : address_{address}, line_{std::make_unique<Line>(address_)} {}
     ~HttpClient();
     HttpClient(HttpClient const&) = delete;
     HttpClient& operator=(HttpClient const&) = delete;
 
-    Line& line() { return line_; }
+    Line& line() { return *line_; }
 
     // Any bytes, then the next answer.
     HttpReply say(std::string_view bytes, std::string_view method = "GET");
-    HttpReply read(std::string_view method = "GET");
+    HttpReply read(std::string_view method = "GET");  // of an event stream only the head
+    std::string next_line();                          // of an event stream, with its end
+    // Both come over a new connection when the last answer has closed this one.
     HttpReply get(std::string const& target, Headers const& = {}, std::string const& method = "GET");
     HttpReply post(std::string const& body, Headers const& = {{"Content-Type", "application/xml"}});
 
@@ -64,8 +67,14 @@ public:
 private:
     std::string always() const;  // the header lines that every request has
 
+    std::string next_chunk();  // of a body in chunks (RFC 9112, 7.1); empty at its end
+    void reopen_when_closed();
+
     Address address_;
-    Line line_;
+    std::unique_ptr<Line> line_;
+    bool reopens_ = false;
+    bool is_chunked_ = false;
+    std::string streamed_;  // of an event stream in chunks: arrived, not read
 };
 
 }  // namespace rois::client

@@ -65,10 +65,10 @@ MediaUrl::MediaUrl(std::string const& url) {
     static std::string const scheme = "http://";
     auto const slash = url.find('/', scheme.size());
     auto const colon = url.rfind(':', slash);
-    if (!url.starts_with(scheme) || slash == url.npos || colon < scheme.size())
-        throw std::invalid_argument{url + " is no URL of media"};
-    address.host = url.substr(scheme.size(), colon - scheme.size());
-    address.port = static_cast<std::uint16_t>(std::stoi(url.substr(colon + 1, slash - colon - 1)));
+    if (!url.starts_with(scheme) || slash == url.npos) throw std::invalid_argument{url + " is no URL of media"};
+    bool const has_port = colon >= scheme.size();
+    address.host = url.substr(scheme.size(), (has_port ? colon : slash) - scheme.size());
+    address.port = static_cast<std::uint16_t>(has_port ? std::stoi(url.substr(colon + 1, slash - colon - 1)) : 80);
     target = url.substr(slash);
 }
 

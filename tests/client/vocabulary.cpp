@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "client/names.hpp"
+
 namespace rois::client {
 
 namespace {
@@ -48,6 +50,7 @@ void collect_ids(pugi::xml_node node, std::vector<std::string>& ids) {
 Document::Document(std::string const& text)
     : text_{std::make_shared<std::string const>(text)}, document_{std::make_shared<pugi::xml_document>()} {
     if (!document_->load_buffer(text.data(), text.size())) throw std::runtime_error{"no XML document: " + text};
+    give_known_prefixes(*document_);
 }
 
 std::vector<std::string> Document::children() const {

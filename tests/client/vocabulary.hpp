@@ -12,7 +12,7 @@ namespace rois::client {
 
 using Values = std::map<std::string, std::vector<std::string>>;  // of results or parameters, by name
 
-// An answer, a notification or a fault.
+// An answer, a notification or a fault, in the names of wire.md whatever prefixes it has.
 class Document {
 public:
     explicit Document(std::string const& text);

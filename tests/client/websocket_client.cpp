@@ -1,5 +1,7 @@
 #include "client/websocket_client.hpp"
 
+#include "client/names.hpp"
+
 namespace rois::client {
 
 HttpReply shake_hands(HttpClient& http, Headers const& other) {
@@ -65,6 +67,7 @@ pugi::xml_node WebSocketClient::next_document() {
     while (frame.kind == Kind::ping) frame = next();
     if (frame.kind != Kind::text) throw LineEnded{"closed with " + std::to_string(frame.close_code())};
     document_.load_string(frame.payload.c_str());
+    give_known_prefixes(document_);
     return document_.document_element();
 }
 

@@ -47,6 +47,24 @@ void conditions_know_their_references(Stage& stage) {
         ok(guest.ask("search", where(equal(reference, reference == std::string{"bound"} ? "true" : "nothing"))));
 }
 
+void references_mean_what_they_say(Stage& stage) {
+    auto const& component = *stage.two_common().first;
+    Guest guest{stage};
+    guest.take(component);
+    auto const finds = [&](std::string const& filter) {
+        auto const found = guest.search(where(filter));
+        return std::ranges::find(found, component.ref) != found.end();
+    };
+    require(finds(equal("bound", "true")), "bound = true does not find " + component.ref + ", which is bound");
+    require(!finds(equal("bound", "false")), "bound = false finds " + component.ref + ", which is bound");
+    require(!finds(equal("engine", "nobody")), "engine = nobody finds " + component.ref);
+    require(component.engine.empty() || finds(equal("engine", component.engine)),
+            "engine = " + component.engine + " does not find " + component.ref + ", which is of it");
+    auto const status = guest.component_status(component.ref);
+    require(finds(equal("status", status)), "status = " + status + " does not find " + component.ref + ", whose status it is");
+    require(!finds(equal("status", "nobody")), "status = nobody finds " + component.ref);
+}
+
 void conditions_combine(Stage& stage) {
     auto const [one, other] = stage.two_common();
     Guest guest{stage};
@@ -138,7 +156,7 @@ void after_release_nothing_is_allowed(Stage& stage) {
     refused(guest.get_parameter(component.ref), "ERROR");
     refused(guest.set_parameter(component.ref, {}), "ERROR");
     refused(guest.execute(command(component, "stop")), "ERROR");
-    ok(next.bind(component.ref));
+    next.take(component);
 }
 
 void release_of_what_is_not_mine_does_nothing(Stage& stage) {
@@ -157,7 +175,7 @@ void release_stops_what_runs(Stage& stage) {
     auto const id = guest.order(long_speech(speaker, ""));
     ok(guest.release(speaker.ref));
     same("the status of the speech", "ABORT", guest.status_of(id));
-    ok(guest.bind(speaker.ref));
+    guest.take(speaker);
     same("the status of what is suspended when nothing runs", "ERROR", guest.ending(command(speaker, "suspend")));
 }
 
@@ -179,6 +197,7 @@ Clause binding_clause() {
              {"search_finds_what_was_asked_for", "figure 9; table 3; decision 25", search_finds_what_was_asked_for},
              {"component_types_are_compared_ignoring_case", "decision 25", component_types_are_compared_ignoring_case},
              {"conditions_know_their_references", "table 3; decision 18", conditions_know_their_references},
+             {"references_mean_what_they_say", "table 3; decision 18", references_mean_what_they_say},
              {"conditions_combine", "table 3; ISO 19143: And, Or", conditions_combine},
              {"search_without_a_match_is_an_empty_list", "table 3; decision 4", search_without_a_match_is_an_empty_list},
              {"bind_of_what_is_mine_is_ok", "figure 9; decision 4", bind_of_what_is_mine_is_ok},

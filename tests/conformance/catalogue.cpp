@@ -15,7 +15,9 @@ std::string lower(std::string text) {
 }
 
 TypedName typed_name(pugi::xml_node node) {
-    return {node.attribute("rois:name").value(), node.child("rois:data_type_ref").attribute("rois:code").value()};
+    TypedName read{node.attribute("rois:name").value(), node.child("rois:data_type_ref").attribute("rois:code").value()};
+    if (auto const written = node.attribute("rois:default_value")) read.default_value = written.value();
+    return read;
 }
 
 std::vector<TypedName> typed_names(pugi::xml_node parent, char const* child) {
@@ -38,7 +40,7 @@ void read_profile(Component& component, pugi::xml_node profile) {
         if (!lower(sub.text().get()).ends_with("::roiscommon")) continue;
         component.is_common = true;
         if (!component.query("component_status"))
-            component.queries.push_back({"component_status", {{"status", "Component_Status"}}, {}});
+            component.queries.push_back({"component_status", {{"status", "Component_Status", {}}}, {}});
     }
 }
 
@@ -51,6 +53,8 @@ std::string item_type(std::string const& type) {
 }
 
 bool is_item(std::string const& type, std::string const& text) {
+    constexpr std::size_t longest = 100;  // of a number or a time; regular expressions recurse
+    if (text.size() > longest) return type == "string" || type == "roisidentifier";
     static std::regex const whole_number{"[+-]?[0-9]{1,10}"};
     static std::regex const number{"[+-]?([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][+-]?[0-9]+)?|[+-]?INF|NaN"};
     static std::regex const truth{"true|false|0|1"};
@@ -79,6 +83,16 @@ Message const* Component::query(std::string const& name) const {
     return found == queries.end() ? nullptr : &*found;
 }
 
+Message const* Component::event(std::string const& name) const {
+    auto const found = std::ranges::find(events, name, &Message::name);
+    return found == events.end() ? nullptr : &*found;
+}
+
+std::string Component::detection() const {
+    auto const kind = basic();
+    return kind.substr(0, kind.find("detection")) + "_detected";
+}
+
 Catalogue Catalogue::read(client::Document const& answer) {
     Catalogue catalogue;
     auto const root = answer.root();
@@ -87,6 +101,7 @@ Catalogue Catalogue::read(client::Document const& answer) {
         Component component;
         component.ref = node.attribute("ref").value();
         component.type = node.attribute("type").value();
+        component.engine = node.attribute("engine").value();
         auto const id = "profile." + component.ref;
         read_profile(component, root.find_child_by_attribute("rois:HRIComponentProfile", "gml:id", id.c_str()));
         catalogue.components.push_back(std::move(component));

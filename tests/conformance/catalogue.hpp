@@ -1,6 +1,7 @@
 // What a gateway says that it has: its components and their profiles, read from an answer of get_profile.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace rois::conformance {
 struct TypedName {
     std::string name;
     std::string type;  // the code of its data type
+    std::optional<std::string> default_value{};
 };
 
 struct Message {
@@ -22,6 +24,7 @@ struct Message {
 struct Component {
     std::string ref;
     std::string type;  // URN, as written
+    std::string engine;
     std::vector<Message> commands, queries, events;
     std::vector<TypedName> parameters;
     bool is_common = false;  // start, stop, suspend, resume and component_status (table 32)
@@ -29,6 +32,9 @@ struct Component {
     // What it is of the basic components: the end of its URN in lower case, "persondetection"; empty for others.
     std::string basic() const;
     Message const* query(std::string const& name) const;
+    Message const* event(std::string const& name) const;
+    // Of "persondetection": "person_detected", the event of its first measurement.
+    std::string detection() const;
 };
 
 struct Catalogue {

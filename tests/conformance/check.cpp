@@ -31,6 +31,18 @@ void same(std::string const& what, std::string const& expected, std::string cons
     require(expected == found, what + " should be \"" + expected + "\", but is \"" + found + "\"");
 }
 
+std::string first(std::string const& what, std::vector<std::string> const& texts) {
+    require(!texts.empty(), "there should be " + what + ", and is none");
+    return texts.front();
+}
+
+std::string value_of(client::Values const& values, std::string const& name) {
+    auto const found = values.find(name);
+    require(found != values.end(), "there should be a value of " + name + ", and is none");
+    require(found->second.size() == 1, name + " should have one value, and has " + list(found->second));
+    return found->second.front();
+}
+
 std::string list(std::vector<std::string> const& texts) {
     std::string all;
     for (auto const& text : texts) all += (all.empty() ? "" : ", ") + text;

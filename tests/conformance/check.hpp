@@ -64,5 +64,9 @@ void refused(client::Document const& answer, std::string const& return_code, std
 void fault(client::Document const& answer, std::string const& code);
 void same(std::string const& what, std::string const& expected, std::string const& found);
 std::string list(std::vector<std::string> const& texts);  // for messages
+// What a gateway says may be empty where it should not be: Broken says so.
+std::string first(std::string const& what, std::vector<std::string> const& texts);
+// The only value of this result or parameter.
+std::string value_of(client::Values const&, std::string const& name);
 
 }  // namespace rois::conformance

@@ -2,6 +2,7 @@
 // events.
 #include <algorithm>
 
+#include "conformance/basic_messages.hpp"
 #include "conformance/stage.hpp"
 
 namespace rois::conformance {
@@ -47,7 +48,10 @@ void with_each(Stage& stage, Guest& guest, void (*play)(Guest&, Component const&
     bool played = false;
     for (auto const& component : stage.catalogue().components) {
         if (guest.bind(component.ref).return_code() != "OK") continue;
-        play(guest, component);
+        {
+            Keeping const keeping{guest, component};
+            play(guest, component);
+        }
         ok(guest.release(component.ref));
         played = true;
     }
@@ -60,7 +64,7 @@ void start_and_stop(Guest& guest, Component const& component) {
     if (!arguments) return;
     auto const answer = guest.execute({.component = component.ref, .arguments = *arguments});
     if (answer.return_code() == "BAD_PARAMETER" && component.basic() == "follow") return;  // nobody follows oneself
-    auto const start = client::command_ids(ok(answer)).front();
+    auto const start = first("a command in the answer", client::command_ids(ok(answer)));
     auto const stop = guest.order(command(component, "stop"));
     same("the status of stop of " + component.ref, "OK", guest.status_of(stop));
     guest.settle(component);
@@ -81,11 +85,21 @@ void hold_and_go_on(Guest& guest, Component const& component) {
                                                     "facedetection",     "facelocalization",   "sounddetection",
                                                     "soundlocalization", "speechrecognition",  "gesturerecognition"};
     if (std::ranges::find(functions, component.basic()) == functions.end()) return;
-    for (auto const* const type : {"start", "suspend", "resume", "stop"}) {
-        auto const status = guest.ending(command(component, type));
-        if (std::string{type} == "start" && status != "OK") return;  // a component that has failed
-        same(std::string{"the status of "} + type + " of " + component.ref, "OK", status);
-    }
+    if (guest.ending(command(component, "start")) != "OK") return;  // a component that has failed
+    auto const ends = [&](char const* type, char const* when, char const* status) {
+        same(std::string{"the status of "} + type + " of " + component.ref + when, status,
+             guest.ending(command(component, type)));
+    };
+    ends("suspend", "", "OK");
+    ends("suspend", " again", "ERROR");
+    ends("resume", "", "OK");
+    ends("resume", " again", "ERROR");
+    ends("stop", "", "OK");
+    ends("suspend", " after stop", "ERROR");
+    if (guest.ending(command(component, "start")) != "OK") return;
+    ok(guest.release(component.ref));
+    if (guest.bind(component.ref).return_code() != "OK") return;
+    ends("suspend", " after release", "ERROR");
 }
 
 // Only this can be seen where nobody is: what is set is what is read.
@@ -158,6 +172,25 @@ void basic_components_have_their_messages(Stage& stage) {
     }
 }
 
+void basic_messages_have_their_results(Stage& stage) {
+    for (auto const& component : stage.catalogue().components) {
+        for (auto const& basic : basic_messages()) {
+            if (component.basic() != basic.kind) continue;
+            auto const* const message = basic.is_event ? component.event(basic.name) : component.query(basic.name);
+            require(message != nullptr, component.ref + " has no " + (basic.is_event ? "event " : "query ") + basic.name);
+            for (auto const* const due : {&basic.results, &basic.settable})
+                for (auto const& result : *due) {
+                    auto const found = std::ranges::find(message->results, result.name, &TypedName::name);
+                    require(found != message->results.end(),
+                            basic.name + " of " + component.ref + " has no result " + result.name + " in its profile");
+                    require(is_same_type(found->type, result.type), result.name + " of " + basic.name + " of " + component.ref +
+                                                                        " should be of the type " + result.type + ", and is of " +
+                                                                        found->type);
+                }
+        }
+    }
+}
+
 void basic_components_have_their_parameters(Stage& stage) {
     static std::map<std::string, std::vector<std::string>> const tables{
         {"speechrecognition", {"languages", "grammar", "rule"}},
@@ -183,10 +216,11 @@ Clause component_clause() {
     return {
         "7.6 Common messages: every component",
         {{"basic_components_have_their_messages", "tables 32 to 47", basic_components_have_their_messages, Way::http},
+         {"basic_messages_have_their_results", "tables 34 to 47", basic_messages_have_their_results, Way::http},
          {"basic_components_have_their_parameters", "tables 42 to 47; 7.6.15", basic_components_have_their_parameters, Way::http},
          {"every_component_knows_the_common_commands", "table 32; decision 9", every_component_knows_the_common_commands},
          {"every_component_starts_and_stops", "tables 32 to 47; decisions 8, 9, 12", every_component_starts_and_stops},
-         {"every_function_can_be_suspended", "table 32; decisions 8, 9", every_function_can_be_suspended},
+         {"every_function_can_be_suspended", "table 32; decisions 6, 8, 9", every_function_can_be_suspended},
          {"every_parameter_can_be_set_to_what_it_is", "table 16; decision 8", every_parameter_can_be_set_to_what_it_is}}};
 }
 

@@ -127,16 +127,15 @@ public:
     explicit Detection(Stage& stage) : owner_{stage} {
         auto const& detector = stage.detector();
         owner_.take(detector);
-        auto const type = detector.events.front().name;
+        auto const type = detector.detection();
         ok(owner_.subscribe(type, only(detector)));
         owner_.require_success(owner_.order(command(detector, "start")), detector);
         id_ = owner_.hear_event(type).text("event_id");
         auto const results = ok(owner_.get_event_detail(id_)).values();
-        require(results.contains("number") && results.contains("timestamp"),
-                "a detection has a number and a timestamp (tables 35, 38, 40)");
-        auto const text = results.at("number").front();
-        std::from_chars(text.data(), text.data() + text.size(), number);
-        timestamp = results.at("timestamp").front();
+        auto const text = value_of(results, "number");
+        auto const read = std::from_chars(text.data(), text.data() + text.size(), number);
+        require(read.ec == std::errc{}, "the number of a detection (tables 35, 38, 40) is " + text);
+        timestamp = value_of(results, "timestamp");
     }
 
     void holds(std::string const& filter) { expect(filter, true); }

@@ -14,7 +14,7 @@ class Watch {
 public:
     explicit Watch(Stage& stage) : detector{stage.detector()}, owner{stage} { owner.take(detector); }
 
-    std::string type() const { return detector.events.front().name; }
+    std::string type() const { return detector.detection(); }
     Document subscribe(Guest& guest, std::string const& condition = "", bool inline_results = false) const {
         return ok(guest.subscribe(type(), condition.empty() ? only(detector) : condition, inline_results));
     }
@@ -51,15 +51,29 @@ void an_event_is_heard_with_its_ids(Stage& stage) {
     require(!event.root().child("results"), "results were not asked for: " + event.whole());
 }
 
+void each_event_has_an_id_of_its_own(Stage& stage) {
+    Watch watch{stage};
+    watch.subscribe(watch.owner);
+    watch.detect();
+    auto const first = watch.owner.hear_event(watch.type()).text("event_id");
+    auto const details = ok(watch.owner.get_event_detail(first)).values();
+    watch.end();
+    watch.detect();
+    auto const second = watch.owner.hear_event(watch.type()).text("event_id");
+    require(first != second, "two events have the id " + first);
+    require(ok(watch.owner.get_event_detail(first)).values() == details, "the details of an event changed with the next one");
+}
+
 void details_of_an_event(Stage& stage) {
     Watch watch{stage};
     watch.subscribe(watch.owner);
     watch.detect();
     auto const answer = ok(watch.owner.get_event_detail(watch.owner.hear_event(watch.type()).text("event_id")));
     auto const results = answer.values();
-    for (auto const& due : watch.detector.events.front().results) {
-        require(results.contains(due.name), "the details lack " + due.name + ": " + answer.whole());
-        require(is_of_type(due.type, results.at(due.name)), due.name + " is not of the type " + due.type + ": " + answer.whole());
+    for (auto const& due : watch.detector.event(watch.type())->results) {
+        auto const told = results.find(due.name);
+        require(told != results.end(), "the details lack " + due.name + ": " + answer.whole());
+        require(is_of_type(due.type, told->second), due.name + " is not of the type " + due.type + ": " + answer.whole());
     }
 }
 
@@ -69,8 +83,7 @@ void details_are_chosen_by_condition(Stage& stage) {
     watch.detect();
     auto const id = watch.owner.hear_event(watch.type()).text("event_id");
     auto const results = ok(watch.owner.get_event_detail(id)).values();
-    require(results.contains("number"), "a detection has a number (tables 35, 38, 40)");
-    auto const number = results.at("number").front();
+    auto const number = value_of(results, "number");
     require(ok(watch.owner.get_event_detail(id, where(client::equal("number", number)))).values() == results,
             "the condition number = " + number + " holds, but the results are not told");
     require(ok(watch.owner.get_event_detail(id, where(client::equal("number", "-7")))).values().empty(),
@@ -111,6 +124,16 @@ void the_same_subscription_again_changes_nothing(Stage& stage) {
     require(again == 1, "an event came " + std::to_string(again) + " times to one subscription");
 }
 
+void inline_results_are_taken_back(Stage& stage) {
+    Watch watch{stage};
+    watch.subscribe(watch.owner, "", true);
+    ok(watch.owner.ask("subscribe", "<event_type>" + watch.type() + "</event_type>" + only(watch.detector),
+                       "inline_results=\"false\""));
+    watch.detect();
+    auto const event = watch.owner.hear_event(watch.type());
+    require(!event.root().child("results"), "the last time, results were not asked for: " + event.whole());
+}
+
 void what_was_not_subscribed_is_not_heard(Stage& stage) {
     Watch watch{stage};
     Guest other{stage};
@@ -122,6 +145,33 @@ void what_was_not_subscribed_is_not_heard(Stage& stage) {
     watch.owner.hear_event(watch.type());
     other.settle(mine);
     require(other.heard_events(watch.type()) == 0, "an event came to an application that has not subscribed");
+}
+
+// Between the end of what silences it and that of a command for which it waits a while.
+void what_does_not_run_is_silent(Stage& stage) {
+    constexpr int a_while = 200;  // ms
+    Watch watch{stage};
+    auto& owner = watch.owner;
+    auto const [one, another] = stage.two_common();
+    auto const& other = one->ref == watch.detector.ref ? *another : *one;
+    owner.take(other);
+    watch.subscribe(owner);
+    watch.detect();
+    owner.hear_event(watch.type());
+    auto const silent = [&](std::string const& when) {
+        auto const before = owner.heard_events(watch.type());
+        owner.ending(command(other, "stop", "", a_while));
+        require(owner.heard_events(watch.type()) == before, "an event came after " + when + " of " + watch.detector.ref);
+    };
+    same("the status of suspend", "OK", owner.ending(command(watch.detector, "suspend")));
+    silent("suspend");
+    same("the status of stop", "OK", owner.ending(command(watch.detector, "stop")));
+    silent("stop");
+    watch.detect();
+    owner.hear_event(watch.type());
+    ok(owner.release(watch.detector.ref));
+    owner.settle(other);
+    silent("release");
 }
 
 void two_applications_hear_the_same_event(Stage& stage) {
@@ -148,7 +198,7 @@ void after_unsubscribe_nothing_is_heard(Stage& stage) {
 void unsubscribe_of_what_is_over_is_ok(Stage& stage) {
     Guest guest{stage};
     auto const& detector = stage.detector();
-    auto const id = ok(guest.subscribe(detector.events.front().name)).text("subscribe_id");
+    auto const id = ok(guest.subscribe(detector.detection())).text("subscribe_id");
     ok(guest.unsubscribe(id));
     ok(guest.unsubscribe(id));
     ok(guest.unsubscribe("nobody"));
@@ -168,8 +218,8 @@ void what_cannot_happen_is_unsupported(Stage& stage) {
     Guest guest{stage};
     auto const& detector = stage.detector();
     refused(guest.subscribe("dinner_ready"), "UNSUPPORTED");
-    refused(guest.subscribe(detector.events.front().name, where(client::equal("component_ref", "nobody"))), "UNSUPPORTED");
-    refused(guest.subscribe(detector.events.front().name, where(client::equal("colour", "red"))), "BAD_PARAMETER", "colour");
+    refused(guest.subscribe(detector.detection(), where(client::equal("component_ref", "nobody"))), "UNSUPPORTED");
+    refused(guest.subscribe(detector.detection(), where(client::equal("colour", "red"))), "BAD_PARAMETER", "colour");
 }
 
 void without_a_condition_all_components_are_heard(Stage& stage) {
@@ -191,12 +241,15 @@ Clause event_clause() {
         "7.4.1.5 Event interface",
         {{"every_event_can_be_subscribed", "figure 13; tables 5, 35 to 46", every_event_can_be_subscribed},
          {"an_event_is_heard_with_its_ids", "figure 13; tables 6, 22", an_event_is_heard_with_its_ids},
+         {"each_event_has_an_id_of_its_own", "tables 6, 22; decision 8", each_event_has_an_id_of_its_own},
          {"details_of_an_event", "figure 13; tables 5, 23, 35", details_of_an_event},
          {"details_are_chosen_by_condition", "tables 5, 23; decision 19", details_are_chosen_by_condition},
          {"results_come_inline_when_asked_for", "decision 21", results_come_inline_when_asked_for},
          {"details_of_an_unknown_event_are_refused", "table 5; decision 21", details_of_an_unknown_event_are_refused},
          {"the_same_subscription_again_changes_nothing", "7.4.1.5; decision 20", the_same_subscription_again_changes_nothing},
+         {"inline_results_are_taken_back", "decision 20", inline_results_are_taken_back},
          {"what_was_not_subscribed_is_not_heard", "7.4.1.5", what_was_not_subscribed_is_not_heard},
+         {"what_does_not_run_is_silent", "table 32; decisions 6, 9", what_does_not_run_is_silent},
          {"two_applications_hear_the_same_event", "7.4.1.5; decision 20", two_applications_hear_the_same_event},
          {"after_unsubscribe_nothing_is_heard", "figure 13", after_unsubscribe_nothing_is_heard},
          {"unsubscribe_of_what_is_over_is_ok", "7.4.1.5; decision 20", unsubscribe_of_what_is_over_is_ok},

@@ -39,7 +39,41 @@ void the_answer_echoes_the_commands(Stage& stage) {
     auto const argument = echoed.child("rois:arguments").child("rois:parameter");
     same("the argument's name", dial.parameter, argument.attribute("rois:name").value());
     same("the argument's value", "50", argument.child("rois:value").text().get());
-    guest.status_of(client::command_ids(answer).front());
+    guest.status_of(first("a command in the answer", client::command_ids(answer)));
+}
+
+// What an application says of its commands and their structure, without ids and what a gateway may add to references.
+std::string structure_of(pugi::xml_node unit) {
+    std::string text = unit.name();
+    auto const add = [&](char const* what, std::string const& value) {
+        if (!value.empty()) text += std::string{" "} + what + "=" + value;
+    };
+    std::string const type = unit.attribute("xsi:type").value(), delay = unit.attribute("rois:delay_time").value();
+    add("type", type);
+    add("delay", delay == "0" ? "" : delay);
+    for (auto const* const name : {"rois:command_type", "rois:code", "rois:name"}) add(name, unit.attribute(name).value());
+    add("value", unit.text().get());
+    text += "(";
+    for (auto const child : unit.children())
+        if (child.type() == pugi::node_element && std::string{child.name()} != "rois:data_type_ref") text += structure_of(child);
+    return text + ")";
+}
+
+void the_answer_echoes_the_structure(Stage& stage) {
+    auto const dial = dial_of(stage);
+    Guest guest{stage};
+    guest.take(*dial.component);
+    auto const stop = command(*dial.component, "stop");
+    Command const set{.component = dial.component->ref, .type = "set_parameter", .arguments = {turned(dial, 50)}};
+    auto const sequence = client::sequence(client::side_by_side(client::one_after_another(unit(stop) + unit(set)) + unit(stop)) +
+                                           client::concurrent(client::branch({stop, set}) + client::branch({stop})) +
+                                           client::concurrent(client::command_list(set)) + client::pause(1) + unit(set));
+    Document const sent{client::request("execute", sequence)};
+    auto const answer = ok(guest.ask("execute", sequence));
+    same("the sequence in the answer", structure_of(sent.root().first_child()), structure_of(answer.root().first_child()));
+    auto const ids = client::command_ids(answer);
+    require(ids.size() == 8, "each of eight commands should have an id: " + answer.whole());
+    guest.status_of(ids.back());
 }
 
 void a_name_is_used_once(Stage& stage) {
@@ -146,6 +180,7 @@ Clause execution_clause() {
     return {"7.4.2 Command interface: execute",
             {{"every_command_gets_an_id", "figure 10; table 12; decision 11", every_command_gets_an_id},
              {"the_answer_echoes_the_commands", "figure 10; table 3; decision 11", the_answer_echoes_the_commands},
+             {"the_answer_echoes_the_structure", "figure 10; tables 10 to 15; decision 11", the_answer_echoes_the_structure},
              {"a_name_is_used_once", "decision 11", a_name_is_used_once},
              {"command_types_are_those_of_the_profile", "tables 12, 32; decision 9", command_types_are_those_of_the_profile},
              {"a_bad_unit_is_named_by_its_path", "decision 10", a_bad_unit_is_named_by_its_path},

@@ -101,12 +101,16 @@ std::optional<CommandLine> read_command_line(std::span<char* const> arguments) {
 }
 
 int play(CommandLine const& line) {
+    if (!is_any_asked_for(line.order)) throw std::runtime_error{"no check has \"" + line.order.only + "\" in its name (--only)"};
+    // Told before anything is played; what an older report says is left until then.
+    if (!line.report.empty() && !std::ofstream{line.report, std::ios::app})
+        throw std::runtime_error{"the report cannot be written to " + line.report};
     auto const report = rois::conformance::play(line.order);
     write_text(std::cout, report);
     if (!line.report.empty()) {
         std::ofstream file{line.report};
         write_junit(file, report);
-        if (!file.flush()) throw BadUsage{"the report cannot be written to " + line.report};
+        if (!file.flush()) throw std::runtime_error{"the report cannot be written to " + line.report};
     }
     return report.count(Outcome::broken) == 0 ? all_hold : a_rule_is_broken;
 }

@@ -1,6 +1,5 @@
 // How notifications reach an application over HTTP (wire.md, endpoints; decisions 22 and 23).
 #include "client/http_client.hpp"
-#include "client/line.hpp"
 #include "conformance/stage.hpp"
 
 namespace rois::conformance {
@@ -70,11 +69,17 @@ void notifications_need_a_session(Stage& stage) {
 }
 
 // Reads the `id` and the document of one event of the stream.
-std::pair<std::string, std::string> next_event(client::Line& line) {
+std::pair<std::string, std::string> next_event(HttpClient& stream) {
     std::string id, data;
-    for (auto text = line.take_until("\n"); text != "\n" || data.empty(); text = line.take_until("\n")) {
-        if (text.starts_with("id: ")) id = text.substr(4, text.size() - 5);
-        if (text.starts_with("data: ")) data += text.substr(6);
+    while (true) {
+        auto text = stream.next_line();
+        while (text.ends_with('\n') || text.ends_with('\r')) text.pop_back();
+        if (text.empty() && !data.empty()) break;
+        auto const colon = text.find(':');
+        if (colon == text.npos) continue;
+        auto const value = text.substr(text.find_first_not_of(' ', colon + 1) == colon + 2 ? colon + 2 : colon + 1);
+        if (text.starts_with("id:")) id = value;
+        if (text.starts_with("data:")) data += value + "\n";
     }
     return {id, data};
 }
@@ -90,7 +95,7 @@ void an_event_stream_gives_the_same(Stage& stage) {
         auto const reply = client->get("/rois/notifications", headers);
         same("the content type", "text/event-stream", reply.header("Content-Type").substr(0, 17));
         for (std::size_t number = is_first ? 1 : 3; number <= 3; ++number) {
-            auto const [id, data] = next_event(client->line());
+            auto const [id, data] = next_event(*client);
             stage.traffic().validate(data);
             same("the id", std::to_string(number), id);
             Document const notification{data};

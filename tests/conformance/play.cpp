@@ -35,6 +35,8 @@ void judge(Finding& finding, Check const& check, Stage& stage) {
         found(Outcome::not_played, reason.what());
     } catch (std::exception const& reason) {  // Broken, LineEnded, or a document that is none
         found(Outcome::broken, reason.what());
+    } catch (...) {
+        found(Outcome::broken, "something that cannot be told went wrong");
     }
     finding.seconds = std::chrono::duration<double>(Clock::now() - began).count();
 }
@@ -60,6 +62,14 @@ Chapter standing_rules(Traffic const& traffic) {
 }
 
 }  // namespace
+
+bool is_any_asked_for(Order const& order) {
+    for (auto const& clause : all_clauses())
+        for (auto const& check : clause.checks)
+            for (auto const way : order.ways)
+                if (is_asked_for(order, check, way)) return true;
+    return false;
+}
 
 Report play(Order const& order) {
     auto const catalogue = catalogue_of(order.address);

@@ -18,6 +18,9 @@ struct Order {
     std::chrono::seconds limit{600};  // for all; when it is over, the report says so and is not good
 };
 
+// Whether there is a check with such a name over one of these ways.
+bool is_any_asked_for(Order const&);
+
 // Throws client::LineEnded when the gateway is not there or does not open a session.
 Report play(Order const&);
 

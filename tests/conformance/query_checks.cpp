@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <regex>
 
+#include "conformance/basic_messages.hpp"
 #include "conformance/stage.hpp"
 
 namespace rois::conformance {
@@ -30,6 +31,12 @@ void every_query_of_every_component_is_answered(Stage& stage) {
             if (answer.return_code() == "ERROR") continue;  // a component that has failed says so
             same("the component that answers " + query.name, component.ref, ok(answer).ref());
             if (query.name != "get_parameter") require_results(query, answer);
+            auto const* const basic = basic_message(component.basic(), query.name);
+            if (!basic) continue;
+            auto const told = answer.values();
+            for (auto const& due : basic->results)
+                require(told.contains(due.name),
+                        query.name + " of " + component.ref + " lacks its result " + due.name + ": " + answer.whole());
         }
     }
 }

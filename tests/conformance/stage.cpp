@@ -1,6 +1,8 @@
 #include "conformance/stage.hpp"
 
 #include <algorithm>
+#include <array>
+#include <ctime>
 
 #include "client/line.hpp"
 
@@ -9,6 +11,16 @@ namespace rois::conformance {
 namespace {
 
 constexpr std::chrono::seconds longest_check{60};
+constexpr std::chrono::hours clocks_differ{1};  // at most, the gateway's and this one
+
+// "2026-11-22T10:00:00", before which nothing that is still to come can be.
+std::string now_less_tolerance() {
+    auto const time = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now() - clocks_differ);
+    std::tm utc{};
+    gmtime_r(&time, &utc);
+    std::array<char, 32> text;
+    return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &utc)};
+}
 
 }  // namespace
 
@@ -26,6 +38,14 @@ Component const& Stage::one_of(std::vector<std::string> const& kinds) const {
     throw NotPlayed{"there is no component of the type " + list(kinds)};
 }
 
+Component const& Stage::detector() const {
+    std::vector<std::string> const kinds{"persondetection", "facedetection", "sounddetection"};
+    for (auto const& kind : kinds)
+        for (auto const& component : catalogue_.components)
+            if (component.basic() == kind && component.event(component.detection())) return component;
+    throw NotPlayed{"there is no component of the type " + list(kinds) + " that tells what it detects"};
+}
+
 std::pair<Component const*, Component const*> Stage::two_common() const {
     std::vector<Component const*> common;
     for (auto const& component : catalogue_.components)
@@ -41,6 +61,7 @@ Guest::Guest(Stage& stage, Comes comes) : Application{client::wire_to(stage.addr
 }
 
 Guest::~Guest() {
+    kept_.clear();
     try {
         ask_for_details();
         leave();
@@ -53,12 +74,13 @@ void Guest::take(Component const& component) {
     auto const answer = bind(component.ref);
     if (answer.return_code() == "OUT_OF_RESOURCES") throw NotPlayed{"another application uses " + component.ref};
     ok(answer);
+    kept_.try_emplace(component.ref, *this, component);
 }
 
 std::string Guest::order(Command const& command) {
     auto const ids = client::command_ids(ok(execute(command)));
     require(ids.size() == 1, "the answer should name one command");
-    return ids.front();
+    return first("a command", ids);
 }
 
 std::string Guest::status_of(std::string const& command_id) {
@@ -68,25 +90,40 @@ std::string Guest::status_of(std::string const& command_id) {
 
 void Guest::require_success(std::string const& command_id, Component const& component) {
     auto const status = status_of(command_id);
+    if (status == "OUT_OF_RESOURCES") throw NotPlayed{"another application uses what " + component.ref + " needs"};
     if ((status == "ERROR" || status == "TIMEOUT") && hear().name() == "receive_error")
         throw NotPlayed{component.ref + " has failed: " + status};
     same("the status of the command of " + component.ref, "OK", status);
 }
 
+Keeping::Keeping(Guest& guest, Component const& component)
+    : guest_{guest}, component_{component}, before_{guest.get_parameter(component.ref).values("parameters")} {}
+
+// One by one: what is refused leaves the others be.
+Keeping::~Keeping() {
+    try {
+        auto const answer = guest_.get_parameter(component_.ref);
+        if (answer.return_code() != "OK") return;
+        auto const now = answer.values("parameters");
+        for (auto const& [name, type, default_value] : component_.parameters) {
+            auto const before = before_.find(name);
+            auto const after = now.find(name);
+            if (before == before_.end() || (after != now.end() && after->second == before->second)) continue;
+            guest_.set_parameter(component_.ref, {{name, type, client::escaped(before->second)}});
+        }
+    } catch (std::exception const&) {
+        // The gateway does not answer any more, which the check has said.
+    }
+}
+
 void Guest::settle(Component const& component) { ending(command(component, "resume")); }
 
 std::string Guest::state_of(std::string const& command_id) {
-    auto const values = ok(get_command_result(command_id)).values();
-    auto const status = values.find("status");
-    require(status != values.end() && status->second.size() == 1, "the results of a command have its status");
-    return status->second.front();
+    return value_of(ok(get_command_result(command_id)).values(), "status");
 }
 
 std::string Guest::component_status(std::string const& ref) {
-    auto const values = ok(query("component_status", client::where(client::equal("component_ref", ref)))).values();
-    auto const status = values.find("status");
-    require(status != values.end() && status->second.size() == 1, "component_status has one status");
-    return status->second.front();
+    return value_of(ok(query("component_status", client::where(client::equal("component_ref", ref)))).values(), "status");
 }
 
 std::vector<std::string> Guest::endings(std::string const& command_id) const {
@@ -118,6 +155,8 @@ void Guest::check_answer(Document const& answer, std::string const& operation, s
         completed_.clear();
         subscriptions_.clear();
         errors_.clear();
+        events_.clear();
+        told_.clear();
     }
     for (auto const& id : client::command_ids(answer)) commands_.insert(id);
     if (auto const id = answer.text("command_id"); !id.empty()) commands_.insert(id);
@@ -143,7 +182,14 @@ void Guest::check_notification(Document const& notification, std::uint64_t seque
 void Guest::check_event(Document const& event) {
     auto& traffic = stage_.traffic();
     traffic.see("events_are_those_that_were_subscribed", subscriptions_.contains(event.text("subscribe_id")), event.whole());
-    traffic.see("times_are_utc", is_of_type("DateTime", {event.text("expire")}), event.whole());
+    auto const expire = event.text("expire"), id = event.text("event_id");
+    traffic.see("times_are_utc", is_of_type("DateTime", {expire}), event.whole());
+    traffic.see("events_expire_in_the_future", expire.substr(0, now_less_tolerance().size()) >= now_less_tolerance(),
+                "it is over already: " + event.whole());
+    auto const about = event.text("event_type") + " of " + event.ref() + ", which expires at " + expire;
+    auto const& known = events_.try_emplace(id, about).first->second;
+    traffic.see("an_event_id_names_one_event", known == about && told_.emplace(id, event.text("subscribe_id")).second,
+                id + " was " + known + ", and is now " + event.whole());
     auto const ref = event.ref();
     auto const* const component = stage_.catalogue().find(ref);
     traffic.see(

@@ -33,7 +33,7 @@ public:
     Component const& one_of(std::vector<std::string> const& kinds) const;
     Component const& speaker() const { return one_of({"speechsynthesis"}); }
     // Its first measurement after `start` is an event (decision 8), also when nobody is there.
-    Component const& detector() const { return one_of({"persondetection", "facedetection", "sounddetection"}); }
+    Component const& detector() const;
     // A component with start and stop, and another one.
     std::pair<Component const*, Component const*> two_common() const;
 
@@ -48,6 +48,22 @@ private:
     std::chrono::steady_clock::time_point end_;
 };
 
+class Guest;
+
+// The parameters of a component, which are set back in the end if the guest has it bound still.
+class Keeping {
+public:
+    Keeping(Guest& guest, Component const& component);
+    ~Keeping();
+    Keeping(Keeping const&) = delete;
+    Keeping& operator=(Keeping const&) = delete;
+
+private:
+    Guest& guest_;
+    Component const& component_;
+    client::Values before_;
+};
+
 // A service application. It looks at all that it hears, and leaves nothing behind.
 class Guest : public client::Application {
 public:
@@ -55,7 +71,7 @@ public:
     explicit Guest(Stage&, Comes = Comes::connected);
     ~Guest() override;
 
-    // Binds it; NotPlayed when another application has it.
+    // Binds it; NotPlayed when another application has it. Its parameters are set back in the end.
     void take(Component const&);
     // Executes one command, and gives its id.
     std::string order(Command const&);
@@ -82,10 +98,13 @@ private:
     void ask_for_details();
 
     Stage& stage_;
-    std::set<std::string> commands_;   // ids that answers gave
-    std::set<std::string> completed_;  // ids
+    std::map<std::string, Keeping> kept_;  // by component_ref
+    std::set<std::string> commands_;       // ids that answers gave
+    std::set<std::string> completed_;      // ids
     std::set<std::string> subscriptions_;
-    std::vector<std::string> errors_;  // ids
+    std::vector<std::string> errors_;                     // ids
+    std::map<std::string, std::string> events_;           // by id: what is the same for all subscriptions
+    std::set<std::pair<std::string, std::string>> told_;  // events and subscriptions, by their ids
 };
 
 // One parameter of the component that takes any whole number from 40 to 60, if there is one.

@@ -32,12 +32,13 @@ public:
             {.component = streamer.ref, .type = type, .arguments = {{"stream_id", "string", client::escaped({id})}}});
     }
     void order(std::string const& type) {
-        same("the status of " + type, "OK", owner.status_of(client::command_ids(ok(execute(type, stream))).front()));
+        same("the status of " + type, "OK",
+             owner.status_of(first("a command in the answer", client::command_ids(ok(execute(type, stream))))));
     }
     Document asked() {
         return owner.query("get_stream_status",
                            client::where(client::both(client::equal("component_ref", streamer.ref),
-                                                      client::equal("stream_id", client::escaped({stream}).front()))));
+                                                      client::equal("stream_id", first("a text", client::escaped({stream}))))));
     }
     std::string status() { return one(ok(asked()).values(), "status"); }
 

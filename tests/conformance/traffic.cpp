@@ -24,6 +24,8 @@ Traffic::Traffic()
              {"answers_come_before_what_they_cause", "figures 9, 10; decision 22"},
              {"commands_complete_once", "figure 10; decision 12"},
              {"events_are_those_that_were_subscribed", "figure 13; table 6"},
+             {"an_event_id_names_one_event", "table 6; decisions 20, 21"},
+             {"events_expire_in_the_future", "table 6; decision 21"},
              {"times_are_utc", "table 6; decision 28"},
              {"nothing_is_sent_outside_of_a_session", "figure 6; decision 3"},
              {"errors_have_details", "figure 7; tables 6, 7; decision 24"}},

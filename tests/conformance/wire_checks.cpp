@@ -128,6 +128,25 @@ void health_is_told(Stage& stage) {
     }
 }
 
+void documents_are_application_xml(Stage& stage) {
+    HttpClient client{stage.address()};
+    auto const is_xml = [](std::string const& what, HttpReply const& reply) {
+        auto const type = reply.header("Content-Type");
+        require(type.substr(0, type.find(';')) == "application/xml", what + " should be application/xml, and is " + type);
+    };
+    is_xml("the fault no_session", client.call("search"));
+    is_xml("the fault not_well_formed", client.post("<connect"));
+    is_xml("the fault invalid", client.post("<connect/>"));
+    is_xml("the fault not_found", client.get("/nowhere"));
+    is_xml("the answer of connect", client.call("connect"));
+    is_xml("a refusal", client.call("bind", client::component_ref("nobody")));
+    is_xml("the answer of search", client.call("search"));
+    is_xml("a list of notifications", client.notifications(0, 0));
+    is_xml("the engine's profile", client.get("/rois/profile"));
+    for (auto const& component : stage.catalogue().components)
+        is_xml("the profile of " + component.ref, client.get("/rois/profile/" + component.ref));
+}
+
 void every_operation_is_answered_with_200(Stage& stage) {
     HttpClient client{stage.address()};
     require(client.call("connect").status == 200, "connect should be answered with 200");
@@ -144,6 +163,7 @@ Clause wire_clause() {
     return {
         "The wire: HTTP",
         {{"every_operation_is_answered_with_200", "wire.md, status codes", every_operation_is_answered_with_200, http},
+         {"documents_are_application_xml", "wire.md, endpoints", documents_are_application_xml, http},
          {"what_is_not_well_formed_is_refused", "wire.md, status codes", what_is_not_well_formed_is_refused, http},
          {"document_types_and_instructions_are_refused", "wire.md, faults", document_types_and_instructions_are_refused, http},
          {"what_is_not_valid_is_refused_with_its_place", "wire.md, faults; schemas", what_is_not_valid_is_refused_with_its_place,

@@ -1,0 +1,66 @@
+#include "conformance/basic_messages.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace rois::conformance {
+
+namespace {
+
+constexpr bool event = true, query = false;
+
+TypedName const timestamp{"timestamp", "DateTime"}, number{"number", "int"}, positions{"position_data", "string[]"};
+
+TypedName refs(std::string const& name) { return {name, "RoISIdentifier[]"}; }
+
+BasicMessage detected(std::string const& what) {
+    return {what + "detection", what + "_detected", event, {timestamp, number}, {}};
+}
+
+BasicMessage localized(std::string const& what) {
+    return {what + "localization", what + "_localized", event, {timestamp, refs(what + "_ref"), positions}, {}};
+}
+
+// "int[]" of "urn:x-rois:def:DataType:ATR::Integer[]".
+std::string plain(std::string const& type) {
+    auto name = type.substr(type.rfind(':') + 1);
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (name.starts_with("integer")) name.replace(0, 7, "int");
+    if (name.starts_with("boolean")) name.replace(0, 7, "bool");
+    return name;
+}
+
+}  // namespace
+
+std::vector<BasicMessage> const& basic_messages() {
+    static std::vector<BasicMessage> const all{
+        {"systeminformation", "robot_position", query, {timestamp, positions}, {}},
+        {"systeminformation", "engine_status", query, {{"status", "Component_Status"}}, {}},
+        detected("person"),
+        detected("face"),
+        detected("sound"),
+        localized("person"),
+        localized("face"),
+        localized("sound"),
+        {"personidentification", "person_identified", event, {timestamp, refs("person_ref")}, {}},
+        {"speechrecognition", "speech_recognized", event, {timestamp, {"recognized_text", "string[]"}}, {}},
+        {"speechrecognition", "speech_input_started", event, {timestamp}, {}},
+        {"speechrecognition", "speech_input_finished", event, {timestamp}, {}},
+        {"speechrecognition", "get_parameter", query, {{"recognizable_languages", "string[]"}}, {{"languages", "string[]"}}},
+        {"gesturerecognition", "gesture_recognized", event, {timestamp, refs("gesture_ref")}, {}},
+        {"gesturerecognition", "get_parameter", query, {refs("recognizable_gestures")}, {}},
+        {"reaction", "get_parameter", query, {refs("available_reactions")}, {{"reaction_ref", "RoISIdentifier"}}},
+        {"navigation", "get_parameter", query, {}, {{"target_position", "string[]"}}},
+        {"follow", "get_parameter", query, {}, {{"target_object_ref", "RoISIdentifier"}, {"distance", "int"}}}};
+    return all;
+}
+
+BasicMessage const* basic_message(std::string const& kind, std::string const& name) {
+    auto const& all = basic_messages();
+    auto const found = std::ranges::find_if(all, [&](auto const& one) { return one.kind == kind && one.name == name; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+bool is_same_type(std::string const& one, std::string const& other) { return plain(one) == plain(other); }
+
+}  // namespace rois::conformance
