@@ -103,7 +103,7 @@ Task<Connection::Then> Connection::receive_body(RequestHead const& head) {
     if (!head.http_1_0 && head.lists("Expect", "100-continue")) out_.append("HTTP/1.1 100 Continue\r\n\r\n");
     co_await flush();
     while (wire_.received().size() < head.content_length) {
-        auto const outcome = co_await wire_.receive(request_due_);
+        auto const outcome = co_await wire_.receive(request_due_, head.content_length - wire_.received().size());
         if (outcome == Wire::Outcome::closed) co_return Then::end;
         if (outcome == Wire::Outcome::late) co_return refuse(too_slow());
     }
@@ -129,7 +129,7 @@ Task<Connection::Then> Connection::serve_operation(RequestHead const& head) {
     if (answer.turn == Answer::Turn::connected) http.set("RoIS-Session", answer.session.text);
     if (answer.turn == Answer::Turn::disconnected) {
         co_await flush();
-        co_await others_heard(gateway, session, wire_.executor());
+        co_await others_heard(gateway, session, loop_.wakes());
     }
     holds_.push_back(std::move(answer.hold));
     co_return reply(http, head);
@@ -144,7 +144,7 @@ Task<Connection::Then> Connection::serve_upgrade(RequestHead const& head) {
     co_await flush();
     counted_.emplace(shared.telemetry, Telemetry::Kind::websocket);
     auto const websocket = std::make_shared<WebSocket>(std::shared_ptr<Wire>{shared_from_this(), &wire_}, shared.gateway,
-                                                       shared.telemetry, loop_.reader(), shared.settings);
+                                                       shared.telemetry, loop_.reader(), loop_.wakes(), shared.settings);
     websocket_ = websocket;
     if (loop_.draining()) websocket->shut_down();
     co_await websocket->run();
@@ -161,12 +161,13 @@ Task<Connection::Then> Connection::serve_notifications(RequestHead const& head) 
     co_await flush();
     if (wanted.as == NotificationsWanted::As::stream && head.method == "GET") {
         counted_.emplace(shared.telemetry, Telemetry::Kind::stream);
-        auto const refused = co_await stream(wire_, shared.gateway, shared.telemetry, session, wanted, shared.settings);
+        auto const refused =
+            co_await stream(wire_, shared.gateway, shared.telemetry, loop_.wakes(), session, wanted, shared.settings);
         if (!refused) co_return Then::linger;
         counted_.emplace(shared.telemetry, Telemetry::Kind::http);
         co_return reply(*refused, head);
     }
-    auto const answer = co_await poll(wire_, shared.gateway, shared.telemetry, session, wanted);
+    auto const answer = co_await poll(wire_, shared.gateway, shared.telemetry, loop_.wakes(), session, wanted);
     co_return reply(answer, head);
 }
 
