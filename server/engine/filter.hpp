@@ -32,8 +32,8 @@ public:
 
     Match match(Candidate const&) const;
 
-    // The condition's canonical text: the same for conditions that mean the same (decision 20).
-    std::string const& meaning() const { return meaning_; }
+    // The condition's canonical text: the same for conditions that mean the same (decision 20). Made anew each time.
+    std::string meaning() const;
 
     // How many predicates it is made of: what it costs to hold it against something.
     std::size_t predicates() const { return predicates_; }
@@ -46,7 +46,6 @@ private:
     static std::variant<Filter, std::string> compile(std::optional<Condition> const&, Vocabulary const&);
 
     std::unique_ptr<Predicate const> predicate_;  // null: restricts nothing
-    std::string meaning_;
     std::size_t predicates_ = 0;
     bool depends_on_asker_ = false;
 };

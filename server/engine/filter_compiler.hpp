@@ -20,13 +20,12 @@ class Predicate {
 public:
     virtual ~Predicate() = default;
     virtual Match match(Candidate const&) const = 0;
+    // The same text for conditions that mean the same.
     virtual std::string canonical() const = 0;
+    virtual bool met_by_everything() const { return false; }
 };
 
 using PredicatePtr = std::unique_ptr<Predicate const>;
-
-// The canonical text of And without operands.
-inline constexpr char met_by_everything[] = "&";
 
 // Where something is: known beforehand, or told by a candidate.
 class Whereabouts {
