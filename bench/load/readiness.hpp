@@ -1,0 +1,32 @@
+// Waits for many sockets at once.
+#pragma once
+
+#include <sys/epoll.h>
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "load/measure.hpp"
+
+namespace rois::bench {
+
+class Readiness {
+public:
+    Readiness();
+    ~Readiness();
+    Readiness(Readiness const&) = delete;
+    Readiness& operator=(Readiness const&) = delete;
+
+    // `name` is what `wait` tells of it.
+    void watch(int descriptor, std::size_t name);
+
+    // Those that have something to read, until the next call; none when nothing came before `until`.
+    std::span<epoll_event const> wait(Nanoseconds until);
+
+private:
+    int descriptor_;
+    std::array<epoll_event, 512> ready_{};
+};
+
+}  // namespace rois::bench

@@ -1,0 +1,143 @@
+"""Servers and the load generator as processes; what the kernel says of them."""
+
+import contextlib
+import json
+import os
+import pathlib
+import resource
+import socket
+import subprocess
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+BIN = ROOT / "build" / "release" / "bin"
+WORK = ROOT / "build" / "bench"  # documents, and what the servers said
+
+
+class BenchError(Exception):
+    """Something does not work that must, to measure anything at all."""
+
+
+def allow_many_descriptors():
+    _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
+    return most
+
+
+def free_port():
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+class Server:
+    """A server that runs until `stop`. `seconds_to_ready`: from its start until it answered, or took a connection."""
+
+    def __init__(self, name, command, health=None):
+        self.name = name
+        self.port = free_port()
+        with open(WORK / f"{name}.log", "wb") as log:
+            begun = time.perf_counter()
+            self.process = subprocess.Popen([str(part).replace("{port}", str(self.port)) for part in command], stdout=log, stderr=log)
+        self.pid = self.process.pid
+        while not self._answers(health):
+            if self.process.poll() is not None or time.perf_counter() - begun > 30:
+                self.stop()
+                raise BenchError(f"{name} did not start: see build/bench/{name}.log")
+            time.sleep(0.001)
+        self.seconds_to_ready = time.perf_counter() - begun
+
+    def _answers(self, health):
+        try:
+            with socket.create_connection(("127.0.0.1", self.port), timeout=5) as one:
+                if health is None:
+                    return True
+                one.sendall(f"GET {health} HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n".encode())
+                return one.recv(64).startswith(b"HTTP/1.1 200")
+        except OSError:
+            return False
+
+    def resident_bytes(self):
+        """Its memory, what it shares with others included."""
+        for line in pathlib.Path(f"/proc/{self.pid}/status").read_text().splitlines():
+            if line.startswith("VmRSS:"):
+                return int(line.split()[1]) * 1024
+        raise BenchError(f"{self.name} has no memory")
+
+    def stop(self):
+        self.process.terminate()
+        try:
+            self.process.wait(8)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
+
+
+def gateway(threads=1, *arguments):
+    command = [BIN / "rois-gateway", "--listen", "127.0.0.1:{port}", "--threads", threads, "--log-level", "warning"]
+    command += ["--max-sessions", 20_000, "--max-connections", 20_000, *arguments]
+    return Server(f"gateway-{threads}", command, "/readyz")
+
+
+def stage(threads=1, probes=10, bystanders=0):
+    return Server("stage", [BIN / "rois-stage", "{port}", threads, probes, bystanders], "/readyz")
+
+
+@contextlib.contextmanager
+def running(*servers):
+    try:
+        yield servers
+    finally:
+        for server in servers:
+            server.stop()
+
+
+def _arguments(mode, server, options):
+    command = [BIN / "rois-load", mode, "--port", server.port, "--pid", server.pid]
+    for name, value in options.items():
+        flag = "--" + name.replace("_", "-")
+        for one in value if isinstance(value, list) else [value]:
+            command += [flag, one]
+    return [str(part) for part in command]
+
+
+def document(name):
+    return WORK / "documents" / f"{name}.xml"
+
+
+def load(mode, server, **options):
+    """Runs the load generator and returns what it measured."""
+    done = subprocess.run(_arguments(mode, server, options), capture_output=True, text=True, timeout=300)
+    if done.returncode != 0:
+        raise BenchError(f"{mode} on {server.name}: {done.stderr.strip()}")
+    return json.loads(done.stdout)
+
+
+@contextlib.contextmanager
+def beside(mode, server, **options):
+    """The load generator while something else is measured."""
+    process = subprocess.Popen(_arguments(mode, server, options), stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    try:
+        if mode == "hold":
+            line = process.stdout.readline()
+            if not line:
+                raise BenchError(f"hold on {server.name} failed")
+        yield process
+    finally:
+        process.stdin.close()
+        try:
+            process.wait(60)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+def machine():
+    """What the numbers were measured on."""
+    model = "unknown"
+    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            model = line.split(":", 1)[1].strip()
+            break
+    memory = int(pathlib.Path("/proc/meminfo").read_text().split()[1]) // 1024
+    return {"cpu": model, "cores": os.cpu_count(), "memory_mb": memory, "kernel": os.uname().release, "load": os.getloadavg()}
