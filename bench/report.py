@@ -19,8 +19,10 @@ def medians(rounds):
 
 def spread(rounds, row):
     """The least and the most CPU of all rounds, in percent of the median."""
-    values = [one["cpu_us"] for one in rounds[row]]
+    values = [one.get("cpu_us", 0) for one in rounds[row]]
     middle = statistics.median(values)
+    if middle == 0 or len(values) == 1:
+        return ""
     return f"{100 * (min(values) / middle - 1):+.0f} {100 * (max(values) / middle - 1):+.0f} %"
 
 
@@ -49,7 +51,7 @@ def table(rounds, part):
         ratio = f"{one['cpu_us'] / other['cpu_us']:.2f}" if other else ""
         rate = one.get("requests_per_second", one.get("messages_per_second"))
         latencies = " ".join(f"{number(one.get(name)):>8}" for name in ("p50_us", "p99_us", "p999_us"))
-        lines.append(f"{row:74} {number(one['cpu_us']):>7} {spread(rounds, row):>10} {ratio:>6} {number(rate):>9} {latencies}")
+        lines.append(f"{row:74} {number(one.get('cpu_us')):>7} {spread(rounds, row):>10} {ratio:>6} {number(rate):>9} {latencies}")
     lines.append(f"(CPU of the server a {each}; ratio: to the row that it is compared with)")
     return lines
 
@@ -62,7 +64,7 @@ class Goal:
 
     def line(self):
         verdict = {True: "met", False: "MISSED", None: "not measured"}[self.met]
-        return f"{self.name:66} {self.wanted:>28}  {self.measured:24} {verdict}"
+        return f"{self.name:62} {self.wanted:38} {self.measured:24} {verdict}"
 
 
 def at_most(name, value, limit, unit):

@@ -52,7 +52,7 @@ def main():
     rounds = arguments.rounds or (1 if arguments.quick else 5)
     most = processes.allow_many_descriptors()
     settings = Settings(
-        seconds=0.3 if arguments.quick else 1.0,
+        seconds=0.3 if arguments.quick else 0.8,
         connections=min(1_000 if arguments.quick else 10_000, most - 100),
         gateway=tuple(arguments.gateway),
     )
@@ -63,7 +63,7 @@ def main():
     for part, rows in kept.items():
         print("\n".join(report.table(rows, part)), end="\n\n")
     print("\n".join(goal.line() for goal in report.goals(middle)))
-    print(f"\nmedians of {rounds} rounds on {machine['cores']} cores, {machine['cpu']}, {version()}")
+    print(f"\nmedians of {rounds} round{'s' if rounds > 1 else ''} on {machine['cores']} cores, {machine['cpu']}, {version()}")
     report.write_json(processes.ROOT / "build" / "bench.json", machine, version(), kept)
     if arguments.plots and "growth" in parts:
         (processes.ROOT / "docs" / "performance-growth.svg").write_text(plot.svg(middle))

@@ -8,7 +8,7 @@ from processes import BIN, WORK, BenchError
 
 def round(keep, settings):
     command = [str(BIN / "rois-micro"), str(WORK / "documents" / "micro"), "--benchmark_format=json"]
-    command.append(f"--benchmark_min_time={settings.seconds / 10}")
+    command.append(f"--benchmark_min_time={settings.seconds / 20}")
     done = subprocess.run(command, capture_output=True, text=True, timeout=600)
     if done.returncode != 0:
         raise BenchError(f"rois-micro: {done.stderr.strip()}")

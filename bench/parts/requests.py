@@ -16,7 +16,7 @@ MODES = {"HTTP": "http", "WebSocket": "websocket"}
 ANSWER_BYTES = 557  # of the gateway to the query
 
 
-def against_bare(row, bare):
+def against(bare, row):
     AGAINST[row] = bare
     return row
 
@@ -45,9 +45,9 @@ def compare(ask, settings):
     with running(gateway(1, *settings.gateway)) as (server,):
         beside(BARE_HTTP, Server("bare-http", [BIN / "rois-bare-http", "{port}", ANSWER_BYTES]), query)
         ask(HTTP, server, query)
-        beside(GSOAP, Server("gsoap", [BIN / "rois-gsoap", "{port}"]), "call-of-gsoap", path="/")
+        beside(GSOAP, Server("gsoap", [BIN / "rois-gsoap", "{port}"]), "call-of-gsoap", path="/", expect="9498.984")
         xmlrpc = Server("xmlrpc", ["python3", ROOT / "bench" / "xmlrpc_server.py", "{port}"])
-        beside(XMLRPC, xmlrpc, "call-of-xmlrpc", path="/RPC2")
+        beside(XMLRPC, xmlrpc, "call-of-xmlrpc", path="/RPC2", expect="9498.984")
         beside(BARE_WEBSOCKET, Server("bare-websocket", [BIN / "rois-bare-websocket", "{port}"]), query, via="websocket")
         ask(WEBSOCKET, server, query, via="websocket")
 
@@ -58,15 +58,16 @@ def vary_size_and_connections(ask, settings):
     with running(gateway(1, *settings.gateway), bare, echo) as (server, *_):
         for size in ("0.3", "3", "20"):
             query = f"query-{size}kB"
-            ask(f"bare, {size} kB, HTTP", bare, query, connect=False)
-            ask(against_bare(f"query {size} kB, HTTP", f"bare, {size} kB, HTTP"), server, query)
-            ask(f"bare, {size} kB, WebSocket", echo, query, connect=False, via="websocket")
-            ask(against_bare(f"query {size} kB, WebSocket", f"bare, {size} kB, WebSocket"), server, query, via="websocket")
+            for name, via, other in (("HTTP", "http", bare), ("WebSocket", "websocket", echo)):
+                compared = f"bare, {size} kB, {name}"
+                ask(compared, other, query, connect=False, via=via)
+                ask(against(compared, f"query {size} kB, {name}"), server, query, via=via)
         for connections in (1, 16, 1_000):
             many = f"{connections:,} connection" + ("s" if connections > 1 else "")
             query = "query-0.6kB"
-            ask(f"bare, 0.6 kB, HTTP, {many}", bare, query, connections, connect=False)
-            ask(against_bare(f"query 0.6 kB, HTTP, {many}", f"bare, 0.6 kB, HTTP, {many}"), server, query, connections)
+            compared = f"bare, 0.6 kB, HTTP, {many}"
+            ask(compared, bare, query, connections, connect=False)
+            ask(against(compared, f"query 0.6 kB, HTTP, {many}"), server, query, connections)
             ask(f"query 0.6 kB, WebSocket, {many}", server, query, connections, via="websocket")
 
 
