@@ -14,6 +14,12 @@ BIN = ROOT / "build" / "release" / "bin"
 WORK = ROOT / "build" / "bench"  # documents, and what the servers said
 
 
+# A server on one core, who asks it on the others: where both are is not left to chance, which doubles the cost at times.
+CORES = sorted(os.sched_getaffinity(0))
+SERVER_CORES = set(CORES[:1])
+LOAD_CORES = set(CORES[1:] or CORES)
+
+
 class BenchError(Exception):
     """Something does not work that must, to measure anything at all."""
 
@@ -31,15 +37,18 @@ def free_port():
 
 
 class Server:
-    """A server that runs until `stop`. `seconds_to_ready`: from its start until it answered, or took a connection."""
+    """A server that runs until `stop`. `seconds_to_ready`: from its start until it answered, or took a connection. One that has
+    threads to share may go wherever the kernel likes."""
 
-    def __init__(self, name, command, health=None):
+    def __init__(self, name, command, health=None, threads=1):
         self.name = name
+        self.load_cores = LOAD_CORES if threads == 1 else set(CORES)
         self.port = free_port()
         with open(WORK / f"{name}.log", "wb") as log:
             begun = time.perf_counter()
             self.process = subprocess.Popen([str(part).replace("{port}", str(self.port)) for part in command], stdout=log, stderr=log)
         self.pid = self.process.pid
+        os.sched_setaffinity(self.pid, SERVER_CORES if threads == 1 else set(CORES))
         while not self._answers(health):
             if self.process.poll() is not None or time.perf_counter() - begun > 30:
                 self.stop()
@@ -76,11 +85,11 @@ class Server:
 def gateway(threads=1, *arguments):
     command = [BIN / "rois-gateway", "--listen", "127.0.0.1:{port}", "--threads", threads, "--log-level", "warning"]
     command += ["--max-sessions", 20_000, "--max-connections", 20_000, *arguments]
-    return Server(f"gateway-{threads}", command, "/readyz")
+    return Server(f"gateway-{threads}", command, "/readyz", threads)
 
 
 def stage(threads=1, probes=10, bystanders=0):
-    return Server("stage", [BIN / "rois-stage", "{port}", threads, probes, bystanders], "/readyz")
+    return Server("stage", [BIN / "rois-stage", "{port}", threads, probes, bystanders], "/readyz", threads)
 
 
 @contextlib.contextmanager
@@ -92,13 +101,17 @@ def running(*servers):
             server.stop()
 
 
-def _arguments(mode, server, options):
+def _start(mode, server, options, **pipes):
     command = [BIN / "rois-load", mode, "--port", server.port, "--pid", server.pid]
     for name, value in options.items():
         flag = "--" + name.replace("_", "-")
         for one in value if isinstance(value, list) else [value]:
             command += [flag, one]
-    return [str(part) for part in command]
+    if mode != "hold" and not server.load_cores & SERVER_CORES:
+        command += ["--spin", "yes"]
+    process = subprocess.Popen([str(part) for part in command], stdout=subprocess.PIPE, text=True, **pipes)
+    os.sched_setaffinity(process.pid, server.load_cores)
+    return process
 
 
 def document(name):
@@ -107,16 +120,21 @@ def document(name):
 
 def load(mode, server, **options):
     """Runs the load generator and returns what it measured."""
-    done = subprocess.run(_arguments(mode, server, options), capture_output=True, text=True, timeout=300)
-    if done.returncode != 0:
-        raise BenchError(f"{mode} on {server.name}: {done.stderr.strip()}")
-    return json.loads(done.stdout)
+    with _start(mode, server, options, stderr=subprocess.PIPE) as process:
+        try:
+            said, complaint = process.communicate(timeout=300)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            raise
+    if process.returncode != 0:
+        raise BenchError(f"{mode} on {server.name}: {complaint.strip()}")
+    return json.loads(said)
 
 
 @contextlib.contextmanager
 def beside(mode, server, **options):
     """The load generator while something else is measured."""
-    process = subprocess.Popen(_arguments(mode, server, options), stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    process = _start(mode, server, options, stdin=subprocess.PIPE)
     try:
         if mode == "hold":
             line = process.stdout.readline()

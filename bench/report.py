@@ -100,11 +100,12 @@ def validation_goal(middle):
     return at_most("2 validation of 20 kB: time, against xerces-c", worst, 0.25, "times")
 
 
-def goals(middle):
-    """What ./dev bench has to show."""
+def goals(rounds):
+    """What ./dev bench has to show. `rounds`: row -> what each round gave, of all parts."""
+    middle = medians(rounds)
     memory_of = lambda row, measure: middle.get(row, {}).get(measure)  # noqa: E731
     session = memory_of(f"idle {memory.SESSION}", "bytes_each")
-    growing = {axis: growth.growth(middle, axis) for axis in growth.AXES}
+    growing = {axis: growth.growth(rounds, axis) for axis in growth.AXES}
     latency = middle.get(fanout.REQUESTS, {}).get("p99_us")
     return [
         at_most("1 query 0.6 kB, HTTP: CPU, against bare Beast", ratio(middle, requests.HTTP, requests.BARE_HTTP), 2, "times"),
@@ -132,7 +133,8 @@ def goals(middle):
 
 def write_json(path, machine, version, kept):
     """`kept`: part -> row -> what each round gave."""
-    middle = {row: one for part in kept.values() for row, one in medians(part).items()}
+    together = dict(collections.ChainMap(*kept.values()))
+    middle = medians(together)
     parts = {part: {row: {"median": middle[row], "rounds": rounds[row]} for row in rounds} for part, rounds in kept.items()}
-    told = [vars(goal) for goal in goals(middle)]
+    told = [vars(goal) for goal in goals(together)]
     path.write_text(json.dumps({"machine": machine, "version": version, "goals": told, "parts": parts}, indent=1) + "\n")

@@ -59,14 +59,14 @@ def main():
     documents.write_all(processes.WORK / "documents")
     machine = processes.machine()
     kept = measure(parts, rounds, settings)
-    middle = {row: one for part in kept.values() for row, one in report.medians(part).items()}
+    together = {row: rounds_of_it for part in kept.values() for row, rounds_of_it in part.items()}
     for part, rows in kept.items():
         print("\n".join(report.table(rows, part)), end="\n\n")
-    print("\n".join(goal.line() for goal in report.goals(middle)))
+    print("\n".join(goal.line() for goal in report.goals(together)))
     print(f"\nmedians of {rounds} round{'s' if rounds > 1 else ''} on {machine['cores']} cores, {machine['cpu']}, {version()}")
     report.write_json(processes.ROOT / "build" / "bench.json", machine, version(), kept)
     if arguments.plots and "growth" in parts:
-        (processes.ROOT / "docs" / "performance-growth.svg").write_text(plot.svg(middle))
+        (processes.ROOT / "docs" / "performance-growth.svg").write_text(plot.svg(report.medians(together)))
 
 
 if __name__ == "__main__":

@@ -94,7 +94,7 @@ private:
     Options const& options_;
     std::vector<Application> subscribers_;
     Application firing_;
-    Readiness readiness_;
+    Readiness readiness_{options_.spin};
     std::string fire_;
     Latencies latencies_;
     std::size_t messages_ = 0;

@@ -11,7 +11,7 @@ namespace rois::bench {
 
 void hold(Options const& options) {
     auto applications = make_applications(options);
-    Readiness readiness;
+    Readiness readiness{options.spin};
     constexpr auto standard_input = std::numeric_limits<std::size_t>::max();
     readiness.watch(STDIN_FILENO, standard_input);
     for (std::size_t i = 0; i < applications.size(); ++i) {

@@ -8,7 +8,7 @@
 
 namespace rois::bench {
 
-Readiness::Readiness() : descriptor_{epoll_create1(EPOLL_CLOEXEC)} {
+Readiness::Readiness(bool spins) : descriptor_{epoll_create1(EPOLL_CLOEXEC)}, spins_{spins} {
     if (descriptor_ < 0) throw std::runtime_error("no epoll");
 }
 
@@ -22,7 +22,7 @@ void Readiness::watch(int descriptor, std::size_t name) {
 }
 
 std::span<epoll_event const> Readiness::wait(Nanoseconds until) {
-    auto const rest = std::max<Nanoseconds>(0, until - now());
+    auto const rest = spins_ ? 0 : std::max<Nanoseconds>(0, until - now());
     timespec const time{rest / 1'000'000'000, rest % 1'000'000'000};
     auto const count = epoll_pwait2(descriptor_, ready_.data(), static_cast<int>(ready_.size()), &time, nullptr);
     if (count < 0 && errno != EINTR) throw std::runtime_error("waiting failed");

@@ -13,7 +13,9 @@ namespace rois::bench {
 
 class Readiness {
 public:
-    Readiness();
+    // `spins`: looks again and again instead of sleeping. Then whoever sends to this process need not wake it, which costs a
+    // server more than many a request where cores are virtual.
+    explicit Readiness(bool spins);
     ~Readiness();
     Readiness(Readiness const&) = delete;
     Readiness& operator=(Readiness const&) = delete;
@@ -26,6 +28,7 @@ public:
 
 private:
     int descriptor_;
+    bool spins_;
     std::array<epoll_event, 512> ready_{};
 };
 

@@ -130,7 +130,7 @@ private:
     Options const& options_;
     std::vector<Application> applications_;
     std::deque<Asker> askers_;
-    Readiness readiness_;
+    Readiness readiness_{options_.spin};
     std::deque<std::size_t> free_;
     Nanoseconds due_ = 0;
     Latencies latencies_;

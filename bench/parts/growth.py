@@ -1,5 +1,7 @@
 """Whether a query stays as cheap when there is more of something. A point is kept as "axis: number"."""
 
+import statistics
+
 from parts.fanout import fire
 from processes import beside, document, load, running, stage
 
@@ -55,7 +57,8 @@ def after_events(ask):
             ask(EVENTS, number, server)
 
 
-def growth(medians, axis):
-    """How much more a query costs at the end of the axis than at its beginning: 0.2 is 20 %. None when it was not measured."""
-    first, last = (medians.get(row(axis, AXES[axis][i])) for i in (0, -1))
-    return last["cpu_us"] / first["cpu_us"] - 1 if first and last else None
+def growth(rounds, axis):
+    """How much more a query costs at the end of the axis than at its beginning, as the median of the rounds: 0.2 is 20 %. None when
+    it was not measured."""
+    first, last = (rounds.get(row(axis, AXES[axis][i]), []) for i in (0, -1))
+    return statistics.median(b["cpu_us"] / a["cpu_us"] - 1 for a, b in zip(first, last)) if first and last else None
