@@ -67,7 +67,7 @@ def station(stack):
     in_kernel = [name for name in stack if name.startswith(("do_syscall", "entry_SYSCALL", "__x64_sys"))]
     if in_kernel:
         names = " ".join(stack)
-        if "schedule" in names and "epoll_wait" not in names:
+        if "__schedule" in stack and "epoll_wait" not in names:
             return "kernel: another process gets the core"
         return next((where for mark, where in KERNEL if mark in names), "kernel: the rest")
     for name in stack:
@@ -99,10 +99,10 @@ def main(what):
     processes.allow_many_descriptors()
     data = processes.WORK / "perf.data"
     server, mode, options = start(what)
-    with processes.running(server), processes.beside(mode, server, seconds=7, **options) as load:
+    with processes.running(server), processes.beside(mode, server, seconds=10, **options) as load:
         time.sleep(2)
         record = ["perf", "record", "-q", "-F", "997", "--call-graph", "dwarf,16384", "-p", str(server.pid), "-o", str(data)]
-        subprocess.run([*record, "--", "sleep", "3"], check=True, stderr=subprocess.DEVNULL)
+        subprocess.run([*record, "--", "sleep", "6"], check=True, stderr=subprocess.DEVNULL)
         cpu = json.loads(load.stdout.readline())["cpu_us"]
     script = ["perf", "script", "-i", str(data), "-F", "ip,sym", "--no-inline"]
     said = subprocess.run(script, check=True, capture_output=True, text=True).stdout
