@@ -46,7 +46,8 @@ class Server:
         self.port = free_port()
         with open(WORK / f"{name}.log", "wb") as log:
             begun = time.perf_counter()
-            self.process = subprocess.Popen([str(part).replace("{port}", str(self.port)) for part in command], stdout=log, stderr=log)
+            whole = [str(part).replace("{port}", str(self.port)) for part in command]
+            self.process = subprocess.Popen(whole, stdout=log, stderr=log)
         self.pid = self.process.pid
         os.sched_setaffinity(self.pid, SERVER_CORES if threads == 1 else set(CORES))
         while not self._answers(health):

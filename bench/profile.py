@@ -1,5 +1,6 @@
 """python3 bench/profile.py http|websocket|fanout|fanout-8: where the gateway spends its time, by stations (needs linux-perf, and
-what ./dev bench has built). Each sample counts for the innermost station that is on its stack; docs/performance.md keeps the numbers."""
+what ./dev bench has built). Each sample counts for the innermost station that is on its stack; docs/performance.md keeps the
+numbers."""
 
 import collections
 import json

@@ -45,13 +45,13 @@ def table(rounds, part):
                 lines.append(f"{row:58} {number(one['bytes_each']):>10} {one['idle_cpu_percent']:>10.1f}")
         return lines
     each = "message" if part == "fanout" else "call" if part == "micro" else "request"
-    lines.append(f"{part:74} {'CPU µs':>7} {'spread':>10} {'ratio':>6} {'/s':>9} {'p50 µs':>8} {'p99 µs':>8} {'p99.9':>8}")
+    lines.append(f"{part:74} {'CPU µs':>7} {'spread':>10} {'ratio':>6} {'/s':>9} {'p50 µs':>8} {'p99':>8} {'p99.9':>8}")
     for row, one in middle.items():
-        other = middle.get(AGAINST.get(row))
-        ratio = f"{one['cpu_us'] / other['cpu_us']:.2f}" if other else ""
+        other, cpu = middle.get(AGAINST.get(row)), one.get("cpu_us")
+        ratio = f"{cpu / other['cpu_us']:.2f}" if other else ""
         rate = one.get("requests_per_second", one.get("messages_per_second"))
         latencies = " ".join(f"{number(one.get(name)):>8}" for name in ("p50_us", "p99_us", "p999_us"))
-        lines.append(f"{row:74} {number(one.get('cpu_us')):>7} {spread(rounds, row):>10} {ratio:>6} {number(rate):>9} {latencies}")
+        lines.append(f"{row:74} {number(cpu):>7} {spread(rounds, row):>10} {ratio:>6} {number(rate):>9} {latencies}")
     lines.append(f"(CPU of the server a {each}; ratio: to the row that it is compared with)")
     return lines
 

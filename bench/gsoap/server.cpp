@@ -17,7 +17,7 @@ int hall__query(soap* soap, char* query_type, char* component_ref, char* engine,
 int main(int argc, char** argv) {
     if (argc != 2) return 2;
     soap* const listening = soap_new1(SOAP_IO_KEEPALIVE | SOAP_C_UTFSTRING);
-    listening->max_keep_alive = 0;  // no limit
+    listening->max_keep_alive = 0;                           // no limit
     listening->recv_timeout = listening->send_timeout = 30;  // seconds, as the gateway has it
     listening->bind_flags = SO_REUSEADDR;
     if (!soap_valid_socket(soap_bind(listening, "127.0.0.1", std::atoi(argv[1]), 4096))) {

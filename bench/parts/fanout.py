@@ -10,7 +10,8 @@ BURSTS = (1, 8)
 
 def row(subscribers, burst, threads=1):
     waiting = "nothing waiting" if burst == 1 else f"{burst} waiting"
-    return f"{subscribers:,} subscriber{'s' if subscribers > 1 else ''}, {waiting}" + ("" if threads == 1 else f", {threads} threads")
+    many = "s" if subscribers > 1 else ""
+    return f"{subscribers:,} subscriber{many}, {waiting}" + ("" if threads == 1 else f", {threads} threads")
 
 
 def sender_row(burst):

@@ -58,7 +58,7 @@ def after_events(ask):
 
 
 def growth(rounds, axis):
-    """How much more a query costs at the end of the axis than at its beginning, as the median of the rounds: 0.2 is 20 %. None when
-    it was not measured."""
+    """How much more a query costs at the end of the axis than at its beginning, as the median of the rounds: 0.2 is 20 %.
+    None when it was not measured."""
     first, last = (rounds.get(row(axis, AXES[axis][i]), []) for i in (0, -1))
     return statistics.median(b["cpu_us"] / a["cpu_us"] - 1 for a, b in zip(first, last)) if first and last else None

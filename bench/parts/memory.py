@@ -28,7 +28,8 @@ def round(keep, settings):
                 time.sleep(0.5)
                 used = server.resident_bytes() - before
                 cpu = idle_cpu(server)
-            keep(f"idle {kind}", {"bytes_each": used / settings.connections, "idle_cpu_percent": cpu, "held": settings.connections})
+            each = used / settings.connections
+            keep(f"idle {kind}", {"bytes_each": each, "idle_cpu_percent": cpu, "held": settings.connections})
 
 
 def idle_cpu(server):

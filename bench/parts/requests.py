@@ -76,5 +76,6 @@ def operations(ask):
     with running(stage(probes=64)) as (server,):
         for name, via in MODES.items():
             ask(f"stage: set_parameter, {name}", server, "set_parameter", via=via, setup=document("bind"))
-            ask(f"stage: execute until completed, {name}", server, "execute", via=via, setup=document("bind"), **{"await": "<completed"})
+            told = {"setup": document("bind"), "await": "<completed"}
+            ask(f"stage: execute until completed, {name}", server, "execute", via=via, **told)
             ask(f"stage: subscribe again, {name}", server, "subscribe", via=via)
