@@ -242,7 +242,7 @@ void register_all(Documents const& documents) {
         auto const with_document = [&](std::string const& what, auto station) {
             benchmark::RegisterBenchmark((what + "/" + name).c_str(), [=](benchmark::State& s) { station(s, document); });
         };
-        with_schemas("xerces", validate_with_xerces);
+        with_schemas("xerces", validate_with_xerces);  // a validator of our own is "validate": bench/report.py compares them
         with_schemas("read", read);
         with_document("parse", parse);
         with_document("decode", decode);
