@@ -36,6 +36,8 @@ std::string Filter::meaning() const { return predicate_ ? predicate_->canonical(
 
 Match Filter::match(Candidate const& candidate) const { return predicate_ ? predicate_->match(candidate) : Match::yes; }
 
+std::optional<Refs> Filter::refs() const { return predicate_ ? predicate_->refs() : std::nullopt; }
+
 Selection::Selection() = default;
 Selection::~Selection() = default;
 Selection::Selection(Selection&&) noexcept = default;

@@ -33,6 +33,11 @@ public:
     }
     bool met_by_everything() const override { return operands_.empty(); }
     std::string canonical() const override { return joined('&', operands_); }
+    std::optional<Refs> refs() const override {
+        for (auto const& operand : operands_)
+            if (auto refs = operand->refs()) return refs;
+        return {};
+    }
 
 private:
     Predicates operands_;
@@ -49,6 +54,15 @@ public:
         return best;
     }
     std::string canonical() const override { return joined('|', operands_); }
+    std::optional<Refs> refs() const override {
+        Refs all;
+        for (auto const& operand : operands_) {
+            auto refs = operand->refs();
+            if (!refs) return {};
+            all.merge(*refs);
+        }
+        return all;
+    }
 
 private:
     Predicates operands_;
