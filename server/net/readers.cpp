@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "net/wakes.hpp"
+
 namespace rois::net {
 
 void Reader::wake() {

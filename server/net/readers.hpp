@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "engine/engine.hpp"
-#include "net/wakes.hpp"
 
 namespace rois::net {
+
+class Wakes;
 
 // A connection that waits for the notifications of a session. Always held by a shared_ptr.
 class Reader : public std::enable_shared_from_this<Reader> {

@@ -3,6 +3,7 @@
 
 #include "net/asio.hpp"
 #include "net/readers.hpp"
+#include "net/wakes.hpp"
 #include "types/instant.hpp"
 
 namespace rois::net {
