@@ -217,7 +217,9 @@ void SsmlMeaning::say(std::string_view content) {
     }
     if (passage == nullptr) return;
     passage->text += said;
-    pieces_.push_back({passages_.size() - 1, spoken_seconds(said) / std::clamp(element.rate * element.stress, least_rate, greatest_rate), Piece::Of::words});
+    pieces_.push_back({passages_.size() - 1,
+                       spoken_seconds(said) / std::clamp(element.rate * element.stress, least_rate, greatest_rate),
+                       Piece::Of::words});
 }
 
 std::vector<Passage> SsmlMeaning::passages() const {

@@ -21,7 +21,8 @@ struct SsmlAttribute {
 
 class SsmlMeaning {
 public:
-    // An element begins: the local name of one of SSML's own, else empty. Says which language it asks for in vain, when that is to be refused.
+    // An element begins: the local name of one of SSML's own, else empty. Says which language it asks for in vain, when that is
+    // to be refused.
     std::optional<std::string> begin(std::string_view kind, std::span<SsmlAttribute const>);
     void end();
 
@@ -39,8 +40,8 @@ private:
 
     struct Element {
         std::string kind;
-        double rate = 1;    // of the default one
-        double stress = 1;  // how emphasis changes it
+        double rate = 1;       // of the default one
+        double stress = 1;     // how emphasis changes it
         bool silent = false;   // what is in it is not spoken
         std::string language;  // empty: not said
         InVain in_vain = InVain::refuse;

@@ -23,7 +23,8 @@ enum class ForeignNamespaces : std::uint8_t { refused, as_the_schemas_say };
 // its parsers and buffers; for one thread.
 class CheckedReader {
 public:
-    // Without schemas it looks at a document's form alone. `roots` are the elements that a fault names when the root is another one; none: any that the schemas have.
+    // Without schemas it looks at a document's form alone. `roots` are the elements that a fault names when the root is another
+    // one; none: any that the schemas have.
     CheckedReader(std::shared_ptr<Schemas const>, DocumentLimits, std::span<std::string_view const> roots = {},
                   ForeignNamespaces = ForeignNamespaces::refused);
 

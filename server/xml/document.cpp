@@ -19,7 +19,9 @@ std::string at(std::string const& name, Fault const& fault) {
 // A file as it was read, with its tree. Its elements keep it alive.
 struct Opened {
     Opened(std::string its_name, std::string its_text, std::shared_ptr<Schemas const> schemas)
-        : name{std::move(its_name)}, text{std::move(its_text)}, reader{std::move(schemas), DocumentLimits{}, {}, ForeignNamespaces::as_the_schemas_say} {}
+        : name{std::move(its_name)},
+          text{std::move(its_text)},
+          reader{std::move(schemas), DocumentLimits{}, {}, ForeignNamespaces::as_the_schemas_say} {}
 
     std::string name;
     std::string text;
