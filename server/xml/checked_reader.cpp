@@ -45,8 +45,10 @@ std::size_t tag_before(pugi::xml_node root, std::size_t offset) {
 }  // namespace
 
 CheckedReader::CheckedReader(std::shared_ptr<Schemas const> schemas, DocumentLimits limits,
-                             std::span<std::string_view const> roots)
-    : schemas_{std::move(schemas)}, limits_{limits}, roots_{roots}, validator_{schemas_} {}
+                             std::span<std::string_view const> roots, ForeignNamespaces foreign)
+    : schemas_{std::move(schemas)}, limits_{limits}, roots_{roots}, foreign_{foreign} {
+    if (schemas_) validator_.emplace(schemas_);
+}
 
 std::optional<Fault> CheckedReader::read(std::string_view document) {
     if (document.size() > limits_.bytes) {
@@ -58,11 +60,12 @@ std::optional<Fault> CheckedReader::read(std::string_view document) {
     document_ = document;
     bytes_ = document;
 
-    auto const outcome = scan(bytes_, limits_, schemas_->grammars().namespaces());
+    std::span<std::string const> namespaces;
+    if (schemas_) namespaces = schemas_->grammars().namespaces();
+    auto const outcome = scan(bytes_, limits_, namespaces);
     if (auto const* refusal = std::get_if<Refusal>(&outcome)) return refused(refusal->code, refusal->reason, refusal->offset);
     auto const& scanned = std::get<Scanned>(outcome);
-    if (scanned.foreign) return not_valid(about(*scanned.foreign), scanned);
-    if (auto const objection = validator_.objection_to(bytes_)) return not_valid(*objection, scanned);
+    if (auto fault = objection_to(scanned)) return fault;
     if (auto const result = tree_.load_buffer_inplace(bytes_.data(), bytes_.size(), as_xerces_reads, pugi::encoding_utf8);
         !result) {
         return refused(FaultCode::not_well_formed, result.description(), static_cast<std::size_t>(result.offset));
@@ -70,9 +73,21 @@ std::optional<Fault> CheckedReader::read(std::string_view document) {
     return std::nullopt;
 }
 
+std::optional<Fault> CheckedReader::objection_to(Scanned const& scanned) {
+    if (!validator_) {
+        auto const objection = objection_to_form(bytes_);
+        return objection ? std::optional{not_well_formed(*objection, scanned)} : std::nullopt;
+    }
+    if (scanned.foreign && foreign_ == ForeignNamespaces::refused) return not_valid(about(*scanned.foreign), scanned);
+    auto const objection = validator_->objection_to(bytes_);
+    return objection ? std::optional{not_valid(*objection, scanned)} : std::nullopt;
+}
+
 Fault CheckedReader::complain(pugi::xml_node element, std::string reason) const {
     return refused(FaultCode::invalid, std::move(reason), offset_of(element));
 }
+
+Place CheckedReader::place(pugi::xml_node element) const { return place_of(document_, offset_of(element)); }
 
 Fault CheckedReader::refused(FaultCode code, std::string reason, std::size_t offset) const {
     return {code, std::move(reason), place_of(document_, offset), request_id_of(document_)};
