@@ -37,11 +37,13 @@ std::size_t length_of(std::string_view rest, char32_t& code) {
     return overlong || surrogate || code > 0x10FFFF ? 0 : length;
 }
 
-bool allowed(char32_t code) {
-    return code >= 0x20 ? code != 0xFFFE && code != 0xFFFF : code == '\t' || code == '\n' || code == '\r';
-}
-
 }  // namespace
+
+bool is_character(char32_t code) {
+    if (code < 0x20) return code == '\t' || code == '\n' || code == '\r';
+    bool const surrogate = code >= 0xD800 && code <= 0xDFFF;
+    return !surrogate && code != 0xFFFE && code != 0xFFFF && code <= 0x10FFFF;
+}
 
 std::optional<BadCharacter> first_bad_character(std::string_view text) {
     for (std::size_t i = 0; i < text.size();) {
@@ -52,7 +54,7 @@ std::optional<BadCharacter> first_bad_character(std::string_view text) {
         char32_t code = 0;
         auto const length = length_of(text.substr(i, 4), code);
         if (length == 0) return BadCharacter{i, 1, not_utf8};
-        if (!allowed(code)) return BadCharacter{i, length, not_a_character};
+        if (!is_character(code)) return BadCharacter{i, length, not_a_character};
         i += length;
     }
     return std::nullopt;

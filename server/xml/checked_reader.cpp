@@ -44,11 +44,17 @@ std::size_t tag_before(pugi::xml_node root, std::size_t offset) {
 
 }  // namespace
 
-CheckedReader::CheckedReader(std::shared_ptr<Schemas const> schemas, DocumentLimits limits,
+CheckedReader::CheckedReader(std::shared_ptr<Schemas const> schemas, DocumentLimits limits, Validation validation,
                              std::span<std::string_view const> roots)
-    : schemas_{std::move(schemas)}, limits_{limits}, roots_{roots}, validator_{schemas_} {}
+    : schemas_{std::move(schemas)},
+      limits_{limits},
+      validation_{validation},
+      roots_{roots},
+      acceptor_{schemas_, limits},
+      validator_{schemas_} {}
 
 std::optional<Fault> CheckedReader::read(std::string_view document) {
+    checked_.reset();
     if (document.size() > limits_.bytes) {
         return Fault{
             FaultCode::too_large, "the document is too large: the limit is " + std::to_string(limits_.bytes) + " bytes", {}, {}};
@@ -58,15 +64,24 @@ std::optional<Fault> CheckedReader::read(std::string_view document) {
     document_ = document;
     bytes_ = document;
 
+    checked_ = validation_ == Validation::fast && acceptor_.accepts(bytes_) ? Validation::fast : Validation::full;
+    if (checked_ == Validation::full) {
+        if (auto fault = judge()) return fault;
+    }
+    if (auto const result = tree_.load_buffer_inplace(bytes_.data(), bytes_.size(), as_xerces_reads, pugi::encoding_utf8);
+        !result) {
+        return refused(FaultCode::not_well_formed, result.description(), static_cast<std::size_t>(result.offset));
+    }
+    return std::nullopt;
+}
+
+// Nothing when the document is well-formed and valid; its namespaces have today's form then.
+std::optional<Fault> CheckedReader::judge() {
     auto const outcome = scan(bytes_, limits_, schemas_->grammars().namespaces());
     if (auto const* refusal = std::get_if<Refusal>(&outcome)) return refused(refusal->code, refusal->reason, refusal->offset);
     auto const& scanned = std::get<Scanned>(outcome);
     if (scanned.foreign) return not_valid(about(*scanned.foreign), scanned);
     if (auto const objection = validator_.objection_to(bytes_)) return not_valid(*objection, scanned);
-    if (auto const result = tree_.load_buffer_inplace(bytes_.data(), bytes_.size(), as_xerces_reads, pugi::encoding_utf8);
-        !result) {
-        return refused(FaultCode::not_well_formed, result.description(), static_cast<std::size_t>(result.offset));
-    }
     return std::nullopt;
 }
 

@@ -9,28 +9,35 @@
 #include <string_view>
 
 #include "types/messages.hpp"
+#include "xml/acceptor.hpp"
 #include "xml/codec.hpp"
 #include "xml/scan.hpp"
 #include "xml/validator.hpp"
 
 namespace rois::xml {
 
-// Checks a document's bytes with a scan of our own, then against the schemas, and parses the very same bytes into a tree. Keeps
-// its parsers and buffers; for one thread.
+// Checks a document's bytes and parses the very same bytes into a tree. What the tables of the schemas accept is taken;
+// everything else is looked over by the scan and judged by xerces-c, which has the last word. Keeps its parsers and buffers; for
+// one thread.
 class CheckedReader {
 public:
     // `roots` are the elements that a fault names when the root is another one; none: any that the schemas have.
-    CheckedReader(std::shared_ptr<Schemas const>, DocumentLimits, std::span<std::string_view const> roots = {});
+    CheckedReader(std::shared_ptr<Schemas const>, DocumentLimits, Validation = Validation::fast,
+                  std::span<std::string_view const> roots = {});
 
     // Nothing when all is well: then `root` is the document's, until the next call. The document must live as long as it is asked
     // about.
     std::optional<Fault> read(std::string_view document);
     pugi::xml_node root() const { return tree_.document_element(); }
 
+    // Which way the last document was checked; nothing for one that was too large to be looked at.
+    std::optional<Validation> checked() const { return checked_; }
+
     // A fault about an element of the last document.
     Fault complain(pugi::xml_node element, std::string reason) const;
 
 private:
+    std::optional<Fault> judge();
     Fault refused(FaultCode, std::string reason, std::size_t offset) const;
     Fault not_well_formed(Objection const&, Scanned const&) const;
     Fault not_valid(Objection const&, Scanned const&) const;
@@ -38,11 +45,14 @@ private:
 
     std::shared_ptr<Schemas const> schemas_;
     DocumentLimits limits_;
+    Validation validation_;
     std::span<std::string_view const> roots_;
+    Acceptor acceptor_;
     Validator validator_;
     std::string_view document_;  // the last one, as it came
     std::string bytes_;          // it with its namespaces in today's form; the tree points into it
     pugi::xml_document tree_;
+    std::optional<Validation> checked_;
 };
 
 }  // namespace rois::xml
