@@ -169,22 +169,22 @@ bool Acceptor::character_reference() {
     return true;
 }
 
-bool Acceptor::take_name(std::string_view& whole, NameParts& parts) {
-    whole = text_.substr(at_, length_of_plain_name(text_.substr(at_)));
-    auto const plain = plain_name(whole);
-    if (!plain || whole.size() > limits_.name_length) return false;
-    parts = *plain;
-    at_ += whole.size();
+bool Acceptor::take_name(NameParts& name) {
+    auto const plain = plain_name_before(text_.substr(at_));
+    if (!plain || plain->whole.size() > limits_.name_length) return false;
+    name = *plain;
+    at_ += name.whole.size();
     return true;
 }
 
 bool Acceptor::start_tag() {
     Open element{{}, nullptr, nullptr, at_, bindings_.size(), 0};
-    NameParts written;
+    NameParts name;
     ++at_;
     if (++elements_ > limits_.elements || open_.size() + 1 > limits_.depth) return false;
-    if (!take_name(element.tag, written) || !attributes(element.bindings) || !resolve_attributes()) return false;
-    element.declaration = declaration_of({name_space_of(written.prefix), tables_.name(written.local)});
+    if (!take_name(name) || !attributes(element.bindings) || !resolve_attributes()) return false;
+    element.tag = name.whole;
+    element.declaration = declaration_of({name_space_of(name.prefix), tables_.name(name.local)});
     element.type = element.declaration == nullptr ? nullptr : type_of(*element.declaration);
     if (element.type == nullptr || element.type->content == ElementType::Content::unknown) return false;
     if (!check_attributes(*element.type)) return false;
@@ -230,12 +230,12 @@ bool Acceptor::attributes(std::size_t outer_bindings) {
 }
 
 bool Acceptor::attribute(std::size_t outer_bindings) {
-    std::string_view whole, value;
     NameParts written;
-    if (!take_name(whole, written) || peek() != '=') return false;
+    std::string_view value;
+    if (!take_name(written) || peek() != '=') return false;
     ++at_;
     if (!attribute_value(value)) return false;
-    if (whole == "xmlns") return bind({}, value, outer_bindings);
+    if (written.whole == "xmlns") return bind({}, value, outer_bindings);
     if (written.prefix == "xmlns") return bind(written.local, value, outer_bindings);
     attributes_.push_back({written, value, {}});
     return true;

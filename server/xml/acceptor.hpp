@@ -65,7 +65,7 @@ private:
     bool is_new(std::string_view id);
     bool end_tag();
     bool close(Open const&);
-    bool take_name(std::string_view& whole, NameParts&);
+    bool take_name(NameParts&);
 
     ElementDeclaration const* declaration_of(Name);         // null: left to xerces-c; steps on in the open element's content
     ElementType const* type_of(ElementDeclaration const&);  // the declared one, or its xsi:type's; null: left to xerces-c

@@ -142,19 +142,22 @@ bool is_name_without_colon(std::string_view text) {
     return parts && parts->prefix.empty();
 }
 
-std::size_t length_of_plain_name(std::string_view text) {
-    std::size_t length = 0;
-    while (length < text.size() && in_names[static_cast<unsigned char>(text[length])]) ++length;
-    return length;
+std::optional<NameParts> plain_name_before(std::string_view text) {
+    std::size_t colons = 0, colon = 0, end = 0;
+    for (; end < text.size() && in_names[static_cast<unsigned char>(text[end])]; ++end) {
+        if (text[end] != ':') continue;
+        ++colons;
+        colon = end;
+    }
+    auto const whole = text.substr(0, end);
+    if (colons == 0) return is_plain_part(whole) ? std::optional{NameParts{whole, {}, whole}} : std::nullopt;
+    NameParts const name{whole, whole.substr(0, colon), whole.substr(colon + 1)};
+    return colons == 1 && is_plain_part(name.prefix) && is_plain_part(name.local) ? std::optional{name} : std::nullopt;
 }
 
 std::optional<NameParts> plain_name(std::string_view text) {
-    if (length_of_plain_name(text) != text.size()) return std::nullopt;
-    auto const colon = text.find(':');
-    if (colon == text.npos) return is_plain_part(text) ? std::optional{NameParts{{}, text}} : std::nullopt;
-    NameParts const parts{text.substr(0, colon), text.substr(colon + 1)};
-    bool const good = is_plain_part(parts.prefix) && is_plain_part(parts.local) && parts.local.find(':') == text.npos;
-    return good ? std::optional{parts} : std::nullopt;
+    auto const name = plain_name_before(text);
+    return name && name->whole.size() == text.size() ? name : std::nullopt;
 }
 
 bool ValueType::accepts(std::string_view text) const {

@@ -64,16 +64,18 @@ bool is_year(std::string_view);
 bool is_duration(std::string_view);
 bool is_name_without_colon(std::string_view);
 
-// The parts of a name; without a colon there is no prefix.
+// A name and its parts; without a colon there is no prefix.
 struct NameParts {
+    std::string_view whole;
     std::string_view prefix;
     std::string_view local;
 };
 
-// The parts of a name of ASCII letters, digits and ".-_" with at most one colon. Nothing: it may still be a name to XML.
-std::optional<NameParts> plain_name(std::string_view);
+// The name that a text begins with, when it is one of ASCII letters, digits and ".-_" with at most one colon. Nothing: it may
+// still be a name to XML.
+std::optional<NameParts> plain_name_before(std::string_view);
 
-// How many bytes from the beginning may be part of such a name; the colon is one of them.
-std::size_t length_of_plain_name(std::string_view);
+// The parts of a text that is such a name.
+std::optional<NameParts> plain_name(std::string_view);
 
 }  // namespace rois::xml
