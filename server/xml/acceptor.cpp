@@ -169,22 +169,22 @@ bool Acceptor::character_reference() {
     return true;
 }
 
-bool Acceptor::take_name(NameParts& name) {
-    auto const plain = plain_name_before(text_.substr(at_));
-    if (!plain || plain->whole.size() > limits_.name_length) return false;
-    name = *plain;
-    at_ += name.whole.size();
-    return true;
+// An empty one when the document is left to xerces-c.
+PlainName Acceptor::take_name() {
+    auto const name = plain_name_before(text_.substr(at_));
+    if (name.whole().size() > limits_.name_length) return {};
+    at_ += name.whole().size();
+    return name;
 }
 
 bool Acceptor::start_tag() {
     Open element{{}, nullptr, nullptr, at_, bindings_.size(), 0};
-    NameParts name;
     ++at_;
     if (++elements_ > limits_.elements || open_.size() + 1 > limits_.depth) return false;
-    if (!take_name(name) || !attributes(element.bindings) || !resolve_attributes()) return false;
-    element.tag = name.whole;
-    element.declaration = declaration_of({name_space_of(name.prefix), tables_.name(name.local)});
+    auto const name = take_name();
+    if (name.none() || !attributes(element.bindings) || !resolve_attributes()) return false;
+    element.tag = name.whole();
+    element.declaration = declaration_of({name_space_of(name.prefix()), tables_.name(name.local())});
     element.type = element.declaration == nullptr ? nullptr : type_of(*element.declaration);
     if (element.type == nullptr || element.type->content == ElementType::Content::unknown) return false;
     if (!check_attributes(*element.type)) return false;
@@ -230,13 +230,13 @@ bool Acceptor::attributes(std::size_t outer_bindings) {
 }
 
 bool Acceptor::attribute(std::size_t outer_bindings) {
-    NameParts written;
-    std::string_view value;
-    if (!take_name(written) || peek() != '=') return false;
+    auto const written = take_name();
+    if (written.none() || peek() != '=') return false;
     ++at_;
+    std::string_view value;
     if (!attribute_value(value)) return false;
-    if (written.whole == "xmlns") return bind({}, value, outer_bindings);
-    if (written.prefix == "xmlns") return bind(written.local, value, outer_bindings);
+    if (written.whole() == "xmlns") return bind({}, value, outer_bindings);
+    if (written.prefix() == "xmlns") return bind(written.local(), value, outer_bindings);
     attributes_.push_back({written, value, {}});
     return true;
 }
@@ -280,11 +280,11 @@ Interned::Id Acceptor::name_space_of(std::string_view prefix) const {
 
 bool Acceptor::resolve_attributes() {
     for (auto& [written, value, name] : attributes_) {
-        name.local = tables_.name(written.local);
-        if (written.prefix.empty()) {
+        name.local = tables_.name(written.local());
+        if (written.prefix().empty()) {
             name.name_space = Interned::empty;
         } else {
-            name.name_space = written.prefix == "xml" ? tables_.name(xml_namespace) : name_space_of(written.prefix);
+            name.name_space = written.prefix() == "xml" ? tables_.name(xml_namespace) : name_space_of(written.prefix());
         }
         if (name.local == Interned::unknown || name.name_space == Interned::unknown) return false;
     }
@@ -305,8 +305,8 @@ ElementType const* Acceptor::type_of(ElementDeclaration const& declaration) {
     auto const said = std::ranges::find(attributes_, tables_.xsi_type(), &Attribute::name);
     if (said == attributes_.end()) return declaration.type;
     auto const written = plain_name(said->value);
-    if (!written) return nullptr;
-    Name const name{name_space_of(written->prefix), tables_.name(written->local)};
+    if (written.none()) return nullptr;
+    Name const name{name_space_of(written.prefix()), tables_.name(written.local())};
     auto const found = std::ranges::find(declaration.substitutes, name, &std::pair<Name, ElementType const*>::first);
     return found == declaration.substitutes.end() ? nullptr : found->second;
 }
@@ -342,7 +342,7 @@ bool Acceptor::check(ValueType const& type, std::string_view value) {
     if (type.kind == ValueType::Kind::id) return is_new(value);
     if (type.kind != ValueType::Kind::qualified_name) return true;
     auto const written = plain_name(value);
-    return written && (written->prefix.empty() || name_space_of(written->prefix) != Interned::unknown);
+    return written.prefix().empty() || name_space_of(written.prefix()) != Interned::unknown;
 }
 
 }  // namespace rois::xml

@@ -26,7 +26,7 @@ public:
 
 private:
     struct Attribute {
-        NameParts written;
+        PlainName written;
         std::string_view value;
         Name name;
     };
@@ -65,8 +65,8 @@ private:
     bool is_new(std::string_view id);
     bool end_tag();
     bool close(Open const&);
-    bool take_name(NameParts&);
 
+    PlainName take_name();
     ElementDeclaration const* declaration_of(Name);         // null: left to xerces-c; steps on in the open element's content
     ElementType const* type_of(ElementDeclaration const&);  // the declared one, or its xsi:type's; null: left to xerces-c
     Interned::Id name_space_of(std::string_view prefix) const;

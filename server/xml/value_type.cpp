@@ -119,8 +119,6 @@ std::size_t take_parts_of_duration(std::string_view& text, std::string_view unit
     return parts;
 }
 
-bool is_plain_part(std::string_view part) { return !part.empty() && is_letter(part.front()); }
-
 }  // namespace
 
 bool is_boolean(std::string_view text) { return text == "true" || text == "false" || text == "1" || text == "0"; }
@@ -138,26 +136,25 @@ bool is_duration(std::string_view text) {
 }
 
 bool is_name_without_colon(std::string_view text) {
-    auto const parts = plain_name(text);
-    return parts && parts->prefix.empty();
+    auto const name = plain_name(text);
+    return !name.none() && name.prefix().empty();
 }
 
-std::optional<NameParts> plain_name_before(std::string_view text) {
+PlainName plain_name_before(std::string_view text) {
     std::size_t colons = 0, colon = 0, end = 0;
     for (; end < text.size() && in_names[static_cast<unsigned char>(text[end])]; ++end) {
         if (text[end] != ':') continue;
         ++colons;
         colon = end;
     }
-    auto const whole = text.substr(0, end);
-    if (colons == 0) return is_plain_part(whole) ? std::optional{NameParts{whole, {}, whole}} : std::nullopt;
-    NameParts const name{whole, whole.substr(0, colon), whole.substr(colon + 1)};
-    return colons == 1 && is_plain_part(name.prefix) && is_plain_part(name.local) ? std::optional{name} : std::nullopt;
+    bool const begins = end > 0 && is_letter(text.front());
+    bool const goes_on = colons == 0 || (colons == 1 && colon + 1 < end && is_letter(text[colon + 1]));
+    return {text.substr(0, begins && goes_on ? end : 0), colon};
 }
 
-std::optional<NameParts> plain_name(std::string_view text) {
+PlainName plain_name(std::string_view text) {
     auto const name = plain_name_before(text);
-    return name && name->whole.size() == text.size() ? name : std::nullopt;
+    return name.whole().size() == text.size() ? name : PlainName{};
 }
 
 bool ValueType::accepts(std::string_view text) const {
@@ -173,7 +170,7 @@ bool ValueType::accepts(std::string_view text) const {
         case Kind::id:
             return is_name_without_colon(text);
         case Kind::qualified_name:
-            return plain_name(text).has_value();
+            return !plain_name(text).none();
         case Kind::list:
             return accepts_list(text);
         case Kind::alternatives:
