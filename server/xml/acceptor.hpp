@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <string_view>
 #include <vector>
 
 #include "xml/codec.hpp"
+#include "xml/plain_name.hpp"
 #include "xml/schemas.hpp"
 #include "xml/tables.hpp"
 
@@ -72,7 +74,9 @@ private:
     Interned::Id name_space_of(std::string_view prefix) const;
 
     char peek(std::size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
-    bool at(std::string_view wanted) const { return text_.compare(at_, wanted.size(), wanted) == 0; }
+    bool at(std::string_view wanted) const {
+        return text_.size() - at_ >= wanted.size() && std::memcmp(text_.data() + at_, wanted.data(), wanted.size()) == 0;
+    }
     bool skip_white_space();  // whether there was any
 
     std::shared_ptr<Schemas const> schemas_;

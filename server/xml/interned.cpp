@@ -11,11 +11,18 @@ namespace {
 // From the length, the first and the last bytes: names differ there, and namespaces, which are long, cost no more than names.
 std::size_t hash(std::string_view text) {
     std::uint64_t first = 0, last = 0;
-    if (text.size() >= sizeof first) {
-        std::memcpy(&first, text.data(), sizeof first);
-        std::memcpy(&last, text.data() + text.size() - sizeof last, sizeof last);
-    } else {
-        for (auto const c : text) first = first << 8 | static_cast<unsigned char>(c);
+    auto const ends = [&](auto number) {
+        std::memcpy(&number, text.data(), sizeof number);
+        first = number;
+        std::memcpy(&number, text.data() + text.size() - sizeof number, sizeof number);
+        last = number;
+    };
+    if (text.size() >= 8) {
+        ends(std::uint64_t{});
+    } else if (text.size() >= 4) {
+        ends(std::uint32_t{});
+    } else if (!text.empty()) {
+        ends(std::uint8_t{});
     }
     constexpr std::uint64_t odd = 0x9E3779B97F4A7C15u;
     auto const mixed = (first ^ (last * odd) ^ text.size()) * odd;

@@ -4,23 +4,14 @@
 #include <array>
 #include <charconv>
 
+#include "xml/plain_name.hpp"
+
 namespace rois::xml {
 
 namespace {
 
 constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr bool is_white_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-constexpr bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-
-constexpr auto in_names = [] {
-    std::array<bool, 256> table{};
-    for (int c = 0; c < 128; ++c) {
-        auto const character = static_cast<char>(c);
-        table[static_cast<std::size_t>(c)] =
-            is_letter(character) || is_digit(character) || character == '-' || character == '.' || character == ':';
-    }
-    return table;
-}();
 
 std::string_view trimmed_of_white_space(std::string_view text) {
     while (!text.empty() && is_white_space(text.front())) text.remove_prefix(1);
@@ -138,23 +129,6 @@ bool is_duration(std::string_view text) {
 bool is_name_without_colon(std::string_view text) {
     auto const name = plain_name(text);
     return !name.none() && name.prefix().empty();
-}
-
-PlainName plain_name_before(std::string_view text) {
-    std::size_t colons = 0, colon = 0, end = 0;
-    for (; end < text.size() && in_names[static_cast<unsigned char>(text[end])]; ++end) {
-        if (text[end] != ':') continue;
-        ++colons;
-        colon = end;
-    }
-    bool const begins = end > 0 && is_letter(text.front());
-    bool const goes_on = colons == 0 || (colons == 1 && colon + 1 < end && is_letter(text[colon + 1]));
-    return {text.substr(0, begins && goes_on ? end : 0), colon};
-}
-
-PlainName plain_name(std::string_view text) {
-    auto const name = plain_name_before(text);
-    return name.whole().size() == text.size() ? name : PlainName{};
 }
 
 bool ValueType::accepts(std::string_view text) const {

@@ -64,27 +64,4 @@ bool is_year(std::string_view);
 bool is_duration(std::string_view);
 bool is_name_without_colon(std::string_view);
 
-// A name of ASCII letters, digits and ".-_" with at most one colon; or none, whatever it is to XML.
-class PlainName {
-public:
-    PlainName() = default;
-    // `colon` is its offset; 0 without one.
-    PlainName(std::string_view whole, std::size_t colon) : whole_{whole}, colon_{colon} {}
-
-    bool none() const { return whole_.empty(); }
-    std::string_view whole() const { return whole_; }
-    std::string_view prefix() const { return whole_.substr(0, colon_); }
-    std::string_view local() const { return colon_ == 0 ? whole_ : whole_.substr(colon_ + 1); }
-
-private:
-    std::string_view whole_;
-    std::size_t colon_ = 0;
-};
-
-// The one that a text begins with.
-PlainName plain_name_before(std::string_view);
-
-// The text as a whole.
-PlainName plain_name(std::string_view);
-
 }  // namespace rois::xml
