@@ -171,51 +171,50 @@ bool Acceptor::character_reference() {
 
 // An empty one when the document is left to xerces-c.
 PlainName Acceptor::take_name() {
-    auto const name = plain_name_before(text_.substr(at_));
-    if (name.whole().size() > limits_.name_length) return {};
+    auto name = plain_name_before(text_.substr(at_));
+    if (name.whole().size() > limits_.name_length) name = {};
     at_ += name.whole().size();
     return name;
 }
 
 bool Acceptor::start_tag() {
-    Open element{{}, nullptr, nullptr, at_, bindings_.size(), 0};
+    auto const begin = at_;
+    auto const outer_bindings = bindings_.size();
     ++at_;
-    if (++elements_ > limits_.elements || open_.size() + 1 > limits_.depth) return false;
+    if (++elements_ > limits_.elements || open_.size() == limits_.depth) return false;
     auto const name = take_name();
-    if (name.none() || !attributes(element.bindings) || !resolve_attributes()) return false;
-    element.tag = name.whole();
-    element.declaration = declaration_of({name_space_of(name.prefix()), tables_.name(name.local())});
-    element.type = element.declaration == nullptr ? nullptr : type_of(*element.declaration);
-    if (element.type == nullptr || element.type->content == ElementType::Content::unknown) return false;
-    if (!check_attributes(*element.type)) return false;
+    if (name.none() || !attributes(outer_bindings) || !resolve_attributes()) return false;
+    auto const* const declaration = declaration_of({name_space_of(name.prefix()), tables_.name(name.local())});
+    auto const* const type = declaration == nullptr ? nullptr : type_of(*declaration);
+    if (type == nullptr || type->content == ElementType::Content::unknown || !check_attributes(*type)) return false;
+    open_.emplace_back(name.whole(), declaration, type, begin, outer_bindings, 0);
     if (peek() == '>') {
         ++at_;
-        open_.push_back(element);
         return true;
     }
     if (!at("/>")) return false;
     at_ += 2;
-    if (element.type->content == ElementType::Content::value && !check(*element.type->value, {})) return false;
-    return close(element);
+    return (type->content != ElementType::Content::value || check(*type->value, {})) && close();
 }
 
 bool Acceptor::end_tag() {
-    auto const& element = open_.back();
+    auto const tag = open_.back().tag;
     if (!at("</")) return false;
     at_ += 2;
-    if (!at(element.tag)) return false;
-    at_ += element.tag.size();
+    if (!at(tag)) return false;
+    at_ += tag.size();
     if (peek() != '>') return false;
     ++at_;
-    if (!close(element)) return false;
-    open_.pop_back();
-    return true;
+    return close();
 }
 
-bool Acceptor::close(Open const& element) {
+// The innermost element, whose content must be complete.
+bool Acceptor::close() {
+    auto const& element = open_.back();
     auto const& states = element.type->states;
     if (!states.empty() && !states[element.state].final) return false;
     bindings_.resize(element.bindings);
+    open_.pop_back();
     return true;
 }
 

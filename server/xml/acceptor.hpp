@@ -42,10 +42,9 @@ private:
         ElementDeclaration const* declaration;
         ElementType const* type;
         std::size_t begin;     // offset of its start tag
-        std::size_t bindings;  // how many there were before it
+        std::size_t bindings;  // how many namespaces were declared before it
         std::uint32_t state;
     };
-    enum class End { open, empty };  // how a start tag ends: <a> or <a/>
 
     // All of them: false when the document is left to xerces-c. What they take, they step over.
     bool prologue();
@@ -66,7 +65,7 @@ private:
     bool check(ValueType const&, std::string_view text);
     bool is_new(std::string_view id);
     bool end_tag();
-    bool close(Open const&);
+    bool close();
 
     PlainName take_name();
     ElementDeclaration const* declaration_of(Name);         // null: left to xerces-c; steps on in the open element's content

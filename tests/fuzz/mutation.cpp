@@ -69,6 +69,7 @@ private:
     void repeat_often();
     void lengthen_a_name();
     void change_quotes();
+    void push_apart();
 
     std::string text_;
     std::vector<std::string> const& others_;
@@ -78,14 +79,14 @@ private:
 
 std::string Change::apply() {
     using Kind = void (Change::*)();
-    constexpr std::array<Kind, 36> kinds{
+    constexpr std::array<Kind, 37> kinds{
         &Change::change_a_byte, &Change::delete_bytes, &Change::insert_a_piece, &Change::cut_short, &Change::double_an_element,
         &Change::delete_an_element, &Change::move_an_element, &Change::take_an_element_from_another, &Change::exchange_elements,
         &Change::rename_an_element, &Change::change_a_prefix, &Change::rename_a_prefix_everywhere, &Change::double_an_attribute,
         &Change::delete_an_attribute, &Change::move_an_attribute, &Change::add_an_attribute, &Change::change_a_value,
         &Change::change_a_text, &Change::change_a_namespace, &Change::declare_a_namespace, &Change::change_a_type,
         &Change::add_white_space, &Change::add_a_comment, &Change::write_a_character_as_reference, &Change::nest_deeply,
-        &Change::repeat_often, &Change::lengthen_a_name, &Change::change_quotes,
+        &Change::repeat_often, &Change::lengthen_a_name, &Change::change_quotes, &Change::push_apart,
         // What keeps a document near to validity, once more.
         &Change::change_a_value, &Change::change_a_text, &Change::change_a_text, &Change::double_an_element,
         &Change::delete_an_element, &Change::take_an_element_from_another, &Change::exchange_elements, &Change::add_an_attribute};
@@ -367,6 +368,15 @@ void Change::change_quotes() {
     auto const value = value_of(text_, attribute);
     auto const other = text_[attribute.end - 1] == '"' ? '\'' : '"';
     text_[value.begin - 1] = text_[value.end] = other;
+}
+
+// Far enough for what follows to lie across the edge of a parser's buffer.
+void Change::push_apart() {
+    if (!one_in(4)) return;
+    std::string all;
+    auto const filling = any_of(fillings);
+    for (auto const size = any(one_in(4) ? 60'000 : 9'000); all.size() < size;) all += filling;
+    put(one_in(2) ? any_gap() : any_text().begin, all);
 }
 
 }  // namespace

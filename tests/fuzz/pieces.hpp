@@ -225,6 +225,9 @@ inline constexpr std::array namespaces{"urn:x-rois:psm:xml:message:1"sv,
 
 inline constexpr std::array blanks{" "sv, "\n"sv, "\t"sv, "\r"sv, "\r\n"sv, "  "sv, "\xC2\xA0"sv, "\xE2\x80\x83"sv, "\v"sv};
 
+inline constexpr std::array fillings{
+    " "sv, "\n"sv, "\r\n"sv, "\r"sv, "x"sv, "1 "sv, "<!-- c -->"sv, "\xC3\xA9"sv, "\xF0\x9F\x98\x80"sv, "&amp;"sv, "]"sv};
+
 inline constexpr std::array comments{"<!---->"sv,     "<!-- a -->"sv,        "<!--->"sv,
                                      "<!-- -- -->"sv, "<!-- --->"sv,         "<!-- <a> & ]]> -->"sv,
                                      "<!-->"sv,       "<!-- \xC3\xA9 -->"sv, "<!- - -->"sv};
