@@ -1,6 +1,10 @@
 // Facets, content models and attributes, one by one, with small schemas: what the tables accept, what they leave to xerces-c, and
 // that xerces-c accepts whatever they accept.
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <random>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -304,6 +308,54 @@ INSTANTIATE_TEST_SUITE_P(
                     Known::no},
         ContentCase{R"(><xsd:sequence><xsd:element ref="a" minOccurs="0" maxOccurs="1000"/></xsd:sequence>)", Known::no},
         ContentCase{R"(><xsd:sequence><xsd:element ref="a" minOccurs="0" maxOccurs="300"/></xsd:sequence>)"}));
+
+// A particle as one might write it, or not.
+std::string any_particle(std::mt19937& random, int depth) {
+    static constexpr std::array occurrences{"",
+                                            "",
+                                            "",
+                                            " minOccurs='0'",
+                                            " maxOccurs='unbounded'",
+                                            " minOccurs='0' maxOccurs='unbounded'",
+                                            " minOccurs='2' maxOccurs='3'",
+                                            " minOccurs='0' maxOccurs='2'",
+                                            " minOccurs='2' maxOccurs='unbounded'"};
+    std::string const occurs = occurrences[random() % occurrences.size()];
+    if (depth == 0 || random() % 3 == 0) return std::string{"<xsd:element ref='"} + "abc"[random() % 3] + "'" + occurs + "/>";
+    std::string const group = random() % 2 == 0 ? "xsd:sequence" : "xsd:choice";
+    auto text = "<" + group + occurs + ">";
+    for (auto parts = 1 + random() % 3; parts > 0; --parts) text += any_particle(random, depth - 1);
+    return text + "</" + group + ">";
+}
+
+TEST(Tables, AnyContentModel) {
+    constexpr auto elements =
+        R"(<xsd:element name="a"><xsd:complexType/></xsd:element><xsd:element name="b"><xsd:complexType/></xsd:element>)"
+        R"(<xsd:element name="c"><xsd:complexType/></xsd:element>)";
+    std::mt19937 random{20261121};
+    auto const children = sequences(4);
+    std::size_t models = 0, both = 0, xerces_only = 0;
+    for (int i = 0; i < 1'200; ++i) {
+        auto const declarations = std::string{elements} + "<xsd:element name='root'><xsd:complexType><xsd:sequence>" +
+                                  any_particle(random, 2) + any_particle(random, 2) +
+                                  "</xsd:sequence></xsd:complexType></xsd:element>";
+        std::optional<Small> schema;
+        try {
+            schema.emplace(declarations);
+        } catch (std::runtime_error const&) {
+            continue;  // it is ambiguous
+        }
+        ++models;
+        for (auto const& each : children) {
+            auto const outcome = schema->root(each);
+            both += outcome == Outcome::both ? 1 : 0;
+            xerces_only += outcome == Outcome::xerces_only ? 1 : 0;
+        }
+    }
+    EXPECT_GT(models, 100u);
+    EXPECT_GT(both, 1'000u);
+    EXPECT_EQ(xerces_only, 0u);
+}
 
 TEST(Tables, TextBetweenElements) {
     auto const with = [](std::string_view mixed) {
