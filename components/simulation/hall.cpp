@@ -92,7 +92,7 @@ void Hall::go_on_speaking(RobotId id, UtteranceId utterance) {
 
 void Hall::show(RobotId id, std::string reaction, Seconds duration) {
     Robot& robot = world_->robot(id);
-    world_->chronicle.add({0, now(), Happening::Kind::reaction_shown, id, robot.pose.position, reaction, {}});
+    world_->chronicle.add({0, now(), Happening::Kind::reaction_shown, id, robot.pose.position, reaction, {}, 0, {}});
     robot.showing = Showing{std::move(reaction), now() + world_time(duration)};
 }
 

@@ -15,11 +15,12 @@ namespace rois::simulation {
 // Names one utterance of one robot.
 enum class UtteranceId : std::uint64_t {};
 
-// Some of what a robot says, in one language.
+// Some of what a robot says, in one language and with one prosody.
 struct Passage {
     std::string text;      // plain
     std::string language;  // ISO 639-1
     Seconds duration = 0;  // with its pauses
+    std::string prosody;   // how the voice sounds, "pitch high, volume loud"; empty: as usual
 
     bool operator==(Passage const&) const = default;
 };
@@ -29,6 +30,7 @@ struct Utterance {
     std::string language = "en";
     double loudness = 0.5;            // 0 to 1: visitors hear 0.5 at 5 m
     std::optional<Seconds> duration;  // absent: speech_duration(text)
+    std::string prosody;              // of `text`, as a passage has it
     std::vector<Passage> further;     // said after it, each heard as speech of its own
 };
 

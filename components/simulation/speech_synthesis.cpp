@@ -85,6 +85,7 @@ private:
         utterance.text = std::move(utterance.further.front().text);
         utterance.language = std::move(utterance.further.front().language);
         utterance.duration = utterance.further.front().duration;
+        utterance.prosody = std::move(utterance.further.front().prosody);
         utterance.further.erase(utterance.further.begin());
         return utterance;
     }

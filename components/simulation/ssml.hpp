@@ -1,5 +1,5 @@
-// Reading W3C SSML 1.0 and 1.1 as far as a voice without prosody of its own needs it (7.6.11): the words, their languages, and
-// how long they take.
+// Reading W3C SSML 1.0 and 1.1 as far as a voice that is not heard needs it (7.6.11): the words, their languages, how
+// long they take, and how the voice is to sound.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@
 
 namespace rois::simulation {
 
-// What is to be said, a passage for each change of language; none when there is nothing. White space in it is collapsed. A
-// passage has no language when the document says none for it.
+// What is to be said, a passage for each change of language and of the voice's sound; none when there is nothing. White space in
+// it is collapsed. A passage has no language when the document says none for it.
 struct SpokenText {
     std::vector<Passage> passages;
 };
@@ -22,9 +22,10 @@ struct BadSsml {
     std::string reason;
 };
 
-// Honours `break` (time, strength; 60 s at most), `prosody` (rate; duration, 600 s at most), `emphasis` (by its pace), `sub`, and
-// xml:lang with `onlangfailure` of any element; other elements are skipped and what they hold is spoken, but for metadata and
-// descriptions. Document types, entities beyond the five of XML and processing instructions are refused.
+// Honours `break` (time, strength; 60 s at most), `prosody` (rate; duration, 600 s at most; pitch, range, contour, volume),
+// `emphasis` (by its pace), `sub`, and xml:lang with `onlangfailure` of any element; other elements are skipped and what they
+// hold is spoken, but for metadata and descriptions. Document types, entities beyond the five of XML and processing instructions
+// are refused.
 std::variant<SpokenText, BadSsml> read_ssml(std::string_view document);
 
 }  // namespace rois::simulation

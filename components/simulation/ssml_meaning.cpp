@@ -27,6 +27,10 @@ constexpr std::array<Word, 6> strengths{
     {{"none", 0}, {"x-weak", 0.1}, {"weak", 0.25}, {"medium", 0.5}, {"strong", 0.75}, {"x-strong", 1.5}}};
 constexpr std::array<Word, 4> emphases{{{"strong", 0.8}, {"moderate", 0.9}, {"none", 1}, {"reduced", 1.1}}};
 
+constexpr std::array<std::string_view, 4> sounds{"pitch", "range", "contour", "volume"};  // attributes of `prosody`
+constexpr std::array<std::string_view, 5> pitches{"x-low", "low", "medium", "high", "x-high"};
+constexpr std::array<std::string_view, 6> volumes{"silent", "x-soft", "soft", "medium", "loud", "x-loud"};
+
 // What is said, but for the readers of the document.
 constexpr std::array<std::string_view, 4> silent_kinds{"metadata", "meta", "desc", "lexicon"};
 
@@ -66,6 +70,27 @@ std::optional<Seconds> time_of(std::string_view text, Seconds longest) {
     return std::min(milliseconds ? *number / 1000 : *number, longest);
 }
 
+// "+10", "-2.5st", "120Hz": a number, then one of the units or nothing.
+bool is_measure(std::string_view text, std::span<std::string_view const> units) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    auto const unit = std::ranges::find_if(units, [&](std::string_view u) { return text.ends_with(u); });
+    if (unit != units.end()) text.remove_suffix(unit->size());
+    return to_double(text).has_value();
+}
+
+// Whether `value` says how the voice is to sound, for one of the attributes of `sounds`.
+bool is_sound(std::string_view attribute, std::string_view value) {
+    constexpr std::size_t longest = 200;  // bytes
+    constexpr std::string_view contour_signs = "0123456789+-.%,() abcdefghijklmnopqrstuvwxyzH";
+    constexpr std::array<std::string_view, 3> pitch_units{"Hz", "st", "%"};
+    constexpr std::array<std::string_view, 2> volume_units{"dB", "%"};
+    if (value.size() > longest) return false;
+    if (attribute == "contour")
+        return value.starts_with('(') && value.ends_with(')') && value.find_first_not_of(contour_signs) == std::string_view::npos;
+    if (attribute == "volume") return is_one_of(volumes, value) || is_measure(value, volume_units);
+    return is_one_of(pitches, value) || is_measure(value, pitch_units);
+}
+
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 // Without white space at the ends; nothing when it is not there.
@@ -92,10 +117,11 @@ std::optional<std::string> SsmlMeaning::begin(std::string_view kind, std::span<S
     if (is_one_of(silent_kinds, kind)) element.silent = true;
     auto in_vain = speak_language(element, attributes);
     set_pace(element, attributes);
+    set_sound(element, attributes);
     part_words(kind);
     if (kind == "break" && !element.silent)
         pieces_.push_back(
-            {passages_.empty() ? passage_of(element.language) : passages_.size() - 1, break_time(attributes), Piece::Of::pause});
+            {passages_.empty() ? passage_of(element) : passages_.size() - 1, break_time(attributes), Piece::Of::pause});
     open_.push_back(std::move(element));
     if (auto const alias = value_of(attributes, "alias"); alias && kind == "sub") {
         say(*alias);
@@ -134,6 +160,17 @@ void SsmlMeaning::set_pace(Element& element, std::span<SsmlAttribute const> attr
     element.rate = std::clamp(element.rate * factor, least_rate, greatest_rate);
 }
 
+// A value that says nothing is skipped, as one that cannot be read is.
+void SsmlMeaning::set_sound(Element& element, std::span<SsmlAttribute const> attributes) {
+    if (element.kind != "prosody") return;
+    for (std::size_t i = 0; i < sounds.size(); ++i) {
+        auto const value = value_of(attributes, sounds[i]);
+        if (!value) continue;
+        if (*value == "default") element.sound[i].clear();
+        if (is_sound(sounds[i], *value)) element.sound[i] = *value;
+    }
+}
+
 void SsmlMeaning::end() {
     auto const element = std::move(open_.back());
     open_.pop_back();
@@ -148,11 +185,17 @@ void SsmlMeaning::end() {
 
 void SsmlMeaning::part_words(std::string_view kind) { gap_ = gap_ || is_one_of(word_ends, kind); }
 
-// Another language begins another passage.
-std::size_t SsmlMeaning::passage_of(std::string const& language) {
-    if (passages_.empty() || (!passages_.back().text.empty() && passages_.back().language != language))
-        passages_.push_back({.text = {}, .language = language, .duration = 0});
-    passages_.back().language = language;
+// Another language begins another passage, and so does another sound of the voice.
+std::size_t SsmlMeaning::passage_of(Element const& element) {
+    std::string prosody;
+    for (std::size_t i = 0; i < sounds.size(); ++i)
+        if (!element.sound[i].empty())
+            prosody += std::string{prosody.empty() ? "" : ", "} + std::string{sounds[i]} + ' ' + element.sound[i];
+    bool const another = passages_.empty() || (!passages_.back().text.empty() && (passages_.back().language != element.language ||
+                                                                                  passages_.back().prosody != prosody));
+    if (another) passages_.emplace_back();
+    passages_.back().language = element.language;
+    passages_.back().prosody = std::move(prosody);
     return passages_.size() - 1;
 }
 
@@ -166,7 +209,7 @@ void SsmlMeaning::say(std::string_view content) {
             gap_ = true;
             continue;
         }
-        if (passage == nullptr) passage = &passages_[passage_of(element.language)];
+        if (passage == nullptr) passage = &passages_[passage_of(element)];
         if (std::exchange(gap_, false) && !(passage->text.empty() && said.empty())) said += ' ';
         said += c;
     }

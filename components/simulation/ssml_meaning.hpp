@@ -1,7 +1,9 @@
-// What the markup of W3C SSML means to a voice without prosody of its own: words, languages and time. The reader of the document
+// What the markup of W3C SSML means: words, languages, time, and how the voice is to sound. The reader of the document
 // (ssml.cpp) feeds it.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,12 +34,16 @@ private:
     // What to do when the voice has not the language of an element (`onlangfailure`).
     enum class InVain : std::uint8_t { refuse, say_nothing, keep_language };
 
+    // The values of pitch, range, contour and volume, in this order; empty: as usual.
+    using Sound = std::array<std::string, 4>;
+
     struct Element {
         std::string kind;
         double rate = 1;
         bool silent = false;   // what is in it is not spoken
         std::string language;  // empty: not said
         InVain in_vain = InVain::refuse;
+        Sound sound;
         std::optional<Seconds> duration;  // in which all that is in it is to be said
         std::size_t first_piece = 0;
     };
@@ -50,9 +56,10 @@ private:
     };
 
     std::optional<std::string> speak_language(Element&, std::span<SsmlAttribute const>);
-    void set_pace(Element&, std::span<SsmlAttribute const>);
+    static void set_pace(Element&, std::span<SsmlAttribute const>);
+    static void set_sound(Element&, std::span<SsmlAttribute const>);
     void part_words(std::string_view kind);
-    std::size_t passage_of(std::string const& language);
+    std::size_t passage_of(Element const&);
 
     std::vector<Element> open_;
     std::vector<Passage> passages_;

@@ -74,8 +74,15 @@ void Visitor::end_speech_and_gesture(Company& company) {
     if (person_.speaking && company.now >= person_.speaking->ends) {
         Speech const said = *person_.speaking;
         person_.speaking.reset();
-        company.chronicle.add(
-            {0, company.now, Happening::Kind::speech_finished, person_.id, person_.pose.position, said.text, said.language});
+        company.chronicle.add({0,
+                               company.now,
+                               Happening::Kind::speech_finished,
+                               person_.id,
+                               person_.pose.position,
+                               said.text,
+                               said.language,
+                               0,
+                               {}});
     }
     if (person_.gesturing && company.now >= person_.gesturing->ends) person_.gesturing.reset();
 }
@@ -83,14 +90,21 @@ void Visitor::end_speech_and_gesture(Company& company) {
 void Visitor::say(std::string text, std::string language, Company& company) {
     person_.speaking = Speech{std::move(text), std::move(language), company.now, {}};
     person_.speaking->ends = company.now + world_time(speech_duration(person_.speaking->text));
-    company.chronicle.add({0, company.now, Happening::Kind::speech_started, person_.id, person_.pose.position,
-                           person_.speaking->text, person_.speaking->language});
+    company.chronicle.add({0,
+                           company.now,
+                           Happening::Kind::speech_started,
+                           person_.id,
+                           person_.pose.position,
+                           person_.speaking->text,
+                           person_.speaking->language,
+                           0,
+                           {}});
 }
 
 void Visitor::make_gesture(std::string id, Company& company) {
     person_.gesturing = Gesturing{std::move(id), company.now + gesture_length};
     company.chronicle.add(
-        {0, company.now, Happening::Kind::gesture_made, person_.id, person_.pose.position, person_.gesturing->id, {}});
+        {0, company.now, Happening::Kind::gesture_made, person_.id, person_.pose.position, person_.gesturing->id, {}, 0, {}});
 }
 
 void Visitor::answer(Company& company) {

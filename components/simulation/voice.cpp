@@ -28,13 +28,15 @@ UtteranceId Voice::speak(Utterance utterance, WorldTime now, Point const& place,
     loudness_ = std::clamp(utterance.loudness, 0.0, 1.0);
     Seconds const length = utterance.duration.value_or(speech_duration(utterance.text));
     further_.assign(std::make_move_iterator(utterance.further.begin()), std::make_move_iterator(utterance.further.end()));
-    begin({std::move(utterance.text), std::move(utterance.language), length}, now, place, chronicle);
+    begin({std::move(utterance.text), std::move(utterance.language), length, std::move(utterance.prosody)}, now, place,
+          chronicle);
     return last_;
 }
 
 void Voice::begin(Passage passage, WorldTime now, Point const& place, Chronicle& chronicle) {
     speech_ = {std::move(passage.text), std::move(passage.language), now, now + world_time(passage.duration)};
-    chronicle.add({0, now, Happening::Kind::speech_started, robot_, place, speech_.text, speech_.language, passage.duration});
+    chronicle.add({0, now, Happening::Kind::speech_started, robot_, place, speech_.text, speech_.language, passage.duration,
+                   std::move(passage.prosody)});
 }
 
 SpeechState Voice::state(UtteranceId id) const {
@@ -63,7 +65,7 @@ void Voice::go_on(UtteranceId id, WorldTime now) {
 void Voice::step(WorldTime now, Point const& place, Chronicle& chronicle) {
     if (state_ != SpeechState::speaking || now < speech_.ends) return;
     if (further_.empty()) return finish(SpeechState::spoken, now, place, chronicle);
-    chronicle.add({0, now, Happening::Kind::speech_finished, robot_, place, speech_.text, speech_.language});
+    chronicle.add({0, now, Happening::Kind::speech_finished, robot_, place, speech_.text, speech_.language, 0, {}});
     auto next = std::move(further_.front());
     further_.pop_front();
     begin(std::move(next), now, place, chronicle);
@@ -78,7 +80,7 @@ void Voice::finish(SpeechState state, WorldTime now, Point const& place, Chronic
     ended_.emplace_back(last_, state);
     if (ended_.size() > remembered) ended_.pop_front();
     auto const kind = state == SpeechState::spoken ? Happening::Kind::speech_finished : Happening::Kind::speech_broken;
-    chronicle.add({0, now, kind, robot_, place, speech_.text, speech_.language});
+    chronicle.add({0, now, kind, robot_, place, speech_.text, speech_.language, 0, {}});
 }
 
 }  // namespace rois::simulation

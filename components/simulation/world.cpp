@@ -108,7 +108,7 @@ void Hall::World::admit() {
     visitors_.push_back(
         std::make_unique<Visitor>(id, std::move(*role), entrance, now, plan_, walkways_, mixed({seed, 2, last_person_})));
     people.push_back(visitors_.back()->person());
-    chronicle.add({0, now, Happening::Kind::entered, id, entrance.position, {}, {}});
+    chronicle.add({0, now, Happening::Kind::entered, id, entrance.position, {}, {}, 0, {}});
 }
 
 Company Hall::World::company(PersonId self) {
@@ -145,7 +145,7 @@ void Hall::World::step_visitors() {
         if (!visitor->gone()) continue;
         PersonId const id = visitor->person().id;
         tracks.leave(id);
-        chronicle.add({0, now, Happening::Kind::left, id, visitor->person().pose.position, {}, {}});
+        chronicle.add({0, now, Happening::Kind::left, id, visitor->person().pose.position, {}, {}, 0, {}});
     }
     std::erase_if(visitors_, [](auto const& visitor) { return visitor->gone(); });
     people.clear();

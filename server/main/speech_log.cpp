@@ -17,7 +17,8 @@ using simulation::Happening;
 
 void log(Happening const& happening, std::string const& robot) {
     if (happening.kind == Happening::Kind::speech_started)
-        spdlog::info("{} says in {}, {:.2f} s: {}", robot, happening.language, happening.lasts, quoted(happening.text, shown));
+        spdlog::info("{} says in {}, {:.2f} s{}{}: {}", robot, happening.language, happening.lasts,
+                     happening.prosody.empty() ? "" : ", ", happening.prosody, quoted(happening.text, shown));
     if (happening.kind == Happening::Kind::speech_broken) spdlog::info("{} breaks off: {}", robot, quoted(happening.text, shown));
 }
 

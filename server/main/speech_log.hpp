@@ -1,4 +1,4 @@
-// What the robots of the hall say, in the log: whose voice, in which language, for how long.
+// What the robots of the hall say, in the log: whose voice, in which language, for how long, with which prosody.
 #pragma once
 
 #include <cstdint>

@@ -130,8 +130,12 @@ void judge_own(Tree const& tree, std::string const& file, Layer const& layer, In
     if (header->starts_with(layer.folder)) return;
     for (auto const& [library, through] : brought_along(tree, *header))
         if (!may_see(layer, library) && !is_one_of(shown, library))
-            complaints.push_back(
-                at(file, include.line).append(layer.folder).append(" may not see <" + library + "> through " + through));
+            complaints.push_back(at(file, include.line)
+                                     .append(layer.folder)
+                                     .append(" may not see <")
+                                     .append(library)
+                                     .append("> through ")
+                                     .append(through));
 }
 
 }  // namespace

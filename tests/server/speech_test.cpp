@@ -20,13 +20,14 @@ TEST(Speech, IsLoggedPassageByPassage) {
                     .arguments = {{"SSML_text",
                                    "string",
                                    {"&lt;speak xml:lang='en'>Welcome, &lt;lang xml:lang='ja'>ようこそ&lt;/lang> &lt;break "
-                                    "time='1s'/>&lt;/speak>"}}}});
+                                    "time='1s'/>&lt;prosody pitch='high' volume='soft'>Tanaka&lt;/prosody>&lt;/speak>"}}}});
         EXPECT_EQ(desk.status_of("greet"), "OK");
     }
     gateway.signal(SIGTERM);
     auto const log = gateway.wait().error;
     EXPECT_THAT(log, HasSubstr("info robot1 says in en, 0.52 s: 'Welcome,'"));
     EXPECT_THAT(log, HasSubstr("info robot1 says in ja, 1.60 s: 'ようこそ'"));
+    EXPECT_THAT(log, HasSubstr("info robot1 says in en, 0.39 s, pitch high, volume soft: 'Tanaka'"));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ void set_to_work(Hall& hall) {
     for (Robot const& robot : hall.robots()) {
         hall.drive(robot.id).begin("navigation",
                                    GoTo{{{Point{9, 4}, {}}, {Point{12, 8}, {}}, {Point{4, 4}, {}}, {Point{9, 2}, {}}}});
-        hall.speak(robot.id, {"Welcome to the reception.", "en", 0.8, {}, {}});
+        hall.speak(robot.id, {"Welcome to the reception.", "en", 0.8, {}, {}, {}});
     }
 }
 
@@ -148,7 +148,7 @@ TEST(ShippedDay, ARobotCanReceiveTanaka) {
     ASSERT_TRUE(runs_until(hall, 60, [&] { return over(state(hall, robot1, *go)); }));
     EXPECT_EQ(state(hall, robot1, *go), MotionState::arrived);
     ASSERT_TRUE(runs_until(hall, 5, [&] { return hall.find("tanaka").has_value(); })) << "identified";
-    hall.speak(robot1, {"Your meeting is in room 3.", "en", 0.5, {}, {}});
+    hall.speak(robot1, {"Your meeting is in room 3.", "en", 0.5, {}, {}, {}});
     auto thanked = [](Happening const& happening) {
         return happening.kind == Happening::Kind::speech_started && happening.text == "Thank you very much.";
     };
@@ -157,7 +157,7 @@ TEST(ShippedDay, ARobotCanReceiveTanaka) {
 
 TEST(Voice, AnUtteranceEndsByItselfInTheWorldsTime) {
     Hall hall{plain_hall(), nobody(), 1};
-    auto const said = hall.speak(robot1, {"Good morning.", "en", 0.5, 2.0, {}});
+    auto const said = hall.speak(robot1, {"Good morning.", "en", 0.5, 2.0, {}, {}});
     EXPECT_TRUE(hall.robot(robot1).speaking);
     run(hall, 1.9);
     EXPECT_EQ(hall.speech_state(robot1, said), SpeechState::speaking);
@@ -168,7 +168,7 @@ TEST(Voice, AnUtteranceEndsByItselfInTheWorldsTime) {
 
 TEST(Voice, IsSilentWhileHeldAndSaysTheRestAfterwards) {
     Hall hall{plain_hall(), nobody(), 1};
-    auto const said = hall.speak(robot1, {"Good morning.", "en", 0.5, 2.0, {}});
+    auto const said = hall.speak(robot1, {"Good morning.", "en", 0.5, 2.0, {}, {}});
     run(hall, 1);
     hall.hold_speech(robot1, said);
     EXPECT_FALSE(hall.robot(robot1).speaking);
@@ -183,8 +183,8 @@ TEST(Voice, IsSilentWhileHeldAndSaysTheRestAfterwards) {
 
 TEST(Voice, ANewUtteranceBreaksTheOldOne) {
     Hall hall{plain_hall(), nobody(), 1};
-    auto const first = hall.speak(robot1, {"Good morning.", "en", 0.5, 2.0, {}});
-    auto const second = hall.speak(robot1, {"Stop.", "en", 0.5, 1.0, {}});
+    auto const first = hall.speak(robot1, {"Good morning.", "en", 0.5, 2.0, {}, {}});
+    auto const second = hall.speak(robot1, {"Stop.", "en", 0.5, 1.0, {}, {}});
     EXPECT_EQ(hall.speech_state(robot1, first), SpeechState::broken);
     hall.break_off(robot1, first);
     EXPECT_EQ(hall.speech_state(robot1, second), SpeechState::speaking);
@@ -203,7 +203,7 @@ TEST(Speech, TakesAsLongAsItsText) {
 
 TEST(Chronicle, IsReadByPositionAndKeepsTheLast) {
     Chronicle chronicle;
-    for (std::uint64_t i = 1; i <= Chronicle::capacity + 10; ++i) chronicle.add({0, WorldTime{i}, {}, robot1, {}, {}, {}});
+    for (std::uint64_t i = 1; i <= Chronicle::capacity + 10; ++i) chronicle.add({0, WorldTime{i}, {}, robot1, {}, {}, {}, 0, {}});
     EXPECT_EQ(chronicle.last(), Chronicle::capacity + 10);
     EXPECT_EQ(chronicle.since(0).front().sequence, 11u) << "the oldest are gone";
     EXPECT_EQ(chronicle.since(0).size(), Chronicle::capacity);

@@ -156,7 +156,7 @@ TEST(SoundsHeard, AreThoseWhoSpeakNowNearEnough) {
 
 TEST(SoundsHeard, HoldRobotsVoicesButNotOnesOwn) {
     Hall hall{hall_with_two_robots(), nobody(), 1};
-    hall.speak(robot2, {"Hello.", "en", 0.5, {}, {}});
+    hall.speak(robot2, {"Hello.", "en", 0.5, {}, {}, {}});
     auto const heard = sounds_heard(hall, robot1);
     ASSERT_EQ(heard.size(), 1u);
     EXPECT_EQ(heard[0].ref, "sound-robot2");

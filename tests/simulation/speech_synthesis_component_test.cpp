@@ -228,7 +228,8 @@ TEST(SpeechSynthesis, HoldsWithinAPassage) {
 
 std::vector<Passage> passages(std::string_view document) {
     auto const read = read_ssml(document);
-    if (auto const* bad = std::get_if<BadSsml>(&read)) return {{bad->reason, "bad", 0}};
+    if (auto const* bad = std::get_if<BadSsml>(&read))
+        return {{.text = bad->reason, .language = "bad", .duration = 0, .prosody = {}}};
     return std::get<SpokenText>(read).passages;
 }
 
@@ -264,7 +265,7 @@ TEST(Ssml, SkipsWhatItDoesNotKnow) {
     EXPECT_EQ(spoken("<speak>At <say-as interpret-as='time'>2:30</say-as>, <prosody pitch='high' volume='loud'>Tanaka</prosody> "
                      "<x:warble>comes</x:warble>"
                      "<mark name='m'/><audio src='bell.wav'>(a bell)<desc>A bell.</desc></audio>.</speak>"),
-              "At 2:30, Tanaka comes (a bell) .");
+              "At 2:30, | Tanaka | comes (a bell) .");
     EXPECT_EQ(spoken("<s:speak xmlns:s='http://www.w3.org/2001/10/synthesis'><s:metadata><a>no</a></s:metadata><s:meta name='a' "
                      "content='b'/><s:lexicon uri='u'/>yes</s:speak>"),
               "yes");
@@ -298,6 +299,24 @@ TEST(Ssml, HasItsTime) {
     EXPECT_NEAR(units(ten + "<prosody duration='6.5s'>" + ten + "<break time='100ms'/>" + ten + "</prosody>"), 11, 1e-9);
     EXPECT_NEAR(units("<prosody duration='soon'>" + ten + "</prosody>"), 1, 1e-9);
     EXPECT_NEAR(units("a"), 0.5 / spoken_seconds(ten), 1e-9) << "no speech is shorter than half a second";
+}
+
+TEST(Ssml, SaysHowTheVoiceSounds) {
+    auto const sounds = [](std::string const& document) {
+        std::string all;
+        for (auto const& passage : passages("<speak>" + document + "</speak>"))
+            all += std::string{all.empty() ? "" : " | "} + passage.text + " (" + passage.prosody + ")";
+        return all;
+    };
+    EXPECT_EQ(sounds("a <prosody pitch='high' volume=' loud '>b<break/></prosody> c"),
+              "a () | b (pitch high, volume loud) | c ()");
+    EXPECT_EQ(sounds("<prosody volume='-6dB' pitch='low'>a <prosody pitch='+10%' range='2st'>b</prosody></prosody>"),
+              "a (pitch low, volume -6dB) | b (pitch +10%, range 2st, volume -6dB)");
+    EXPECT_EQ(sounds("<prosody pitch='120Hz'><prosody pitch='default'>a</prosody></prosody>"), "a ()");
+    EXPECT_EQ(sounds("<prosody contour='(0%,+20Hz) (40%,-10Hz)'>a</prosody>"), "a (contour (0%,+20Hz) (40%,-10Hz))");
+    EXPECT_EQ(sounds("<prosody volume='loud'>a</prosody><prosody volume='loud'>b</prosody>"), "ab (volume loud)");
+    EXPECT_EQ(sounds("<prosody pitch='purple' range='' contour='(0%,&#10;up)' volume='11 of 10'>a</prosody>"), "a ()");
+    EXPECT_EQ(sounds("<emphasis pitch='high'>a</emphasis>"), "a ()") << "prosody's attributes are prosody's";
 }
 
 TEST(Ssml, BoundsPausesAndPace) {
