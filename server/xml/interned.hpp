@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,8 +26,8 @@ public:
 private:
     void place(Id);
 
-    std::deque<std::string> texts_;  // by number; the first one is nobody's
-    std::vector<Id> slots_;          // a hash table with open addressing; a power of two, at most half full
+    std::vector<std::string> texts_;  // by number; the first one is nobody's
+    std::vector<Id> slots_;           // a hash table with open addressing; a power of two, at most half full
 };
 
 }  // namespace rois::xml
