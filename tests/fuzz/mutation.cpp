@@ -35,7 +35,10 @@ private:
     void put(Range range, std::string_view instead) { text_.replace(range.begin, range.size(), instead); }
     void put(std::size_t at, std::string_view what) { text_.insert(std::min(at, text_.size()), what); }
 
-    std::size_t any_start_tag();                    // an index; the number of tags when there is none
+    std::size_t any_start_tag();  // an index; the number of tags when there is none
+    // One of these local names, or any when there is none of them.
+    template <class Names>
+    std::size_t any_start_tag_of(Names const& names);
     std::pair<std::size_t, Range> any_attribute();  // its tag, the number of tags when there is none
     Range any_text();                               // between two tags
     std::size_t any_gap() { return tags_.empty() ? any(text_.size()) : tags_[any(tags_.size())].all.end; }
@@ -70,6 +73,7 @@ private:
     void lengthen_a_name();
     void change_quotes();
     void push_apart();
+    void declare_many_namespaces();
 
     std::string text_;
     std::vector<std::string> const& others_;
@@ -79,7 +83,7 @@ private:
 
 std::string Change::apply() {
     using Kind = void (Change::*)();
-    constexpr std::array<Kind, 37> kinds{
+    constexpr std::array<Kind, 38> kinds{
         &Change::change_a_byte, &Change::delete_bytes, &Change::insert_a_piece, &Change::cut_short, &Change::double_an_element,
         &Change::delete_an_element, &Change::move_an_element, &Change::take_an_element_from_another, &Change::exchange_elements,
         &Change::rename_an_element, &Change::change_a_prefix, &Change::rename_a_prefix_everywhere, &Change::double_an_attribute,
@@ -87,6 +91,7 @@ std::string Change::apply() {
         &Change::change_a_text, &Change::change_a_namespace, &Change::declare_a_namespace, &Change::change_a_type,
         &Change::add_white_space, &Change::add_a_comment, &Change::write_a_character_as_reference, &Change::nest_deeply,
         &Change::repeat_often, &Change::lengthen_a_name, &Change::change_quotes, &Change::push_apart,
+        &Change::declare_many_namespaces,
         // What keeps a document near to validity, once more.
         &Change::change_a_value, &Change::change_a_text, &Change::change_a_text, &Change::double_an_element,
         &Change::delete_an_element, &Change::take_an_element_from_another, &Change::exchange_elements, &Change::add_an_attribute};
@@ -102,6 +107,18 @@ std::size_t Change::any_start_tag() {
         if (tags_[at].kind != Tag::Kind::end) return at;
     }
     return tags_.size();
+}
+
+template <class Names>
+std::size_t Change::any_start_tag_of(Names const& names) {
+    auto const first = any(tags_.size());
+    for (std::size_t i = 0; i < tags_.size(); ++i) {
+        auto const at = (first + i) % tags_.size();
+        auto const name = part(tags_[at].name);
+        auto const local = std::string_view{name}.substr(name.find(':') + 1);
+        if (tags_[at].kind != Tag::Kind::end && std::ranges::find(names, local) != names.end()) return at;
+    }
+    return any_start_tag();
 }
 
 std::pair<std::size_t, Range> Change::any_attribute() {
@@ -325,7 +342,7 @@ void Change::write_a_character_as_reference() {
 }
 
 void Change::nest_deeply() {
-    auto const tag = any_start_tag();
+    auto const tag = one_in(2) ? any_start_tag_of(nesting_names) : any_start_tag();
     if (tag == tags_.size() || !tags_[tag].counterpart || !one_in(4)) return;
     auto const before = part(tags_[tag].all);
     auto const after = part(tags_[std::max(tag, *tags_[tag].counterpart)].all);
@@ -376,7 +393,22 @@ void Change::push_apart() {
     std::string all;
     auto const filling = any_of(fillings);
     for (auto const size = any(one_in(4) ? 60'000 : 9'000); all.size() < size;) all += filling;
-    put(one_in(2) ? any_gap() : any_text().begin, all);
+    auto const list = any_start_tag_of(list_names);
+    if (list != tags_.size() && one_in(3)) {
+        put(tags_[list].all.end, all);
+    } else {
+        put(one_in(2) ? any_gap() : any_text().begin, all);
+    }
+}
+
+void Change::declare_many_namespaces() {
+    auto const tag = any_start_tag();
+    if (tag == tags_.size() || !one_in(6)) return;
+    std::string all;
+    for (auto count = 20 + any(16); count > 0; --count) {
+        all.append(" xmlns:n").append(std::to_string(count)).append("=\"").append(namespaces[3]).append("\"");
+    }
+    put(tags_[tag].name.end, all);
 }
 
 }  // namespace
