@@ -286,6 +286,10 @@ std::vector<Key> network_keys() {
             1'024),
         whole_number<std::size_t>(
             "max_elements", "elements of a document", [](Settings & s) -> auto& { return s.net.document.elements; }, 16, 1e6),
+        choice<xml::Validation>("validation",
+                                "how documents are checked: by tables made from the schemas where these are enough, or in full",
+                                [](Settings & s) -> auto& { return s.net.validation; },
+                                {{"fast", xml::Validation::fast}, {"full", xml::Validation::full}}),
         seconds(
             "request_timeout", "for a request to arrive", [](Settings & s) -> auto& { return s.net.request_timeout; }),
         seconds(

@@ -105,6 +105,7 @@ Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std
         telemetry_.faulted(fault.code);
     };
     auto const read = reader.read(text);
+    if (auto const way = reader.checked()) telemetry_.checked(*way);
     if (auto const* fault = std::get_if<Fault>(&read)) return refuse(*fault, fault->request_id), std::move(answer);
     auto const& request = std::get<Request>(read);
     auto const* const resume = std::get_if<Resume>(&request.operation);

@@ -18,7 +18,8 @@ constexpr auto between_sweeps = std::chrono::milliseconds{50};
 
 }  // namespace
 
-Loop::Loop(Shared const& shared) : shared_{shared}, reader_{shared.schemas, shared.settings.document} {}
+Loop::Loop(Shared const& shared)
+    : shared_{shared}, reader_{shared.schemas, shared.settings.document, shared.settings.validation} {}
 
 Loop::~Loop() = default;
 

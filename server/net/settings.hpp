@@ -19,8 +19,9 @@ struct Settings {
 
     std::size_t max_header = 16 * 1024;  // bytes of a request line with its header fields
     std::size_t max_fields = 100;
-    std::size_t max_target = 4 * 1024;         // bytes
-    xml::DocumentLimits document;              // its `bytes` bound an HTTP body and a WebSocket message
+    std::size_t max_target = 4 * 1024;  // bytes
+    xml::DocumentLimits document;       // its `bytes` bound an HTTP body and a WebSocket message
+    xml::Validation validation = xml::Validation::fast;
     std::size_t max_fragments = 1'024;         // of a WebSocket message
     std::size_t max_requests_in_flight = 16;   // answers that wait for one connection before it is read again
     std::vector<std::string> allowed_origins;  // of web pages, beside this server's own: "https://console.example"

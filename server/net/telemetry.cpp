@@ -37,6 +37,7 @@ constexpr std::array<char const*, 17> operation_names{"connect",
 static_assert(operation_names.size() == std::variant_size_v<Operation>);
 
 constexpr std::array<char const*, 3> kind_names{"http", "websocket", "stream"};
+constexpr std::array<char const*, 2> way_names{"fast", "full"};
 
 double cpu_seconds() {
     rusage usage{};
@@ -113,6 +114,10 @@ public:
         for (std::size_t i = 0; i < Telemetry::fault_codes; ++i) {
             add({{"code", std::string{to_text(static_cast<FaultCode>(i))}}}, static_cast<double>(t.faults_[i]));
         }
+        begin("rois_documents_checked_total", "Request documents by how they were checked: by the tables alone, or in full.",
+              MetricType::Counter);
+        for (std::size_t i = 0; i < way_names.size(); ++i)
+            add({{"validation", way_names[i]}}, static_cast<double>(t.checked_[i]));
         requests(t);
         durations(t);
     }

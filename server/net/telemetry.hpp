@@ -10,6 +10,7 @@
 
 #include "engine/engine.hpp"
 #include "types/messages.hpp"
+#include "xml/codec.hpp"
 
 namespace rois::net {
 
@@ -32,6 +33,7 @@ public:
     void accepted() { ++accepted_; }
     // `spent`: from the request's last byte until the answer's text was ready.
     void answered(Operation const&, ReturnCode, std::chrono::nanoseconds spent);
+    void checked(xml::Validation way) { ++checked_[static_cast<std::size_t>(way)]; }  // a request document
     void faulted(FaultCode code) { ++faults_[static_cast<std::size_t>(code)]; }
     void delivered(std::size_t notifications) { delivered_ += notifications; }
     void cut() { ++cut_; }  // a connection that was closed because its reader was too slow
@@ -50,6 +52,7 @@ private:
     friend class Exposition;
     std::array<std::array<std::atomic<std::uint64_t>, return_codes>, operations> requests_{};
     std::array<std::atomic<std::uint64_t>, fault_codes> faults_{};
+    std::array<std::atomic<std::uint64_t>, 2> checked_{};
     std::array<std::atomic<std::uint64_t>, bounds.size() + 1> durations_{};
     std::atomic<std::uint64_t> nanoseconds_ = 0;
     std::array<std::atomic<std::uint64_t>, 3> open_{};

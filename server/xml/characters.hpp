@@ -16,4 +16,7 @@ struct BadCharacter {
 // The first byte that is not UTF-8 or not a character of XML 1.0.
 std::optional<BadCharacter> first_bad_character(std::string_view);
 
+// Whether XML 1.0 has this character.
+bool is_character(char32_t);
+
 }  // namespace rois::xml

@@ -44,13 +44,16 @@ std::size_t tag_before(pugi::xml_node root, std::size_t offset) {
 
 }  // namespace
 
-CheckedReader::CheckedReader(std::shared_ptr<Schemas const> schemas, DocumentLimits limits,
+CheckedReader::CheckedReader(std::shared_ptr<Schemas const> schemas, DocumentLimits limits, Validation validation,
                              std::span<std::string_view const> roots, ForeignNamespaces foreign)
     : schemas_{std::move(schemas)}, limits_{limits}, roots_{roots}, foreign_{foreign} {
-    if (schemas_) validator_.emplace(schemas_);
+    if (!schemas_) return;
+    if (validation == Validation::fast) acceptor_.emplace(schemas_, limits);
+    validator_.emplace(schemas_);
 }
 
 std::optional<Fault> CheckedReader::read(std::string_view document) {
+    checked_.reset();
     if (document.size() > limits_.bytes) {
         return Fault{
             FaultCode::too_large, "the document is too large: the limit is " + std::to_string(limits_.bytes) + " bytes", {}, {}};
@@ -60,17 +63,24 @@ std::optional<Fault> CheckedReader::read(std::string_view document) {
     document_ = document;
     bytes_ = document;
 
-    std::span<std::string const> namespaces;
-    if (schemas_) namespaces = schemas_->grammars().namespaces();
-    auto const outcome = scan(bytes_, limits_, namespaces);
-    if (auto const* refusal = std::get_if<Refusal>(&outcome)) return refused(refusal->code, refusal->reason, refusal->offset);
-    auto const& scanned = std::get<Scanned>(outcome);
-    if (auto fault = objection_to(scanned)) return fault;
+    checked_ = acceptor_ && acceptor_->accepts(bytes_) ? Validation::fast : Validation::full;
+    if (checked_ == Validation::full) {
+        if (auto fault = judge()) return fault;
+    }
     if (auto const result = tree_.load_buffer_inplace(bytes_.data(), bytes_.size(), as_xerces_reads, pugi::encoding_utf8);
         !result) {
         return refused(FaultCode::not_well_formed, result.description(), static_cast<std::size_t>(result.offset));
     }
     return std::nullopt;
+}
+
+// Nothing when the document is well-formed and, as far as there are schemas, valid; its namespaces have today's form then.
+std::optional<Fault> CheckedReader::judge() {
+    std::span<std::string const> namespaces;
+    if (schemas_) namespaces = schemas_->grammars().namespaces();
+    auto const outcome = scan(bytes_, limits_, namespaces);
+    if (auto const* refusal = std::get_if<Refusal>(&outcome)) return refused(refusal->code, refusal->reason, refusal->offset);
+    return objection_to(std::get<Scanned>(outcome));
 }
 
 std::optional<Fault> CheckedReader::objection_to(Scanned const& scanned) {

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "types/messages.hpp"
+#include "xml/acceptor.hpp"
 #include "xml/codec.hpp"
 #include "xml/scan.hpp"
 #include "xml/validator.hpp"
@@ -19,25 +20,30 @@ namespace rois::xml {
 // Whether a document may declare a namespace that no schema knows. Where schemas let anything stand somewhere, it may there.
 enum class ForeignNamespaces : std::uint8_t { refused, as_the_schemas_say };
 
-// Checks a document's bytes with a scan of our own, then against the schemas, and parses the very same bytes into a tree. Keeps
-// its parsers and buffers; for one thread.
+// Checks a document's bytes and parses the very same bytes into a tree. What the tables of the schemas accept is taken;
+// everything else is looked over by the scan and judged by xerces-c, which has the last word. Keeps its parsers and buffers; for
+// one thread.
 class CheckedReader {
 public:
     // Without schemas it looks at a document's form alone. `roots` are the elements that a fault names when the root is another
     // one; none: any that the schemas have.
-    CheckedReader(std::shared_ptr<Schemas const>, DocumentLimits, std::span<std::string_view const> roots = {},
-                  ForeignNamespaces = ForeignNamespaces::refused);
+    CheckedReader(std::shared_ptr<Schemas const>, DocumentLimits, Validation = Validation::fast,
+                  std::span<std::string_view const> roots = {}, ForeignNamespaces = ForeignNamespaces::refused);
 
     // Nothing when all is well: then `root` is the document's, until the next call. The document must live as long as it is asked
     // about.
     std::optional<Fault> read(std::string_view document);
     pugi::xml_node root() const { return tree_.document_element(); }
 
+    // Which way the last document was checked; nothing for one that was too large to be looked at.
+    std::optional<Validation> checked() const { return checked_; }
+
     // A fault about an element of the last document.
     Fault complain(pugi::xml_node element, std::string reason) const;
     Place place(pugi::xml_node element) const;
 
 private:
+    std::optional<Fault> judge();
     std::optional<Fault> objection_to(Scanned const&);
     Fault refused(FaultCode, std::string reason, std::size_t offset) const;
     Fault not_well_formed(Objection const&, Scanned const&) const;
@@ -48,10 +54,12 @@ private:
     DocumentLimits limits_;
     std::span<std::string_view const> roots_;
     ForeignNamespaces foreign_;
-    std::optional<Validator> validator_;
-    std::string_view document_;  // the last one, as it came
-    std::string bytes_;          // it with its namespaces in today's form; the tree points into it
+    std::optional<Acceptor> acceptor_;    // when there are schemas, and the fast way may be taken
+    std::optional<Validator> validator_;  // when there are schemas
+    std::string_view document_;           // the last one, as it came
+    std::string bytes_;                   // it with its namespaces in today's form; the tree points into it
     pugi::xml_document tree_;
+    std::optional<Validation> checked_;
 };
 
 }  // namespace rois::xml

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -23,16 +24,25 @@ struct DocumentLimits {
     std::size_t elements = 5'000;
 };
 
+// How documents are checked. The verdict and its words are the same.
+enum class Validation : std::uint8_t {
+    fast,  // with tables made from the schemas; what these do not accept goes the full way
+    full,  // with a scan and xerces-c
+};
+
 // Reads requests: checks the bytes, validates against the schemas, and gives the operation. Keeps its parser and replaces it on a
 // schedule; one for each thread.
 class RequestReader {
 public:
-    explicit RequestReader(std::shared_ptr<Schemas const>, DocumentLimits = {});
+    explicit RequestReader(std::shared_ptr<Schemas const>, DocumentLimits = {}, Validation = Validation::fast);
     ~RequestReader();
     RequestReader(RequestReader&&) noexcept;
 
     // Never throws for anything that the document says; a fault has the request_id when that could be read.
     std::variant<Request, Fault> read(std::string_view document);
+
+    // Which way the last document was checked; nothing for one that was too large to be looked at.
+    std::optional<Validation> checked() const;
 
 private:
     class Kept;

@@ -7,6 +7,7 @@
 #include <xercesc/framework/XMLGrammarPool.hpp>
 
 #include "xml/schemas.hpp"
+#include "xml/tables.hpp"
 
 namespace rois::xml {
 
@@ -20,9 +21,12 @@ public:
     // The namespaces that a document may declare.
     std::vector<std::string> const& namespaces() const { return namespaces_; }
 
+    Tables const& tables() const { return *tables_; }
+
 private:
     std::unique_ptr<xercesc::XMLGrammarPool> pool_;
     std::vector<std::string> namespaces_;
+    std::unique_ptr<Tables const> tables_;
 };
 
 }  // namespace rois::xml

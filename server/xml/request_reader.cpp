@@ -7,8 +7,8 @@ namespace rois::xml {
 
 class RequestReader::Kept {
 public:
-    Kept(std::shared_ptr<Schemas const> schemas, DocumentLimits limits)
-        : schemas_{schemas}, reader_{std::move(schemas), limits, operation_names()} {}
+    Kept(std::shared_ptr<Schemas const> schemas, DocumentLimits limits, Validation validation)
+        : schemas_{schemas}, reader_{std::move(schemas), limits, validation, operation_names()} {}
 
     std::variant<Request, Fault> read(std::string_view document) {
         if (auto fault = reader_.read(document)) return *std::move(fault);
@@ -18,18 +18,22 @@ public:
         return reader_.complain(reader_.root(), explanation ? explanation->reason : "this is no request");
     }
 
+    std::optional<Validation> checked() const { return reader_.checked(); }
+
 private:
     std::shared_ptr<Schemas const> schemas_;
     CheckedReader reader_;
 };
 
-RequestReader::RequestReader(std::shared_ptr<Schemas const> schemas, DocumentLimits limits)
-    : kept_{std::make_unique<Kept>(std::move(schemas), limits)} {}
+RequestReader::RequestReader(std::shared_ptr<Schemas const> schemas, DocumentLimits limits, Validation validation)
+    : kept_{std::make_unique<Kept>(std::move(schemas), limits, validation)} {}
 
 RequestReader::~RequestReader() = default;
 
 RequestReader::RequestReader(RequestReader&&) noexcept = default;
 
 std::variant<Request, Fault> RequestReader::read(std::string_view document) { return kept_->read(document); }
+
+std::optional<Validation> RequestReader::checked() const { return kept_->checked(); }
 
 }  // namespace rois::xml

@@ -17,11 +17,6 @@ namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-// Elements that hold a list of numbers, of which a parser makes a string each.
-constexpr std::array<std::string_view, 7> lists{"lowerCorner", "upperCorner", "pos",       "posList",
-                                                "position",    "orientation", "covariance"};
-constexpr std::size_t longest_list = 8 << 10;  // bytes
-
 std::string limit(std::string_view what, std::size_t size) {
     return std::string{what} + ": the limit is " + std::to_string(size);
 }
@@ -149,7 +144,7 @@ Scan::Next Scan::start_tag() {
     auto const begin = at_;
     StartTag tag{text_, begin};
     scanned_.last_tag = begin;
-    if (std::ranges::find(lists, local_part(tag.name())) != lists.end()) list_ = begin;
+    if (holds_list_of_numbers(local_part(tag.name()))) list_ = begin;
     auto const forbid = [&](std::string reason) {
         refuse(FaultCode::forbidden_xml, std::move(reason), begin);
         return Next::nothing;
@@ -193,6 +188,12 @@ void Scan::namespace_declaration(StartTag const& tag, std::size_t begin) {
 }
 
 }  // namespace
+
+bool holds_list_of_numbers(std::string_view local_name) {
+    constexpr std::array<std::string_view, 7> names{"lowerCorner", "upperCorner", "pos",       "posList",
+                                                    "position",    "orientation", "covariance"};
+    return std::ranges::find(names, local_name) != names.end();
+}
 
 std::variant<Scanned, Refusal> scan(std::span<char> document, DocumentLimits const& limits,
                                     std::span<std::string const> namespaces) {

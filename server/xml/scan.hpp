@@ -32,6 +32,11 @@ struct Scanned {
     std::size_t last_tag = 0;                 // offset of the last start tag
 };
 
+// Elements of this local name hold a list of numbers, of which a parser makes a string each: from start tag to end tag they may
+// be so long only.
+bool holds_list_of_numbers(std::string_view local_name);
+inline constexpr std::size_t longest_list = 8 << 10;  // bytes
+
 // `namespaces` are those that may be declared. Declarations of the RoIS namespace of 2015 are written over with that of 2024.
 // Passing says nothing yet of well-formedness beyond characters and start tags.
 std::variant<Scanned, Refusal> scan(std::span<char> document, DocumentLimits const&, std::span<std::string const> namespaces);

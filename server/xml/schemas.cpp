@@ -164,6 +164,7 @@ Schemas::Grammars::Grammars(NamedFiles const& files)
         if (std::ranges::find(namespaces_, known) == namespaces_.end()) namespaces_.emplace_back(known);
     }
     pool_->lockPool();
+    tables_ = std::make_unique<Tables const>(*pool_, namespaces_);
 }
 
 Schemas::Schemas(NamedFiles files) : files_{std::move(files)} {

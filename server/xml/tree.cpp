@@ -1,24 +1,35 @@
 #include "xml/tree.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "types/texts.hpp"
 #include "xml/names.hpp"
 
 namespace rois::xml {
 
+namespace {
+
+// What documents may say of themselves with attributes of the namespace xsi.
+constexpr std::array<std::string_view, 4> xsi_attributes{"type", "nil", "schemaLocation", "noNamespaceSchemaLocation"};
+
+}  // namespace
+
 std::string_view local_name(pugi::xml_node node) { return local_part(node.name()); }
 
 pugi::xml_node child(pugi::xml_node node, std::string_view name) {
-    for (auto const candidate : node.children()) {
+    for (auto candidate = node.first_child(); candidate; candidate = candidate.next_sibling()) {
         if (local_name(candidate) == name) return candidate;
     }
     return {};
 }
 
 pugi::xml_attribute attribute(pugi::xml_node node, std::string_view name) {
-    for (auto const candidate : node.attributes()) {
+    bool const perhaps_xsi = std::ranges::find(xsi_attributes, name) != xsi_attributes.end();
+    for (auto candidate = node.first_attribute(); candidate; candidate = candidate.next_attribute()) {
         std::string_view const full = candidate.name();
-        if (local_part(full) != name || declares_namespace(full)) continue;
-        if (full.size() == name.size() || namespace_of(node, prefix_of(full)) != xsi_namespace) return candidate;
+        if (!full.ends_with(name) || local_part(full) != name || declares_namespace(full)) continue;
+        if (!perhaps_xsi || full.size() == name.size() || namespace_of(node, prefix_of(full)) != xsi_namespace) return candidate;
     }
     return {};
 }
@@ -27,7 +38,7 @@ std::string attribute_text(pugi::xml_node node, std::string_view name) { return 
 
 std::string text_of(pugi::xml_node node) {
     std::string text;
-    for (auto const part : node.children()) {
+    for (auto part = node.first_child(); part; part = part.next_sibling()) {
         if (part.type() == pugi::node_pcdata || part.type() == pugi::node_cdata) text += part.value();
     }
     return text;
@@ -36,7 +47,7 @@ std::string text_of(pugi::xml_node node) {
 std::string_view namespace_of(pugi::xml_node node, std::string_view prefix) {
     if (prefix == "xml") return xml_namespace;
     for (; node; node = node.parent()) {
-        for (auto const declaration : node.attributes()) {
+        for (auto declaration = node.first_attribute(); declaration; declaration = declaration.next_attribute()) {
             std::string_view const name = declaration.name();
             if (declares_namespace(name) && (prefix.empty() ? name == "xmlns" : local_part(name) == prefix && name != "xmlns")) {
                 return declaration.value();
@@ -47,7 +58,7 @@ std::string_view namespace_of(pugi::xml_node node, std::string_view prefix) {
 }
 
 pugi::xml_attribute xsi_attribute(pugi::xml_node node, std::string_view name) {
-    for (auto const candidate : node.attributes()) {
+    for (auto candidate = node.first_attribute(); candidate; candidate = candidate.next_attribute()) {
         std::string_view const full = candidate.name();
         auto const prefix = prefix_of(full);
         if (!prefix.empty() && local_part(full) == name && namespace_of(node, prefix) == xsi_namespace) return candidate;

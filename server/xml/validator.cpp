@@ -118,18 +118,18 @@ private:
     std::size_t at_first_;
 };
 
-Validator::Validator(std::shared_ptr<Schemas const> schemas)
-    : schemas_{std::move(schemas)}, parser_{std::make_unique<Parser>(*schemas_)} {}
+Validator::Validator(std::shared_ptr<Schemas const> schemas) : schemas_{std::move(schemas)} {}
 
 Validator::~Validator() = default;
 
 std::optional<Objection> Validator::objection_to(std::string_view document) {
+    if (!parser_) parser_ = std::make_unique<Parser>(*schemas_);
     auto objection = parser_->read(document);
-    if (objection || parser_->hoards()) parser_ = std::make_unique<Parser>(*schemas_);
+    if (objection || parser_->hoards()) parser_.reset();
     return objection;
 }
 
-std::size_t Validator::bytes_in_use() const { return parser_->bytes_in_use(); }
+std::size_t Validator::bytes_in_use() const { return parser_ ? parser_->bytes_in_use() : 0; }
 
 std::optional<Objection> objection_to_form(std::string_view document) {
     ParserMemory memory;

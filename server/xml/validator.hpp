@@ -19,8 +19,9 @@ struct Objection {
     std::size_t offset = 0;
 };
 
-// A kept parser. After a document that it objects to, and when it hoards memory, it is replaced by a new one, because parsers
-// keep the names that they have met (bad-input 2). The bytes are UTF-8 and have passed the scan. For one thread.
+// A kept parser, made when it is first needed. After a document that it objects to, and when it hoards memory, it makes way for a
+// new one, because parsers keep the names that they have met (bad-input 2). The bytes are UTF-8 and have passed the scan. For one
+// thread.
 class Validator {
 public:
     explicit Validator(std::shared_ptr<Schemas const>);

@@ -56,9 +56,9 @@ std::set<std::string> broken_in(std::string const& report) {
 }
 
 struct EmptyHall : GatewayProcess {
-    EmptyHall()
+    explicit EmptyHall(std::string const& validation = "fast")
         : GatewayProcess{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--sim-speed", "20", "--seed", "1",
-                          "--media", "127.0.0.1:0"}} {}
+                          "--media", "127.0.0.1:0", "--validation", validation}} {}
 };
 
 std::string url(std::uint16_t port) { return "http://127.0.0.1:" + std::to_string(port); }
@@ -74,6 +74,12 @@ TEST(Conformance, OfOurGatewayIsWhole) {
     EXPECT_GE(report.select_nodes("//testcase").size(), 200u);
     EXPECT_TRUE(report.select_nodes("//failure").empty());
     std::filesystem::remove(file);
+}
+
+TEST(Conformance, OfOurGatewayIsWholeWhenItValidatesInFull) {
+    EmptyHall gateway{"full"};
+    auto const judged = judge(url(gateway.port()));
+    EXPECT_EQ(judged.exit_code, 0) << judged.text;
 }
 
 TEST(Conformance, OfAGatewayInUseFindsNothingElse) {

@@ -85,6 +85,15 @@ TEST(Health, IsGood) {
     EXPECT_EQ(client.get("/readyz").status, 200);
 }
 
+TEST(Metrics, SayThatDocumentsAreCheckedInFullWhenTheyAre) {
+    GatewayProcess gateway{{"--validation", "full"}};
+    HttpClient client{gateway};
+    bind_and_complete(client, 1);
+    auto const reply = client.get("/metrics");
+    EXPECT_THAT(reply.body, HasSubstr("rois_documents_checked_total{validation=\"fast\"} 0\n"));
+    EXPECT_THAT(reply.body, HasSubstr("rois_documents_checked_total{validation=\"full\"} 3\n"));
+}
+
 TEST(Metrics, CountWhatHappens) {
     GatewayProcess gateway;
     HttpClient client{gateway};
@@ -97,6 +106,7 @@ TEST(Metrics, CountWhatHappens) {
          {"rois_requests_total{operation=\"set_parameter\",return_code=\"OK\"} 3",
           "rois_faults_total{code=\"not_well_formed\"} 1", "rois_sessions 1", "rois_components 15",
           "rois_commands_completed_total{status=\"OK\"} 3", "rois_notifications_delivered_total 3",
+          "rois_documents_checked_total{validation=\"fast\"} 5", "rois_documents_checked_total{validation=\"full\"} 1",
           "rois_connections{kind=\"http\"} 1", "rois_request_duration_seconds_count 5", "rois_connections_accepted_total 1"}) {
         EXPECT_THAT(reply.body, HasSubstr(std::string{line} + "\n"));
     }

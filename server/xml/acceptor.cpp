@@ -1,0 +1,347 @@
+#include "xml/acceptor.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "xml/characters.hpp"
+#include "xml/grammars.hpp"
+#include "xml/names.hpp"
+#include "xml/scan.hpp"
+
+namespace rois::xml {
+
+namespace {
+
+constexpr bool is_white_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+// What ends a run of plain text, in content or in an attribute, or needs a second look.
+constexpr auto ends_text = [] {
+    std::array<bool, 256> table{};
+    for (unsigned char const c : std::string_view{"<&]"}) table[c] = true;
+    return table;
+}();
+
+constexpr auto ends_value = [] {
+    std::array<bool, 256> table{};
+    for (unsigned char const c : std::string_view{"<&\"'"}) table[c] = true;
+    return table;
+}();
+
+// Names that begin so are XML's own.
+bool is_reserved(std::string_view prefix) {
+    auto const lower = [&](std::size_t i) { return static_cast<char>(prefix[i] | 0x20); };
+    return prefix.size() >= 3 && lower(0) == 'x' && lower(1) == 'm' && lower(2) == 'l';
+}
+
+}  // namespace
+
+Acceptor::Acceptor(std::shared_ptr<Schemas const> schemas, DocumentLimits limits)
+    : schemas_{std::move(schemas)}, tables_{schemas_->grammars().tables()}, limits_{limits} {}
+
+bool Acceptor::accepts(std::string_view document) {
+    text_ = document;
+    at_ = 0;
+    elements_ = 0;
+    open_.clear();
+    bindings_.clear();
+    ids_.clear();
+    if (first_bad_character(document) || !prologue() || !start_tag()) return false;
+    while (!open_.empty()) {
+        if (!content()) return false;
+    }
+    return between_elements() && at_ == text_.size();
+}
+
+// An XML declaration as almost everybody writes it, and comments.
+bool Acceptor::prologue() {
+    constexpr std::array<std::string_view, 6> declarations{R"(<?xml version="1.0" encoding="UTF-8"?>)",
+                                                           R"(<?xml version="1.0" encoding="utf-8"?>)",
+                                                           R"(<?xml version='1.0' encoding='UTF-8'?>)",
+                                                           R"(<?xml version='1.0' encoding='utf-8'?>)",
+                                                           R"(<?xml version="1.0"?>)",
+                                                           R"(<?xml version='1.0'?>)"};
+    auto const* const declaration = std::ranges::find_if(declarations, [this](auto each) { return at(each); });
+    if (declaration != declarations.end()) at_ += declaration->size();
+    return between_elements() && peek() == '<';
+}
+
+bool Acceptor::between_elements() {
+    for (;;) {
+        skip_white_space();
+        if (!at("<!--")) return true;
+        if (!comment()) return false;
+    }
+}
+
+bool Acceptor::skip_white_space() {
+    auto const begin = at_;
+    while (at_ < text_.size() && is_white_space(text_[at_])) ++at_;
+    return at_ > begin;
+}
+
+// One piece of what stands in the innermost open element: text and the markup after it.
+bool Acceptor::content() {
+    switch (open_.back().type->content) {
+        case ElementType::Content::value:
+            return value() && end_tag();
+        case ElementType::Content::elements:
+            skip_white_space();
+            break;
+        case ElementType::Content::mixed:
+            if (!text()) return false;
+            break;
+        default:
+            return end_tag();
+    }
+    if (peek() != '<') return false;
+    if (peek(1) == '/') return end_tag();
+    return peek(1) == '!' ? comment() : start_tag();
+}
+
+bool Acceptor::comment() {
+    if (!at("<!--")) return false;
+    auto const end = text_.find("--", at_ + 4);
+    if (end == text_.npos || end + 2 >= text_.size() || text_[end + 2] != '>') return false;
+    at_ = end + 3;
+    return true;
+}
+
+// Up to the next markup.
+bool Acceptor::text() {
+    for (;;) {
+        while (at_ < text_.size() && !ends_text[static_cast<unsigned char>(text_[at_])]) ++at_;
+        switch (peek()) {
+            case '<':
+                return true;
+            case '&':
+                if (!reference()) return false;
+                break;
+            case ']':
+                if (at("]]>")) return false;
+                ++at_;
+                break;
+            default:
+                return false;  // the end
+        }
+    }
+}
+
+// Of an element that holds nothing else.
+bool Acceptor::value() {
+    auto const& open = open_.back();
+    auto const begin = at_;
+    if (open.type->value->takes_any_text()) {
+        if (!text()) return false;
+    } else {
+        at_ = std::min(text_.find('<', at_), text_.size());
+        if (!check(*open.type->value, text_.substr(begin, at_ - begin))) return false;
+    }
+    return !open.declaration->of_limited_length || at_ - open.begin <= longest_list;
+}
+
+bool Acceptor::reference() {
+    constexpr std::array<std::string_view, 5> entities{"&lt;", "&gt;", "&amp;", "&quot;", "&apos;"};
+    if (peek(1) == '#') return character_reference();
+    auto const* const entity = std::ranges::find_if(entities, [this](auto each) { return at(each); });
+    if (entity == entities.end()) return false;
+    at_ += entity->size();
+    return true;
+}
+
+bool Acceptor::character_reference() {
+    constexpr std::size_t most_digits = 7;
+    bool const hexadecimal = peek(2) == 'x';
+    char32_t const base = hexadecimal ? 16 : 10;
+    char32_t code = 0;
+    at_ += hexadecimal ? 3 : 2;
+    auto const begin = at_;
+    for (; peek() != ';'; ++at_) {
+        auto const c = peek();
+        auto const lower = static_cast<char>(c | 0x20);
+        bool const is_digit = c >= '0' && c <= '9';
+        bool const is_letter = hexadecimal && lower >= 'a' && lower <= 'f';
+        if ((!is_digit && !is_letter) || at_ - begin == most_digits) return false;
+        code = code * base + static_cast<char32_t>(is_digit ? c - '0' : lower - 'a' + 10);
+    }
+    if (at_ == begin || !is_character(code)) return false;
+    ++at_;
+    return true;
+}
+
+// An empty one when the document is left to xerces-c.
+PlainName Acceptor::take_name() {
+    auto name = plain_name_before(text_.substr(at_));
+    if (name.whole().size() > limits_.name_length) name = {};
+    at_ += name.whole().size();
+    return name;
+}
+
+bool Acceptor::start_tag() {
+    auto const begin = at_;
+    auto const outer_bindings = bindings_.size();
+    ++at_;
+    if (++elements_ > limits_.elements || open_.size() == limits_.depth) return false;
+    auto const name = take_name();
+    if (name.none() || !attributes(outer_bindings) || !resolve_attributes()) return false;
+    auto const* const declaration = declaration_of({name_space_of(name.prefix()), tables_.name(name.local())});
+    auto const* const type = declaration == nullptr ? nullptr : type_of(*declaration);
+    if (type == nullptr || type->content == ElementType::Content::unknown || !check_attributes(*type)) return false;
+    open_.emplace_back(name.whole(), declaration, type, begin, outer_bindings, 0);
+    if (peek() == '>') {
+        ++at_;
+        return true;
+    }
+    if (!at("/>")) return false;
+    at_ += 2;
+    return (type->content != ElementType::Content::value || check(*type->value, {})) && close();
+}
+
+bool Acceptor::end_tag() {
+    auto const tag = open_.back().tag;
+    if (!at("</")) return false;
+    at_ += 2;
+    if (!at(tag)) return false;
+    at_ += tag.size();
+    if (peek() != '>') return false;
+    ++at_;
+    return close();
+}
+
+// The innermost element, whose content must be complete.
+bool Acceptor::close() {
+    auto const& element = open_.back();
+    auto const& states = element.type->states;
+    if (!states.empty() && !states[element.state].final) return false;
+    bindings_.resize(element.bindings);
+    open_.pop_back();
+    return true;
+}
+
+// Up to the end of the start tag.
+bool Acceptor::attributes(std::size_t outer_bindings) {
+    attributes_.clear();
+    for (std::size_t count = 1;; ++count) {
+        bool const apart = skip_white_space();
+        if (peek() == '>' || peek() == '/') return true;
+        if (!apart || count > limits_.attributes || !attribute(outer_bindings)) return false;
+    }
+}
+
+bool Acceptor::attribute(std::size_t outer_bindings) {
+    auto const written = take_name();
+    if (written.none() || peek() != '=') return false;
+    ++at_;
+    std::string_view value;
+    if (!attribute_value(value)) return false;
+    if (written.whole() == "xmlns") return bind({}, value, outer_bindings);
+    if (written.prefix() == "xmlns") return bind(written.local(), value, outer_bindings);
+    attributes_.push_back({written, value, {}});
+    return true;
+}
+
+bool Acceptor::attribute_value(std::string_view& value) {
+    auto const quote = peek();
+    if (quote != '"' && quote != '\'') return false;
+    auto const begin = ++at_;
+    for (;;) {
+        while (at_ < text_.size() && !ends_value[static_cast<unsigned char>(text_[at_])]) ++at_;
+        if (peek() == quote) break;
+        if (at_ == text_.size() || peek() == '<') return false;
+        if (peek() != '&') {
+            ++at_;  // the other quote
+        } else if (!reference()) {
+            return false;
+        }
+    }
+    value = text_.substr(begin, at_ - begin);
+    ++at_;
+    return true;
+}
+
+// A namespace that is known, and a prefix that this tag has not declared yet.
+bool Acceptor::bind(std::string_view prefix, std::string_view name_space, std::size_t outer_bindings) {
+    auto const id = tables_.name_space(name_space);
+    if (id == Interned::unknown || is_reserved(prefix)) return false;
+    for (auto i = outer_bindings; i < bindings_.size(); ++i) {
+        if (bindings_[i].prefix == prefix) return false;
+    }
+    bindings_.push_back({prefix, id});
+    return true;
+}
+
+Interned::Id Acceptor::name_space_of(std::string_view prefix) const {
+    auto const found =
+        std::find_if(bindings_.rbegin(), bindings_.rend(), [&](Binding const& each) { return each.prefix == prefix; });
+    if (found != bindings_.rend()) return found->name_space;
+    return prefix.empty() ? Interned::empty : Interned::unknown;
+}
+
+bool Acceptor::resolve_attributes() {
+    for (auto& [written, value, name] : attributes_) {
+        name.local = tables_.name(written.local());
+        if (written.prefix().empty()) {
+            name.name_space = Interned::empty;
+        } else {
+            name.name_space = written.prefix() == "xml" ? tables_.name(xml_namespace) : name_space_of(written.prefix());
+        }
+        if (name.local == Interned::unknown || name.name_space == Interned::unknown) return false;
+    }
+    return true;
+}
+
+ElementDeclaration const* Acceptor::declaration_of(Name name) {
+    if (open_.empty()) return elements_ == 1 ? tables_.root(name) : nullptr;
+    auto& [tag, declaration, type, begin, bindings, state] = open_.back();
+    auto const& transitions = type->states[state].transitions;
+    auto const found = std::ranges::find(transitions, name, &ContentState::Transition::name);
+    if (found == transitions.end()) return nullptr;
+    state = found->state;
+    return found->element;
+}
+
+ElementType const* Acceptor::type_of(ElementDeclaration const& declaration) {
+    auto const said = std::ranges::find(attributes_, tables_.xsi_type(), &Attribute::name);
+    if (said == attributes_.end()) return declaration.type;
+    auto const written = plain_name(said->value);
+    if (written.none()) return nullptr;
+    Name const name{name_space_of(written.prefix()), tables_.name(written.local())};
+    auto const found = std::ranges::find(declaration.substitutes, name, &std::pair<Name, ElementType const*>::first);
+    return found == declaration.substitutes.end() ? nullptr : found->second;
+}
+
+// Each is one that the type has, none is there twice, and all that must be are there.
+bool Acceptor::check_attributes(ElementType const& type) {
+    std::uint64_t there = 0;
+    bool has_type = false;
+    for (auto const& [written, value, name] : attributes_) {
+        if (name == tables_.xsi_type()) {
+            if (std::exchange(has_type, true)) return false;
+            continue;
+        }
+        auto const found = std::ranges::find(type.attributes, name, &AttributeUse::name);
+        if (found == type.attributes.end() || !check(*found->type, value)) return false;
+        auto const bit = std::uint64_t{1} << (found - type.attributes.begin());
+        if ((there & bit) != 0) return false;
+        there |= bit;
+    }
+    return (there & type.required) == type.required;
+}
+
+// A few of them are compared with each other.
+bool Acceptor::is_new(std::string_view id) {
+    constexpr std::size_t most_ids = 16;
+    if (ids_.size() == most_ids || std::ranges::find(ids_, id) != ids_.end()) return false;
+    ids_.push_back(id);
+    return true;
+}
+
+bool Acceptor::check(ValueType const& type, std::string_view value) {
+    if (!type.accepts(value)) return false;
+    if (type.kind == ValueType::Kind::id) return is_new(value);
+    if (type.kind != ValueType::Kind::qualified_name) return true;
+    auto const written = plain_name(value);
+    return written.prefix().empty() || name_space_of(written.prefix()) != Interned::unknown;
+}
+
+}  // namespace rois::xml

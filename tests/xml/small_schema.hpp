@@ -1,0 +1,42 @@
+// Schemas made for a test, and the two judges of their documents.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "fuzz/comparison.hpp"
+#include "speaking.hpp"
+
+namespace rois::xml {
+
+using Outcome = fuzz::Comparison::Outcome;
+
+// A schema with these declarations, for the namespace urn:t, and both judges of its documents.
+class Small {
+public:
+    explicit Small(std::string_view declarations) {
+        static Platform const platform;
+        text_.append(R"(<xsd:schema xmlns:xsd="http://www.w3.org/2001/XMLSchema" xmlns="urn:t" xmlns:t="urn:t")")
+            .append(R"( targetNamespace="urn:t" elementFormDefault="qualified">)")
+            .append(declarations)
+            .append("</xsd:schema>");
+        comparison_.emplace(std::make_shared<Schemas const>(NamedFiles{{"t.xsd", text_}}));
+    }
+
+    // `<root xmlns="urn:t">` around what is inside, with attributes.
+    Outcome root(std::string_view inside, std::string_view attributes = {}) {
+        std::string document{R"(<root xmlns="urn:t" xmlns:t="urn:t" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance")"};
+        document.append(attributes).append(">").append(inside).append("</root>");
+        auto const outcome = comparison_->look_at(document);
+        EXPECT_NE(outcome, Outcome::wrong) << text_ << '\n' << document << '\n' << comparison_->complaint();
+        return outcome;
+    }
+
+private:
+    std::string text_;
+    std::optional<fuzz::Comparison> comparison_;
+};
+
+}  // namespace rois::xml
