@@ -29,7 +29,12 @@ public:
         simulation_->join(*this);
     }
 
-    ComponentStatus status() const override { return is(Fault::Kind::failed) ? ComponentStatus::error : component_->status(); }
+    ComponentStatus status() const override {
+        if (is(Fault::Kind::failed)) return ComponentStatus::error;
+        auto const status = component_->status();
+        bool const warns = status == ComponentStatus::ready && is(Fault::Kind::complaining);
+        return warns ? ComponentStatus::warning : status;
+    }
 
     std::optional<std::string> refusal(std::string_view command_type, ParameterList const& parameters) const override {
         return component_->refusal(command_type, parameters);
@@ -79,8 +84,9 @@ public:
 
     std::vector<Results> query(std::string_view query_type, Instant now) override {
         fail_when_failed();
-        if (is(Fault::Kind::silent)) return {};
-        return component_->query(query_type, now);
+        if (!is(Fault::Kind::silent)) return component_->query(query_type, now);
+        if (!std::exchange(silence_told_, true)) port_->error(ErrorType::component_not_responding, "it answers no query");
+        return {};
     }
 
 private:
@@ -95,6 +101,9 @@ private:
     void error(ErrorType type, std::string text) override { port_->error(type, std::move(text)); }
 
     void observe(Instant when) override {
+        if (!is(Fault::Kind::silent)) silence_told_ = false;
+        if (!std::exchange(had_complained_, is(Fault::Kind::complaining)) && had_complained_)
+            port_->error(ErrorType::user_defined_error, "it complains, as the scenario says");
         if (std::exchange(had_failed_, is(Fault::Kind::failed)) || !had_failed_) return;
         component_->halt(when);
         if (auto const command = std::exchange(running_, {})) port_->completed(*command, CompletedStatus::error);
@@ -119,6 +128,8 @@ private:
     ComponentPort* port_ = nullptr;
     std::optional<CommandHandle> running_;
     bool had_failed_ = false;
+    bool had_complained_ = false;
+    bool silence_told_ = false;  // once, as a failure is
     std::unique_ptr<Component> component_;
 };
 

@@ -61,6 +61,7 @@ protected:
     std::optional<Target> target(std::string_view text) const;
 
     virtual void stepped(Instant when) = 0;
+    void time_passed(Instant) override {}
     // Once the world has begun: READY or WARNING.
     virtual ComponentStatus condition() const { return ComponentStatus::ready; }
 

@@ -87,8 +87,9 @@ struct Arrivals {
 // Something wrong with a component for some time of the world, whatever people do.
 struct Fault {
     enum class Kind : std::uint8_t {
-        silent,  // takes commands and begins none, answers no query
-        failed   // its status is ERROR, and whatever it is asked or told ends with an error
+        silent,      // takes commands and begins none, answers no query
+        failed,      // its status is ERROR, and whatever it is asked or told ends with an error
+        complaining  // works, but its status is WARNING, and it tells a USER_DEFINED_ERROR when that begins
     };
 
     std::string component;  // its ref

@@ -123,9 +123,14 @@ private:
     FloorPlan const& plan_;
 };
 
+Fault::Kind kind_of_fault(std::string_view name) {
+    if (name == "failed") return Fault::Kind::failed;
+    return name == "complaining" ? Fault::Kind::complaining : Fault::Kind::silent;
+}
+
 Fault fault(xml::Element const& element, std::vector<std::string> const& refs) {
     Fault read{.component = element.attribute("component", ""),
-               .kind = element.attribute("kind", "") == "failed" ? Fault::Kind::failed : Fault::Kind::silent,
+               .kind = kind_of_fault(element.attribute("kind", "")),
                .from = element.number("from", 0),
                .until = {}};
     if (std::ranges::find(refs, read.component) == refs.end())

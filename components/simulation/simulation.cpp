@@ -5,18 +5,30 @@
 
 namespace rois::simulation {
 
+void Observer::time_passed(Instant) {}
+
 Simulation::Simulation(FloorPlan plan, Scenario scenario, std::uint64_t seed, double speed)
     : faults_(scenario.faults), hall_(std::move(plan), std::move(scenario), seed), time_(speed, Hall::step_length) {}
 
 void Simulation::advance(Instant now) {
     std::int64_t const steps = time_.steps_due(now.steady);
     if (!std::exchange(begun_, true)) return step(now);
-    for (std::int64_t k = 1; k <= steps; ++k) step(time_.due(k, steps, now));
+    for (std::int64_t k = 1; k <= steps; ++k) step_of_world(time_.due(k, steps, now));
+    tell_the_time(now);
 }
 
 void Simulation::step(Instant when) {
+    step_of_world(when);
+    tell_the_time(when);
+}
+
+void Simulation::step_of_world(Instant when) {
     hall_.step();
     for (Observer* observer : observers_) observer->observe(when);
+}
+
+void Simulation::tell_the_time(Instant now) {
+    for (Observer* observer : observers_) observer->time_passed(now);
 }
 
 void Simulation::join(Observer& observer) { observers_.push_back(&observer); }

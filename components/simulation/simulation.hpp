@@ -18,6 +18,8 @@ public:
     virtual ~Observer() = default;
     // `when` is the real time to which the step belongs: not later than the engine's present.
     virtual void observe(Instant when) = 0;
+    // Once each time that real time has passed, after the steps that were due, if any: for what does not belong to the world.
+    virtual void time_passed(Instant now);
 };
 
 // Components hold it by shared_ptr. Used by the engine's thread only.
@@ -41,6 +43,9 @@ public:
     void part(Observer&);  // in the observer's destructor, never from within observe
 
 private:
+    void step_of_world(Instant when);
+    void tell_the_time(Instant now);
+
     std::vector<Fault> faults_;
     Hall hall_;
     SimulatedTime time_;

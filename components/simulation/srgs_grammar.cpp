@@ -1,9 +1,11 @@
 #include "simulation/srgs_grammar.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <utility>
 
+#include "simulation/languages.hpp"
 #include "simulation/spoken_words.hpp"
 #include "types/texts.hpp"
 #include "xml/document.hpp"
@@ -14,6 +16,8 @@ namespace {
 using Expansion = SrgsGrammar::Expansion;
 using Kind = Expansion::Kind;
 using Rules = std::vector<SrgsGrammar::Rule>;
+
+constexpr std::array<std::string_view, 3> special_rules{"NULL", "VOID", "GARBAGE"};
 
 std::size_t number_of(std::string_view digits) {
     std::size_t number = 0;
@@ -197,9 +201,15 @@ std::variant<SrgsGrammar, SrgsGrammar::Flaw> SrgsGrammar::read(std::shared_ptr<x
         if (root.name() != "grammar") throw root.complain("this is no grammar: expected the element grammar of SRGS");
         SrgsGrammar made;
         made.language_ = root.attribute("lang", "");
+        if (auto const& said = made.language_; !is_language(lower_case(said.substr(0, said.find('-')))))
+            throw root.complain("the language " + quoted(said) + " cannot be recognized; those that can are " +
+                                names_of_languages());
         auto const elements = root.children("rule");
-        for (auto const& element : elements)
+        for (auto const& element : elements) {
             made.rules_.push_back({element.attribute("id", ""), element.attribute("scope", "private") == "public", {}});
+            if (std::ranges::find(special_rules, made.rules_.back().id) != special_rules.end())
+                throw element.complain("the id " + quoted(made.rules_.back().id) + " is that of a special rule");
+        }
         ExpansionReader reader{made.rules_};
         for (std::size_t i = 0; i < elements.size(); ++i) made.rules_[i].expansion = reader.sequence(elements[i]);
         if (auto const id = root.attribute("root")) {

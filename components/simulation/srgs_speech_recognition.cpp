@@ -147,7 +147,7 @@ private:
         auto const* wanted = find(parameters, "languages");
         // The grammar's own, "en" of "en-US", when not set.
         auto const& own = grammar_.language();
-        languages_ = wanted != nullptr ? wanted->values : std::vector<std::string>{own.substr(0, own.find('-'))};
+        languages_ = wanted != nullptr ? wanted->values : std::vector<std::string>{lower_case(own.substr(0, own.find('-')))};
         place_.reset();
         auto const* position = find(parameters, "position_of_sound");
         if (position != nullptr && !position->values.empty()) place_ = target(position->values.front())->position;

@@ -23,9 +23,9 @@ struct BadSsml {
 };
 
 // Honours `break` (time, strength; 60 s at most), `prosody` (rate; duration, 600 s at most; pitch, range, contour, volume),
-// `emphasis` (by its pace), `sub`, and xml:lang with `onlangfailure` of any element; other elements are skipped and what they
-// hold is spoken, but for metadata and descriptions. Document types, entities beyond the five of XML and processing instructions
-// are refused.
+// `emphasis` (by its pace), `sub`, and xml:lang with `onlangfailure` of any element; other elements, those of other namespaces
+// among them, are skipped and what they hold is spoken, but for metadata and descriptions. A document without any namespace is
+// taken for SSML. Document types and processing instructions are refused. An xml::Platform lives meanwhile.
 std::variant<SpokenText, BadSsml> read_ssml(std::string_view document);
 
 }  // namespace rois::simulation

@@ -48,16 +48,17 @@ std::optional<double> look_up(std::span<Word const> words, std::string_view name
     return found->value;
 }
 
-// "150%", "+20%", "-20%" or a plain factor; nothing for what is none of them.
-std::optional<double> rate_of(std::string_view text) {
+// SSML 1.1, 3.2.4: a name, a percentage or a plain factor is of the default rate; what has a sign, as SSML 1.0 has it, is of
+// the rate around it. Nothing for what is none of them.
+std::optional<double> rate_of(std::string_view text, double around) {
     if (auto const named = look_up(rates, text)) return named;
+    bool const is_change = text.starts_with('+') || text.starts_with('-');
     bool const percent = text.ends_with('%');
-    bool const relative = percent && (text.starts_with('+') || text.starts_with('-'));
     if (percent) text.remove_suffix(1);
     auto const number = to_double(text);
     if (!number || !(std::abs(*number) < 1e6)) return {};
     double const factor = percent ? *number / 100 : *number;
-    return relative ? 1 + factor : factor;
+    return is_change ? around * (1 + factor) : factor;
 }
 
 // "500ms" or "1.5s"; nothing for what is neither.
@@ -150,14 +151,15 @@ std::optional<std::string> SsmlMeaning::speak_language(Element& element, std::sp
 }
 
 void SsmlMeaning::set_pace(Element& element, std::span<SsmlAttribute const> attributes) {
-    double factor = 1;
     if (element.kind == "prosody") {
-        if (auto const rate = value_of(attributes, "rate")) factor = rate_of(*rate).value_or(1);
+        if (auto const rate = value_of(attributes, "rate"))
+            element.rate = std::clamp(rate_of(*rate, element.rate).value_or(element.rate), least_rate, greatest_rate);
         if (auto const duration = value_of(attributes, "duration")) element.duration = time_of(*duration, longest_duration);
+        if (element.duration && *element.duration <= 0) element.duration.reset();
     } else if (element.kind == "emphasis") {
-        factor = look_up(emphases, value_of(attributes, "level").value_or("moderate")).value_or(1);
+        element.stress *= look_up(emphases, value_of(attributes, "level").value_or("moderate")).value_or(1);
+        element.stress = std::clamp(element.stress, least_rate, greatest_rate);
     }
-    element.rate = std::clamp(element.rate * factor, least_rate, greatest_rate);
 }
 
 // A value that says nothing is skipped, as one that cannot be read is.
@@ -215,7 +217,9 @@ void SsmlMeaning::say(std::string_view content) {
     }
     if (passage == nullptr) return;
     passage->text += said;
-    pieces_.push_back({passages_.size() - 1, spoken_seconds(said) / element.rate, Piece::Of::words});
+    pieces_.push_back({passages_.size() - 1,
+                       spoken_seconds(said) / std::clamp(element.rate * element.stress, least_rate, greatest_rate),
+                       Piece::Of::words});
 }
 
 std::vector<Passage> SsmlMeaning::passages() const {

@@ -1,4 +1,4 @@
-// What the markup of W3C SSML means: words, languages, time, and how the voice is to sound. The reader of the document
+// What the markup of W3C SSML means: words, languages, time, and how the voice is to sound. Who walks through the document
 // (ssml.cpp) feeds it.
 #pragma once
 
@@ -15,13 +15,14 @@
 namespace rois::simulation {
 
 struct SsmlAttribute {
-    std::string_view name;
+    std::string_view name;  // as SSML writes it: "alias", "xml:lang"
     std::string value;
 };
 
 class SsmlMeaning {
 public:
-    // An element without its prefix begins. Says which language it asks for in vain, when that is to be refused.
+    // An element begins: the local name of one of SSML's own, else empty. Says which language it asks for in vain, when that is
+    // to be refused.
     std::optional<std::string> begin(std::string_view kind, std::span<SsmlAttribute const>);
     void end();
 
@@ -39,7 +40,8 @@ private:
 
     struct Element {
         std::string kind;
-        double rate = 1;
+        double rate = 1;       // of the default one
+        double stress = 1;     // how emphasis changes it
         bool silent = false;   // what is in it is not spoken
         std::string language;  // empty: not said
         InVain in_vain = InVain::refuse;

@@ -51,9 +51,11 @@ void Streaming::start(CommandHandle command, ParameterList const& parameters, In
 
 void Streaming::halt(Instant now) {
     while (!streams_.empty()) disconnect(streams_.front(), now);
+    held_ = false;
 }
 
 void Streaming::suspend(Instant now) {
+    held_ = true;
     for (auto& stream : streams_) {
         if (stream.status == StreamStatus::suspended) continue;
         hold(stream, now);
@@ -62,6 +64,7 @@ void Streaming::suspend(Instant now) {
 }
 
 void Streaming::resume(Instant now) {
+    held_ = false;
     for (auto& stream : streams_)
         if (std::exchange(stream.held_with_all, false)) go_on(stream, now);
 }
@@ -80,6 +83,7 @@ void Streaming::perform(CommandHandle command, std::string_view command_type, Pa
         go_on(*stream, now);
     } else {
         disconnect(*stream, now);
+        held_ = held_ && !streams_.empty();
     }
     port().completed(command, CompletedStatus::ok, {}, streams_.empty() ? Afterwards::idle : Afterwards::as_before);
 }
@@ -101,7 +105,10 @@ std::vector<Results> Streaming::query(std::string_view query_type, Instant) {
 void Streaming::stepped(Instant when) {
     if (streams_.empty()) return;
     look(when);
-    for (auto& stream : streams_) receptions(stream, when);
+}
+
+void Streaming::time_passed(Instant now) {
+    for (auto& stream : streams_) receptions(stream, now);
 }
 
 std::optional<std::string> Streaming::unfit(ParameterList const& parameters) const {
@@ -159,7 +166,11 @@ void Streaming::connect(CommandHandle command, Instant now) {
     Results results{{text("stream_id", stream.id), text("encoding_parameters", opening->encoding),
                      text("transport_parameters", stream.outlet->address())},
                     {}};
-    turn(streams_.emplace_back(std::move(stream)), StreamStatus::not_running, now);
+    if (held_) stream.outlet->hold();
+    stream.held_with_all = held_;
+    auto& connected = streams_.emplace_back(std::move(stream));
+    turn(connected, held_ ? StreamStatus::suspended : StreamStatus::not_running, now);
+    receptions(connected, now);
     look(now);
     port().completed(command, CompletedStatus::ok, std::move(results), Afterwards::active);
 }

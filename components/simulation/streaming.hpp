@@ -48,7 +48,7 @@ protected:
     // Or why there is none. Both names are known ones, and the transport can be reached.
     virtual std::variant<Opening, std::string> opening(MediaOffer const& encoding, MediaOffer const& transport) const = 0;
 
-    // Once a step, while a stream is connected.
+    // Once a step of the world, while a stream is connected.
     virtual void look(Instant) {}
 
 private:
@@ -61,6 +61,7 @@ private:
     };
 
     void stepped(Instant when) final;
+    void time_passed(Instant now) final;
     std::optional<std::string> unfit(ParameterList const&) const final;
     std::optional<std::string> impossible(std::string_view command_type, ParameterList const& arguments) const final;
 
@@ -77,6 +78,7 @@ private:
     std::vector<Stream> streams_;     // connected, in the order of connecting
     std::deque<std::string> closed_;  // ids, the last one closed first
     unsigned last_ = 0;
+    bool held_ = false;  // by `suspend`, which holds what is connected meanwhile, too
 };
 
 }  // namespace rois::simulation

@@ -47,7 +47,7 @@ Reply Engine::Core::perform(Session& session, Search const& search, Instant) {
     if (auto* problem = std::get_if<std::string>(&selection))
         return refused<Search::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     Search::Reply reply;
-    for (auto const* component : select(std::get<Selection>(selection), everyone(), session))
+    for (auto const* component : select(std::get<Selection>(selection), session))
         reply.component_ref_list.push_back(component->ref());
     return reply;
 }
@@ -72,9 +72,10 @@ Reply Engine::Core::perform(Session& session, BindAny const& bind, Instant) {
         return refused<BindAny::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto const& selection = std::get<Selection>(compiled);
     Perspective ever{registry_, places_, &session, Perspective::Of::ever};
-    if (std::ranges::none_of(everyone(), [&](auto const* c) { return selection.match(ever.candidate(*c)) != Match::no; }))
+    if (std::ranges::none_of(possible(selection),
+                             [&](auto const* c) { return selection.match(ever.candidate(*c)) != Match::no; }))
         return refused<BindAny::Reply>(ReturnCode::unsupported, "no component of this engine can match the condition");
-    auto const matches = select(selection, everyone(), session);
+    auto const matches = select(selection, session);
     auto found = std::ranges::find(matches, nullptr, &RegisteredComponent::bound_to);
     if (found == matches.end()) found = std::ranges::find(matches, &session, &RegisteredComponent::bound_to);
     if (found == matches.end())

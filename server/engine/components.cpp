@@ -36,6 +36,9 @@ void unlist(EngineProfile& engine, std::string const& ref) {
 Engine::Core::SharedComponent Engine::Core::made(std::unique_ptr<Component> component,
                                                  std::vector<ComponentProfile> const& known) {
     auto const& description = component->description();
+    // Conditions look for refs without it.
+    if (trimmed(description.ref.code) != description.ref.code)
+        throw std::runtime_error("the ref " + quoted(description.ref.code) + " begins or ends with white space");
     auto whole = flattened(*description.profile, known);
     auto engine = description.engine.empty() ? profile_->object.name : description.engine;
     return std::make_shared<RegisteredComponent>(std::move(component), std::move(whole), std::move(engine), agenda_,

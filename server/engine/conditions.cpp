@@ -5,18 +5,22 @@
 
 namespace rois {
 
-std::vector<RegisteredComponent*> Engine::Core::everyone() const {
+std::vector<RegisteredComponent*> Engine::Core::possible(Selection const& selection) const {
     std::vector<RegisteredComponent*> components;
+    if (auto const refs = selection.refs()) {
+        for (auto const& ref : *refs)
+            if (auto* component = registry_.find(ref)) components.push_back(component);
+        return components;
+    }
     components.reserve(registry_.all().size());
     for (auto const& [ref, component] : registry_.all()) components.push_back(component.get());
     return components;
 }
 
-std::vector<RegisteredComponent*> Engine::Core::select(Selection const& selection, std::vector<RegisteredComponent*> const& among,
-                                                       Session const& asker) const {
+std::vector<RegisteredComponent*> Engine::Core::select(Selection const& selection, Session const& asker) const {
     Perspective present{registry_, places_, &asker, Perspective::Of::present};
     std::vector<Candidate const*> candidates;
-    for (auto const* component : among) {
+    for (auto const* component : possible(selection)) {
         auto const& candidate = present.candidate(*component);
         if (selection.match(candidate) == Match::yes) candidates.push_back(&candidate);
     }

@@ -83,10 +83,10 @@ private:
 
     // Conditions (conditions.cpp)
     Vocabulary vocabulary(Declarations const* results = nullptr) const { return {&places_, &registry_.parameters(), results}; }
-    std::vector<RegisteredComponent*> everyone() const;
+    // Those that the selection may let through: all, or those that it names; by ref.
+    std::vector<RegisteredComponent*> possible(Selection const&) const;
     // Those that the selection lets through, in its order.
-    std::vector<RegisteredComponent*> select(Selection const&, std::vector<RegisteredComponent*> const& among,
-                                             Session const& asker) const;
+    std::vector<RegisteredComponent*> select(Selection const&, Session const& asker) const;
     // Leaves all results or none. Why the condition cannot be used, or nothing.
     std::optional<std::string> choose(Results&, QueryExpression const&, Declarations const& known, std::string_view id) const;
 

@@ -27,13 +27,16 @@ std::variant<Filter, std::string> Filter::compile(std::optional<Condition> const
     filter.predicate_ = compiler.compile(*condition);
     if (compiler.problem()) return *compiler.problem();
     filter.predicates_ = compiler.predicates();
-    filter.meaning_ = filter.predicate_->canonical();
-    if (filter.meaning_ == met_by_everything) return Filter{};
+    if (filter.predicate_->met_by_everything()) return Filter{};
     filter.depends_on_asker_ = compiler.depends_on_asker();
     return filter;
 }
 
+std::string Filter::meaning() const { return predicate_ ? predicate_->canonical() : std::string{}; }
+
 Match Filter::match(Candidate const& candidate) const { return predicate_ ? predicate_->match(candidate) : Match::yes; }
+
+std::optional<Refs> Filter::refs() const { return predicate_ ? predicate_->refs() : std::nullopt; }
 
 Selection::Selection() = default;
 Selection::~Selection() = default;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -17,6 +18,8 @@ namespace rois {
 
 class Predicate;
 class SortKey;
+
+using Refs = std::set<std::string>;  // of components
 
 // What is true or false of candidates.
 class Filter {
@@ -32,8 +35,11 @@ public:
 
     Match match(Candidate const&) const;
 
-    // The condition's canonical text: the same for conditions that mean the same (decision 20).
-    std::string const& meaning() const { return meaning_; }
+    // The condition's canonical text: the same for conditions that mean the same (decision 20). Made anew each time.
+    std::string meaning() const;
+
+    // The components that alone can be let through, by ref, when the condition names them; nothing when it may be any.
+    std::optional<Refs> refs() const;
 
     // How many predicates it is made of: what it costs to hold it against something.
     std::size_t predicates() const { return predicates_; }
@@ -46,7 +52,6 @@ private:
     static std::variant<Filter, std::string> compile(std::optional<Condition> const&, Vocabulary const&);
 
     std::unique_ptr<Predicate const> predicate_;  // null: restricts nothing
-    std::string meaning_;
     std::size_t predicates_ = 0;
     bool depends_on_asker_ = false;
 };
@@ -61,6 +66,7 @@ public:
     static std::variant<Selection, std::string> compile(QueryExpression const&, Vocabulary const&);
 
     Match match(Candidate const& candidate) const { return filter_.match(candidate); }
+    std::optional<Refs> refs() const { return filter_.refs(); }
 
     bool sorts() const { return !keys_.empty(); }
 

@@ -104,6 +104,13 @@ public:
         return "L" + std::to_string(known.text.size()) + ":" + known.text;
     }
 
+    std::optional<std::string> const& literal() const { return literal_; }
+    bool is_component_ref() const {
+        auto const* reference = std::get_if<Reference>(&told_);
+        return reference != nullptr && reference->to == Reference::To::component_ref &&
+               (reference->part == Reference::Part::value || reference->part == Reference::Part::code);
+    }
+
 private:
     static bool is_boolean(std::string_view text) {
         text = trimmed(text);
@@ -230,6 +237,15 @@ public:
         return std::string{signs.at(static_cast<std::size_t>(comparator_))} +
                std::string{actions.at(static_cast<std::size_t>(action_))} +
                (by_letters && manner_.letters == Case::ignored ? "~" : "") + "(" + left + "," + right + ")";
+    }
+
+    std::optional<Refs> refs() const override {
+        bool const exact =
+            comparator_ == Comparator::equal && manner_.kind == ValueKind::text && manner_.letters == Case::matched;
+        bool const right = right_.is_component_ref();
+        auto const& literal = right ? left_.literal() : right_.literal();
+        if (!exact || !literal || !(right || left_.is_component_ref())) return {};
+        return Refs{*literal};
     }
 
 private:

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/candidate.hpp"
+#include "engine/filter.hpp"
 #include "engine/frames.hpp"
 #include "engine/vocabulary.hpp"
 #include "types/condition.hpp"
@@ -20,13 +21,14 @@ class Predicate {
 public:
     virtual ~Predicate() = default;
     virtual Match match(Candidate const&) const = 0;
+    // The same text for conditions that mean the same.
     virtual std::string canonical() const = 0;
+    virtual bool met_by_everything() const { return false; }
+    // The components that alone can meet it, by ref; nothing when it names none.
+    virtual std::optional<Refs> refs() const { return {}; }
 };
 
 using PredicatePtr = std::unique_ptr<Predicate const>;
-
-// The canonical text of And without operands.
-inline constexpr char met_by_everything[] = "&";
 
 // Where something is: known beforehand, or told by a candidate.
 class Whereabouts {

@@ -1,6 +1,6 @@
 // And, Or and Not (ISO 19143, Minimum Standard Filter) in three values.
 #include <algorithm>
-#include <map>
+#include <set>
 
 #include "engine/filter_compiler.hpp"
 
@@ -10,9 +10,13 @@ namespace {
 
 using Predicates = std::vector<PredicatePtr>;
 
+// Operands in the order of their meanings, none twice; one alone stands for itself.
 std::string joined(char name, Predicates const& operands) {
+    std::set<std::string> meanings;
+    for (auto const& operand : operands) meanings.insert(operand->canonical());
+    if (meanings.size() == 1) return *meanings.begin();
     std::string text{name};
-    for (auto const& operand : operands) text += "(" + operand->canonical() + ")";
+    for (auto const& meaning : meanings) text.append("(").append(meaning).append(")");
     return text;
 }
 
@@ -27,7 +31,13 @@ public:
             if (worst = std::min(worst, operand->match(candidate)); worst == Match::no) break;
         return worst;
     }
+    bool met_by_everything() const override { return operands_.empty(); }
     std::string canonical() const override { return joined('&', operands_); }
+    std::optional<Refs> refs() const override {
+        for (auto const& operand : operands_)
+            if (auto refs = operand->refs()) return refs;
+        return {};
+    }
 
 private:
     Predicates operands_;
@@ -44,6 +54,15 @@ public:
         return best;
     }
     std::string canonical() const override { return joined('|', operands_); }
+    std::optional<Refs> refs() const override {
+        Refs all;
+        for (auto const& operand : operands_) {
+            auto refs = operand->refs();
+            if (!refs) return {};
+            all.merge(*refs);
+        }
+        return all;
+    }
 
 private:
     Predicates operands_;
@@ -79,7 +98,7 @@ Condition const* innermost(Condition const* condition) {
     return condition;
 }
 
-// Operands in the order of their meanings, those of the same operator inside among them, none twice.
+// Operands, those of the same operator inside among them.
 template <class Operator>
 class Flattened {
 public:
@@ -91,8 +110,8 @@ public:
             if (auto const* same = std::get_if<Operator>(&operand.predicate)) {
                 add(*same);
             } else if (auto predicate = compiler_.compile(operand)) {
-                auto meaning = predicate->canonical();
-                by_meaning_.try_emplace(std::move(meaning), std::move(predicate));
+                decided_ = decided_ || predicate->met_by_everything();
+                if (!predicate->met_by_everything()) operands_.push_back(std::move(predicate));
             }
         }
     }
@@ -100,18 +119,14 @@ public:
     // What everything meets adds nothing to And, and decides Or.
     template <class Made>
     PredicatePtr made() && {
-        if (by_meaning_.contains(met_by_everything)) {
-            if (std::is_same_v<Operator, Or>) return std::make_unique<All>(Predicates{});
-            by_meaning_.erase(met_by_everything);
-        }
-        Predicates operands;
-        for (auto& [meaning, predicate] : by_meaning_) operands.push_back(std::move(predicate));
-        return operands.size() == 1 ? std::move(operands.front()) : std::make_unique<Made>(std::move(operands));
+        if (std::is_same_v<Operator, Or> && decided_) return std::make_unique<All>(Predicates{});
+        return operands_.size() == 1 ? std::move(operands_.front()) : std::make_unique<Made>(std::move(operands_));
     }
 
 private:
     FilterCompiler& compiler_;
-    std::map<std::string, PredicatePtr> by_meaning_;
+    Predicates operands_;
+    bool decided_ = false;  // everything meets one of them
 };
 
 }  // namespace

@@ -52,7 +52,7 @@ bool NotificationQueue::make_room() {
 std::vector<Numbered> NotificationQueue::read(std::uint64_t after, std::size_t most) {
     std::vector<Numbered> entries;
     auto const until = visible_until();
-    auto entry = std::ranges::upper_bound(entries_, after, {}, &Numbered::sequence);
+    auto entry = first_after(after);
     if (entry != entries_.end() && entry->sequence <= until && before(*entry) != after) {
         // The position lies before all that is kept, or inside a gap: what is missing comes first, counted from the position.
         auto const missing_until = as_lost(*entry) == nullptr ? before(*entry) : entry->sequence;
@@ -64,15 +64,23 @@ std::vector<Numbered> NotificationQueue::read(std::uint64_t after, std::size_t m
     return entries;
 }
 
+std::vector<Numbered>::const_iterator NotificationQueue::first_after(std::uint64_t sequence) const {
+    return std::upper_bound(entries_.begin() + static_cast<std::ptrdiff_t>(forgotten_), entries_.end(), sequence,
+                            [](std::uint64_t s, Numbered const& entry) { return s < entry.sequence; });
+}
+
 bool NotificationQueue::has_after(std::uint64_t after) const {
-    auto const entry = std::ranges::upper_bound(entries_, after, {}, &Numbered::sequence);
+    auto const entry = first_after(after);
     return entry != entries_.end() && entry->sequence <= visible_until();
 }
 
 void NotificationQueue::mark_sent(std::uint64_t until) {
     for (; sent_ < entries_.size() && entries_[sent_].sequence <= until; ++sent_)
         if (as_lost(entries_[sent_]) == nullptr) --waiting_;
-    for (; sent_ > max_sent_; --sent_) entries_.pop_front();
+    for (; sent_ - forgotten_ > max_sent_; ++forgotten_) entries_[forgotten_].notification.reset();
+    if (forgotten_ * 2 <= entries_.size()) return;
+    entries_.erase(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(forgotten_));
+    sent_ -= std::exchange(forgotten_, 0);
 }
 
 }  // namespace rois

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -79,12 +78,16 @@ public:
 private:
     std::uint64_t visible_until() const { return holds_.empty() ? last_sequence_ : *holds_.begin(); }
     bool make_room();
+    std::vector<Numbered>::const_iterator first_after(std::uint64_t sequence) const;
     void mark_sent(std::uint64_t until);
 
     std::size_t max_waiting_;
     std::size_t max_sent_;
-    std::deque<Numbered> entries_;     // in the order of their sequence; a `Lost` stands for several; first those that were sent
-    std::size_t sent_ = 0;             // how many of them
+    // In the order of their sequence; a `Lost` stands for several; first those that were forgotten, then those that were sent.
+    // Nothing is allocated for a session that has heard nothing.
+    std::vector<Numbered> entries_;
+    std::size_t forgotten_ = 0;        // how many were forgotten and are still there
+    std::size_t sent_ = 0;             // how many were forgotten or sent
     std::size_t waiting_ = 0;          // the others, without `Lost`
     std::uint64_t last_sequence_ = 0;  // given last
     std::uint64_t lost_ = 0;

@@ -27,8 +27,8 @@ std::string names_of(std::vector<ParameterProfile> const& profiles) {
 
 std::optional<std::string> why_not(ParameterProfile const& profile, Parameter const& parameter) {
     auto const due = DataType::of(profile.data_type_ref);
-    auto const declared = DataType::of(parameter.data_type_ref);
-    if (!(declared == due))
+    bool const as_due = parameter.data_type_ref.code == profile.data_type_ref.code;
+    if (!as_due && !(DataType::of(parameter.data_type_ref) == due))
         return "parameter " + quoted(parameter.name) + " is declared as " + quoted(parameter.data_type_ref.code) +
                ", its type is " + to_text(due);
     if (auto const problem = why_not(due, parameter.values)) return "parameter " + quoted(parameter.name) + ": " + *problem;

@@ -17,7 +17,12 @@ struct Possible {
     std::optional<Results> row;
 };
 
-// A component is asked only when the condition or SortBy may depend on what it answers.
+bool is_ready(Possible const& possible, Session const& asker) {
+    return possible.component->status_for(&asker) == ComponentStatus::ready;
+}
+
+// A component is asked only when the condition or SortBy may depend on what it answers; and nobody behind the one that will be
+// chosen when nothing is sorted.
 std::vector<Possible> who_may_answer(std::vector<RegisteredComponent*> const& able, Selection const& selection,
                                      Perspective& looked_at,
                                      std::function<std::vector<Results>(RegisteredComponent&)> const& rows_of) {
@@ -31,6 +36,9 @@ std::vector<Possible> who_may_answer(std::vector<RegisteredComponent*> const& ab
         if (rows.empty() && match == Match::yes) found.push_back({component, {}});
         for (auto& row : rows)
             if (selection.match(ToldCandidate{candidate, row}) == Match::yes) found.push_back({component, std::move(row)});
+        if (!selection.sorts() && !found.empty() && found.back().component == component &&
+            is_ready(found.back(), *looked_at.asker()))
+            break;
     }
     return found;
 }
@@ -56,17 +64,19 @@ std::vector<Possible> in_order(Selection const& selection, std::vector<Possible>
 // Decision 18: the one component that knows the query type, preferring READY, then the lowest ref or what SortBy says; of its
 // rows, the first that matches.
 Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
-    auto const& able = registry_.with(MessageKind::query, query.query_type);
-    Declarations results;
-    for (auto const* component : able)
-        results.add(find_message(component->profile(), MessageKind::query, query.query_type)->results);
-    auto vocabulary = this->vocabulary(&results);
+    auto vocabulary = this->vocabulary(&registry_.results(MessageKind::query, query.query_type));
     vocabulary.first = Vocabulary::First::parameters;
     auto compiled = Selection::compile(query.condition, vocabulary);
     if (auto* problem = std::get_if<std::string>(&compiled))
         return refused<Query::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto const& selection = std::get<Selection>(compiled);
     Perspective looked_at{registry_, places_, &session, Perspective::Of::present};
+    bool const named = selection.refs().has_value();
+    auto meant = named ? possible(selection) : std::vector<RegisteredComponent*>{};
+    std::erase_if(meant, [&](auto const* component) {
+        return find_message(component->profile(), MessageKind::query, query.query_type) == nullptr;
+    });
+    auto const& able = named ? meant : registry_.with(MessageKind::query, query.query_type);
     auto found = who_may_answer(able, selection, looked_at, [&](RegisteredComponent& component) {
         return answers(session, component, query.query_type, now);
     });
@@ -74,8 +84,7 @@ Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
         return refused<Query::Reply>(ReturnCode::unsupported,
                                      "nothing that matches is answered to queries of the type " + quoted(query.query_type));
     found = in_order(selection, std::move(found), looked_at);
-    auto const ready = std::ranges::find_if(
-        found, [&](Possible const& possible) { return possible.component->status_for(&session) == ComponentStatus::ready; });
+    auto const ready = std::ranges::find_if(found, [&](Possible const& possible) { return is_ready(possible, session); });
     auto& chosen = ready == found.end() ? found.front() : *ready;
     if (!chosen.row) {
         auto rows = answers(session, *chosen.component, query.query_type, now);

@@ -203,6 +203,7 @@ RegisteredComponent& Registry::add(std::shared_ptr<RegisteredComponent> componen
     place->second = std::move(component);
     auto& registered = *place->second;
     parameters_.reset();
+    results_.clear();
     for (auto const& message : registered.profile().messages) {
         auto& list = by_message_[{message.kind, message.name}];
         list.insert(std::ranges::upper_bound(
@@ -217,6 +218,7 @@ void Registry::remove(RegisteredComponent const& component) {
         std::erase_if(by_message_[{message.kind, message.name}], [&](auto const* each) { return each == &component; });
     components_.erase(component.ref().code);
     parameters_.reset();
+    results_.clear();
 }
 
 Declarations const& Registry::parameters() const {
@@ -239,6 +241,16 @@ std::vector<RegisteredComponent*> const& Registry::with(MessageKind kind, std::s
     static std::vector<RegisteredComponent*> const none;
     auto const found = by_message_.find({kind, std::string{message}});
     return found == by_message_.end() ? none : found->second;
+}
+
+Declarations const& Registry::results(MessageKind kind, std::string_view message) const {
+    static Declarations const none;
+    auto const& able = with(kind, message);
+    if (able.empty()) return none;
+    auto const [place, missing] = results_.try_emplace({kind, std::string{message}});
+    if (missing)
+        for (auto const* component : able) place->second.add(find_message(component->profile(), kind, message)->results);
+    return place->second;
 }
 
 Registry::Bound Registry::bind(RegisteredComponent& component, Session& session) {

@@ -118,6 +118,9 @@ public:
     // The components whose profile has this message, ordered by ref.
     std::vector<RegisteredComponent*> const& with(MessageKind, std::string_view message) const;
 
+    // What those components tell with this message, as all their profiles say it. Good until the next change.
+    Declarations const& results(MessageKind, std::string_view message) const;
+
     // The parameters of all components: what conditions may speak of. Good until the next change.
     Declarations const& parameters() const;
 
@@ -126,7 +129,8 @@ public:
 
 private:
     Components components_;
-    mutable std::optional<Declarations> parameters_;  // nothing when they are to be gathered anew
+    mutable std::optional<Declarations> parameters_;                               // nothing when they are to be gathered anew
+    mutable std::map<std::pair<MessageKind, std::string>, Declarations> results_;  // those that were asked for since the change
     std::map<std::pair<MessageKind, std::string>, std::vector<RegisteredComponent*>> by_message_;
 };
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -29,7 +29,7 @@ struct Session {
     std::set<Subscription*> subscriptions;
     std::size_t predicates = 0;                                                // in the conditions of these
     std::unordered_map<CommandId, std::shared_ptr<Command>, IdHash> commands;  // all that are known (decision 17)
-    std::deque<std::shared_ptr<Command>> ended;                                // of these, in the order in which they ended
+    std::list<std::shared_ptr<Command>> ended;                                 // of these, in the order in which they ended
 
     // The link (decision 2): how many WebSockets and streams are open, and until when silence is no loss.
     std::size_t open_links = 0;

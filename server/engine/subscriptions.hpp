@@ -50,7 +50,7 @@ public:
 private:
     struct OfType {
         std::vector<Subscription*> all;
-        std::unordered_map<std::string_view, Subscription*> by_meaning;  // of their filters
+        std::unordered_map<std::string, Subscription*> by_meaning;  // of their filters
     };
 
     static void part(Session&, Subscription&);

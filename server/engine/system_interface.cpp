@@ -57,8 +57,7 @@ Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
     if (auto* problem = std::get_if<std::string>(&selection))
         return refused<GetProfile::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     GetProfile::Reply reply;
-    for (auto const* component : select(std::get<Selection>(selection), everyone(), session))
-        reply.components.push_back(component->entry());
+    for (auto const* component : select(std::get<Selection>(selection), session)) reply.components.push_back(component->entry());
     reply.profile = profile_of_those(profile_, reply.components);
     return reply;
 }

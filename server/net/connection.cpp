@@ -33,6 +33,7 @@ Task<> Connection::run() {
     loop_.connections_.insert(this);
     auto then = loop_.draining() ? Then::end : Then::next;
     while (then == Then::next) then = co_await serve();
+    if (then == Then::websocket) co_await serve_websocket();
     if (then == Then::linger) {
         co_await flush();
         co_await wire_.linger(now() + longest_linger);
@@ -103,7 +104,7 @@ Task<Connection::Then> Connection::receive_body(RequestHead const& head) {
     if (!head.http_1_0 && head.lists("Expect", "100-continue")) out_.append("HTTP/1.1 100 Continue\r\n\r\n");
     co_await flush();
     while (wire_.received().size() < head.content_length) {
-        auto const outcome = co_await wire_.receive(request_due_);
+        auto const outcome = co_await wire_.receive(request_due_, head.content_length - wire_.received().size());
         if (outcome == Wire::Outcome::closed) co_return Then::end;
         if (outcome == Wire::Outcome::late) co_return refuse(too_slow());
     }
@@ -113,7 +114,7 @@ Task<Connection::Then> Connection::receive_body(RequestHead const& head) {
 Task<Connection::Then> Connection::dispatch(Route const& route, RequestHead const& head) {
     if (head.method == "POST") co_return co_await serve_operation(head);
     wire_.use(head.content_length);
-    if (route.endpoint == Endpoint::rois) co_return co_await serve_upgrade(head);
+    if (route.endpoint == Endpoint::rois) co_return serve_upgrade(head);
     if (route.endpoint == Endpoint::notifications) co_return co_await serve_notifications(head);
     co_return reply(loop_.shared().documents.answer(route, head), head);
 }
@@ -129,26 +130,33 @@ Task<Connection::Then> Connection::serve_operation(RequestHead const& head) {
     if (answer.turn == Answer::Turn::connected) http.set("RoIS-Session", answer.session.text);
     if (answer.turn == Answer::Turn::disconnected) {
         co_await flush();
-        co_await others_heard(gateway, session, wire_.executor());
+        co_await others_heard(gateway, session, loop_.wakes());
     }
     holds_.push_back(std::move(answer.hold));
     co_return reply(http, head);
 }
 
-Task<Connection::Then> Connection::serve_upgrade(RequestHead const& head) {
+Connection::Then Connection::serve_upgrade(RequestHead const& head) {
     auto const& shared = loop_.shared();
-    if (shared.gateway.shutting_down()) co_return reply(answer_of(shutting_down()), head);
+    if (shared.gateway.shutting_down()) return reply(answer_of(shutting_down()), head);
     auto const answer = upgrade(head, shared.settings);
-    if (answer.status != 101) co_return reply(answer, head);
+    if (answer.status != 101) return reply(answer, head);
     append(out_, answer, {});
+    return Then::websocket;
+}
+
+// Of the request nothing is kept: there may be many thousand WebSockets that wait.
+Task<> Connection::serve_websocket() {
     co_await flush();
+    std::string{}.swap(head_text_);
+    std::string{}.swap(out_);
+    auto const& shared = loop_.shared();
     counted_.emplace(shared.telemetry, Telemetry::Kind::websocket);
     auto const websocket = std::make_shared<WebSocket>(std::shared_ptr<Wire>{shared_from_this(), &wire_}, shared.gateway,
-                                                       shared.telemetry, loop_.reader(), shared.settings);
+                                                       shared.telemetry, loop_.reader(), loop_.wakes(), shared.settings);
     websocket_ = websocket;
     if (loop_.draining()) websocket->shut_down();
     co_await websocket->run();
-    co_return Then::end;
 }
 
 Task<Connection::Then> Connection::serve_notifications(RequestHead const& head) {
@@ -161,12 +169,13 @@ Task<Connection::Then> Connection::serve_notifications(RequestHead const& head) 
     co_await flush();
     if (wanted.as == NotificationsWanted::As::stream && head.method == "GET") {
         counted_.emplace(shared.telemetry, Telemetry::Kind::stream);
-        auto const refused = co_await stream(wire_, shared.gateway, shared.telemetry, session, wanted, shared.settings);
+        auto const refused =
+            co_await stream(wire_, shared.gateway, shared.telemetry, loop_.wakes(), session, wanted, shared.settings);
         if (!refused) co_return Then::linger;
         counted_.emplace(shared.telemetry, Telemetry::Kind::http);
         co_return reply(*refused, head);
     }
-    auto const answer = co_await poll(wire_, shared.gateway, shared.telemetry, session, wanted);
+    auto const answer = co_await poll(wire_, shared.gateway, shared.telemetry, loop_.wakes(), session, wanted);
     co_return reply(answer, head);
 }
 

@@ -32,14 +32,15 @@ public:
 
 private:
     // What becomes of the connection after a request.
-    enum class Then : std::uint8_t { next, linger, end };
+    enum class Then : std::uint8_t { next, websocket, linger, end };
 
     Task<Then> serve();
     Task<std::variant<RequestHead, Then>> receive_head();
     Task<Then> receive_body(RequestHead const&);
     Task<Then> dispatch(Route const&, RequestHead const&);
     Task<Then> serve_operation(RequestHead const&);
-    Task<Then> serve_upgrade(RequestHead const&);
+    Then serve_upgrade(RequestHead const&);
+    Task<> serve_websocket();
     Task<Then> serve_notifications(RequestHead const&);
 
     // Both only queue the answer; flush sends what is queued.

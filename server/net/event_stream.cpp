@@ -27,8 +27,8 @@ HttpAnswer no_session() { return answer_of(no_such_session()); }
 
 // One event: its id is the sequence, its data the document line by line.
 void append_event(std::string& out, Numbered const& numbered) {
-    std::string document;
-    append_document(document, numbered);
+    auto const parts = document_of(numbered);
+    auto const document = parts.head + std::string{parts.tail};
     out.append("id: ").append(std::to_string(numbered.sequence)).append("\n");
     for (std::size_t begin = 0; begin <= document.size();) {
         auto const end = std::min(document.find_first_of("\r\n", begin), document.size());
@@ -63,10 +63,10 @@ std::variant<NotificationsWanted, Fault> read_wanted(RequestHead const& head) {
     return wanted;
 }
 
-Task<HttpAnswer> poll(Wire& wire, Gateway& gateway, Telemetry& telemetry, SessionId const& session,
+Task<HttpAnswer> poll(Wire& wire, Gateway& gateway, Telemetry& telemetry, Wakes& wakes, SessionId const& session,
                       NotificationsWanted const& wanted) {
     auto const until = std::chrono::steady_clock::now() + wanted.wait;
-    auto const signal = std::make_shared<Signal>(wire.executor());
+    auto const signal = std::make_shared<Signal>(wakes);
     auto const reading = gateway.read(session, Link::stream, wanted.after, *signal);
     if (!reading) co_return no_session();
     bool gone = false;
@@ -82,15 +82,18 @@ Task<HttpAnswer> poll(Wire& wire, Gateway& gateway, Telemetry& telemetry, Sessio
     }
     HttpAnswer answer;
     answer.body = xml::notifications_begin();
-    for (auto const& numbered : taken.notifications) append_document(answer.body, numbered);
+    for (auto const& numbered : taken.notifications) {
+        auto const document = document_of(numbered);
+        answer.body.append(document.head).append(document.tail);
+    }
     answer.body.append(xml::notifications_end());
     telemetry.delivered(taken.notifications.size());
     co_return answer;
 }
 
-Task<std::optional<HttpAnswer>> stream(Wire& wire, Gateway& gateway, Telemetry& telemetry, SessionId const& session,
+Task<std::optional<HttpAnswer>> stream(Wire& wire, Gateway& gateway, Telemetry& telemetry, Wakes& wakes, SessionId const& session,
                                        NotificationsWanted const& wanted, Settings const& settings) {
-    auto const signal = std::make_shared<Signal>(wire.executor());
+    auto const signal = std::make_shared<Signal>(wakes);
     auto const reading = gateway.read(session, Link::stream, wanted.after, *signal);
     if (!reading) co_return no_session();
     HttpAnswer head;
@@ -118,9 +121,9 @@ Task<std::optional<HttpAnswer>> stream(Wire& wire, Gateway& gateway, Telemetry& 
     co_return std::nullopt;
 }
 
-Task<> others_heard(Gateway& gateway, SessionId const& session, Executor executor) {
+Task<> others_heard(Gateway& gateway, SessionId const& session, Wakes& wakes) {
     auto const until = std::chrono::steady_clock::now() + std::chrono::seconds{1};
-    auto const signal = std::make_shared<Signal>(executor);
+    auto const signal = std::make_shared<Signal>(wakes);
     Farewell const farewell{gateway, session, *signal};
     while (!farewell.alone()) {
         auto const woken = co_await signal->wait_until(until);

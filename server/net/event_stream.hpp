@@ -19,13 +19,13 @@ struct NotificationsWanted {
 std::variant<NotificationsWanted, Fault> read_wanted(RequestHead const&);
 
 // Waits until there is something to answer, the time has passed or the peer has gone. Null `reading`: no such session.
-Task<HttpAnswer> poll(Wire&, Gateway&, Telemetry&, SessionId const&, NotificationsWanted const&);
+Task<HttpAnswer> poll(Wire&, Gateway&, Telemetry&, Wakes&, SessionId const&, NotificationsWanted const&);
 
 // Sends events until the session has ended or the connection breaks; answers with a fault when there is no such session.
-Task<std::optional<HttpAnswer>> stream(Wire&, Gateway&, Telemetry&, SessionId const&, NotificationsWanted const&,
+Task<std::optional<HttpAnswer>> stream(Wire&, Gateway&, Telemetry&, Wakes&, SessionId const&, NotificationsWanted const&,
                                        Settings const&);
 
 // Waits until all readers of a session that has disconnected have taken what was left for them, or a second has passed.
-Task<> others_heard(Gateway&, SessionId const&, Executor);
+Task<> others_heard(Gateway&, SessionId const&, Wakes&);
 
 }  // namespace rois::net

@@ -89,9 +89,9 @@ Fault shutting_down() { return {FaultCode::shutting_down, "the gateway is shutti
 
 Fault no_such_session() { return {FaultCode::no_session, "there is no such session; connect first", {}, {}}; }
 
-void append_document(std::string& out, Numbered const& numbered) {
-    out.append(xml::notification_head(numbered.notification->body, numbered.sequence));
-    out.append(numbered.notification->text(xml::notification_tail));
+NotificationDocument document_of(Numbered const& numbered) {
+    auto const& notification = *numbered.notification;
+    return {xml::notification_head(notification.body, numbered.sequence), notification.text(xml::notification_tail)};
 }
 
 Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std::string_view text, Via via) {

@@ -73,8 +73,13 @@ private:
 Fault no_such_session();
 Fault shutting_down();
 
-// The document of a notification (wire.md). What all its receivers share is encoded once.
-void append_document(std::string& out, Numbered const&);
+// The document of a notification (wire.md), in two parts: its session's own, and what all its receivers share, which is encoded
+// once and lives as long as the notification.
+struct NotificationDocument {
+    std::string head;
+    std::string_view tail;
+};
+NotificationDocument document_of(Numbered const&);
 
 enum class Via : std::uint8_t { http, websocket };
 

@@ -9,6 +9,7 @@
 #include "net/gateway.hpp"
 #include "net/settings.hpp"
 #include "net/telemetry.hpp"
+#include "net/wakes.hpp"
 
 namespace rois::net {
 
@@ -42,6 +43,7 @@ public:
     Shared const& shared() const { return shared_; }
     xml::RequestReader& reader() { return reader_; }
     Executor executor() { return io_.get_executor(); }
+    Wakes& wakes() { return wakes_; }
 
 private:
     friend class Connection;
@@ -53,6 +55,7 @@ private:
     std::unordered_set<Connection*> connections_;
     Steady last_moment_ = Steady::max();  // set by shut_down: at that time whoever is still there is cut
     asio::io_context io_{1};
+    Wakes wakes_{io_.get_executor()};
 };
 
 }  // namespace rois::net

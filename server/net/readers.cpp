@@ -2,13 +2,30 @@
 
 #include <algorithm>
 
+#include "net/wakes.hpp"
+
 namespace rois::net {
+
+void Reader::wake() {
+    if (!waiting_.exchange(true)) wakes_.add(shared_from_this());
+}
+
+void Reader::take_over() {
+    taken_over_ = true;
+    wake();
+}
+
+void Reader::serve() {
+    waiting_ = false;
+    if (taken_over_.exchange(false)) taken_over();
+    woken();
+}
 
 void Readers::join(SessionId const& session, Link link, Reader& reader) {
     auto& readers = readers_[session];
     if (link == Link::websocket) {
         std::erase_if(readers, [](Joined const& other) {
-            if (other.link == Link::websocket) other.reader->taken_over();
+            if (other.link == Link::websocket) other.reader->take_over();
             return other.link == Link::websocket;
         });
     }

@@ -1,17 +1,8 @@
 #include "net/signal.hpp"
 
-#include <boost/asio/post.hpp>
 #include <utility>
 
 namespace rois::net {
-
-void Signal::wake() {
-    if (posted_.exchange(true)) return;
-    asio::post(timer_.get_executor(), [self = shared_from_this()] {
-        self->posted_ = false;
-        self->raise();
-    });
-}
 
 void Signal::raise() {
     raised_ = true;

@@ -4,7 +4,6 @@
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
-#include <boost/asio/post.hpp>
 #include <utility>
 
 #include "net/event_stream.hpp"
@@ -25,15 +24,16 @@ Steady now() { return std::chrono::steady_clock::now(); }
 
 }  // namespace
 
-WebSocket::WebSocket(std::shared_ptr<Wire> wire, Gateway& gateway, Telemetry& telemetry, xml::RequestReader& reader,
+WebSocket::WebSocket(std::shared_ptr<Wire> wire, Gateway& gateway, Telemetry& telemetry, xml::RequestReader& reader, Wakes& wakes,
                      Settings const& settings)
-    : wire_{std::move(wire)},
+    : Reader{wakes},
+      wire_{std::move(wire)},
       gateway_{gateway},
       telemetry_{telemetry},
       reader_{reader},
       settings_{settings},
       messages_{settings.document.bytes, settings.max_fragments},
-      room_{std::make_shared<Signal>(wire_->executor())},
+      room_{std::make_shared<Signal>(wakes)},
       heard_{now()} {}
 
 Task<> WebSocket::run() {
@@ -87,7 +87,7 @@ Task<> WebSocket::take_text(std::string_view text) {
         }
         reading_.reset();
         flush();
-        co_await others_heard(gateway_, session_, wire_->executor());
+        co_await others_heard(gateway_, session_, wakes());
     }
     append_frame(answers_, Opcode::text, answer.document);
     ++answers_waiting_;
@@ -131,29 +131,18 @@ void WebSocket::close(Ending ending) {
     ending_ = ending;
 }
 
-void WebSocket::wake() {
-    if (wake_posted_.exchange(true)) return;
-    asio::post(wire_->executor(), [self = shared_from_this()] {
-        self->wake_posted_ = false;
-        self->flush();
-    });
-}
-
-void WebSocket::taken_over() {
-    asio::post(wire_->executor(), [self = shared_from_this()] {
-        self->close({CloseCode::policy_violation, "the session goes on elsewhere"});
-        self->flush();
-    });
-}
+void WebSocket::taken_over() { close({CloseCode::policy_violation, "the session goes on elsewhere"}); }
 
 void WebSocket::sweep(Steady at) {
     if (at >= close_due_ || at >= heard_ + 2 * settings_.ping_interval) {
         wire_->cut();
         return;
     }
-    if (at >= message_due_) close({CloseCode::policy_violation, "the message did not arrive in time"});
-    if (at >= heard_ + settings_.ping_interval && !std::exchange(pinged_, true)) ping_due_ = true;
-    flush();
+    bool const late = at >= message_due_ && !ending_;
+    bool const silent = at >= heard_ + settings_.ping_interval && !std::exchange(pinged_, true);
+    if (late) close({CloseCode::policy_violation, "the message did not arrive in time"});
+    if (silent) ping_due_ = true;
+    if (late || silent) flush();
 }
 
 void WebSocket::shut_down() {
@@ -167,7 +156,9 @@ void WebSocket::flush() {
         if (sent < out_.size()) {
             writing_ = true;
             asio::co_spawn(
-                wire_->executor(), [self = shared_from_this(), sent] { return self->drain(sent); }, asio::detached);
+                wire_->executor(),
+                [self = std::static_pointer_cast<WebSocket>(shared_from_this()), sent] { return self->drain(sent); },
+                asio::detached);
             return;
         }
         written();
@@ -195,11 +186,10 @@ bool WebSocket::gather() {
 bool WebSocket::gather_notifications(std::string& out) {
     if (!reading_) return false;
     auto const taken = reading_->take(most_at_once);
-    std::string document;
     for (auto const& numbered : taken.notifications) {
-        document.clear();
-        append_document(document, numbered);
-        append_frame(out, Opcode::text, document);
+        auto const document = document_of(numbered);
+        append_text_head(out, document.head.size() + document.tail.size());
+        out.append(document.head).append(document.tail);
     }
     telemetry_.delivered(taken.notifications.size());
     session_over_ = taken.then == Reading::Then::ended || taken.then == Reading::Then::overflowed;

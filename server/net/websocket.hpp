@@ -16,15 +16,12 @@ namespace rois::net {
 
 // Answers and notifications are gathered and go out in as few writes as possible: whoever has something to say calls `flush`,
 // which writes at once as long as the peer keeps up, and leaves the rest to `drain` when it does not.
-class WebSocket : public Reader, public std::enable_shared_from_this<WebSocket> {
+class WebSocket : public Reader {
 public:
-    WebSocket(std::shared_ptr<Wire>, Gateway&, Telemetry&, xml::RequestReader&, Settings const&);
+    WebSocket(std::shared_ptr<Wire>, Gateway&, Telemetry&, xml::RequestReader&, Wakes&, Settings const&);
 
     // After the handshake has been answered: until the connection is over.
     Task<> run();
-
-    void wake() override;        // from any thread
-    void taken_over() override;  // from any thread
 
     // Looks at the clock: pings who is silent, closes for who sends a message too slowly.
     void sweep(Steady now);
@@ -36,6 +33,9 @@ private:
         CloseCode code;
         std::string_view reason;
     };
+
+    void woken() override { flush(); }
+    void taken_over() override;
 
     Task<> take_frames();
     Task<> take_text(std::string_view);
@@ -60,7 +60,6 @@ private:
     SessionId session_;
     std::unique_ptr<Reading> reading_;  // of the session, until its last notification was written
     bool session_over_ = false;         // reading_ has given its last
-    std::atomic<bool> wake_posted_ = false;
 
     std::string answers_;  // frames that wait for the next write
     std::size_t answers_waiting_ = 0;

@@ -11,8 +11,10 @@ namespace rois::net {
 
 namespace {
 
-constexpr std::size_t smallest_read = 2 * 1024;
+constexpr std::size_t smallest_read = 1024;
+constexpr std::size_t largest_kept = 4 * 1024;  // while nothing is there
 constexpr std::size_t largest_read = 64 * 1024;
+constexpr std::size_t most_promised = 16 * 1024;  // memory for what a peer says it will send
 
 }  // namespace
 
@@ -28,13 +30,15 @@ void Wire::use(std::size_t bytes) {
     if (used_ < input_.size()) return;
     input_.clear();
     used_ = 0;
-    if (input_.capacity() > largest_read) input_.shrink_to_fit();
 }
 
-Task<Wire::Outcome> Wire::receive(Steady until) {
+// A read that fills less than its buffer tells Asio to wait for the next bytes before it reads again: a request costs one read.
+// The buffer of a connection that waits for its next request is small, since there may be many of them.
+Task<Wire::Outcome> Wire::receive(Steady until, std::size_t expected) {
     input_.erase(0, std::exchange(used_, 0));
     auto const before = input_.size();
-    input_.resize(before + std::clamp(before, smallest_read, largest_read));
+    if (before == 0 && input_.capacity() > largest_kept) std::string{}.swap(input_);
+    input_.resize(before + std::clamp(std::max(before, std::min(expected, most_promised)), smallest_read, largest_read));
     input_due_ = until;
     boost::system::error_code error;
     auto const size = co_await socket_.async_read_some(asio::buffer(input_.data() + before, input_.size() - before), into(error));

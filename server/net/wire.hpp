@@ -26,8 +26,8 @@ public:
 
     enum class Outcome : std::uint8_t { done, closed, late };
 
-    // Waits for at least one more byte.
-    Task<Outcome> receive(Steady until);
+    // Waits for at least one more byte; `expected` says how many are on their way, when that is known.
+    Task<Outcome> receive(Steady until, std::size_t expected = 0);
     // Ends a receive that waits: it is late now.
     void stop_waiting();
 

@@ -1,8 +1,6 @@
 #include "types/instant.hpp"
 
-#include <array>
 #include <charconv>
-#include <cstdio>
 
 #include "types/texts.hpp"
 
@@ -122,17 +120,23 @@ std::optional<Period> to_period(std::string_view text) {
     return whole_days(year_month_day{*date}, year_month_day{*date + std::chrono::days{1}});
 }
 
+// Of a clock that counts nanoseconds, whose years have four digits.
 std::string to_text(Utc time) {
     auto const day = floor<days>(time);
     year_month_day const date{day};
     hh_mm_ss const clock{floor<milliseconds>(time - day)};
-    std::array<char, 64> text{};
-    auto const length =
-        std::snprintf(text.data(), text.size(), "%04d-%02u-%02uT%02d:%02d:%02d.%03dZ", static_cast<int>(date.year()),
-                      static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
-                      static_cast<int>(clock.hours().count()), static_cast<int>(clock.minutes().count()),
-                      static_cast<int>(clock.seconds().count()), static_cast<int>(clock.subseconds().count()));
-    return {text.data(), static_cast<std::size_t>(length)};
+    std::string text = "0000-00-00T00:00:00.000Z";
+    auto const put = [&text](std::size_t last, auto number) {
+        for (auto rest = static_cast<unsigned>(number); rest > 0; rest /= 10) text[last--] = static_cast<char>('0' + rest % 10);
+    };
+    put(3, static_cast<int>(date.year()));
+    put(6, static_cast<unsigned>(date.month()));
+    put(9, static_cast<unsigned>(date.day()));
+    put(12, clock.hours().count());
+    put(15, clock.minutes().count());
+    put(18, clock.seconds().count());
+    put(22, clock.subseconds().count());
+    return text;
 }
 
 }  // namespace rois

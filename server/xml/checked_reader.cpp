@@ -44,14 +44,12 @@ std::size_t tag_before(pugi::xml_node root, std::size_t offset) {
 
 }  // namespace
 
-CheckedReader::CheckedReader(std::shared_ptr<Schemas const> schemas, DocumentLimits limits, Validation validation,
-                             std::span<std::string_view const> roots)
-    : schemas_{std::move(schemas)},
-      limits_{limits},
-      validation_{validation},
-      roots_{roots},
-      acceptor_{schemas_, limits},
-      validator_{schemas_} {}
+CheckedReader::CheckedReader(std::shared_ptr<Schemas const> schemas, DocumentLimits limits,
+                             std::span<std::string_view const> roots, ForeignNamespaces foreign, Validation validation)
+    : schemas_{std::move(schemas)}, limits_{limits}, roots_{roots}, foreign_{foreign} {
+    if (schemas_) validator_.emplace(schemas_);
+    if (schemas_ && validation == Validation::fast) acceptor_.emplace(schemas_, limits);
+}
 
 std::optional<Fault> CheckedReader::read(std::string_view document) {
     checked_.reset();
@@ -64,9 +62,9 @@ std::optional<Fault> CheckedReader::read(std::string_view document) {
     document_ = document;
     bytes_ = document;
 
-    checked_ = validation_ == Validation::fast && acceptor_.accepts(bytes_) ? Validation::fast : Validation::full;
+    checked_ = acceptor_ && acceptor_->accepts(bytes_) ? Validation::fast : Validation::full;
     if (checked_ == Validation::full) {
-        if (auto fault = judge()) return fault;
+        if (auto fault = check_in_full()) return fault;
     }
     if (auto const result = tree_.load_buffer_inplace(bytes_.data(), bytes_.size(), as_xerces_reads, pugi::encoding_utf8);
         !result) {
@@ -75,19 +73,30 @@ std::optional<Fault> CheckedReader::read(std::string_view document) {
     return std::nullopt;
 }
 
-// Nothing when the document is well-formed and valid; its namespaces have today's form then.
-std::optional<Fault> CheckedReader::judge() {
-    auto const outcome = scan(bytes_, limits_, schemas_->grammars().namespaces());
+// Writes today's form of its namespaces into the bytes.
+std::optional<Fault> CheckedReader::check_in_full() {
+    std::span<std::string const> namespaces;
+    if (schemas_) namespaces = schemas_->grammars().namespaces();
+    auto const outcome = scan(bytes_, limits_, namespaces);
     if (auto const* refusal = std::get_if<Refusal>(&outcome)) return refused(refusal->code, refusal->reason, refusal->offset);
-    auto const& scanned = std::get<Scanned>(outcome);
-    if (scanned.foreign) return not_valid(about(*scanned.foreign), scanned);
-    if (auto const objection = validator_.objection_to(bytes_)) return not_valid(*objection, scanned);
-    return std::nullopt;
+    return objection_to(std::get<Scanned>(outcome));
+}
+
+std::optional<Fault> CheckedReader::objection_to(Scanned const& scanned) {
+    if (!validator_) {
+        auto const objection = objection_to_form(bytes_);
+        return objection ? std::optional{not_well_formed(*objection, scanned)} : std::nullopt;
+    }
+    if (scanned.foreign && foreign_ == ForeignNamespaces::refused) return not_valid(about(*scanned.foreign), scanned);
+    auto const objection = validator_->objection_to(bytes_);
+    return objection ? std::optional{not_valid(*objection, scanned)} : std::nullopt;
 }
 
 Fault CheckedReader::complain(pugi::xml_node element, std::string reason) const {
     return refused(FaultCode::invalid, std::move(reason), offset_of(element));
 }
+
+Place CheckedReader::place(pugi::xml_node element) const { return place_of(document_, offset_of(element)); }
 
 Fault CheckedReader::refused(FaultCode code, std::string reason, std::size_t offset) const {
     return {code, std::move(reason), place_of(document_, offset), request_id_of(document_)};

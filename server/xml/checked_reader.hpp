@@ -1,6 +1,7 @@
 // From bytes to a tree, for documents that are well-formed and valid: the way of every document into the program.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <pugixml.hpp>
@@ -16,14 +17,18 @@
 
 namespace rois::xml {
 
+// Whether a document may declare a namespace that no schema knows. Where schemas let anything stand somewhere, it may there.
+enum class ForeignNamespaces : std::uint8_t { refused, as_the_schemas_say };
+
 // Checks a document's bytes and parses the very same bytes into a tree. What the tables of the schemas accept is taken;
 // everything else is looked over by the scan and judged by xerces-c, which has the last word. Keeps its parsers and buffers; for
 // one thread.
 class CheckedReader {
 public:
-    // `roots` are the elements that a fault names when the root is another one; none: any that the schemas have.
-    CheckedReader(std::shared_ptr<Schemas const>, DocumentLimits, Validation = Validation::fast,
-                  std::span<std::string_view const> roots = {});
+    // Without schemas it looks at a document's form alone. `roots` are the elements that a fault names when the root is another
+    // one; none: any that the schemas have.
+    CheckedReader(std::shared_ptr<Schemas const>, DocumentLimits, std::span<std::string_view const> roots = {},
+                  ForeignNamespaces = ForeignNamespaces::refused, Validation = Validation::fast);
 
     // Nothing when all is well: then `root` is the document's, until the next call. The document must live as long as it is asked
     // about.
@@ -35,9 +40,11 @@ public:
 
     // A fault about an element of the last document.
     Fault complain(pugi::xml_node element, std::string reason) const;
+    Place place(pugi::xml_node element) const;
 
 private:
-    std::optional<Fault> judge();
+    std::optional<Fault> check_in_full();
+    std::optional<Fault> objection_to(Scanned const&);
     Fault refused(FaultCode, std::string reason, std::size_t offset) const;
     Fault not_well_formed(Objection const&, Scanned const&) const;
     Fault not_valid(Objection const&, Scanned const&) const;
@@ -45,10 +52,10 @@ private:
 
     std::shared_ptr<Schemas const> schemas_;
     DocumentLimits limits_;
-    Validation validation_;
     std::span<std::string_view const> roots_;
-    Acceptor acceptor_;
-    Validator validator_;
+    ForeignNamespaces foreign_;
+    std::optional<Acceptor> acceptor_;
+    std::optional<Validator> validator_;
     std::string_view document_;  // the last one, as it came
     std::string bytes_;          // it with its namespaces in today's form; the tree points into it
     pugi::xml_document tree_;

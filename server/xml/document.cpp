@@ -4,6 +4,7 @@
 
 #include "types/texts.hpp"
 #include "xml/checked_reader.hpp"
+#include "xml/names.hpp"
 #include "xml/tree.hpp"
 
 namespace rois::xml {
@@ -18,7 +19,9 @@ std::string at(std::string const& name, Fault const& fault) {
 // A file as it was read, with its tree. Its elements keep it alive.
 struct Opened {
     Opened(std::string its_name, std::string its_text, std::shared_ptr<Schemas const> schemas)
-        : name{std::move(its_name)}, text{std::move(its_text)}, reader{std::move(schemas), DocumentLimits{}} {}
+        : name{std::move(its_name)},
+          text{std::move(its_text)},
+          reader{std::move(schemas), DocumentLimits{}, {}, ForeignNamespaces::as_the_schemas_say} {}
 
     std::string name;
     std::string text;
@@ -33,6 +36,22 @@ struct Element::Node {
 };
 
 std::string_view Element::name() const { return local_name(node_->node); }
+
+std::string_view Element::name_space() const { return namespace_of(node_->node, prefix_of(node_->node.name())); }
+
+std::vector<Attribute> Element::attributes() const {
+    std::vector<Attribute> all;
+    for (auto const each : node_->node.attributes()) {
+        std::string_view const full = each.name();
+        if (declares_namespace(full)) continue;
+        auto const prefix = prefix_of(full);
+        auto const name_space = prefix.empty() ? std::string_view{} : namespace_of(node_->node, prefix);
+        all.push_back({name_space, local_part(full), each.value()});
+    }
+    return all;
+}
+
+Place Element::place() const { return node_->document->reader.place(node_->node); }
 
 std::vector<Element> Element::children() const {
     std::vector<Element> elements;
@@ -107,6 +126,14 @@ Document Document::parse(std::shared_ptr<Schemas const> schemas, std::string nam
     if (auto const fault = opened->reader.read(opened->text)) {
         throw BadDocument{at(opened->name, *fault)};
     }
+    Document document;
+    document.root_.node_ = std::make_shared<Element::Node const>(Element::Node{opened, opened->reader.root()});
+    return document;
+}
+
+std::variant<Document, Fault> Document::read_well_formed(std::string text) {
+    auto opened = std::make_shared<Opened>(std::string{}, std::move(text), nullptr);
+    if (auto fault = opened->reader.read(opened->text)) return *std::move(fault);
     Document document;
     document.root_.node_ = std::make_shared<Element::Node const>(Element::Node{opened, opened->reader.root()});
     return document;

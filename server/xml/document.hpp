@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "types/messages.hpp"
 #include "xml/schemas.hpp"
 
 namespace rois::xml {
@@ -20,10 +21,21 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-// An element of a document, which it keeps alive. Cheap to copy. Names are local names; namespaces were checked by validation.
+// An attribute as it stands, of its namespace; that of a name without prefix is empty. The names live as long as the document.
+struct Attribute {
+    std::string_view name_space;
+    std::string_view name;  // local
+    std::string value;
+};
+
+// An element of a document, which it keeps alive. Cheap to copy. Names are local names; namespaces were checked by validation,
+// or, where nothing was validated, are the caller's to look at.
 class Element {
 public:
     std::string_view name() const;
+    std::string_view name_space() const;                         // empty: none
+    std::vector<Attribute> attributes() const;                   // in order; without declarations of namespaces
+    Place place() const;                                         // of its start tag
     std::vector<Element> children() const;                       // elements only, in order
     std::vector<Element> children(std::string_view name) const;  // those of that name
     std::optional<Element> child(std::string_view name) const;   // the first of that name
@@ -46,11 +58,15 @@ private:
     std::shared_ptr<Node const> node_;
 };
 
-// A validated document.
+// A document that was read.
 class Document {
 public:
     // `name` is the file's name for messages. Throws BadDocument when it is not well-formed or not valid.
     static Document parse(std::shared_ptr<Schemas const>, std::string name, std::string text);
+
+    // One that is well-formed, with namespaces, and within the limits of documents; no schema is asked. The fault says what is
+    // wrong and where.
+    static std::variant<Document, Fault> read_well_formed(std::string text);
 
     Element root() const;
 

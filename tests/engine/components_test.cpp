@@ -41,6 +41,12 @@ Parameter pattern(std::string numbers) { return value("pattern", "INT[]", {std::
 
 }  // namespace
 
+TEST(Component, HasARefWithoutWhiteSpaceAtItsEnds) {
+    EXPECT_THROW(World({named(" lamp", desk_lamp)}), std::runtime_error);
+    EXPECT_THROW(World({named("lamp\n", desk_lamp)}), std::runtime_error);
+    EXPECT_NO_THROW(World({named("desk lamp", desk_lamp)}));
+}
+
 TEST(UserDefined, CommandsAreHeldAgainstTheirProfile) {
     World world{blinking_lamp()};
     auto desk = world.connect();

@@ -109,6 +109,12 @@ TEST_F(Decision13, WhatIsNotOkEndsItsSequence) {
     desk.release("speech");
     world["navigation"].finishes();
     EXPECT_THAT(desk.heard(), ElementsAre("6 completed f OK", "7 completed g ABORT", "8 completed h ABORT")) << "a lost binding";
+    desk.bind("speech");
+    desk.execute(go("i"), say("j"));
+    desk.release("speech");
+    desk.bind("speech");
+    world["navigation"].finishes();
+    EXPECT_THAT(desk.heard(), ElementsAre("9 completed i OK", "10 completed j ABORT")) << "binding again does not find it";
 }
 
 TEST_F(Decision14, AllFormsOfSequencesAreTaken) {

@@ -143,6 +143,23 @@ TEST(Decision23, EventsAreDroppedAndWhatMustBeToldIsNot) {
     EXPECT_EQ(desk.heard().size(), 5U) << "and are told all the same";
 }
 
+TEST(Decision23, ErrorsAreNeverDropped) {
+    EngineSettings settings;
+    settings.max_waiting_notifications = 4;
+    World world{{detection, navigation}, settings};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.subscribe("person_detected");
+    world["navigation"].reports(ErrorType::user_defined_error, "a wheel is stuck");
+    for (int i = 0; i < 6; ++i) world["detection"].fires("person_detected");
+    EXPECT_THAT(desk.heard(), ElementsAre("1 USER_DEFINED_ERROR navigation", "4 lost 3", "5 person_detected detection",
+                                          "6 person_detected detection", "7 person_detected detection"));
+    for (int i = 0; i < 4; ++i) world["navigation"].reports(ErrorType::user_defined_error, "a wheel is stuck");
+    EXPECT_FALSE(desk.told_of_the_end());
+    world["navigation"].reports(ErrorType::user_defined_error, "a wheel is stuck");
+    EXPECT_TRUE(desk.told_of_the_end()) << "they alone fill it";
+}
+
 TEST(Decision23, APositionOlderThanTheRingBeginsWithWhatIsLost) {
     EngineSettings settings;
     settings.max_sent_notifications = 2;
@@ -212,6 +229,39 @@ TEST(Decision26, ValuesAreOfTheirDeclaredTypes) {
     EXPECT_THAT(set(value("count", "string", {"7"})), HasSubstr("'count' is declared as 'string', its type is int"));
     EXPECT_THAT(set(value("count", "int", {"1", "2"})), HasSubstr("'count': a single value of the type int needs exactly one"));
     EXPECT_THAT(set(value("colour", "string", {"red"})), HasSubstr("unknown parameter 'colour'"));
+}
+
+TEST(Decision26, PublishedSpellingsAreTakenAndWrittenAsTheSeedHasThem) {
+    World world{navigation, speech};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.bind("speech");
+    EXPECT_EQ(desk.set_parameter("navigation", {texts("target_positions", {"1, 2, 3"})}).return_code, ReturnCode::ok);
+    EXPECT_EQ(find(desk.get_parameter("navigation").parameters, "target_positions"), nullptr);
+    auto const stored = desk.get_parameter("navigation").parameters;
+    ASSERT_NE(find(stored, "target_position"), nullptr);
+    EXPECT_THAT(find(stored, "target_position")->values, ElementsAre("1, 2, 3"));
+    EXPECT_EQ(desk.set_parameter("speech", {text("ssml_text", "<speak/>")}).return_code, ReturnCode::ok);
+    EXPECT_NE(find(desk.get_parameter("speech").parameters, "SSML_text"), nullptr);
+}
+
+// The map of robot2 begins at (1000, 2000) of the hall, and its x axis is the hall's y axis.
+TEST(Decision27, TheEngineConvertsBetweenTheFramesOfItsSubEngines) {
+    auto driver = in_engine("robot2", navigation), finder = in_engine("robot2", localization);
+    driver.crs = finder.crs = "map";
+    driver.positions = {"target_position"};
+    World world{driver, finder};
+    world.engine->describe(
+        {.frames = {"hall",
+                    {{.crs = "map", .base = "hall", .position = {1'000, 2'000, 0}, .orientation = {0, 0, 90}, .covariance = {}}}},
+         .all = {}});
+    auto desk = world.connect();
+    desk.bind("robot2.navigation");
+    desk.subscribe("person_localized", {}, true);
+    world["robot2.localization"].fires("person_localized", {positions("position_data", {"3000, 0, 30"}, "map")});
+    EXPECT_THAT(desk.heard(), ElementsAre("1 person_localized robot2.localization position_data=1000, 5000, 120"));
+    desk.execute(start("robot2.navigation", {positions("target_position", {"1000, 5000, 120"}, "hall")}));
+    EXPECT_THAT(world["robot2.navigation"].started_with.front().values, ElementsAre("3000, 0, 30"));
 }
 
 TEST(Decision28, TimesAreUtc) {

@@ -73,6 +73,19 @@ TEST(Decision02, ALostLinkMayBeResumedForAWhileAndThenEndsTheSession) {
     EXPECT_FALSE(is_open(world, over_http));
 }
 
+// The first look at the end of its window is due before the later request lets it end.
+TEST(Decision02, ARequestPutsTheEndOffByTheTimeoutAndTheWholeWindow) {
+    World world{navigation};
+    auto over_http = world.connect_without_link();
+    world.engine->heard_from(over_http.session, world.now);
+    world.advance(10s);
+    world.engine->heard_from(over_http.session, world.now);
+    world.advance(89'950ms);
+    EXPECT_TRUE(is_open(world, over_http)) << "60 s and 30 s after the second one";
+    world.advance(50ms);
+    EXPECT_FALSE(is_open(world, over_http));
+}
+
 TEST(Decision03, TheEndOfASessionStopsReleasesAndCancels) {
     World world{navigation, speech, detection};
     auto desk = world.connect(), hall = world.connect();

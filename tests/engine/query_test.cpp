@@ -88,6 +88,39 @@ TEST(Query, AsksOnlyWhomTheConditionLeaves) {
         << "robot_a was never asked";
 }
 
+TEST(Query, AsksNobodyBehindTheOneThatIsReady) {
+    World world{named("robot_a", navigation), named("robot_b", navigation), named("robot_c", navigation)};
+    auto desk = world.connect();
+    world["robot_a"].status_now = ComponentStatus::warning;
+    world["robot_c"].throws_in = {"query"};
+    EXPECT_EQ(desk.query("route", equal("length", "2.5")).component_ref.code, "robot_b");
+    EXPECT_EQ(desk.query("component_status", equal("name", "robot_c")).results.parameters.front(),
+              status_of("status", ComponentStatus::ready))
+        << "robot_c was never asked";
+}
+
+// However the condition names components, it finds those that it would find among all.
+TEST(Query, FindsTheComponentsThatTheConditionNames) {
+    World world{named("robot_a", navigation), named("robot_b", navigation), named("robot_c", navigation), speech};
+    auto desk = world.connect();
+    auto const found = [&](QueryExpression const& condition) { return desk.query("route", condition).component_ref.code; };
+    auto const a = equal("component_ref", "robot_a"), b = equal("name", " robot_b "), speaker = equal("name", "speech");
+    EXPECT_EQ(found(either({b, a})), "robot_a") << "the lowest ref";
+    EXPECT_EQ(found(either({b, speaker})), "robot_b");
+    EXPECT_EQ(found(both({either({a, b}), contrary(a)})), "robot_b");
+    EXPECT_EQ(found(both({a, b})), "");
+    EXPECT_EQ(found(either({b, equal("bound", "true")})), "robot_b") << "any, as far as the condition says";
+    EXPECT_EQ(found(Condition{PropertyComparison{Comparator::equal, literal("robot_c"), reference("component_ref")}}), "robot_c");
+    EXPECT_EQ(found(Condition{PropertyComparison{Comparator::equal, reference("component_ref"), literal("ROBOT_C"), false}}),
+              "robot_c");
+    EXPECT_EQ(found(Condition{PropertyComparison{Comparator::not_equal, reference("component_ref"), literal("robot_a")}}),
+              "robot_b");
+    EXPECT_EQ(found(contrary(a)), "robot_b");
+    EXPECT_EQ(found(equal("component_ref/@authority", "OMG")), "robot_a");
+    EXPECT_EQ(found(Condition{ResourceId{"robot_c"}}), "robot_c");
+    EXPECT_EQ(found(either({Condition{ResourceId{"robot_c"}}, b})), "robot_b");
+}
+
 TEST(Query, SpeaksOfComponentsFirst) {
     World world{navigation, speech};
     auto desk = world.connect();

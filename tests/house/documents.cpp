@@ -81,7 +81,7 @@ Complaints against_links(Tree const& tree) {
 
 Complaints against_named_dependencies(Tree const& tree) {
     static std::regex const found_by_cmake(R"re(^\s*find_package\(\s*([^\s)]+).*)re");
-    static std::regex const installed_by_dev(R"re(^(?:build|test|check)\s+([a-z0-9][a-z0-9.+-]+)\s+\S.*)re");
+    static std::regex const installed_by_dev(R"re(^(?:build|test|check|bench)\s+([a-z0-9][a-z0-9.+-]+)\s+\S.*)re");
     Complaints complaints;
     for (auto const& [file, text] : tree) {
         bool const by_cmake = file == "CMakeLists.txt" || file.ends_with("/CMakeLists.txt") || file.ends_with(".cmake");

@@ -138,10 +138,11 @@ TEST(Links, ThatLeadNowhereAreSeen) {
 TEST(Dependencies, AreNamedByTheDocument) {
     Tree const tree{{"CMakeLists.txt", "find_package(Boost 1.81 REQUIRED)\nfind_package(Magic)\n"},
                     {"server/CMakeLists.txt", "    find_package(spdlog REQUIRED)\n"},
-                    {"dev", "packages='\nbuild  g++       compiles\ntest   libmagic-dev  conjures\n'\n"},
+                    {"dev", "packages='\nbuild  g++       compiles\ntest   libmagic-dev  conjures\nbench  wizard  races\n'\n"},
                     {"docs/dependencies.md", "| `Boost` | `spdlog` | `g++` |\n"}};
     EXPECT_THAT(against_named_dependencies(tree), ElementsAre("CMakeLists.txt:2: docs/dependencies.md does not name `Magic`",
-                                                              "dev:3: docs/dependencies.md does not name `libmagic-dev`"));
+                                                              "dev:3: docs/dependencies.md does not name `libmagic-dev`",
+                                                              "dev:4: docs/dependencies.md does not name `wizard`"));
 }
 
 TEST(Dependencies, NeedTheDocument) {

@@ -97,5 +97,33 @@ TEST_P(Errors, OfAComponentThatDoesNotStartAreTimeouts) {
     EXPECT_THAT(detail_of(error.text("error_id")).values(), Contains(Pair("component_ref", ElementsAre("speech_synthesis"))));
 }
 
+struct OtherFaults : testing::TestWithParam<Way> {
+    GatewayProcess robot{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/complaining.xml"}};
+    Application desk{GetParam(), robot};
+
+    OtherFaults() { desk.connect(); }
+};
+ROIS_OVER_BOTH_WAYS(OtherFaults);
+
+TEST_P(OtherFaults, AQueryToASilentComponentTellsThatItDoesNotRespond) {
+    EXPECT_THAT(desk.bind("system_information"), IsOk());
+    for (int i = 0; i < 3; ++i) EXPECT_THAT(desk.query("robot_position"), IsRefused("ERROR", "system_information"));
+    auto const error = desk.hear();
+    EXPECT_EQ(error.text("error_type"), "COMPONENT_NOT_RESPONDING");
+    EXPECT_EQ(error.ref(), "system_information");
+    EXPECT_THAT(desk.bind("reaction"), IsOk());
+    desk.execute({.component = "reaction", .type = "stop", .id = "fence"});
+    EXPECT_EQ(desk.status_of("fence"), "OK");
+    EXPECT_THAT(lines(desk.history()), ElementsAre("receive_error", "completed fence OK")) << "told once";
+}
+
+TEST_P(OtherFaults, AComplainingComponentTellsAnErrorOfItsOwn) {
+    EXPECT_THAT(desk.bind("move"), IsOk());
+    auto const error = desk.hear();
+    EXPECT_EQ(error.name(), "receive_error");
+    EXPECT_EQ(error.text("error_type"), "USER_DEFINED_ERROR");
+    EXPECT_EQ(error.ref(), "move");
+}
+
 }  // namespace
 }  // namespace rois::test

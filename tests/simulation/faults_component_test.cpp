@@ -37,6 +37,29 @@ TEST_F(Faults, OfASilentComponentLeaveItsQueriesWithoutAnswer) {
     EXPECT_TRUE(stage["system_information"].component().query("robot_position", stage.now()).empty());
 }
 
+TEST_F(Faults, OfASilentComponentAreToldByItsFirstQuery) {
+    auto stage = unwell("system_information", Fault::Kind::silent, 0, 0.5);
+    stage.step();
+    auto& information = stage["system_information"];
+    for (int i = 0; i < 3; ++i) information.component().query("robot_position", stage.now());
+    EXPECT_THAT(information.words(), ElementsAre("error it answers no query"));
+    stage.run(1);
+    EXPECT_FALSE(information.component().query("robot_position", stage.now()).empty());
+    EXPECT_THAT(information.words(), ElementsAre("error it answers no query"));
+}
+
+TEST_F(Faults, OfAComplainingComponentAreToldOnceAndItWorks) {
+    auto stage = unwell("speech_synthesis", Fault::Kind::complaining, 0.1, 0.5);
+    stage.step();
+    EXPECT_EQ(stage["speech_synthesis"].component().status(), ComponentStatus::ready);
+    stage.run(0.3);
+    EXPECT_EQ(stage["speech_synthesis"].component().status(), ComponentStatus::warning);
+    EXPECT_THAT(stage["speech_synthesis"].words(), ElementsAre("error it complains, as the scenario says"));
+    stage["speech_synthesis"].start(speech());
+    EXPECT_EQ(stage.outcome("speech_synthesis"), "OK");
+    EXPECT_EQ(stage["speech_synthesis"].component().status(), ComponentStatus::ready);
+}
+
 TEST_F(Faults, LetASilentComponentGoOnWithWhatItDoes) {
     auto stage = unwell("speech_synthesis", Fault::Kind::silent, 0.1);
     stage["speech_synthesis"].start(speech());

@@ -57,7 +57,9 @@ class Witness : public Observer {
 public:
     explicit Witness(Hall const& hall) : hall_(hall) {}
     void observe(Instant when) override { seen.emplace_back(hall_.now(), when); }
+    void time_passed(Instant now) override { times.push_back(now.steady); }
     std::vector<std::pair<WorldTime, Instant>> seen;
+    std::vector<Steady> times;
 
 private:
     Hall const& hall_;
@@ -80,6 +82,20 @@ TEST(Simulation, TellsItsObserversOfEveryStepAndWhenItWas) {
     simulation.step(beginning);
     EXPECT_EQ(witness.seen.size(), 4u);
     EXPECT_EQ(simulation.hall().now(), WorldTime{100});
+}
+
+TEST(Simulation, TellsTheTimeWhateverItsSpeed) {
+    for (double speed : {0.01, 1.0, 20.0}) {
+        Simulation simulation{plain_hall(), nobody(), 1, speed};
+        Witness witness{simulation.hall()};
+        simulation.join(witness);
+        std::vector<Steady> passed;
+        for (int i = 0; i < 3; ++i) {
+            passed.push_back((beginning + milliseconds{50 * i}).steady);
+            simulation.advance(beginning + milliseconds{50 * i});
+        }
+        EXPECT_EQ(witness.times, passed) << speed;
+    }
 }
 
 TEST(Simulation, GivesTheSameHistoryAtEveryFrameRate) {

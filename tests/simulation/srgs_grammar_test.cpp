@@ -165,8 +165,35 @@ TEST(SrgsGrammar, IsRefusedWithItsPlace) {
     EXPECT_THAT(flaw(grammar("<rule id='a'>\n<ruleref/></rule>", "")), HasSubstr("one of 'uri' and 'special'"));
     EXPECT_THAT(flaw(grammar("<rule id='a'>x</rule>", " root='b'")), AllOf(StartsWith("grammar:1:1: "), HasSubstr("'b'")));
     EXPECT_THAT(flaw(grammar("<rule id='a'>x</rule>", " mode='dtmf'")), StartsWith("grammar:1:1: "));
+    for (std::string const reserved : {"NULL", "VOID", "GARBAGE"})
+        EXPECT_THAT(flaw(grammar("<rule id='a'>x</rule>\n<rule id='" + reserved + "'>x</rule>", "")),
+                    AllOf(StartsWith("grammar:3:1: "), HasSubstr("'" + reserved + "' is that of a special rule")));
     EXPECT_THAT(flaw("<scenario xmlns='urn:x-rois:simulation:hall:1' name='x'/>"), HasSubstr("this is no grammar"));
     EXPECT_THAT(flaw(grammar("<rule id='a'><one-of>\n<item weight='0'>x</item></one-of></rule>", "")), HasSubstr("the weight 0"));
+}
+
+// Decision 28: languages are ISO 639-1.
+TEST(SrgsGrammar, IsInALanguageThatCanBeRecognized) {
+    auto const in = [](std::string const& language) {
+        return flaw("<grammar xmlns='http://www.w3.org/2001/06/grammar' version='1.0' xml:lang='" + language +
+                    "'><rule id='a'>x</rule></grammar>");
+    };
+    EXPECT_EQ(in("ja"), "it was read");
+    EXPECT_EQ(in("ja-JP"), "it was read");
+    EXPECT_EQ(in("EN-us"), "it was read");
+    for (auto const* language : {"jp", "jp-JP", "tlh"})
+        EXPECT_THAT(in(language), AllOf(StartsWith("grammar:1:1: the language '"), HasSubstr("those that can are de, en,")));
+}
+
+TEST(SrgsGrammar, SkipsWhatIsNotForListening) {
+    EXPECT_EQ(understood("<meta name='author' content='us'/><lexicon uri='http://example.org/names.pls' "
+                         "type='application/pls+xml'/><metadata><r:RDF xmlns:r='http://www.w3.org/1999/02/22-rdf-syntax-ns#'>"
+                         "<rule id='x'/></r:RDF></metadata><rule id='top'><ruleref uri='#more' type='application/srgs+xml'/>"
+                         "</rule><rule id='more'>hello</rule>",
+                         "hello"),
+              "hello");
+    EXPECT_THAT(flaw(grammar("<rule id='a'>x</rule><lexicon uri='u'/>", "")), StartsWith("grammar:2:")) << "it comes first";
+    EXPECT_THAT(flaw(grammar("<rule id='a' xmlns:x='urn:foreign'><x:b/></rule>", "")), HasSubstr("unknown element 'x:b'"));
 }
 
 TEST(SrgsGrammar, IsRefusedWhenARuleBeginsWithItself) {

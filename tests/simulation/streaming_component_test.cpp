@@ -201,6 +201,25 @@ TEST_F(AudioStreaming, SuspendHoldsAllStreams) {
     EXPECT_THAT(told(audio), IsEmpty()) << "it goes on already";
 }
 
+TEST_F(AudioStreaming, WhatIsConnectedWhileAllAreSuspendedIsHeld) {
+    connected();
+    audio.suspend();
+    told(audio);
+    connected();
+    EXPECT_TRUE(offered(1).held);
+    EXPECT_THAT(told(audio), ElementsAre("audio_streaming-2 SUSPENDED"));
+    happens(media::Reception::begun, 1);
+    EXPECT_THAT(told(audio), IsEmpty());
+    audio.resume();
+    EXPECT_FALSE(offered(0).held || offered(1).held);
+    EXPECT_THAT(told(audio),
+                ElementsAre("audio_streaming-1 RESUMED", "audio_streaming-1 NOT_RUNNING", "audio_streaming-2 RESUMED"));
+    audio.suspend();
+    audio.stop();
+    connected();
+    EXPECT_FALSE(offered(2).held) << "nothing is suspended any more";
+}
+
 TEST_F(AudioStreaming, StartStartsNothing) {
     audio.start({encoding("audio/L16")});
     EXPECT_EQ(audio.ended(), "OK");

@@ -1,0 +1,47 @@
+// Boost.Asio with the concrete executor of one thread's io_context, for the servers that the gateway is compared with.
+#pragma once
+
+#include <boost/asio/basic_socket_acceptor.hpp>
+#include <boost/asio/basic_stream_socket.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+
+namespace rois::bench {
+
+namespace asio = boost::asio;
+using Tcp = asio::ip::tcp;
+using Executor = asio::io_context::executor_type;
+using TcpSocket = asio::basic_stream_socket<Tcp, Executor>;
+using Acceptor = asio::basic_socket_acceptor<Tcp, Executor>;
+using boost::system::error_code;
+
+// Gives each connection to a Session of its own, made of its socket, and lets it `run`.
+template <class Session, class... Shared>
+void accept_for_ever(Acceptor& acceptor, Shared&... shared) {
+    acceptor.async_accept([&](error_code error, TcpSocket socket) {
+        if (!error) {
+            error_code ignored;
+            socket.set_option(Tcp::no_delay{true}, ignored);
+            socket.non_blocking(true, ignored);
+            std::make_shared<Session>(std::move(socket), shared...)->run();
+        }
+        accept_for_ever<Session>(acceptor, shared...);
+    });
+}
+
+// Serves on 127.0.0.1 until it is killed.
+template <class Session, class... Shared>
+int serve(char const* port, Shared&... shared) {
+    asio::io_context io{1};
+    Acceptor acceptor{io.get_executor(), Tcp::endpoint{asio::ip::address_v4::loopback(),
+                                                       static_cast<std::uint16_t>(std::strtoul(port, nullptr, 10))}};
+    acceptor.listen(4'096);
+    accept_for_ever<Session>(acceptor, shared...);
+    io.run();
+    return 0;
+}
+
+}  // namespace rois::bench

@@ -1,0 +1,146 @@
+"""The documents that are sent: requests of given sizes, and those that the stage's probes understand."""
+
+MESSAGE = "urn:x-rois:psm:xml:message:1"
+ROIS = "http://www.omg.org/spec/RoIS/20240801"
+FES = "http://www.opengis.net/fes/2.0"
+XSI = "http://www.w3.org/2001/XMLSchema-instance"
+
+SIZES = {"0.3": 300, "0.6": 600, "3": 3_000, "20": 20_000}  # kB -> bytes
+
+
+def is_equal(reference, literal):
+    return (
+        f"<fes:PropertyIsEqualTo><fes:ValueReference>{reference}</fes:ValueReference>"
+        f"<fes:Literal>{literal}</fes:Literal></fes:PropertyIsEqualTo>"
+    )
+
+
+def condition(predicates):
+    if not predicates:
+        return ""
+    inside = predicates[0] if len(predicates) == 1 else "<fes:Or>" + "".join(predicates) + "</fes:Or>"
+    return f"<condition><fes:Filter>{inside}</fes:Filter></condition>"
+
+
+def query(query_type, predicates=()):
+    fes = f' xmlns:fes="{FES}"' if predicates else ""
+    return f'<query xmlns="{MESSAGE}"{fes}><query_type>{query_type}</query_type>{condition(predicates)}</query>'
+
+
+def query_of_size(size, query_type="engine_status", component="system_information"):
+    """A query of so many bytes: one that asks for one of many components, by name."""
+
+    def whole(names):
+        return query(query_type, [is_equal("component_ref", name) for name in names])
+
+    names = [component, "x"]
+    while len(whole([*names, f"another_component_{len(names)}"])) <= size:
+        names.append(f"another_component_{len(names)}")
+    names[1] = "x" * (1 + size - len(whole(names)))
+    return whole(names)
+
+
+def smallest_query(size):
+    """Shorter than one that has two names to choose from: blanks make up for what is missing, as they do where people write."""
+    text = query("engine_status", [is_equal("component_ref", "system_information")])
+    return text.replace("><", ">" + " " * (size - len(text)) + "<", 1) if len(text) < size else text
+
+
+def parameter(element, name, code, value):
+    return (
+        f'<{element} rois:name="{name}"><rois:data_type_ref rois:code="{code}"/>'
+        f"<rois:value>{value}</rois:value></{element}>"
+    )
+
+
+def unit(component, command_type, parameters=""):
+    arguments = f"<rois:arguments>{parameters}</rois:arguments>" if parameters else ""
+    return (
+        f'<rois:command_unit_list xsi:type="rois:CommandMessageType" rois:command_type="{command_type}" rois:command_id="">'
+        f'<rois:component_ref rois:code="{component}"/>{arguments}</rois:command_unit_list>'
+    )
+
+
+def execute(units):
+    return (
+        f'<execute xmlns="{MESSAGE}" xmlns:rois="{ROIS}" xmlns:xsi="{XSI}">'
+        f'<rois:CommandUnitSequence>{"".join(units)}</rois:CommandUnitSequence></execute>'
+    )
+
+
+def execute_of_size(size):
+    """A long sequence of commands, as applications write them who plan ahead."""
+    units = []
+    while len(execute(units)) < size:
+        text = f"Welcome, visitor number {len(units)}. Please take a seat until you are called."
+        units.append(unit("speech_synthesis", "start", parameter("rois:parameter", "speech_text", "string", text)))
+    return execute(units)
+
+
+def subscribe(event_type, predicates=()):
+    return (
+        f'<subscribe xmlns="{MESSAGE}" xmlns:fes="{FES}" inline_results="true">'
+        f"<event_type>{event_type}</event_type>{condition(predicates)}</subscribe>"
+    )
+
+
+def all_documents():
+    """File name without .xml -> text."""
+    rois = f'xmlns="{MESSAGE}" xmlns:rois="{ROIS}"'
+    label = "in the garden, under the old tree by the wall"
+    documents = {f"query-{name}kB": query_of_size(size) for name, size in SIZES.items() if size >= 600}
+    documents["query-0.3kB"] = smallest_query(SIZES["0.3"])
+    documents["execute-20kB"] = execute_of_size(SIZES["20"])
+    documents["reading"] = query("reading")
+    documents["reading-by-ref"] = query("reading", [is_equal("component_ref", "probe7")])
+    documents["bind"] = f'<bind {rois}><component_ref rois:code="probe{{connection}}"/></bind>'
+    documents["set_parameter"] = (
+        f'<set_parameter {rois}><component_ref rois:code="probe{{connection}}"/>'
+        f'<parameters>{parameter("parameter", "label", "string", label)}</parameters></set_parameter>'
+    )
+    documents["reading-0.6kB"] = query_of_size(SIZES["0.6"], "reading", "probe7")
+    documents["execute"] = execute([unit("probe{connection}", "start")])
+    for burst in (1, 8, 100):
+        documents[f"fire-{burst}"] = execute([unit("probe0", "fire", parameter("rois:parameter", "burst", "int", burst))])
+    documents["bind-probe0"] = documents["bind"].replace("{connection}", "0")
+    documents["subscribe"] = subscribe("probed")
+    documents["subscribe-conditioned"] = subscribe("probed", [is_equal("value", 42), is_equal("stamp", "nowhere")])
+    documents["subscribe-elsewhere"] = subscribe("probed", [is_equal("value", "1{number}"), is_equal("stamp", "{number}")])
+    documents["call-of-xmlrpc"] = call_of_xmlrpc()
+    documents["call-of-gsoap"] = call_of_gsoap()
+    return documents
+
+
+def write_all(folder):
+    """As *.xml; in the folder `micro` those that the gateway understands, as the first connection has them."""
+    (folder / "micro").mkdir(parents=True, exist_ok=True)
+    for name, text in all_documents().items():
+        (folder / f"{name}.xml").write_text(text)
+        if not name.startswith("call-"):
+            first = text.replace("{connection}", "0").replace("{number}", "0")
+            (folder / "micro" / f"{name}.xml").write_text(first)
+
+
+def call_of_xmlrpc():
+    """The comparable call for xmlrpc_server.py, of 600 bytes."""
+    return _padded(
+        "<?xml version='1.0'?>\n<methodCall>\n<methodName>query</methodName>\n<params>\n"
+        "<param>\n<value><string>engine_status</string></value>\n</param>\n"
+        "<param>\n<value><string>system_information</string></value>\n</param>\n"
+        "<param>\n<value><string>{}</string></value>\n</param>\n"
+        "<param>\n<value><double>2.5</double></value>\n</param>\n</params>\n</methodCall>\n"
+    )
+
+
+def call_of_gsoap():
+    """The comparable call for rois-gsoap, of 600 bytes."""
+    return _padded(
+        '<?xml version="1.0" encoding="UTF-8"?>\n'
+        '<SOAP-ENV:Envelope xmlns:SOAP-ENV="http://schemas.xmlsoap.org/soap/envelope/" xmlns:hall="urn:x-rois:bench:hall">'
+        "<SOAP-ENV:Body><hall:query><query-type>engine_status</query-type><component-ref>system_information</component-ref>"
+        "<engine>{}</engine><range>2.5</range></hall:query></SOAP-ENV:Body></SOAP-ENV:Envelope>"
+    )
+
+
+def _padded(text):
+    return text.format("x" * (SIZES["0.6"] - len(text) + 2))

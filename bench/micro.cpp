@@ -1,0 +1,296 @@
+// rois-micro FOLDER [--benchmark_...]: what each station on the way of a request costs by itself, for the documents of the folder
+// that are named after their size, and what the engine costs behind them. ARCHITECTURE.md says which stations there are.
+#include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <pugixml.hpp>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/engine.hpp"
+#include "engine/filter.hpp"
+#include "files/files.hpp"
+#include "probe.hpp"
+#include "xml/acceptor.hpp"
+#include "xml/codec.hpp"
+#include "xml/decoding.hpp"
+#include "xml/schemas.hpp"
+#include "xml/validator.hpp"
+
+namespace rois::bench {
+
+namespace {
+
+using Documents = std::map<std::string, std::string>;
+
+Documents read_documents(std::filesystem::path const& folder) {
+    Documents documents;
+    for (auto const& entry : std::filesystem::directory_iterator{folder}) {
+        if (entry.path().extension() != ".xml") continue;
+        std::ifstream in{entry.path(), std::ios::binary};
+        documents[entry.path().stem().string()] = {std::istreambuf_iterator<char>{in}, {}};
+    }
+    return documents;
+}
+
+Request request_of(std::string const& document) {
+    pugi::xml_document tree;
+    tree.load_string(document.c_str());
+    return xml::decode(tree.document_element()).value();
+}
+
+void count_bytes(benchmark::State& state, std::string const& document) {
+    state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * document.size()));
+}
+
+// --- From text to an operation ---
+
+void validate_with_xerces(benchmark::State& state, std::shared_ptr<xml::Schemas const> const& schemas,
+                          std::string const& document) {
+    xml::Validator validator{schemas};
+    for (auto _ : state) {
+        if (validator.objection_to(document)) state.SkipWithError("not valid");
+    }
+    count_bytes(state, document);
+}
+
+// With the tables made from the schemas.
+void validate(benchmark::State& state, std::shared_ptr<xml::Schemas const> const& schemas, std::string const& document) {
+    xml::Acceptor acceptor{schemas, {}};
+    for (auto _ : state) {
+        if (!acceptor.accepts(document)) state.SkipWithError("left to xerces-c");
+    }
+    count_bytes(state, document);
+}
+
+// Validation and decoding, as a gateway does it.
+void read(benchmark::State& state, std::shared_ptr<xml::Schemas const> const& schemas, std::string const& document) {
+    xml::RequestReader reader{schemas};
+    for (auto _ : state) {
+        auto const read = reader.read(document);
+        if (std::holds_alternative<Fault>(read)) state.SkipWithError("refused");
+    }
+    count_bytes(state, document);
+}
+
+void parse(benchmark::State& state, std::string const& document) {
+    for (auto _ : state) {
+        pugi::xml_document tree;
+        benchmark::DoNotOptimize(tree.load_buffer(document.data(), document.size()));
+    }
+    count_bytes(state, document);
+}
+
+void decode(benchmark::State& state, std::string const& document) {
+    pugi::xml_document tree;
+    tree.load_string(document.c_str());
+    for (auto _ : state) benchmark::DoNotOptimize(xml::decode(tree.document_element()));
+    count_bytes(state, document);
+}
+
+// --- The engine ---
+
+class Nobody final : public Outbox {
+    void notify(SessionId const&) override {}
+};
+
+// An engine with probes, and one session that has bound the first of them.
+class World {
+public:
+    explicit World(int probes)
+        : engine_{{}, known_profiles(), settings(), nobody_, [this] { return "s" + std::to_string(++last_); }} {
+        auto const profile = std::make_shared<ComponentProfile const>(probe_profile());
+        for (int i = 0; i < probes; ++i) engine_.add(probe("probe" + std::to_string(i), profile));
+        session = connect();
+        ask<Bind>(session, Bind{{.code = "probe0", .authority = {}, .codebook_ref = {}, .version = {}}});
+    }
+
+    SessionId connect() { return ask<Connect>({}, Connect{}).session; }
+
+    template <class Asked>
+    typename Asked::Reply ask(SessionId const& asker, Operation const& operation) {
+        now_.steady += std::chrono::microseconds{10};
+        auto handled = engine_.handle(asker, operation, now_);
+        auto* const reply = std::get_if<Reply>(&handled);
+        if (!reply) throw std::runtime_error("refused");
+        auto said = std::get<typename Asked::Reply>(std::move(*reply));
+        if (said.return_code != ReturnCode::ok) throw std::runtime_error(said.reason);
+        return said;
+    }
+
+    // What was told is taken, as a connection would.
+    std::size_t take(SessionId const& asker, std::uint64_t& after) {
+        auto const taken = engine_.notifications(asker)->read(after, 1'000);
+        if (!taken.empty()) after = taken.back().sequence;
+        return taken.size();
+    }
+
+    SessionId session;
+
+private:
+    static EngineSettings settings() {
+        EngineSettings settings;
+        settings.max_sessions = 100'000;
+        return settings;
+    }
+
+    int last_ = 0;
+    Nobody nobody_;
+    Instant now_{};
+    Engine engine_;
+};
+
+template <class Asked>
+void handle(benchmark::State& state, std::string const& document) {
+    World world{static_cast<int>(state.range(0))};
+    auto const operation = request_of(document).operation;
+    std::uint64_t heard = 0;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(world.ask<Asked>(world.session, operation));
+        world.take(world.session, heard);
+    }
+}
+
+// An event to many sessions, and each takes it.
+void fire(benchmark::State& state, std::string const& subscribe, std::string const& fire) {
+    World world{10};
+    auto const subscription = request_of(subscribe).operation;
+    auto const firing = request_of(fire).operation;
+    std::vector<std::pair<SessionId, std::uint64_t>> subscribers(static_cast<std::size_t>(state.range(0)));
+    for (auto& [session, heard] : subscribers) {
+        session = world.connect();
+        world.ask<Subscribe>(session, subscription);
+    }
+    std::uint64_t heard_by_firing = 0;
+    std::string text;
+    for (auto _ : state) {
+        world.ask<Execute>(world.session, firing);
+        for (auto& [session, heard] : subscribers) benchmark::DoNotOptimize(world.take(session, heard));
+        world.take(world.session, heard_by_firing);
+    }
+    state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * subscribers.size()));
+}
+
+// --- Conditions ---
+
+// The condition of a subscription, and an event that meets it.
+struct Conditioned {
+    explicit Conditioned(std::string const& subscribe)
+        : condition{std::get<Subscribe>(request_of(subscribe).operation).condition} {
+        declared.add(find_message(probe_profile(), MessageKind::event, "probed")->results);
+        told.parameters = {text("stamp", "t1"), integer("value", 42)};
+    }
+    Filter compile() const {
+        auto made = Filter::compile(condition, {.places = &places, .parameters = nullptr, .results = &declared});
+        if (auto const* problem = std::get_if<std::string>(&made)) throw std::runtime_error(*problem);
+        return std::get<Filter>(std::move(made));
+    }
+
+    Places places;
+    Declarations declared;
+    QueryExpression condition;
+    Results told;
+};
+
+void compile_filter(benchmark::State& state, std::string const& document) {
+    Conditioned const conditioned{document};
+    for (auto _ : state) benchmark::DoNotOptimize(conditioned.compile());
+}
+
+void match_filter(benchmark::State& state, std::string const& document) {
+    Conditioned const conditioned{document};
+    auto const filter = conditioned.compile();
+    ResultsCandidate const candidate{conditioned.told, "e-1"};
+    for (auto _ : state) {
+        if (filter.match(candidate) != Match::yes) state.SkipWithError("no match");
+    }
+}
+
+// --- From answers and notifications to text ---
+
+void encode_answer(benchmark::State& state) {
+    Query::Reply reply;
+    reply.component_ref.code = "probe0";
+    reply.results.parameters = {integer("value", 42), text("label", "in the hall, between the desk and the door to the garden")};
+    Reply const whole{reply};
+    for (auto _ : state) benchmark::DoNotOptimize(xml::encode(whole, "1"));
+}
+
+ReceiveEvent event() {
+    ReceiveEvent event{{"e-1"}, "probed", {"s-1"}, {}, {.code = "probe0", .authority = {}, .codebook_ref = {}, .version = {}},
+                       {}};
+    event.results = std::make_shared<Results const>(Results{{text("stamp", "t1"), integer("value", 42)}, {}});
+    return event;
+}
+
+void encode_head(benchmark::State& state) {
+    Notification const notification{event()};
+    for (auto _ : state) benchmark::DoNotOptimize(xml::notification_head(notification, 12'345));
+}
+
+void encode_tail(benchmark::State& state) {
+    Notification const notification{event()};
+    for (auto _ : state) benchmark::DoNotOptimize(xml::notification_tail(notification));
+}
+
+void register_all(Documents const& documents) {
+    auto const schemas = std::make_shared<xml::Schemas const>(files::schemas());
+    for (auto const& [name, document] : documents) {
+        if (!name.ends_with("kB")) continue;
+        auto const with_schemas = [&](std::string const& what, auto station) {
+            benchmark::RegisterBenchmark((what + "/" + name).c_str(),
+                                         [=](benchmark::State& s) { station(s, schemas, document); });
+        };
+        auto const with_document = [&](std::string const& what, auto station) {
+            benchmark::RegisterBenchmark((what + "/" + name).c_str(), [=](benchmark::State& s) { station(s, document); });
+        };
+        with_schemas("xerces", validate_with_xerces);
+        with_schemas("validate", validate);  // bench/report.py compares them
+        with_schemas("read", read);
+        with_document("parse", parse);
+        with_document("decode", decode);
+    }
+    auto const of = [&](std::string const& name) { return documents.at(name); };
+    auto const engine = [&](char const* name, auto station, std::string const& document) {
+        benchmark::RegisterBenchmark(name, [=](benchmark::State& s) { station(s, document); })->Arg(10)->Arg(10'000);
+    };
+    engine("engine_query", handle<Query>, of("reading-by-ref"));
+    engine("engine_set_parameter", handle<SetParameter>, of("set_parameter"));
+    engine("engine_execute", handle<Execute>, of("execute"));
+    auto const subscription = of("subscribe");
+    auto const firing = of("fire-1");
+    benchmark::RegisterBenchmark("engine_event", [=](benchmark::State& s) { fire(s, subscription, firing); })->Arg(1)->Arg(1'000);
+    auto const conditioned = of("subscribe-conditioned");
+    benchmark::RegisterBenchmark("filter_compile", [=](benchmark::State& s) { compile_filter(s, conditioned); });
+    benchmark::RegisterBenchmark("filter_match", [=](benchmark::State& s) { match_filter(s, conditioned); });
+    benchmark::RegisterBenchmark("encode_answer", encode_answer);
+    benchmark::RegisterBenchmark("encode_notification_head", encode_head);
+    benchmark::RegisterBenchmark("encode_notification_tail", encode_tail);
+}
+
+}  // namespace
+
+}  // namespace rois::bench
+
+int main(int argc, char** argv) {
+    try {
+        rois::xml::Platform const platform;
+        benchmark::Initialize(&argc, argv);
+        if (argc != 2) throw std::runtime_error("usage: rois-micro FOLDER [--benchmark_...]");
+        rois::bench::register_all(rois::bench::read_documents(argv[1]));
+        benchmark::RunSpecifiedBenchmarks();
+        benchmark::ClearRegisteredBenchmarks();
+        return 0;
+    } catch (std::exception const& error) {
+        std::fprintf(stderr, "rois-micro: %s\n", error.what());
+        return 1;
+    }
+}

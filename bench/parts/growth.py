@@ -1,0 +1,64 @@
+"""Whether a query stays as cheap when there is more of something. A point is kept as "axis: number"."""
+
+import statistics
+
+from parts.fanout import fire
+from processes import beside, document, load, running, stage
+
+OTHERS = "components of other types"
+SAME = "components of the same type"
+SESSIONS = "sessions"
+SUBSCRIPTIONS = "subscriptions of others"
+EVENTS = "events so far"
+AXES = {
+    OTHERS: (10, 100, 1_000, 10_000),
+    SAME: (10, 100, 1_000, 10_000),
+    SESSIONS: (1, 10, 100, 1_000, 10_000),
+    SUBSCRIPTIONS: (10, 100, 1_000, 10_000),
+    EVENTS: (0, 7_200, 72_000),  # an hour of 20 a second
+}
+CONNECTIONS = 16
+
+
+def row(axis, number):
+    return f"{axis}: {number:,}"
+
+
+def round(keep, settings):
+    def ask(axis, number, server, query="reading"):
+        options = {"via": "http", "connect": "yes", "connections": CONNECTIONS, "expect": '"OK"'}
+        keep(row(axis, number), load("requests", server, body=document(query), seconds=settings.seconds, **options))
+
+    for number in AXES[OTHERS]:
+        with running(stage(probes=1, bystanders=number - 1)) as (server,):
+            ask(OTHERS, number, server)
+    for number in AXES[SAME]:
+        with running(stage(probes=number)) as (server,):
+            ask(SAME, number, server, "reading-by-ref")
+    for number in AXES[SESSIONS]:
+        with running(stage()) as (server,), beside("hold", server, via="websocket", connect="yes", connections=number):
+            ask(SESSIONS, number, server)
+    for number in AXES[SUBSCRIPTIONS]:
+        options = {"via": "websocket", "connect": "yes", "setup": document("subscribe-elsewhere")}
+        options |= {"connections": min(number, 100), "repeat": max(1, number // 100)}
+        with running(stage()) as (server,), beside("hold", server, **options):
+            ask(SUBSCRIPTIONS, number, server)
+    after_events(ask)
+
+
+def after_events(ask):
+    with running(stage()) as (server,):
+        happened = 0
+        for number in AXES[EVENTS]:
+            while happened < number:
+                options = {"via": "websocket", "connect": "yes", "connections": 1, "setup": document("subscribe")}
+                heard = load("fanout", server, seconds=0.1, warm_up=0, **options, **fire(100))
+                happened += heard["messages"]
+            ask(EVENTS, number, server)
+
+
+def growth(rounds, axis):
+    """How much more a query costs at the end of the axis than at its beginning, as the median of the rounds: 0.2 is 20 %.
+    None when it was not measured."""
+    first, last = (rounds.get(row(axis, AXES[axis][i]), []) for i in (0, -1))
+    return statistics.median(b["cpu_us"] / a["cpu_us"] - 1 for a, b in zip(first, last)) if first and last else None

@@ -1,0 +1,81 @@
+"""What a request costs: the gateway beside bare servers, gSOAP and xmlrpc.server."""
+
+from processes import BIN, ROOT, Server, document, gateway, load, running, stage
+
+# Rows that others are compared with.
+BARE_HTTP = "bare Beast server, HTTP"
+BARE_WEBSOCKET = "bare Beast echo, WebSocket"
+GSOAP = "gSOAP, HTTP"
+XMLRPC = "xmlrpc.server, HTTP"
+HTTP = "query 0.6 kB, HTTP"
+WEBSOCKET = "query 0.6 kB, WebSocket"
+
+AGAINST = {HTTP: BARE_HTTP, GSOAP: HTTP, XMLRPC: HTTP, WEBSOCKET: BARE_WEBSOCKET}  # row -> row that it is divided by
+
+MODES = {"HTTP": "http", "WebSocket": "websocket"}
+ANSWER_BYTES = 557  # of the gateway to the query
+
+
+def against(bare, row):
+    AGAINST[row] = bare
+    return row
+
+
+def round(keep, settings):
+    def ask(row, server, body, connections=64, connect=True, **options):
+        options = {"via": "http", "connections": connections, "seconds": settings.seconds, **options}
+        if connect:
+            options |= {"connect": "yes", "expect": '"OK"'}
+        keep(row, load("requests", server, body=document(body), **options))
+
+    compare(ask, settings)
+    vary_size_and_connections(ask, settings)
+    with running(gateway(2, *settings.gateway)) as (server,):
+        for name, via in MODES.items():
+            ask(f"query 0.6 kB, {name}, 2 threads", server, "query-0.6kB", via=via)
+    operations(ask)
+
+
+def compare(ask, settings):
+    def beside(row, server, body, **options):
+        with running(server):
+            ask(row, server, body, connect=False, **options)
+
+    query = "query-0.6kB"
+    with running(gateway(1, *settings.gateway)) as (server,):
+        beside(BARE_HTTP, Server("bare-http", [BIN / "rois-bare-http", "{port}", ANSWER_BYTES]), query)
+        ask(HTTP, server, query)
+        beside(GSOAP, Server("gsoap", [BIN / "rois-gsoap", "{port}"]), "call-of-gsoap", path="/", expect="9498.984")
+        xmlrpc = Server("xmlrpc", ["python3", ROOT / "bench" / "xmlrpc_server.py", "{port}"])
+        beside(XMLRPC, xmlrpc, "call-of-xmlrpc", path="/RPC2", expect="9498.984")
+        beside(BARE_WEBSOCKET, Server("bare-websocket", [BIN / "rois-bare-websocket", "{port}"]), query, via="websocket")
+        ask(WEBSOCKET, server, query, via="websocket")
+
+
+def vary_size_and_connections(ask, settings):
+    bare = Server("bare-http", [BIN / "rois-bare-http", "{port}", ANSWER_BYTES])
+    echo = Server("bare-websocket", [BIN / "rois-bare-websocket", "{port}"])
+    with running(gateway(1, *settings.gateway), bare, echo) as (server, *_):
+        for size in ("0.3", "3", "20"):
+            query = f"query-{size}kB"
+            for name, via, other in (("HTTP", "http", bare), ("WebSocket", "websocket", echo)):
+                compared = f"bare, {size} kB, {name}"
+                ask(compared, other, query, connect=False, via=via)
+                ask(against(compared, f"query {size} kB, {name}"), server, query, via=via)
+        for connections in (1, 16, 1_000):
+            many = f"{connections:,} connection" + ("s" if connections > 1 else "")
+            query = "query-0.6kB"
+            compared = f"bare, 0.6 kB, HTTP, {many}"
+            ask(compared, bare, query, connections, connect=False)
+            ask(against(compared, f"query 0.6 kB, HTTP, {many}"), server, query, connections)
+            ask(f"query 0.6 kB, WebSocket, {many}", server, query, connections, via="websocket")
+
+
+def operations(ask):
+    """On the stage, where each session can have a component of its own."""
+    with running(stage(probes=64)) as (server,):
+        for name, via in MODES.items():
+            ask(f"stage: set_parameter, {name}", server, "set_parameter", via=via, setup=document("bind"))
+            told = {"setup": document("bind"), "await": "<completed"}
+            ask(f"stage: execute until completed, {name}", server, "execute", via=via, **told)
+            ask(f"stage: subscribe again, {name}", server, "subscribe", via=via)

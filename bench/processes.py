@@ -1,0 +1,162 @@
+"""Servers and the load generator as processes; what the kernel says of them."""
+
+import contextlib
+import json
+import os
+import pathlib
+import resource
+import socket
+import subprocess
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+BIN = ROOT / "build" / "release" / "bin"
+WORK = ROOT / "build" / "bench"  # documents, and what the servers said
+
+
+# A server on one core, who asks it on the others: where both are is not left to chance, which doubles the cost at times.
+CORES = sorted(os.sched_getaffinity(0))
+SERVER_CORES = set(CORES[:1])
+LOAD_CORES = set(CORES[1:] or CORES)
+
+
+class BenchError(Exception):
+    """Something does not work that must, to measure anything at all."""
+
+
+def allow_many_descriptors():
+    _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
+    return most
+
+
+def free_port():
+    with socket.socket() as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+class Server:
+    """A server that runs until `stop`. `seconds_to_ready`: from its start until it answered, or took a connection. One that has
+    threads to share may go wherever the kernel likes."""
+
+    def __init__(self, name, command, health=None, threads=1):
+        self.name = name
+        self.load_cores = LOAD_CORES if threads == 1 else set(CORES)
+        self.port = free_port()
+        with open(WORK / f"{name}.log", "wb") as log:
+            begun = time.perf_counter()
+            whole = [str(part).replace("{port}", str(self.port)) for part in command]
+            self.process = subprocess.Popen(whole, stdout=log, stderr=log)
+        self.pid = self.process.pid
+        os.sched_setaffinity(self.pid, SERVER_CORES if threads == 1 else set(CORES))
+        while not self._answers(health):
+            if self.process.poll() is not None or time.perf_counter() - begun > 30:
+                self.stop()
+                raise BenchError(f"{name} did not start: see build/bench/{name}.log")
+            time.sleep(0.001)
+        self.seconds_to_ready = time.perf_counter() - begun
+
+    def _answers(self, health):
+        try:
+            with socket.create_connection(("127.0.0.1", self.port), timeout=5) as one:
+                if health is None:
+                    return True
+                one.sendall(f"GET {health} HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n".encode())
+                return one.recv(64).startswith(b"HTTP/1.1 200")
+        except OSError:
+            return False
+
+    def resident_bytes(self):
+        """Its memory, what it shares with others included."""
+        for line in pathlib.Path(f"/proc/{self.pid}/status").read_text().splitlines():
+            if line.startswith("VmRSS:"):
+                return int(line.split()[1]) * 1024
+        raise BenchError(f"{self.name} has no memory")
+
+    def stop(self):
+        self.process.terminate()
+        try:
+            self.process.wait(8)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
+
+
+def gateway(threads=1, *arguments):
+    command = [BIN / "rois-gateway", "--listen", "127.0.0.1:{port}", "--threads", threads, "--log-level", "warning"]
+    command += ["--max-sessions", 20_000, "--max-connections", 20_000, *arguments]
+    return Server(f"gateway-{threads}", command, "/readyz", threads)
+
+
+def stage(threads=1, probes=10, bystanders=0):
+    return Server("stage", [BIN / "rois-stage", "{port}", threads, probes, bystanders], "/readyz", threads)
+
+
+@contextlib.contextmanager
+def running(*servers):
+    try:
+        yield servers
+    finally:
+        for server in servers:
+            server.stop()
+
+
+def _start(mode, server, options, **pipes):
+    command = [BIN / "rois-load", mode, "--port", server.port, "--pid", server.pid]
+    for name, value in options.items():
+        flag = "--" + name.replace("_", "-")
+        for one in value if isinstance(value, list) else [value]:
+            command += [flag, one]
+    if mode != "hold" and not server.load_cores & SERVER_CORES:
+        command += ["--spin", "yes"]
+    process = subprocess.Popen([str(part) for part in command], stdout=subprocess.PIPE, text=True, **pipes)
+    os.sched_setaffinity(process.pid, server.load_cores)
+    return process
+
+
+def document(name):
+    return WORK / "documents" / f"{name}.xml"
+
+
+def load(mode, server, **options):
+    """Runs the load generator and returns what it measured."""
+    with _start(mode, server, options, stderr=subprocess.PIPE) as process:
+        try:
+            said, complaint = process.communicate(timeout=300)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            raise
+    if process.returncode != 0:
+        raise BenchError(f"{mode} on {server.name}: {complaint.strip()}")
+    return json.loads(said)
+
+
+@contextlib.contextmanager
+def beside(mode, server, **options):
+    """The load generator while something else is measured."""
+    process = _start(mode, server, options, stdin=subprocess.PIPE)
+    try:
+        if mode == "hold":
+            line = process.stdout.readline()
+            if not line:
+                raise BenchError(f"hold on {server.name} failed")
+        yield process
+    finally:
+        process.stdin.close()
+        try:
+            process.wait(60)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+
+def machine():
+    """What the numbers were measured on."""
+    model = "unknown"
+    for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            model = line.split(":", 1)[1].strip()
+            break
+    memory = int(pathlib.Path("/proc/meminfo").read_text().split()[1]) // 1024
+    return {"cpu": model, "cores": os.cpu_count(), "memory_mb": memory, "kernel": os.uname().release, "load": os.getloadavg()}

@@ -1,0 +1,140 @@
+"""What was measured, as a table, as goals that are met or not, and as JSON."""
+
+import collections
+import json
+import statistics
+
+from parts import fanout, growth, memory, requests
+
+AGAINST = collections.ChainMap(requests.AGAINST, fanout.AGAINST)  # row -> row that it is divided by
+
+
+def medians(rounds):
+    """Row -> measure -> its median; `rounds` is row -> what each round gave."""
+    return {
+        row: {measure: statistics.median(one[measure] for one in all_rounds) for measure in all_rounds[0]}
+        for row, all_rounds in rounds.items()
+    }
+
+
+def spread(rounds, row):
+    """The least and the most CPU of all rounds, in percent of the median."""
+    values = [one.get("cpu_us", 0) for one in rounds[row]]
+    middle = statistics.median(values)
+    if middle == 0 or len(values) == 1:
+        return ""
+    return f"{100 * (min(values) / middle - 1):+.0f} {100 * (max(values) / middle - 1):+.0f} %"
+
+
+def number(value):
+    if value is None:
+        return ""
+    return f"{value:,.0f}" if value >= 1_000 else f"{value:.0f}" if value >= 100 else f"{value:.3g}"
+
+
+def table(rounds, part):
+    """The rows of one part."""
+    middle = medians(rounds)
+    lines = []
+    if part == "memory":
+        lines.append(f"{'memory':58} {'bytes each':>10} {'idle CPU %':>10}")
+        for row, one in middle.items():
+            if row == memory.AT_REST:
+                lines.append(f"{row:58} {one['resident_mb']:8.1f} MB, ready after {one['ready_ms']:.0f} ms")
+            else:
+                lines.append(f"{row:58} {number(one['bytes_each']):>10} {one['idle_cpu_percent']:>10.1f}")
+        return lines
+    each = "message" if part == "fanout" else "call" if part == "micro" else "request"
+    lines.append(f"{part:74} {'CPU µs':>7} {'spread':>10} {'ratio':>6} {'/s':>9} {'p50 µs':>8} {'p99':>8} {'p99.9':>8}")
+    for row, one in middle.items():
+        other, cpu = middle.get(AGAINST.get(row)), one.get("cpu_us")
+        ratio = f"{cpu / other['cpu_us']:.2f}" if other else ""
+        rate = one.get("requests_per_second", one.get("messages_per_second"))
+        latencies = " ".join(f"{number(one.get(name)):>8}" for name in ("p50_us", "p99_us", "p999_us"))
+        lines.append(f"{row:74} {number(cpu):>7} {spread(rounds, row):>10} {ratio:>6} {number(rate):>9} {latencies}")
+    lines.append(f"(CPU of the server a {each}; ratio: to the row that it is compared with)")
+    return lines
+
+
+class Goal:
+    """`met`: whether it is, or None where it was not measured."""
+
+    def __init__(self, name, wanted, measured, met):
+        self.name, self.wanted, self.measured, self.met = name, wanted, measured, met
+
+    def line(self):
+        verdict = {True: "met", False: "MISSED", None: "not measured"}[self.met]
+        return f"{self.name:62} {self.wanted:38} {self.measured:24} {verdict}"
+
+
+def at_most(name, value, limit, unit):
+    measured = "" if value is None else f"{number(value)} {unit}".strip()
+    return Goal(name, f"at most {number(limit)} {unit}".strip(), measured, None if value is None else value <= limit)
+
+
+def at_least(name, value, limit, unit):
+    measured = "" if value is None else f"{number(value)} {unit}".strip()
+    return Goal(name, f"at least {number(limit)} {unit}".strip(), measured, None if value is None else value >= limit)
+
+
+def ratio(middle, row, other, measure="cpu_us"):
+    return middle[row][measure] / middle[other][measure] if row in middle and other in middle else None
+
+
+def fanout_goal(middle, burst, limit):
+    """An absolute number, or where the machine is slow, what the kernel leaves of it."""
+    row = fanout.row(fanout.MANY, burst)
+    name = f"3 fan-out to 1,000, {'nothing' if burst == 1 else burst} waiting: CPU a message"
+    wanted = f"at most {limit} µs, or 1.15 times prebuilt"
+    if row not in middle:
+        return Goal(name, wanted, "", None)
+    cpu, times = middle[row]["cpu_us"], ratio(middle, row, fanout.sender_row(burst))
+    return Goal(name, wanted, f"{cpu:.2f} µs, {times:.2f} times", cpu <= limit or times <= 1.15)
+
+
+def validation_goal(middle):
+    """The validator against xerces-c; `validate/...` are the rows of one that is not xerces-c."""
+    documents = [row.split("/")[1] for row in middle if row.startswith("xerces/") and row.endswith("-20kB")]
+    times = [ratio(middle, f"validate/{name}", f"xerces/{name}") for name in documents]
+    worst = max(times) if times and None not in times else None
+    return at_most("2 validation of 20 kB: time, against xerces-c", worst, 0.25, "times")
+
+
+def goals(rounds):
+    """What ./dev bench has to show. `rounds`: row -> what each round gave, of all parts."""
+    middle = medians(rounds)
+    memory_of = lambda row, measure: middle.get(row, {}).get(measure)  # noqa: E731
+    session = memory_of(f"idle {memory.SESSION}", "bytes_each")
+    growing = {axis: growth.growth(rounds, axis) for axis in growth.AXES}
+    latency = middle.get(fanout.REQUESTS, {}).get("p99_us")
+    return [
+        at_most("1 query 0.6 kB, HTTP: CPU, against bare Beast", ratio(middle, requests.HTTP, requests.BARE_HTTP), 2, "times"),
+        at_least("1 gSOAP's CPU, against the query's", ratio(middle, requests.GSOAP, requests.HTTP), 3.5, "times"),
+        at_least("1 xmlrpc.server's CPU, against the query's", ratio(middle, requests.XMLRPC, requests.HTTP), 12, "times"),
+        at_most(
+            "1 query 0.6 kB, WebSocket: CPU, against a bare Beast echo",
+            ratio(middle, requests.WEBSOCKET, requests.BARE_WEBSOCKET),
+            1.5,
+            "times",
+        ),
+        validation_goal(middle),
+        fanout_goal(middle, 1, 5.5),
+        fanout_goal(middle, 8, 1.2),
+        at_most("4 memory of an idle WebSocket session", None if session is None else session / 1024, 8, "KB"),
+        at_most("4 ready after the start", memory_of(memory.AT_REST, "ready_ms"), 500, "ms"),
+        at_most("4 memory at rest", memory_of(memory.AT_REST, "resident_mb"), 30, "MB"),
+        *(
+            at_most(f"5 growth of a query's CPU: {axis}", None if grown is None else 100 * grown, 20, "%")
+            for axis, grown in growing.items()
+        ),
+        at_most("6 p99 of requests beside 20 events/s to 1,000", None if latency is None else latency / 1_000, 5, "ms"),
+    ]
+
+
+def write_json(path, machine, version, kept):
+    """`kept`: part -> row -> what each round gave."""
+    together = dict(collections.ChainMap(*kept.values()))
+    middle = medians(together)
+    parts = {part: {row: {"median": middle[row], "rounds": rounds[row]} for row in rounds} for part, rounds in kept.items()}
+    told = [vars(goal) for goal in goals(together)]
+    path.write_text(json.dumps({"machine": machine, "version": version, "goals": told, "parts": parts}, indent=1) + "\n")

@@ -1,0 +1,71 @@
+// rois-stage: the gateway's own libraries, put together as server/main does, but with as many components as one likes that do
+// nothing but answer. For fan-out, commands and growth.
+// rois-stage PORT THREADS PROBES BYSTANDERS: probe0, probe1, ... and bystander0, bystander1, ...
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <memory>
+
+#include "engine/engine.hpp"
+#include "files/files.hpp"
+#include "net/documents.hpp"
+#include "net/gateway.hpp"
+#include "net/secrets.hpp"
+#include "net/server.hpp"
+#include "probe.hpp"
+#include "xml/schemas.hpp"
+
+namespace rois::bench {
+
+namespace {
+
+struct Setting {
+    std::uint16_t port;
+    std::size_t threads;
+    std::size_t probes;
+    std::size_t bystanders;
+};
+
+void serve(Setting const& setting) {
+    auto const schemas = std::make_shared<xml::Schemas const>(files::schemas());
+    EngineProfile profile;
+    profile.object.identifier = "urn:x-rois:def:HRIEngine:bench::Stage";
+    profile.object.name = "stage";
+    EngineSettings engine_settings;
+    engine_settings.max_sessions = 100'000;
+    net::Readers readers;
+    Engine engine{profile, known_profiles(), engine_settings, readers, net::fresh_secret};
+    auto const of_probes = std::make_shared<ComponentProfile const>(probe_profile());
+    auto const of_bystanders = std::make_shared<ComponentProfile const>(bystander_profile());
+    for (std::size_t i = 0; i < setting.probes; ++i) engine.add(probe("probe" + std::to_string(i), of_probes));
+    for (std::size_t i = 0; i < setting.bystanders; ++i) engine.add(probe("bystander" + std::to_string(i), of_bystanders));
+    net::Telemetry telemetry;
+    net::Gateway gateway{engine, readers, telemetry};
+    net::Documents const documents{gateway, telemetry, *schemas, ""};
+    net::Settings net_settings;
+    net_settings.port = setting.port;
+    net_settings.threads = setting.threads;
+    net_settings.max_connections = 100'000;
+    net::Server server{net_settings, gateway, telemetry, documents, schemas};
+    server.run();
+}
+
+}  // namespace
+
+}  // namespace rois::bench
+
+int main(int argc, char** argv) {
+    if (argc != 5) {
+        std::fputs("usage: rois-stage PORT THREADS PROBES BYSTANDERS\n", stderr);
+        return 2;
+    }
+    auto const number = [&](int i) { return std::strtoul(argv[i], nullptr, 10); };
+    try {
+        rois::xml::Platform const platform;
+        rois::bench::serve({static_cast<std::uint16_t>(number(1)), number(2), number(3), number(4)});
+        return 0;
+    } catch (std::exception const& error) {
+        std::fprintf(stderr, "rois-stage: %s\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,40 @@
+// The readers of one loop that were woken. However many are woken at once, the loop hears one word, and serves them a few at a
+// time: a request does not wait behind a thousand notifications.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "net/asio.hpp"
+
+namespace rois::net {
+
+class Reader;
+
+// Belongs to a loop, which outlives all of its readers.
+class Wakes {
+public:
+    explicit Wakes(Executor executor) : executor_{std::move(executor)} {}
+
+    // From any thread: `Reader::woken` is called on the loop's own.
+    void add(std::shared_ptr<Reader>);
+
+    Executor const& executor() const { return executor_; }
+
+private:
+    void post();
+    void serve();
+    bool take_more();
+
+    Executor executor_;
+    std::vector<std::shared_ptr<Reader>> serving_;  // the loop's thread alone
+    std::size_t served_ = 0;                        // of these
+
+    std::mutex mutex_;  // guards what follows
+    std::vector<std::shared_ptr<Reader>> waiting_;
+    bool posted_ = false;
+};
+
+}  // namespace rois::net
