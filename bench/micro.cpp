@@ -19,6 +19,7 @@
 #include "engine/filter.hpp"
 #include "files/files.hpp"
 #include "probe.hpp"
+#include "xml/acceptor.hpp"
 #include "xml/codec.hpp"
 #include "xml/decoding.hpp"
 #include "xml/schemas.hpp"
@@ -61,7 +62,16 @@ void validate_with_xerces(benchmark::State& state, std::shared_ptr<xml::Schemas 
     count_bytes(state, document);
 }
 
-// Scan, validation and decoding, as a gateway does it.
+// With the tables made from the schemas.
+void validate(benchmark::State& state, std::shared_ptr<xml::Schemas const> const& schemas, std::string const& document) {
+    xml::Acceptor acceptor{schemas, {}};
+    for (auto _ : state) {
+        if (!acceptor.accepts(document)) state.SkipWithError("left to xerces-c");
+    }
+    count_bytes(state, document);
+}
+
+// Validation and decoding, as a gateway does it.
 void read(benchmark::State& state, std::shared_ptr<xml::Schemas const> const& schemas, std::string const& document) {
     xml::RequestReader reader{schemas};
     for (auto _ : state) {
@@ -242,7 +252,8 @@ void register_all(Documents const& documents) {
         auto const with_document = [&](std::string const& what, auto station) {
             benchmark::RegisterBenchmark((what + "/" + name).c_str(), [=](benchmark::State& s) { station(s, document); });
         };
-        with_schemas("xerces", validate_with_xerces);  // a validator of our own is "validate": bench/report.py compares them
+        with_schemas("xerces", validate_with_xerces);
+        with_schemas("validate", validate);  // bench/report.py compares them
         with_schemas("read", read);
         with_document("parse", parse);
         with_document("decode", decode);

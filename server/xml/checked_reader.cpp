@@ -44,12 +44,11 @@ std::size_t tag_before(pugi::xml_node root, std::size_t offset) {
 
 }  // namespace
 
-CheckedReader::CheckedReader(std::shared_ptr<Schemas const> schemas, DocumentLimits limits, Validation validation,
-                             std::span<std::string_view const> roots, ForeignNamespaces foreign)
+CheckedReader::CheckedReader(std::shared_ptr<Schemas const> schemas, DocumentLimits limits,
+                             std::span<std::string_view const> roots, ForeignNamespaces foreign, Validation validation)
     : schemas_{std::move(schemas)}, limits_{limits}, roots_{roots}, foreign_{foreign} {
-    if (!schemas_) return;
-    if (validation == Validation::fast) acceptor_.emplace(schemas_, limits);
-    validator_.emplace(schemas_);
+    if (schemas_) validator_.emplace(schemas_);
+    if (schemas_ && validation == Validation::fast) acceptor_.emplace(schemas_, limits);
 }
 
 std::optional<Fault> CheckedReader::read(std::string_view document) {
@@ -65,7 +64,7 @@ std::optional<Fault> CheckedReader::read(std::string_view document) {
 
     checked_ = acceptor_ && acceptor_->accepts(bytes_) ? Validation::fast : Validation::full;
     if (checked_ == Validation::full) {
-        if (auto fault = judge()) return fault;
+        if (auto fault = check_in_full()) return fault;
     }
     if (auto const result = tree_.load_buffer_inplace(bytes_.data(), bytes_.size(), as_xerces_reads, pugi::encoding_utf8);
         !result) {
@@ -74,8 +73,8 @@ std::optional<Fault> CheckedReader::read(std::string_view document) {
     return std::nullopt;
 }
 
-// Nothing when the document is well-formed and, as far as there are schemas, valid; its namespaces have today's form then.
-std::optional<Fault> CheckedReader::judge() {
+// Writes today's form of its namespaces into the bytes.
+std::optional<Fault> CheckedReader::check_in_full() {
     std::span<std::string const> namespaces;
     if (schemas_) namespaces = schemas_->grammars().namespaces();
     auto const outcome = scan(bytes_, limits_, namespaces);

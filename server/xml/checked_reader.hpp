@@ -27,8 +27,8 @@ class CheckedReader {
 public:
     // Without schemas it looks at a document's form alone. `roots` are the elements that a fault names when the root is another
     // one; none: any that the schemas have.
-    CheckedReader(std::shared_ptr<Schemas const>, DocumentLimits, Validation = Validation::fast,
-                  std::span<std::string_view const> roots = {}, ForeignNamespaces = ForeignNamespaces::refused);
+    CheckedReader(std::shared_ptr<Schemas const>, DocumentLimits, std::span<std::string_view const> roots = {},
+                  ForeignNamespaces = ForeignNamespaces::refused, Validation = Validation::fast);
 
     // Nothing when all is well: then `root` is the document's, until the next call. The document must live as long as it is asked
     // about.
@@ -43,7 +43,7 @@ public:
     Place place(pugi::xml_node element) const;
 
 private:
-    std::optional<Fault> judge();
+    std::optional<Fault> check_in_full();
     std::optional<Fault> objection_to(Scanned const&);
     Fault refused(FaultCode, std::string reason, std::size_t offset) const;
     Fault not_well_formed(Objection const&, Scanned const&) const;
@@ -54,10 +54,10 @@ private:
     DocumentLimits limits_;
     std::span<std::string_view const> roots_;
     ForeignNamespaces foreign_;
-    std::optional<Acceptor> acceptor_;    // when there are schemas, and the fast way may be taken
-    std::optional<Validator> validator_;  // when there are schemas
-    std::string_view document_;           // the last one, as it came
-    std::string bytes_;                   // it with its namespaces in today's form; the tree points into it
+    std::optional<Acceptor> acceptor_;
+    std::optional<Validator> validator_;
+    std::string_view document_;  // the last one, as it came
+    std::string bytes_;          // it with its namespaces in today's form; the tree points into it
     pugi::xml_document tree_;
     std::optional<Validation> checked_;
 };

@@ -35,7 +35,7 @@ Interned::Interned() : texts_(1), slots_(256, unknown) { add({}); }
 
 Interned::Id Interned::add(std::string_view text) {
     if (auto const known = find(text); known != unknown) return known;
-    if (texts_.size() > std::numeric_limits<Id>::max()) throw std::length_error("the schemas have too many names");
+    if (texts_.size() > std::numeric_limits<Id>::max()) throw std::runtime_error("the schemas have too many names");
     texts_.emplace_back(text);
     if (texts_.size() * 2 > slots_.size()) {
         slots_.assign(slots_.size() * 2, unknown);

@@ -17,7 +17,7 @@ public:
 
     Interned();
 
-    // The number of a text, a new one when it has none yet. Throws std::length_error when there are no more numbers.
+    // The number of a text, a new one when it has none yet. Throws std::runtime_error when there are no more numbers.
     Id add(std::string_view);
 
     // `unknown` for a text that was not added.

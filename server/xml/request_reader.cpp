@@ -8,7 +8,7 @@ namespace rois::xml {
 class RequestReader::Kept {
 public:
     Kept(std::shared_ptr<Schemas const> schemas, DocumentLimits limits, Validation validation)
-        : schemas_{schemas}, reader_{std::move(schemas), limits, validation, operation_names()} {}
+        : schemas_{schemas}, reader_{std::move(schemas), limits, operation_names(), ForeignNamespaces::refused, validation} {}
 
     std::variant<Request, Fault> read(std::string_view document) {
         if (auto fault = reader_.read(document)) return *std::move(fault);
