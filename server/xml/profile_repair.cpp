@@ -38,10 +38,33 @@ constexpr std::array<KindOfMessage, 7> kinds{{{"CommandMessageProfileType", "Com
                                               {"QueryMessageProfile", "QueryMessageProfileType"},
                                               {"EventMessageProfile", "EventMessageProfileType"}}};
 
+std::string without_underscores(std::string_view name) {
+    std::string without{name};
+    std::erase(without, '_');
+    return without;
+}
+
 std::string_view type_meant(std::string_view written) {
-    auto const found = std::ranges::find_if(kinds, [&](auto const& kind) { return equal_ignoring_case(kind.written, written); });
+    auto const name = without_underscores(written);
+    auto const found = std::ranges::find_if(kinds, [&](auto const& kind) { return equal_ignoring_case(kind.written, name); });
     return found == kinds.end() ? std::string_view{} : found->type;
 }
+
+// What the tables of 2011 call the parts of profiles (tables 24 to 30), and what the XML calls them (decision 29). The names of
+// the profiles themselves differ by their underscores alone.
+struct Renamed {
+    std::string_view old;
+    std::string_view name;
+};
+constexpr std::array<Renamed, 3> parts_of_components{
+    {{"sub_component", "SubComponentProfile"}, {"message", "MessageProfile"}, {"parameter", "ParameterProfile"}}};
+constexpr std::array<Renamed, 3> parts_of_engines{
+    {{"sub_profile", "SubProfile"}, {"component", "HRIComponent"}, {"parameter", "ParameterProfile"}}};
+constexpr std::array<Renamed, 3> parts_of_messages{
+    {{"results", "Results"}, {"argument", "Arguments"}, {"arguments", "Arguments"}}};
+constexpr std::array<std::string_view, 7> names_of_profiles{"HRIComponentProfile", "HRIEngineProfile",      "ParameterProfile",
+                                                            "MessageProfile",      "CommandMessageProfile", "QueryMessageProfile",
+                                                            "EventMessageProfile"};
 
 using Order = std::vector<std::string_view>;
 
@@ -59,6 +82,7 @@ public:
 
     std::vector<Repair> run() {
         rois_ = prefix_for(rois_namespace, "rois");
+        rename(root_, {});
         auto const name = local_name(root_);
         if (name == "HRIComponentProfile") component(root_);
         if (name == "HRIEngineProfile") engine(root_);
@@ -67,6 +91,17 @@ public:
 
 private:
     void note(pugi::xml_node element, std::string what) { repairs_.push_back({offset_of(element), std::move(what)}); }
+
+    // An element that has its name of 2011 gets the one of today.
+    void rename(pugi::xml_node element, std::span<Renamed const> parts) {
+        auto const name = local_name(element);
+        auto const part = std::ranges::find(parts, name, &Renamed::old);
+        auto const profile = std::ranges::find(names_of_profiles, without_underscores(name));
+        auto const today = part != parts.end() ? part->name : profile != names_of_profiles.end() ? *profile : std::string_view{};
+        if (today.empty() || today == name) return;
+        note(element, quoted(element.name()) + " is the name of 2011 for " + quoted(today));
+        element.set_name((rois_prefix_of(element) + std::string{today}).c_str());
+    }
 
     // A prefix that is bound to the namespace at the root; declared there when there is none. Attributes need one.
     std::string prefix_for(std::string_view name_space, std::string wanted) {
@@ -84,6 +119,7 @@ private:
         object(profile);
         std::vector<pugi::xml_node> const children{profile.children().begin(), profile.children().end()};
         for (auto const child : children) {
+            rename(child, parts_of_components);
             auto const name = local_name(child);
             if (name == "ParameterProfile") parameter(child);
             if (name == "MessageProfile" || name.ends_with("MessageProfile")) message(child);
@@ -94,6 +130,7 @@ private:
     void engine(pugi::xml_node profile) {
         object(profile);
         for (auto const child : profile.children()) {
+            rename(child, parts_of_engines);
             if (local_name(child) == "ParameterProfile") parameter(child);
             if (local_name(child) == "SubProfile") engine(child);
         }
@@ -145,6 +182,7 @@ private:
         auto const type = message_type(element);
         std::vector<pugi::xml_node> const children{element.children().begin(), element.children().end()};
         for (auto child : children) {
+            rename(child, parts_of_messages);
             auto const name = local_name(child);
             if (name == "Results" || name == "Arguments") parameter(child);
             if (name != "Arguments") continue;

@@ -6,6 +6,7 @@
 namespace rois::xml {
 namespace {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -61,6 +62,41 @@ TEST(Decision29, WhatOthersCallOtherwiseIsRead) {
     EXPECT_EQ(problem("again.xml", written), "");
     EXPECT_THAT(written, HasSubstr("http://www.omg.org/spec/RoIS/20240801")) << "the published names of today";
     EXPECT_THAT(written, HasSubstr("\"rois:CommandMessageProfileType\""));
+}
+
+// What the tables of 2011 call the parts of profiles.
+TEST(Decision29, NamesOf2011AreRead) {
+    std::string const declared =
+        " xmlns:rois='http://www.omg.org/spec/RoIS/20240801' xmlns:gml='http://www.opengis.net/gml/3.2' "
+        "xmlns:xsi='http://www.w3.org/2001/XMLSchema-instance' gml:id='p'><gml:identifier "
+        "codeSpace='c'>urn:x:lamp</gml:identifier>";
+    auto const type = std::string{"<rois:data_type_ref rois:code='int'/>"};
+    auto const read = read_profile_document(
+        schemas(), "p.xml",
+        "<rois:HRI_Component_Profile" + declared +
+            "<rois:sub_component>urn:x:base</rois:sub_component>"
+            "<rois:message xsi:type='rois:Command_Message_ProfileType' rois:name='shine'><rois:results rois:name='lumen'>" +
+            type + "</rois:results><rois:argument rois:name='colour'>" + type +
+            "</rois:argument></rois:message><rois:Event_Message_Profile rois:name='faded'/>"
+            "<rois:parameter rois:name='volume'>" +
+            type + "</rois:parameter><rois:Parameter_Profile rois:name='pitch'>" + type +
+            "</rois:Parameter_Profile></rois:HRI_Component_Profile>");
+    auto const profile = std::get<ComponentProfile>(read.profile);
+    EXPECT_EQ(profile.sub_components, std::vector<std::string>{"urn:x:base"});
+    ASSERT_EQ(profile.messages.size(), 2U);
+    EXPECT_EQ(profile.messages[0].kind, MessageKind::command);
+    EXPECT_EQ(profile.messages[0].results.at(0).name, "lumen");
+    EXPECT_EQ(profile.messages[0].arguments.at(0).name, "colour");
+    EXPECT_EQ(profile.messages[1].kind, MessageKind::event);
+    EXPECT_EQ(profile.parameters.size(), 2U);
+    EXPECT_THAT(read.warnings, Contains("p.xml:1:1: 'rois:HRI_Component_Profile' is the name of 2011 for 'HRIComponentProfile'"));
+    EXPECT_THAT(read.warnings, Contains(HasSubstr("'rois:argument' is the name of 2011 for 'Arguments'")));
+
+    auto const engine = read_profile_document(schemas(), "p.xml",
+                                              "<rois:HRI_Engine_Profile" + declared +
+                                                  "<rois:component>lamp</rois:component><rois:component>door</rois:component>"
+                                                  "</rois:HRI_Engine_Profile>");
+    EXPECT_EQ(std::get<EngineProfile>(engine.profile).components, (std::vector<std::string>{"lamp", "door"}));
 }
 
 // The seed's nesting and the published forms of later versions are read, and written as they came.
