@@ -21,7 +21,7 @@ struct Opened {
     Opened(std::string its_name, std::string its_text, std::shared_ptr<Schemas const> schemas)
         : name{std::move(its_name)},
           text{std::move(its_text)},
-          reader{std::move(schemas), DocumentLimits{}, Validation::fast, {}, ForeignNamespaces::as_the_schemas_say} {}
+          reader{std::move(schemas), DocumentLimits{}, {}, ForeignNamespaces::as_the_schemas_say} {}
 
     std::string name;
     std::string text;
