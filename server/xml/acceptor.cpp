@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <ranges>
 #include <utility>
 
 #include "xml/characters.hpp"
@@ -271,9 +272,9 @@ bool Acceptor::bind(std::string_view prefix, std::string_view name_space, std::s
 }
 
 Interned::Id Acceptor::name_space_of(std::string_view prefix) const {
-    auto const found =
-        std::find_if(bindings_.rbegin(), bindings_.rend(), [&](Binding const& each) { return each.prefix == prefix; });
-    if (found != bindings_.rend()) return found->name_space;
+    auto const innermost_first = bindings_ | std::views::reverse;
+    auto const found = std::ranges::find(innermost_first, prefix, &Binding::prefix);
+    if (found != innermost_first.end()) return found->name_space;
     return prefix.empty() ? Interned::empty : Interned::unknown;
 }
 

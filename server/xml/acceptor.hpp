@@ -34,7 +34,7 @@ private:
     };
     struct Binding {
         std::string_view prefix;
-        Interned::Id name_space;
+        Interned::Id name_space = Interned::empty;
     };
     // An element that is open: what it is called, and how far its content has come.
     struct Open {

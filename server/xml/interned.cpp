@@ -12,9 +12,9 @@ namespace {
 std::size_t hash(std::string_view text) {
     std::uint64_t first = 0, last = 0;
     auto const ends = [&](auto number) {
-        std::memcpy(&number, text.data(), sizeof number);
+        text.copy(reinterpret_cast<char*>(&number), sizeof number);
         first = number;
-        std::memcpy(&number, text.data() + text.size() - sizeof number, sizeof number);
+        text.substr(text.size() - sizeof number).copy(reinterpret_cast<char*>(&number), sizeof number);
         last = number;
     };
     if (text.size() >= 8) {

@@ -30,9 +30,9 @@ constexpr bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' &&
 
 inline constexpr auto in_names = [] {
     std::array<bool, 256> table{};
-    for (auto c = 'a'; c <= 'z'; ++c) table[static_cast<std::size_t>(c)] = true;
-    for (auto c = 'A'; c <= 'Z'; ++c) table[static_cast<std::size_t>(c)] = true;
-    for (auto const c : std::string_view{"0123456789_-.:"}) table[static_cast<std::size_t>(c)] = true;
+    for (auto c = 'a'; c <= 'z'; ++c) table[static_cast<unsigned char>(c)] = true;
+    for (auto c = 'A'; c <= 'Z'; ++c) table[static_cast<unsigned char>(c)] = true;
+    for (auto const c : std::string_view{"0123456789_-.:"}) table[static_cast<unsigned char>(c)] = true;
     return table;
 }();
 
