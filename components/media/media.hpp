@@ -51,6 +51,9 @@ using Content = std::variant<Sound, Film>;
 // What became of receiving: the first receiver has come, or the last one has gone.
 enum class Reception : std::uint8_t { begun, ended };
 
+// Whether anything flows at first.
+enum class Flow : std::uint8_t { on, held };
+
 // Something that is served; it ends with its outlet. Used by one thread.
 class Outlet {
 public:
@@ -80,7 +83,7 @@ public:
     virtual std::optional<std::string> rtp_refusal(std::string_view target) const = 0;
 
     // By RTP (RFC 3550, 3551) as L16, a packet each 20 ms. Throws std::runtime_error when it cannot be sent there.
-    virtual std::unique_ptr<Outlet> send(Tone const&, std::string_view rtp_target) = 0;
+    virtual std::unique_ptr<Outlet> send(Tone const&, std::string_view rtp_target, Flow) = 0;
 };
 
 }  // namespace rois::media

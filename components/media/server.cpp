@@ -86,9 +86,10 @@ public:
                                               [directory = directory_, id] { directory->remove(id); });
     }
 
-    std::unique_ptr<Outlet> send(Tone const& tone, asio::ip::udp::endpoint const& target) {
+    std::unique_ptr<Outlet> send(Tone const& tone, asio::ip::udp::endpoint const& target, Flow flow) {
         auto const beginning = drawn_by_lot();
         auto channel = std::make_shared<Channel>(Sound{tone, Sound::Form::l16});
+        if (flow == Flow::held) channel->hold();
         boost::system::error_code error;
         Datagrams socket{io_.get_executor()};
         socket.open(target.protocol(), error);
@@ -164,9 +165,9 @@ std::optional<std::string> Server::rtp_refusal(std::string_view target) const {
     return {};
 }
 
-std::unique_ptr<Outlet> Server::send(Tone const& tone, std::string_view rtp_target) {
+std::unique_ptr<Outlet> Server::send(Tone const& tone, std::string_view rtp_target, Flow flow) {
     if (auto const problem = rtp_refusal(rtp_target)) throw std::runtime_error{*problem};
-    return running_->send(tone, *media::rtp_target(rtp_target));
+    return running_->send(tone, *media::rtp_target(rtp_target), flow);
 }
 
 }  // namespace rois::media

@@ -24,7 +24,7 @@ public:
 
     std::unique_ptr<Outlet> serve(Content) override;
     std::optional<std::string> rtp_refusal(std::string_view target) const override;
-    std::unique_ptr<Outlet> send(Tone const&, std::string_view rtp_target) override;
+    std::unique_ptr<Outlet> send(Tone const&, std::string_view rtp_target, Flow) override;
 
 private:
     class Running;

@@ -29,10 +29,11 @@ private:
         auto& media = this->media();
         if (transport.name == "http") {
             media::Sound const sound{tone, wav ? media::Sound::Form::wav : media::Sound::Form::l16};
-            return Opening{written, [&media, sound] { return media.serve(sound); }};
+            return Opening{written, [&media, sound](media::Flow) { return media.serve(sound); }};
         }
         if (wav) return "audio/wav is not sent by RTP; audio/L16 is";
-        return Opening{written, [&media, tone, target = transport.name] { return media.send(tone, target); }};
+        return Opening{written,
+                       [&media, tone, target = transport.name](media::Flow flow) { return media.send(tone, target, flow); }};
     }
 };
 

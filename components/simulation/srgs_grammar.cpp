@@ -117,6 +117,7 @@ private:
         if (special == "GARBAGE") return make(Kind::garbage);
         if (special == "VOID") return make(Kind::never);
         if (special == "NULL") return make(Kind::sequence);
+        if (!uri) throw element.complain("the special rule " + quoted(special) + " is none of NULL, VOID and GARBAGE");
         if (!uri->starts_with('#'))
             throw element.complain("the uri " + quoted(*uri) + " leads out of the grammar: expected '#' and the id of a rule");
         auto const rule = std::ranges::find(rules_, uri->substr(1), &SrgsGrammar::Rule::id);

@@ -162,7 +162,8 @@ void Streaming::connect(CommandHandle command, Instant now) {
     auto const agreed = negotiated(parameters_);
     auto const* opening = std::get_if<Opening>(&agreed);
     if (opening == nullptr) return port().completed(command, CompletedStatus::error);
-    Stream stream{.id = description().ref.code + "-" + std::to_string(++last_), .outlet = opening->open()};
+    Stream stream{.id = description().ref.code + "-" + std::to_string(++last_),
+                  .outlet = opening->open(held_ ? media::Flow::held : media::Flow::on)};
     Results results{{text("stream_id", stream.id), text("encoding_parameters", opening->encoding),
                      text("transport_parameters", stream.outlet->address())},
                     {}};

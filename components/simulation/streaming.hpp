@@ -35,7 +35,7 @@ protected:
     // What an encoding and a transport agree on.
     struct Opening {
         std::string encoding;  // with all its fields
-        std::function<std::unique_ptr<media::Outlet>()> open;
+        std::function<std::unique_ptr<media::Outlet>(media::Flow)> open;
     };
 
     // Their names, the first of them when nothing is asked for.

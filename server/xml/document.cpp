@@ -77,7 +77,7 @@ std::optional<Element> Element::child(std::string_view name) const {
 
 std::optional<std::string> Element::attribute(std::string_view name) const {
     auto const found = xml::attribute(node_->node, name);
-    return found ? std::optional<std::string>{found.value()} : std::nullopt;
+    return found ? std::optional{std::string{trimmed(found.value())}} : std::nullopt;
 }
 
 std::string Element::attribute(std::string_view name, std::string_view otherwise) const {

@@ -68,7 +68,7 @@ TEST(Rtp, HasTheStaticPayloadTypes) {
 TEST(Rtp, IsSentToItsTarget) {
     Stage stage;
     Mailbox mailbox;
-    auto const outlet = stage.server.send({}, target(mailbox));
+    auto const outlet = stage.server.send({}, target(mailbox), Flow::on);
     RtpPacket packet{mailbox.take()};
     EXPECT_EQ(outlet->address(), target(mailbox) + ";payload_type=96;ssrc=" + std::to_string(packet.ssrc));
     EXPECT_TRUE(packet.marker);
@@ -86,10 +86,25 @@ TEST(Rtp, IsSentToItsTarget) {
     EXPECT_EQ(next_reception(*outlet), Reception::begun);
 }
 
+TEST(Rtp, IsSilentUntilItGoesOnWhenItBeginsHeld) {
+    Stage stage;
+    Mailbox mailbox, witness;
+    auto const outlet = stage.server.send({}, target(mailbox), Flow::held),
+               other = stage.server.send({}, target(witness), Flow::on);
+    RtpPacket heard{witness.take()};
+    for (int i = 0; i < 5; ++i) heard = RtpPacket{witness.take()};
+    outlet->go_on();
+    RtpPacket const first{mailbox.take()};
+    auto const from = first.timestamp;
+    EXPECT_TRUE(first.marker);
+    EXPECT_EQ(RtpPacket{mailbox.take()}.timestamp, from + 320) << "nothing was sent before";
+}
+
 TEST(Rtp, IsSilentWhileItIsHeld) {
     Stage stage;
     Mailbox mailbox, witness;
-    auto const outlet = stage.server.send({}, target(mailbox)), other = stage.server.send({}, target(witness));
+    auto const outlet = stage.server.send({}, target(mailbox), Flow::on),
+               other = stage.server.send({}, target(witness), Flow::on);
     RtpPacket last{mailbox.take()};
     outlet->hold();
     for (int i = 0; i < 10; ++i) witness.take();  // 200 ms
@@ -108,7 +123,7 @@ TEST(Rtp, IsNotSentToAnybody) {
     EXPECT_THAT(stage.server.rtp_refusal("rtp://239.1.2.3:5004"), Optional(HasSubstr("loopback")));
     EXPECT_THAT(stage.server.rtp_refusal("rtp://robot:5004"), Optional(HasSubstr("numeric")));
     EXPECT_EQ(stage.server.rtp_refusal("rtp://[::1]:5004"), std::nullopt);
-    EXPECT_THROW(stage.server.send({}, "rtp://192.0.2.1:5004"), std::runtime_error);
+    EXPECT_THROW(stage.server.send({}, "rtp://192.0.2.1:5004", Flow::on), std::runtime_error);
     Settings open;
     open.rtp_targets = RtpTargets::any;
     EXPECT_EQ(Stage{open}.server.rtp_refusal("rtp://192.0.2.1:5004"), std::nullopt);

@@ -157,7 +157,7 @@ TEST(MediaServerSettings, OutletsMayOutliveIt) {
     auto stage = std::make_unique<Stage>();
     auto const sound = stage->server.serve(Sound{});
     Mailbox mailbox;
-    auto const sent = stage->server.send({}, "rtp://127.0.0.1:" + std::to_string(mailbox.port()));
+    auto const sent = stage->server.send({}, "rtp://127.0.0.1:" + std::to_string(mailbox.port()), Flow::on);
     Receiving receiving{sound->address()};
     stage.reset();
     receiving.line().rest();

@@ -18,6 +18,7 @@ public:
         std::string address;
         media::Content content;
         bool held = false;
+        bool begun_held = false;
         bool open = true;
         std::vector<media::Reception> news{};
     };
@@ -31,8 +32,10 @@ public:
         return "not to there";
     }
 
-    std::unique_ptr<media::Outlet> send(media::Tone const& tone, std::string_view target) override {
-        return offer(std::string{target} + ";ssrc=7", media::Sound{tone, media::Sound::Form::l16});
+    std::unique_ptr<media::Outlet> send(media::Tone const& tone, std::string_view target, media::Flow flow) override {
+        auto outlet = offer(std::string{target} + ";ssrc=7", media::Sound{tone, media::Sound::Form::l16});
+        all.back()->begun_held = flow == media::Flow::held;
+        return outlet;
     }
 
     std::vector<std::shared_ptr<Offered>> all;

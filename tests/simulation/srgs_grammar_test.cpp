@@ -168,8 +168,21 @@ TEST(SrgsGrammar, IsRefusedWithItsPlace) {
     for (std::string const reserved : {"NULL", "VOID", "GARBAGE"})
         EXPECT_THAT(flaw(grammar("<rule id='a'>x</rule>\n<rule id='" + reserved + "'>x</rule>", "")),
                     AllOf(StartsWith("grammar:3:1: "), HasSubstr("'" + reserved + "' is that of a special rule")));
+    for (std::string const reserved : {" NULL ", "&#9;VOID&#10;"})
+        EXPECT_THAT(flaw(grammar("<rule id='" + reserved + "'>x</rule>", "")), HasSubstr("is that of a special rule"));
     EXPECT_THAT(flaw("<scenario xmlns='urn:x-rois:simulation:hall:1' name='x'/>"), HasSubstr("this is no grammar"));
     EXPECT_THAT(flaw(grammar("<rule id='a'><one-of>\n<item weight='0'>x</item></one-of></rule>", "")), HasSubstr("the weight 0"));
+}
+
+// What the schema takes as a token may have blanks around it.
+TEST(SrgsGrammar, MayHaveBlanksAroundItsTokens) {
+    EXPECT_THAT(
+        understood("<rule id='top'><one-of><item>yes <ruleref special=' VOID '/></item><item>no</item></one-of></rule>", "yes"),
+        understood("<rule id='top'><one-of><item>yes <ruleref special='VOID'/></item><item>no</item></one-of></rule>", "yes"));
+    EXPECT_EQ(flaw(grammar("<rule id=' a ' scope=' public '>x <ruleref uri='#b'/> <ruleref special='&#9;NULL '/></rule>"
+                           "<rule id=' b '>y</rule>",
+                           " root=' a '")),
+              "it was read");
 }
 
 // Decision 28: languages are ISO 639-1.
