@@ -27,8 +27,8 @@ public:
 
     Role role(xml::Element const& element) const {
         Role role;
-        role.id = element.attribute("id", "");
-        role.known = is_true(element.attribute("known", "false"));
+        role.id = element.token("id", "");
+        role.known = is_true(element.token("known", "false"));
         role.language = language(element, "en");
         role.height = element.number("height", role.height * 1000.0) / 1000.0;
         role.speed = element.number("speed", role.speed * 1000.0) / 1000.0;
@@ -49,14 +49,14 @@ private:
     Answer answer(xml::Element const& element, std::string const& usual_language) const {
         Answer answer;
         answer.to = element.attribute("to", "");
-        answer.reaction = element.attribute("reaction", "");
+        answer.reaction = element.token("reaction", "");
         if (answer.to.empty() == answer.reaction.empty()) throw element.complain("an answer has one of 'to' and 'reaction'");
         if (!answer.reaction.empty()) check_reaction(element, answer.reaction);
         answer.language = language(element, usual_language);
         answer.text = trimmed(element.text());
-        answer.gesture = element.attribute("gesture", "");
+        answer.gesture = element.token("gesture", "");
         if (!answer.gesture.empty()) check_gesture(element, answer.gesture);
-        answer.once = is_true(element.attribute("once", "false"));
+        answer.once = is_true(element.token("once", "false"));
         return answer;
     }
 
@@ -73,8 +73,8 @@ private:
         } else if (name == "say") {
             action.what = Say{language(element, usual_language), std::string{trimmed(element.text())}};
         } else if (name == "gesture") {
-            check_gesture(element, element.attribute("id", ""));
-            action.what = Gesture{element.attribute("id", "")};
+            check_gesture(element, element.token("id", ""));
+            action.what = Gesture{element.token("id", "")};
         } else if (name == "wait") {
             action.what = Wait{element.number("seconds")};
         } else if (name == "wander") {
@@ -97,13 +97,13 @@ private:
     }
 
     static std::string language(xml::Element const& element, std::string const& otherwise) {
-        auto language = element.attribute("language", otherwise);
+        auto language = element.token("language", otherwise);
         if (!is_language(language)) throw element.complain(quoted(language) + " is no language of ISO 639-1, like en or ja");
         return language;
     }
 
     static Gender gender(xml::Element const& element) {
-        auto const name = element.attribute("gender", "");
+        auto const name = element.token("gender", "");
         if (name == "male") return Gender::male;
         if (name == "female") return Gender::female;
         return name == "not_applicable" ? Gender::not_applicable : Gender::not_known;
@@ -129,8 +129,8 @@ Fault::Kind kind_of_fault(std::string_view name) {
 }
 
 Fault fault(xml::Element const& element, std::vector<std::string> const& refs) {
-    Fault read{.component = element.attribute("component", ""),
-               .kind = kind_of_fault(element.attribute("kind", "")),
+    Fault read{.component = element.token("component", ""),
+               .kind = kind_of_fault(element.token("kind", "")),
                .from = element.number("from", 0),
                .until = {}};
     if (std::ranges::find(refs, read.component) == refs.end())

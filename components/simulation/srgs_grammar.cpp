@@ -83,7 +83,7 @@ private:
     }
 
     Expansion item(xml::Element const& element) {
-        auto const repeat = element.attribute("repeat");
+        auto const repeat = element.token("repeat");
         if (!repeat) return sequence(element);
         auto made = make(Kind::repeat);
         auto const range = trimmed(*repeat);
@@ -111,8 +111,8 @@ private:
     }
 
     Expansion rule_ref(xml::Element const& element) {
-        auto const uri = element.attribute("uri");
-        auto const special = element.attribute("special", "");
+        auto const uri = element.token("uri");
+        auto const special = element.token("special", "");
         if (uri.has_value() == !special.empty()) throw element.complain("a ruleref has one of 'uri' and 'special'");
         if (special == "GARBAGE") return make(Kind::garbage);
         if (special == "VOID") return make(Kind::never);
@@ -201,19 +201,19 @@ std::variant<SrgsGrammar, SrgsGrammar::Flaw> SrgsGrammar::read(std::shared_ptr<x
         auto const root = xml::Document::parse(schemas, "grammar", std::string{document}).root();
         if (root.name() != "grammar") throw root.complain("this is no grammar: expected the element grammar of SRGS");
         SrgsGrammar made;
-        made.language_ = root.attribute("lang", "");
+        made.language_ = root.token("lang", "");
         if (auto const& said = made.language_; !is_language(lower_case(said.substr(0, said.find('-')))))
             throw root.complain("the language " + quoted(said) + " cannot be recognized; those that can are " +
                                 names_of_languages());
         auto const elements = root.children("rule");
         for (auto const& element : elements) {
-            made.rules_.push_back({element.attribute("id", ""), element.attribute("scope", "private") == "public", {}});
+            made.rules_.push_back({element.token("id", ""), element.token("scope", "private") == "public", {}});
             if (std::ranges::find(special_rules, made.rules_.back().id) != special_rules.end())
                 throw element.complain("the id " + quoted(made.rules_.back().id) + " is that of a special rule");
         }
         ExpansionReader reader{made.rules_};
         for (std::size_t i = 0; i < elements.size(); ++i) made.rules_[i].expansion = reader.sequence(elements[i]);
-        if (auto const id = root.attribute("root")) {
+        if (auto const id = root.token("root")) {
             auto const found = std::ranges::find(made.rules_, *id, &Rule::id);
             if (found == made.rules_.end()) throw root.complain("there is no rule " + quoted(*id) + ", which shall be the root");
             made.root_ = static_cast<std::size_t>(found - made.rules_.begin());

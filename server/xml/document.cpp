@@ -77,11 +77,20 @@ std::optional<Element> Element::child(std::string_view name) const {
 
 std::optional<std::string> Element::attribute(std::string_view name) const {
     auto const found = xml::attribute(node_->node, name);
-    return found ? std::optional{std::string{trimmed(found.value())}} : std::nullopt;
+    return found ? std::optional<std::string>{found.value()} : std::nullopt;
 }
 
 std::string Element::attribute(std::string_view name, std::string_view otherwise) const {
     return attribute(name).value_or(std::string{otherwise});
+}
+
+std::optional<std::string> Element::token(std::string_view name) const {
+    auto const found = xml::attribute(node_->node, name);
+    return found ? std::optional{std::string{trimmed(found.value())}} : std::nullopt;
+}
+
+std::string Element::token(std::string_view name, std::string_view otherwise) const {
+    return token(name).value_or(std::string{otherwise});
 }
 
 double Element::number(std::string_view name) const {

@@ -33,14 +33,17 @@ struct Attribute {
 class Element {
 public:
     std::string_view name() const;
-    std::string_view name_space() const;                                // empty: none
-    std::vector<Attribute> attributes() const;                          // in order; without declarations of namespaces
-    Place place() const;                                                // of its start tag
-    std::vector<Element> children() const;                              // elements only, in order
-    std::vector<Element> children(std::string_view name) const;         // those of that name
-    std::optional<Element> child(std::string_view name) const;          // the first of that name
-    std::optional<std::string> attribute(std::string_view name) const;  // without white space at its ends
+    std::string_view name_space() const;                         // empty: none
+    std::vector<Attribute> attributes() const;                   // in order; without declarations of namespaces
+    Place place() const;                                         // of its start tag
+    std::vector<Element> children() const;                       // elements only, in order
+    std::vector<Element> children(std::string_view name) const;  // those of that name
+    std::optional<Element> child(std::string_view name) const;   // the first of that name
+    std::optional<std::string> attribute(std::string_view name) const;
     std::string attribute(std::string_view name, std::string_view otherwise) const;
+    // As a token of XML Schema: without white space at its ends.
+    std::optional<std::string> token(std::string_view attribute) const;
+    std::string token(std::string_view attribute, std::string_view otherwise) const;
     double number(std::string_view attribute) const;  // BadDocument when it is missing or no number
     double number(std::string_view attribute, double otherwise) const;
     std::string_view type() const;  // the local name of its xsi:type; empty when it has none
