@@ -77,7 +77,7 @@ public:
     virtual ~Media() = default;
 
     // At an address of its own that nobody can guess.
-    virtual std::unique_ptr<Outlet> serve(Content) = 0;
+    virtual std::unique_ptr<Outlet> serve(Content, Flow) = 0;
 
     // Why nothing is sent to this target, or nothing. A target is "rtp://HOST:PORT" with a numeric address or localhost.
     virtual std::optional<std::string> rtp_refusal(std::string_view target) const = 0;

@@ -78,8 +78,9 @@ public:
     Settings const& settings() const { return settings_; }
     std::string const& url() const { return url_; }
 
-    std::unique_ptr<Outlet> serve(Content content) {
+    std::unique_ptr<Outlet> serve(Content content, Flow flow) {
         auto channel = std::make_shared<Channel>(std::move(content));
+        if (flow == Flow::held) channel->hold();
         auto const id = fresh_id_();
         directory_->add(id, channel);
         return std::make_unique<SharedOutlet>(std::move(channel), url_ + "/" + id,
@@ -155,7 +156,7 @@ Server::~Server() = default;
 
 std::string const& Server::url() const { return running_->url(); }
 
-std::unique_ptr<Outlet> Server::serve(Content content) { return running_->serve(std::move(content)); }
+std::unique_ptr<Outlet> Server::serve(Content content, Flow flow) { return running_->serve(std::move(content), flow); }
 
 std::optional<std::string> Server::rtp_refusal(std::string_view target) const {
     auto const endpoint = rtp_target(target);

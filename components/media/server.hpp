@@ -22,7 +22,7 @@ public:
     // How the addresses of what HTTP serves begin: "http://127.0.0.1:8081".
     std::string const& url() const;
 
-    std::unique_ptr<Outlet> serve(Content) override;
+    std::unique_ptr<Outlet> serve(Content, Flow) override;
     std::optional<std::string> rtp_refusal(std::string_view target) const override;
     std::unique_ptr<Outlet> send(Tone const&, std::string_view rtp_target, Flow) override;
 

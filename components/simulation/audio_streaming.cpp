@@ -29,7 +29,7 @@ private:
         auto& media = this->media();
         if (transport.name == "http") {
             media::Sound const sound{tone, wav ? media::Sound::Form::wav : media::Sound::Form::l16};
-            return Opening{written, [&media, sound](media::Flow) { return media.serve(sound); }};
+            return Opening{written, [&media, sound](media::Flow flow) { return media.serve(sound, flow); }};
         }
         if (wav) return "audio/wav is not sent by RTP; audio/L16 is";
         return Opening{written,

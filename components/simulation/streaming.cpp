@@ -167,7 +167,6 @@ void Streaming::connect(CommandHandle command, Instant now) {
     Results results{{text("stream_id", stream.id), text("encoding_parameters", opening->encoding),
                      text("transport_parameters", stream.outlet->address())},
                     {}};
-    if (held_) stream.outlet->hold();
     stream.held_with_all = held_;
     auto& connected = streams_.emplace_back(std::move(stream));
     turn(connected, held_ ? StreamStatus::suspended : StreamStatus::not_running, now);

@@ -27,7 +27,8 @@ private:
                          .form = single ? media::Film::Form::jpeg : media::Film::Form::motion_jpeg};
         auto written = encoding.name + ";size=" + std::to_string(longest);
         if (!single) written += ";framerate=" + std::to_string(rate);
-        return Opening{std::move(written), [&media = media(), film = std::move(film)](media::Flow) { return media.serve(film); }};
+        return Opening{std::move(written),
+                       [&media = media(), film = std::move(film)](media::Flow flow) { return media.serve(film, flow); }};
     }
 
     void look(Instant when) override {

@@ -30,7 +30,7 @@ TEST(Jpeg, IsNotMadeOfAPictureThatIsNotWhole) {
 TEST(HttpFilm, IsOnePictureAfterAnother) {
     Stage stage;
     Screen screen;
-    auto const outlet = stage.server.serve(screen.film(Film::Form::motion_jpeg));
+    auto const outlet = stage.server.serve(screen.film(Film::Form::motion_jpeg), Flow::on);
     Receiving receiving{outlet->address()};
     EXPECT_THAT(receiving.head(), HasSubstr("\r\nContent-Type: multipart/x-mixed-replace;boundary=picture\r\n"));
     EXPECT_EQ(colour_of(receiving.next_picture()), 'r');
@@ -44,7 +44,7 @@ TEST(HttpFilm, BeginsWhenThereIsSomethingToSee) {
     Stage stage;
     Screen screen;
     screen.colour = '-';
-    auto const outlet = stage.server.serve(screen.film(Film::Form::motion_jpeg));
+    auto const outlet = stage.server.serve(screen.film(Film::Form::motion_jpeg), Flow::on);
     Receiving receiving{outlet->address()};
     screen.colour = 'g';
     EXPECT_EQ(colour_of(receiving.next_picture()), 'g');
@@ -53,8 +53,8 @@ TEST(HttpFilm, BeginsWhenThereIsSomethingToSee) {
 TEST(HttpFilm, ShowsNothingWhileItIsHeld) {
     Stage stage;
     Screen screen, other;
-    auto const held = stage.server.serve(screen.film(Film::Form::motion_jpeg));
-    auto const going_on = stage.server.serve(other.film(Film::Form::motion_jpeg));
+    auto const held = stage.server.serve(screen.film(Film::Form::motion_jpeg), Flow::on);
+    auto const going_on = stage.server.serve(other.film(Film::Form::motion_jpeg), Flow::on);
     Receiving receiving{held->address()}, witness{going_on->address()};
     receiving.next_picture();
     held->hold();
@@ -71,7 +71,7 @@ TEST(HttpFilm, ShowsNothingWhileItIsHeld) {
 TEST(HttpFilm, MayBeFetchedPictureByPicture) {
     Stage stage;
     Screen screen;
-    auto const outlet = stage.server.serve(screen.film(Film::Form::jpeg));
+    auto const outlet = stage.server.serve(screen.film(Film::Form::jpeg), Flow::on);
     Receiving first{outlet->address()};
     EXPECT_THAT(first.head(), StartsWith("HTTP/1.1 200 OK\r\nContent-Type: image/jpeg\r\n"));
     EXPECT_EQ(colour_of(first.line().rest()), 'r');
@@ -87,7 +87,7 @@ TEST(HttpFilm, WithoutAPictureSaysSo) {
     Stage stage;
     Screen screen;
     screen.colour = '-';
-    auto const outlet = stage.server.serve(screen.film(Film::Form::jpeg));
+    auto const outlet = stage.server.serve(screen.film(Film::Form::jpeg), Flow::on);
     Receiving receiving{outlet->address()};
     EXPECT_THAT(receiving.head(), StartsWith("HTTP/1.1 503 "));
     EXPECT_EQ(receiving.line().rest(), "there is no picture yet\n");
@@ -98,7 +98,7 @@ TEST(HttpFilm, IsReceivedAsLongAsSomebodyAsksForPictures) {
     settings.picture_interest = std::chrono::milliseconds{50};
     Stage stage{settings};
     Screen screen;
-    auto const outlet = stage.server.serve(screen.film(Film::Form::jpeg));
+    auto const outlet = stage.server.serve(screen.film(Film::Form::jpeg), Flow::on);
     Receiving{outlet->address()}.line().rest();
     EXPECT_EQ(next_reception(*outlet), Reception::begun);
     EXPECT_EQ(next_reception(*outlet), Reception::ended);

@@ -22,7 +22,7 @@ struct MediaServer : testing::Test {
 };
 
 TEST_F(MediaServer, KnowsOnlyWhatIsServed) {
-    auto outlet = stage.server.serve(Sound{});
+    auto outlet = stage.server.serve(Sound{}, Flow::on);
     MediaUrl const url{outlet->address()};
     for (std::string const path : {"/", "/stream-2", "/stream-1/", "/STREAM-1", "//stream-1", "*", "/../stream-1"})
         EXPECT_THAT(answer("GET " + path + " HTTP/1.1\r\nHost: x\r\n\r\n"), StartsWith("HTTP/1.1 404 ")) << path;
@@ -32,7 +32,7 @@ TEST_F(MediaServer, KnowsOnlyWhatIsServed) {
 }
 
 TEST_F(MediaServer, OnlyShowsWhatIsServed) {
-    auto const outlet = stage.server.serve(Sound{});
+    auto const outlet = stage.server.serve(Sound{}, Flow::on);
     MediaUrl const url{outlet->address()};
     for (std::string const method : {"POST", "PUT", "DELETE", "OPTIONS", "TRACE", "STRANGE"}) {
         auto const refused = answer(media_request(url, method));
@@ -53,7 +53,7 @@ TEST_F(MediaServer, RefusesWhatIsNoRequest) {
 }
 
 TEST_F(MediaServer, TellsWhenReceptionBeginsAndEnds) {
-    auto const outlet = stage.server.serve(Sound{});
+    auto const outlet = stage.server.serve(Sound{}, Flow::on);
     EXPECT_TRUE(outlet->receptions().empty());
     {
         Receiving one{outlet->address()};
@@ -68,7 +68,7 @@ TEST_F(MediaServer, TellsWhenReceptionBeginsAndEnds) {
 }
 
 TEST_F(MediaServer, NoticesAReceiverThatGoesWhileItIsHeld) {
-    auto const outlet = stage.server.serve(Sound{});
+    auto const outlet = stage.server.serve(Sound{}, Flow::on);
     {
         Receiving receiving{outlet->address()};
         EXPECT_EQ(next_reception(*outlet), Reception::begun);
@@ -79,8 +79,8 @@ TEST_F(MediaServer, NoticesAReceiverThatGoesWhileItIsHeld) {
 
 TEST_F(MediaServer, EndsTheConnectionWithTheOutlet) {
     Screen screen;
-    auto sound = stage.server.serve(Sound{}), held = stage.server.serve(Sound{});
-    auto film = stage.server.serve(screen.film(Film::Form::motion_jpeg));
+    auto sound = stage.server.serve(Sound{}, Flow::on), held = stage.server.serve(Sound{}, Flow::on);
+    auto film = stage.server.serve(screen.film(Film::Form::motion_jpeg), Flow::on);
     held->hold();
     Receiving one{sound->address()}, two{film->address()}, three{held->address()};
     one.line().take(100);
@@ -97,7 +97,7 @@ TEST(MediaServerLimits, LetsOthersWaitWhenTooManyAreThere) {
     Settings settings;
     settings.max_connections = 2;
     Stage stage{settings};
-    auto const outlet = stage.server.serve(Sound{});
+    auto const outlet = stage.server.serve(Sound{}, Flow::on);
     auto one = std::make_unique<Receiving>(outlet->address());
     Receiving two{outlet->address()};
     MediaUrl const url{outlet->address()};
@@ -126,7 +126,7 @@ TEST(MediaServerLimits, DropsWhoDoesNotTakeWhatTheyAskedFor) {
     for (int i = 0; i < 1'600 * 1'200 * 3; ++i)
         large.rgb.push_back(static_cast<std::uint8_t>((noise = noise * 1'664'525 + 1) >> 24));
     auto const outlet = stage.server.serve(
-        Film{.draw = [&] { return std::optional{large}; }, .frames_per_second = 25, .form = Film::Form::motion_jpeg});
+        Film{.draw = [&] { return std::optional{large}; }, .frames_per_second = 25, .form = Film::Form::motion_jpeg}, Flow::on);
     Receiving idle{outlet->address()};
     EXPECT_EQ(next_reception(*outlet), Reception::begun);
     EXPECT_EQ(next_reception(*outlet), Reception::ended);
@@ -135,7 +135,7 @@ TEST(MediaServerLimits, DropsWhoDoesNotTakeWhatTheyAskedFor) {
 TEST(MediaServerSettings, SayHowItIsReached) {
     Settings settings;
     settings.url = "https://robots.example/media/";
-    EXPECT_EQ(Stage{settings}.server.serve(Sound{})->address(), "https://robots.example/media/stream-1");
+    EXPECT_EQ(Stage{settings}.server.serve(Sound{}, Flow::on)->address(), "https://robots.example/media/stream-1");
     settings = {};
     settings.host = "0.0.0.0";
     EXPECT_THAT(Stage{settings}.server.url(), StartsWith("http://127.0.0.1:"));
@@ -155,7 +155,7 @@ TEST(MediaServerSettings, NameAFreePort) {
 
 TEST(MediaServerSettings, OutletsMayOutliveIt) {
     auto stage = std::make_unique<Stage>();
-    auto const sound = stage->server.serve(Sound{});
+    auto const sound = stage->server.serve(Sound{}, Flow::on);
     Mailbox mailbox;
     auto const sent = stage->server.send({}, "rtp://127.0.0.1:" + std::to_string(mailbox.port()), Flow::on);
     Receiving receiving{sound->address()};

@@ -43,7 +43,7 @@ TEST(Tone, HasAWavHeader) {
 
 TEST(HttpSound, IsATone) {
     Stage stage;
-    auto const outlet = stage.server.serve(Sound{});
+    auto const outlet = stage.server.serve(Sound{}, Flow::on);
     Receiving receiving{outlet->address()};
     EXPECT_THAT(receiving.head(), StartsWith("HTTP/1.1 200 OK\r\n"));
     EXPECT_THAT(receiving.head(), HasSubstr("\r\nContent-Type: audio/wav\r\n"));
@@ -54,7 +54,7 @@ TEST(HttpSound, IsATone) {
 
 TEST(HttpSound, IsNetworkOrderAsL16) {
     Stage stage;
-    auto const outlet = stage.server.serve(Sound{{.rate = 8'000, .channels = 1}, Sound::Form::l16});
+    auto const outlet = stage.server.serve(Sound{{.rate = 8'000, .channels = 1}, Sound::Form::l16}, Flow::on);
     Receiving receiving{outlet->address()};
     EXPECT_THAT(receiving.head(), HasSubstr("\r\nContent-Type: audio/L16;rate=8000;channels=1\r\n"));
     EXPECT_GT(share_of(440, samples_of(receiving.line().take(3'200), ByteOrder::big_endian), 8'000), 0.999);
@@ -62,7 +62,7 @@ TEST(HttpSound, IsNetworkOrderAsL16) {
 
 TEST(HttpSound, GoesOnWhereItWasHeld) {
     Stage stage;
-    auto const held = stage.server.serve(Sound{}), other = stage.server.serve(Sound{});
+    auto const held = stage.server.serve(Sound{}, Flow::on), other = stage.server.serve(Sound{}, Flow::on);
     Receiving receiving{held->address()}, witness{other->address()};
     receiving.line().take(44);
     auto sound = receiving.line().take(1'280);

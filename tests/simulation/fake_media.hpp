@@ -18,13 +18,12 @@ public:
         std::string address;
         media::Content content;
         bool held = false;
-        bool begun_held = false;
         bool open = true;
         std::vector<media::Reception> news{};
     };
 
-    std::unique_ptr<media::Outlet> serve(media::Content content) override {
-        return offer("http://media.test/" + std::to_string(all.size() + 1), std::move(content));
+    std::unique_ptr<media::Outlet> serve(media::Content content, media::Flow flow) override {
+        return offer("http://media.test/" + std::to_string(all.size() + 1), std::move(content), flow);
     }
 
     std::optional<std::string> rtp_refusal(std::string_view target) const override {
@@ -33,9 +32,7 @@ public:
     }
 
     std::unique_ptr<media::Outlet> send(media::Tone const& tone, std::string_view target, media::Flow flow) override {
-        auto outlet = offer(std::string{target} + ";ssrc=7", media::Sound{tone, media::Sound::Form::l16});
-        all.back()->begun_held = flow == media::Flow::held;
-        return outlet;
+        return offer(std::string{target} + ";ssrc=7", media::Sound{tone, media::Sound::Form::l16}, flow);
     }
 
     std::vector<std::shared_ptr<Offered>> all;
@@ -57,8 +54,9 @@ private:
         std::shared_ptr<Offered> offered_;
     };
 
-    std::unique_ptr<media::Outlet> offer(std::string address, media::Content content) {
-        auto const offered = std::make_shared<Offered>(Offered{std::move(address), std::move(content)});
+    std::unique_ptr<media::Outlet> offer(std::string address, media::Content content, media::Flow flow) {
+        auto const offered = std::make_shared<Offered>(
+            Offered{.address = std::move(address), .content = std::move(content), .held = flow == media::Flow::held});
         all.push_back(offered);
         return std::make_unique<FakeOutlet>(offered);
     }

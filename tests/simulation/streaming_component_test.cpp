@@ -217,7 +217,7 @@ TEST_F(AudioStreaming, WhatIsConnectedWhileAllAreSuspendedIsHeld) {
     audio.suspend();
     audio.set_parameter({transport("rtp://127.0.0.1:5004")});
     connected();
-    EXPECT_TRUE(offered(2).begun_held) << "not a packet may slip out";
+    EXPECT_TRUE(offered(2).held);
     audio.stop();
     connected();
     EXPECT_FALSE(offered(3).held) << "nothing is suspended any more";
