@@ -72,7 +72,7 @@ Reply Engine::Core::perform(Session& session, BindAny const& bind, Instant) {
         return refused<BindAny::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto const& selection = std::get<Selection>(compiled);
     Perspective ever{registry_, places_, &session, Perspective::Of::ever};
-    if (std::ranges::none_of(possible(selection),
+    if (std::ranges::none_of(possible(selection.refs()),
                              [&](auto const* c) { return selection.match(ever.candidate(*c)) != Match::no; }))
         return refused<BindAny::Reply>(ReturnCode::unsupported, "no component of this engine can match the condition");
     auto const matches = select(selection, session);

@@ -5,9 +5,9 @@
 
 namespace rois {
 
-std::vector<RegisteredComponent*> Engine::Core::possible(Selection const& selection) const {
+std::vector<RegisteredComponent*> Engine::Core::possible(std::optional<Refs> const& refs) const {
     std::vector<RegisteredComponent*> components;
-    if (auto const refs = selection.refs()) {
+    if (refs) {
         for (auto const& ref : *refs)
             if (auto* component = registry_.find(ref)) components.push_back(component);
         return components;
@@ -20,7 +20,7 @@ std::vector<RegisteredComponent*> Engine::Core::possible(Selection const& select
 std::vector<RegisteredComponent*> Engine::Core::select(Selection const& selection, Session const& asker) const {
     Perspective present{registry_, places_, &asker, Perspective::Of::present};
     std::vector<Candidate const*> candidates;
-    for (auto const* component : possible(selection)) {
+    for (auto const* component : possible(selection.refs())) {
         auto const& candidate = present.candidate(*component);
         if (selection.match(candidate) == Match::yes) candidates.push_back(&candidate);
     }

@@ -83,8 +83,8 @@ private:
 
     // Conditions (conditions.cpp)
     Vocabulary vocabulary(Declarations const* results = nullptr) const { return {&places_, &registry_.parameters(), results}; }
-    // Those that the selection may let through: all, or those that it names; by ref.
-    std::vector<RegisteredComponent*> possible(Selection const&) const;
+    // All of these refs, or all of the engine's components; by ref.
+    std::vector<RegisteredComponent*> possible(std::optional<Refs> const&) const;
     // Those that the selection lets through, in its order.
     std::vector<RegisteredComponent*> select(Selection const&, Session const& asker) const;
     // Leaves all results or none. Why the condition cannot be used, or nothing.

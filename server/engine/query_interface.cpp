@@ -71,12 +71,12 @@ Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
         return refused<Query::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto const& selection = std::get<Selection>(compiled);
     Perspective looked_at{registry_, places_, &session, Perspective::Of::present};
-    bool const named = selection.refs().has_value();
-    auto meant = named ? possible(selection) : std::vector<RegisteredComponent*>{};
-    std::erase_if(meant, [&](auto const* component) {
+    auto const refs = selection.refs();
+    auto named = refs ? possible(refs) : std::vector<RegisteredComponent*>{};
+    std::erase_if(named, [&](auto const* component) {
         return find_message(component->profile(), MessageKind::query, query.query_type) == nullptr;
     });
-    auto const& able = named ? meant : registry_.with(MessageKind::query, query.query_type);
+    auto const& able = refs ? named : registry_.with(MessageKind::query, query.query_type);
     auto found = who_may_answer(able, selection, looked_at, [&](RegisteredComponent& component) {
         return answers(session, component, query.query_type, now);
     });

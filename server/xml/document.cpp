@@ -85,8 +85,9 @@ std::string Element::attribute(std::string_view name, std::string_view otherwise
 }
 
 std::optional<std::string> Element::token(std::string_view name) const {
-    auto const found = xml::attribute(node_->node, name);
-    return found ? std::optional{std::string{trimmed(found.value())}} : std::nullopt;
+    auto text = attribute(name);
+    if (text) text = std::string{trimmed(*text)};
+    return text;
 }
 
 std::string Element::token(std::string_view name, std::string_view otherwise) const {
