@@ -85,7 +85,7 @@ public:
     std::vector<Results> query(std::string_view query_type, Instant now) override {
         fail_when_failed();
         if (!is(Fault::Kind::silent)) return component_->query(query_type, now);
-        if (!std::exchange(silence_told_, true)) port_->error(ErrorType::component_not_responding, "it answers no query");
+        port_->error(ErrorType::component_not_responding, "it answers no query", Report::once);
         return {};
     }
 
@@ -98,10 +98,9 @@ private:
     }
 
     void event(std::string_view event_type, Results results) override { port_->event(event_type, std::move(results)); }
-    void error(ErrorType type, std::string text) override { port_->error(type, std::move(text)); }
+    void error(ErrorType type, std::string text, Report report) override { port_->error(type, std::move(text), report); }
 
     void observe(Instant when) override {
-        if (!is(Fault::Kind::silent)) silence_told_ = false;
         if (!std::exchange(had_complained_, is(Fault::Kind::complaining)) && had_complained_)
             port_->error(ErrorType::user_defined_error, "it complains, as the scenario says");
         if (std::exchange(had_failed_, is(Fault::Kind::failed)) || !had_failed_) return;
@@ -129,7 +128,6 @@ private:
     std::optional<CommandHandle> running_;
     bool had_failed_ = false;
     bool had_complained_ = false;
-    bool silence_told_ = false;  // once, as a failure is
     std::unique_ptr<Component> component_;
 };
 

@@ -38,6 +38,10 @@ enum class Afterwards : std::uint8_t {
     idle        // no function works any more
 };
 
+// How often a failure that may come again and again is told: each time, or `once`, until something of the component succeeds or
+// somebody else binds it. `once` is for what anybody may cause at any time.
+enum class Report : std::uint8_t { each, once };
+
 // What a component tells the engine. The engine owns it; it lives as long as the component. Every call returns at once: the
 // engine takes what was said when its own turn is over, in the order in which it was said. Call it from the engine's thread
 // only, that is from within a call that the engine makes to a component or a device.
@@ -55,7 +59,7 @@ public:
     virtual void event(std::string_view event_type, Results) = 0;
 
     // Something is wrong, and perhaps no command to tell it by. `text` says what, for people.
-    virtual void error(ErrorType, std::string text) = 0;
+    virtual void error(ErrorType, std::string text, Report = Report::each) = 0;
 };
 
 // A component of the engine. The engine calls it from one thread at a time; it must answer quickly and never block. It keeps the

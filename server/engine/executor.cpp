@@ -219,7 +219,7 @@ void Executor::completed(CommandEnded said, Instant now) {
         said.status = CompletedStatus::error;
         said.results = {};
     }
-    if (said.status == CompletedStatus::ok) component.failed = false;
+    if (said.status == CompletedStatus::ok) component.succeeded();
     follow_up(component, command, said.status == CompletedStatus::ok ? said.afterwards : Afterwards::as_before);
     end(command, said.status, std::move(said.results), now);
     run_ready(now);

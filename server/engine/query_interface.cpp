@@ -109,7 +109,7 @@ std::vector<Results> Engine::Core::answers(Session const& session, RegisteredCom
     } else {
         rows = component.answer(query_type, now);
     }
-    if (!rows.empty()) component.failed = false;
+    if (!rows.empty()) component.succeeded();
     return rows;
 }
 

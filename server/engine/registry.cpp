@@ -67,7 +67,7 @@ RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, C
 ComponentStatus RegisteredComponent::status_for(Session const* asker) const {
     if (bound_to != nullptr && bound_to != asker) return ComponentStatus::busy;
     auto status = ComponentStatus::error;
-    if (!failed) call([&](Component& c) { status = c.status(); });
+    if (!failed_) call([&](Component& c) { status = c.status(); });
     return status;
 }
 
@@ -87,9 +87,18 @@ RegisteredComponent::Called RegisteredComponent::call(std::function<void(Compone
 }
 
 void RegisteredComponent::report_failure(std::string problem, Report report) const {
-    bool const known = std::exchange(failed, true);
-    if (!known || report == Report::each)
-        agenda_.add(ErrorOccurred{this, ErrorType::component_internal_error, std::move(problem)});
+    failed_ = true;
+    this->report(ErrorType::component_internal_error, std::move(problem), report);
+}
+
+void RegisteredComponent::report(ErrorType type, std::string text, Report report) const {
+    bool const known = !told_once_.insert(type).second;
+    if (!known || report == Report::each) agenda_.add(ErrorOccurred{this, type, std::move(text)});
+}
+
+void RegisteredComponent::succeeded() {
+    failed_ = false;
+    told_once_.clear();
 }
 
 RegisteredComponent::Answer RegisteredComponent::check(MessageKind kind, std::string_view message, Results const& results,
@@ -194,7 +203,7 @@ void RegisteredComponent::event(std::string_view event_type, Results results) {
         agenda_.add(EventOccurred{this, std::string{event_type}, std::move(*here)});
 }
 
-void RegisteredComponent::error(ErrorType type, std::string text) { agenda_.add(ErrorOccurred{this, type, std::move(text)}); }
+void RegisteredComponent::error(ErrorType type, std::string text, Report report) { this->report(type, std::move(text), report); }
 
 RegisteredComponent& Registry::add(std::shared_ptr<RegisteredComponent> component) {
     auto const& ref = component->ref().code;
@@ -255,6 +264,7 @@ Declarations const& Registry::results(MessageKind kind, std::string_view message
 
 Registry::Bound Registry::bind(RegisteredComponent& component, Session& session) {
     if (component.bound_to != nullptr && component.bound_to != &session) return Bound::taken;
+    if (component.bound_to == nullptr) component.bound_anew();
     component.bound_to = &session;
     session.bound.insert(&component);
     return Bound::ok;

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,9 +40,7 @@ public:
     void depart() { component_.reset(); }
 
     // Asks or tells the component something. An exception that leaves it is reported and makes its status ERROR (decision 16).
-    // What anybody may ask at any time is reported `once` only: until something of the component succeeds again.
     enum class Called : std::uint8_t { ok, failed };
-    enum class Report : std::uint8_t { each, once };
     Called call(std::function<void(Component&)> const& what, Report = Report::each) const;
 
     // Whether these results of a message are what the profile says; wrong ones are reported as an exception is (decision 16).
@@ -78,20 +77,27 @@ public:
     Activity activity = Activity::idle;
     bool suspended = false;
     std::shared_ptr<Command> start;  // whose action runs, or null
-    mutable bool failed = false;     // an exception left it; until a command or query of it succeeds
+
+    // A command or query of it: what failed before is over.
+    void succeeded();
+    // Whoever has bound it now has heard nothing of it yet.
+    void bound_anew() { told_once_.clear(); }
 
     void started(CommandHandle) override;
     void completed(CommandHandle, CompletedStatus, Results, Afterwards) override;
     void event(std::string_view event_type, Results) override;
-    void error(ErrorType, std::string text) override;
+    void error(ErrorType, std::string text, Report) override;
 
 private:
     void report_failure(std::string problem, Report) const;
+    void report(ErrorType, std::string text, Report) const;
     // Nothing when it failed, because what it told cannot be told in the engine's frame.
     std::optional<Results> told(Results, std::string_view message, Report) const;
     bool is_position(std::string_view parameter) const;
 
     std::unique_ptr<Component> component_;
+    mutable bool failed_ = false;            // an exception left it
+    mutable std::set<ErrorType> told_once_;  // and not to be told so again
     Identifier ref_;
     ComponentEntry entry_;
     std::vector<ParameterProfile> settable_;

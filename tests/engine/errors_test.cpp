@@ -162,6 +162,25 @@ TEST_F(Errors, ThatAnybodyCanCauseAreToldOnceUntilItSucceeds) {
     EXPECT_THAT(desk.heard(), ElementsAre("2 COMPONENT_INTERNAL_ERROR navigation"));
 }
 
+// What was told to nobody, or to somebody else, is told to whoever binds it.
+TEST_F(Errors, ThatAnybodyCanCauseAreToldToWhoeverBindsIt) {
+    auto hall = world.connect();
+    desk.release("navigation");
+    robot.throws_in = {"query"};
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(desk.query("route").return_code, ReturnCode::error);
+    EXPECT_THAT(desk.heard(), IsEmpty()) << "it is nobody's";
+    hall.bind("navigation");
+    for (int i = 0; i < 3; ++i) desk.query("route");
+    EXPECT_THAT(hall.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
+    hall.bind("navigation");
+    desk.query("route");
+    EXPECT_THAT(hall.heard(), IsEmpty()) << "it was bound already";
+    hall.release("navigation");
+    desk.bind("navigation");
+    hall.query("route");
+    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
+}
+
 TEST_F(Errors, InAQueryAreItsAnswer) {
     robot.throws_in = {"query"};
     EXPECT_EQ(desk.query("route").return_code, ReturnCode::error);

@@ -106,6 +106,7 @@ struct OtherFaults : testing::TestWithParam<Way> {
 ROIS_OVER_BOTH_WAYS(OtherFaults);
 
 TEST_P(OtherFaults, AQueryToASilentComponentTellsThatItDoesNotRespond) {
+    EXPECT_THAT(desk.query("robot_position"), IsRefused("ERROR", "system_information")) << "nobody has bound it yet";
     EXPECT_THAT(desk.bind("system_information"), IsOk());
     for (int i = 0; i < 3; ++i) EXPECT_THAT(desk.query("robot_position"), IsRefused("ERROR", "system_information"));
     auto const error = desk.hear();

@@ -108,7 +108,9 @@ public:
         tell("completed " + std::string{to_text(status)} + (runs_ ? ", active" : ""), {});
     }
     void event(std::string_view type, Results results) override { tell(std::string{type}, std::move(results)); }
-    void error(ErrorType, std::string text) override { tell("error " + text, {}); }
+    void error(ErrorType, std::string text, Report report) override {
+        tell((report == Report::once ? "error, once: " : "error ") + text, {});
+    }
 
 private:
     ParameterList merged(ParameterList const& arrived) const {
