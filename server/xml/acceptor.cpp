@@ -25,7 +25,7 @@ constexpr auto ends_text = [] {
 
 constexpr auto ends_value = [] {
     std::array<bool, 256> table{};
-    for (unsigned char const c : std::string_view{"<&\"'"}) table[c] = true;
+    for (unsigned char const c : std::string_view{"<&\"'\t\n"}) table[c] = true;
     return table;
 }();
 
@@ -47,6 +47,8 @@ bool Acceptor::accepts(std::string_view document) {
     open_.clear();
     bindings_.clear();
     ids_.clear();
+    tree_.clear();
+    as_written_ = document.find('\r') == document.npos;
     if (first_bad_character(document) || !prologue() || !start_tag()) return false;
     while (!open_.empty()) {
         if (!content()) return false;
@@ -83,6 +85,7 @@ bool Acceptor::skip_white_space() {
 
 // One piece of what stands in the innermost open element: text and the markup after it.
 bool Acceptor::content() {
+    auto const begin = at_;
     switch (open_.back().type->content) {
         case ElementType::Content::value:
             return value() && end_tag();
@@ -95,6 +98,7 @@ bool Acceptor::content() {
         default:
             return end_tag();
     }
+    if (at_ > begin) tree_.add_text(text_.substr(begin, at_ - begin));
     if (peek() != '<') return false;
     if (peek(1) == '/') return end_tag();
     return peek(1) == '!' ? comment() : start_tag();
@@ -138,11 +142,13 @@ bool Acceptor::value() {
         at_ = std::min(text_.find('<', at_), text_.size());
         if (!check(*open.type->value, text_.substr(begin, at_ - begin))) return false;
     }
+    tree_.add_text(text_.substr(begin, at_ - begin));
     return !open.declaration->of_limited_length || at_ - open.begin <= longest_list;
 }
 
 bool Acceptor::reference() {
     constexpr std::array<std::string_view, 5> entities{"&lt;", "&gt;", "&amp;", "&quot;", "&apos;"};
+    as_written_ = false;
     if (peek(1) == '#') return character_reference();
     auto const* const entity = std::ranges::find_if(entities, [this](auto each) { return at(each); });
     if (entity == entities.end()) return false;
@@ -185,9 +191,14 @@ bool Acceptor::start_tag() {
     if (++elements_ > limits_.elements || open_.size() == limits_.depth) return false;
     auto const name = take_name();
     if (name.none() || !attributes(outer_bindings) || !resolve_attributes()) return false;
-    auto const* const declaration = declaration_of({name_space_of(name.prefix()), tables_.name(name.local())});
-    auto const* const type = declaration == nullptr ? nullptr : type_of(*declaration);
-    if (type == nullptr || type->content == ElementType::Content::unknown || !check_attributes(*type)) return false;
+    auto const name_space = name_space_of(name.prefix());
+    auto const* const declaration = declaration_of({name_space, tables_.name(name.local())});
+    std::string_view xsi_type;
+    auto const* const type = declaration == nullptr ? nullptr : type_of(*declaration, xsi_type);
+    if (type == nullptr || type->content == ElementType::Content::unknown) return false;
+    if (open_.empty()) tree_.set_name_space(tables_.text(name_space));
+    tree_.open(name.local(), xsi_type);
+    if (!check_attributes(*type)) return false;
     open_.emplace_back(name.whole(), declaration, type, begin, outer_bindings, 0);
     if (peek() == '>') {
         ++at_;
@@ -216,6 +227,7 @@ bool Acceptor::close() {
     if (!states.empty() && !states[element.state].final) return false;
     bindings_.resize(element.bindings);
     open_.pop_back();
+    tree_.close();
     return true;
 }
 
@@ -249,11 +261,12 @@ bool Acceptor::attribute_value(std::string_view& value) {
         while (at_ < text_.size() && !ends_value[static_cast<unsigned char>(text_[at_])]) ++at_;
         if (peek() == quote) break;
         if (at_ == text_.size() || peek() == '<') return false;
-        if (peek() != '&') {
-            ++at_;  // the other quote
-        } else if (!reference()) {
-            return false;
+        if (peek() == '&') {
+            if (!reference()) return false;
+            continue;
         }
+        if (peek() == '\t' || peek() == '\n') as_written_ = false;
+        ++at_;  // one of these, or the other quote
     }
     value = text_.substr(begin, at_ - begin);
     ++at_;
@@ -301,11 +314,12 @@ ElementDeclaration const* Acceptor::declaration_of(Name name) {
     return found->element;
 }
 
-ElementType const* Acceptor::type_of(ElementDeclaration const& declaration) {
+ElementType const* Acceptor::type_of(ElementDeclaration const& declaration, std::string_view& xsi_type) {
     auto const said = std::ranges::find(attributes_, tables_.xsi_type(), &Attribute::name);
     if (said == attributes_.end()) return declaration.type;
     auto const written = plain_name(said->value);
     if (written.none()) return nullptr;
+    xsi_type = written.local();
     Name const name{name_space_of(written.prefix()), tables_.name(written.local())};
     auto const found = std::ranges::find(declaration.substitutes, name, &std::pair<Name, ElementType const*>::first);
     return found == declaration.substitutes.end() ? nullptr : found->second;
@@ -325,6 +339,7 @@ bool Acceptor::check_attributes(ElementType const& type) {
         auto const bit = std::uint64_t{1} << (found - type.attributes.begin());
         if ((there & bit) != 0) return false;
         there |= bit;
+        tree_.add_attribute(written.local(), value);
     }
     return (there & type.required) == type.required;
 }

@@ -9,15 +9,16 @@
 #include <vector>
 
 #include "xml/codec.hpp"
+#include "xml/message_tree.hpp"
 #include "xml/plain_name.hpp"
 #include "xml/schemas.hpp"
 #include "xml/tables.hpp"
 
 namespace rois::xml {
 
-// Checks form, limits and validity together, with the tables of the schemas; makes no tree and, once its stacks have grown,
-// allocates nothing. Knows valid documents only: whatever it does not accept, for any reason, may still be valid
-// (docs/validation.md). For one thread.
+// Checks form, limits and validity together, with the tables of the schemas, and makes the tree of a message on the way. Once its
+// stacks have grown it allocates nothing. Knows valid documents only: whatever it does not accept, for any reason, may still be
+// valid (docs/validation.md). For one thread.
 class Acceptor {
 public:
     Acceptor(std::shared_ptr<Schemas const>, DocumentLimits);
@@ -25,6 +26,10 @@ public:
     // Whether the document passes the scan without a change and is valid. False says nothing. The limit of bytes is the caller's
     // to check.
     bool accepts(std::string_view document);
+
+    // The tree of a document that was accepted: views of its bytes, as long as these are there. Null when a text means something
+    // else than what stands there, for a reference or a line end in it.
+    MessageTree const* tree() const { return as_written_ ? &tree_ : nullptr; }
 
 private:
     struct Attribute {
@@ -68,8 +73,9 @@ private:
     bool close();
 
     PlainName take_name();
-    ElementDeclaration const* declaration_of(Name);         // null: left to xerces-c; steps on in the open element's content
-    ElementType const* type_of(ElementDeclaration const&);  // the declared one, or its xsi:type's; null: left to xerces-c
+    ElementDeclaration const* declaration_of(Name);  // null: left to xerces-c; steps on in the open element's content
+    // The declared one, or its xsi:type's, whose name is told then; null: left to xerces-c.
+    ElementType const* type_of(ElementDeclaration const&, std::string_view& xsi_type);
     Interned::Id name_space_of(std::string_view prefix) const;
 
     char peek(std::size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
@@ -86,10 +92,12 @@ private:
     std::string_view text_;
     std::size_t at_ = 0;
     std::size_t elements_ = 0;
+    bool as_written_ = true;
     std::vector<Open> open_;
     std::vector<Binding> bindings_;
     std::vector<Attribute> attributes_;  // of one start tag
     std::vector<std::string_view> ids_;
+    MessageTree tree_;
 };
 
 }  // namespace rois::xml

@@ -58,19 +58,40 @@ std::optional<Fault> CheckedReader::read(std::string_view document) {
             FaultCode::too_large, "the document is too large: the limit is " + std::to_string(limits_.bytes) + " bytes", {}, {}};
     }
     tree_.reset();
-    if (bytes_.capacity() > keep_at_most && document.size() <= keep_at_most) std::string{}.swap(bytes_);
     document_ = document;
-    bytes_ = document;
+    checked_ = acceptor_ && acceptor_->accepts(document) ? Validation::fast : Validation::full;
+    if (checked_ == Validation::fast) return std::nullopt;
 
-    checked_ = acceptor_ && acceptor_->accepts(bytes_) ? Validation::fast : Validation::full;
-    if (checked_ == Validation::full) {
-        if (auto fault = check_in_full()) return fault;
-    }
-    if (auto const result = tree_.load_buffer_inplace(bytes_.data(), bytes_.size(), as_xerces_reads, pugi::encoding_utf8);
-        !result) {
+    take_bytes();
+    if (auto fault = check_in_full()) return fault;
+    if (auto const result = parse(); !result) {
         return refused(FaultCode::not_well_formed, result.description(), static_cast<std::size_t>(result.offset));
     }
     return std::nullopt;
+}
+
+void CheckedReader::take_bytes() {
+    if (bytes_.capacity() > keep_at_most && document_.size() <= keep_at_most) std::string{}.swap(bytes_);
+    bytes_ = document_;
+}
+
+pugi::xml_parse_result CheckedReader::parse() {
+    return tree_.load_buffer_inplace(bytes_.data(), bytes_.size(), as_xerces_reads, pugi::encoding_utf8);
+}
+
+// What the acceptor has taken is parsed when somebody asks.
+pugi::xml_node CheckedReader::root() {
+    if (!tree_.first_child()) {
+        take_bytes();
+        parse();
+    }
+    return tree_.document_element();
+}
+
+MessageTree const& CheckedReader::message() {
+    if (auto const* const made = checked_ == Validation::fast ? acceptor_->tree() : nullptr) return *made;
+    message_.read(root());
+    return message_;
 }
 
 // Writes today's form of its namespaces into the bytes.

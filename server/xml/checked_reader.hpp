@@ -12,6 +12,7 @@
 #include "types/messages.hpp"
 #include "xml/acceptor.hpp"
 #include "xml/codec.hpp"
+#include "xml/message_tree.hpp"
 #include "xml/scan.hpp"
 #include "xml/validator.hpp"
 
@@ -20,9 +21,8 @@ namespace rois::xml {
 // Whether a document may declare a namespace that no schema knows. Where schemas let anything stand somewhere, it may there.
 enum class ForeignNamespaces : std::uint8_t { refused, as_the_schemas_say };
 
-// Checks a document's bytes and parses the very same bytes into a tree. What the tables of the schemas accept is taken;
-// everything else is looked over by the scan and judged by xerces-c, which has the last word. Keeps its parsers and buffers; for
-// one thread.
+// Checks a document's bytes and makes a tree of the very same bytes. What the tables of the schemas accept is taken; everything
+// else is looked over by the scan and judged by xerces-c, which has the last word. Keeps its parsers and buffers; for one thread.
 class CheckedReader {
 public:
     // Without schemas it looks at a document's form alone. `roots` are the elements that a fault names when the root is another
@@ -30,10 +30,10 @@ public:
     CheckedReader(std::shared_ptr<Schemas const>, DocumentLimits, std::span<std::string_view const> roots = {},
                   ForeignNamespaces = ForeignNamespaces::refused, Validation = Validation::fast);
 
-    // Nothing when all is well: then `root` is the document's, until the next call. The document must live as long as it is asked
-    // about.
+    // Nothing when all is well: then the document may be asked for, until the next call. It must live as long as that.
     std::optional<Fault> read(std::string_view document);
-    pugi::xml_node root() const { return tree_.document_element(); }
+    pugi::xml_node root();
+    MessageTree const& message();
 
     // Which way the last document was checked; nothing for one that was too large to be looked at.
     std::optional<Validation> checked() const { return checked_; }
@@ -43,6 +43,8 @@ public:
     Place place(pugi::xml_node element) const;
 
 private:
+    void take_bytes();
+    pugi::xml_parse_result parse();
     std::optional<Fault> check_in_full();
     std::optional<Fault> objection_to(Scanned const&);
     Fault refused(FaultCode, std::string reason, std::size_t offset) const;
@@ -59,6 +61,7 @@ private:
     std::string_view document_;  // the last one, as it came
     std::string bytes_;          // it with its namespaces in today's form; the tree points into it
     pugi::xml_document tree_;
+    MessageTree message_;  // of what the acceptor made no tree
     std::optional<Validation> checked_;
 };
 

@@ -7,67 +7,66 @@
 
 #include "types/texts.hpp"
 #include "xml/names.hpp"
-#include "xml/tree.hpp"
 
 namespace rois::xml {
 
 namespace {
 
-std::string child_text(pugi::xml_node node, std::string_view name) { return text_of(child(node, name)); }
+using Node = MessageTree::Node;
 
 template <class Tag>
-Id<Tag> child_id(pugi::xml_node node, std::string_view name) {
-    return {child_text(node, name)};
+Id<Tag> child_id(Node node, std::string_view name) {
+    return {node.child_text(name)};
 }
 
-Identifier component_ref(pugi::xml_node node) { return decode_identifier(child(node, "component_ref")); }
+Identifier component_ref(Node node) { return decode_identifier(node.child("component_ref")); }
 
-QueryExpression condition(pugi::xml_node node) { return decode_condition(child(node, "condition")); }
+QueryExpression condition(Node node) { return decode_condition(node.child("condition")); }
 
-Operation decode_resume(pugi::xml_node node) {
-    return Resume{SessionId{attribute_text(node, "session")}, decode_unsigned(attribute(node, "last_sequence").value())};
+Operation decode_resume(Node node) {
+    return Resume{SessionId{node.attribute_text("session")}, decode_unsigned(node.attribute_text("last_sequence"))};
 }
 
-Operation decode_set_parameter(pugi::xml_node node) {
-    return SetParameter{component_ref(node), decode_parameters(child(node, "parameters"))};
+Operation decode_set_parameter(Node node) {
+    return SetParameter{component_ref(node), decode_parameters(node.child("parameters"))};
 }
 
-Operation decode_execute(pugi::xml_node node) { return Execute{decode_sequence(child(node, "CommandUnitSequence"))}; }
+Operation decode_execute(Node node) { return Execute{decode_sequence(node.child("CommandUnitSequence"))}; }
 
-Operation decode_subscribe(pugi::xml_node node) {
-    return Subscribe{child_text(node, "event_type"), condition(node), decode_boolean(attribute(node, "inline_results").value())};
+Operation decode_subscribe(Node node) {
+    return Subscribe{node.child_text("event_type"), condition(node), decode_boolean(node.attribute_text("inline_results"))};
 }
 
-using Decode = Operation (*)(pugi::xml_node);
+using Decode = Operation (*)(Node);
 
 constexpr std::array<std::pair<std::string_view, Decode>, std::variant_size_v<Operation>> operations{{
-    {"connect", [](pugi::xml_node) -> Operation { return Connect{}; }},
+    {"connect", [](Node) -> Operation { return Connect{}; }},
     {"resume", decode_resume},
-    {"disconnect", [](pugi::xml_node) -> Operation { return Disconnect{}; }},
-    {"get_profile", [](pugi::xml_node n) -> Operation { return GetProfile{condition(n)}; }},
+    {"disconnect", [](Node) -> Operation { return Disconnect{}; }},
+    {"get_profile", [](Node n) -> Operation { return GetProfile{condition(n)}; }},
     {"get_error_detail",
-     [](pugi::xml_node n) -> Operation {
+     [](Node n) -> Operation {
          return GetErrorDetail{child_id<ErrorTag>(n, "error_id"), condition(n)};
      }},
-    {"search", [](pugi::xml_node n) -> Operation { return Search{condition(n)}; }},
-    {"bind", [](pugi::xml_node n) -> Operation { return Bind{component_ref(n)}; }},
-    {"bind_any", [](pugi::xml_node n) -> Operation { return BindAny{condition(n)}; }},
-    {"release", [](pugi::xml_node n) -> Operation { return Release{component_ref(n)}; }},
-    {"get_parameter", [](pugi::xml_node n) -> Operation { return GetParameter{component_ref(n)}; }},
+    {"search", [](Node n) -> Operation { return Search{condition(n)}; }},
+    {"bind", [](Node n) -> Operation { return Bind{component_ref(n)}; }},
+    {"bind_any", [](Node n) -> Operation { return BindAny{condition(n)}; }},
+    {"release", [](Node n) -> Operation { return Release{component_ref(n)}; }},
+    {"get_parameter", [](Node n) -> Operation { return GetParameter{component_ref(n)}; }},
     {"set_parameter", decode_set_parameter},
     {"execute", decode_execute},
     {"get_command_result",
-     [](pugi::xml_node n) -> Operation {
+     [](Node n) -> Operation {
          return GetCommandResult{child_id<CommandTag>(n, "command_id"), condition(n)};
      }},
     {"query",
-     [](pugi::xml_node n) -> Operation {
-         return Query{child_text(n, "query_type"), condition(n)};
+     [](Node n) -> Operation {
+         return Query{n.child_text("query_type"), condition(n)};
      }},
     {"subscribe", decode_subscribe},
-    {"unsubscribe", [](pugi::xml_node n) -> Operation { return Unsubscribe{child_id<SubscribeTag>(n, "subscribe_id")}; }},
+    {"unsubscribe", [](Node n) -> Operation { return Unsubscribe{child_id<SubscribeTag>(n, "subscribe_id")}; }},
     {"get_event_detail",
-     [](pugi::xml_node n) -> Operation {
+     [](Node n) -> Operation {
          return GetEventDetail{child_id<EventTag>(n, "event_id"), condition(n)};
      }},
 }};
@@ -93,29 +92,29 @@ Number whole_number(std::string_view text) {
 
 std::span<std::string_view const> operation_names() { return names; }
 
-std::optional<Request> decode(pugi::xml_node root) {
-    if (namespace_of(root, prefix_of(root.name())) != message_namespace) return std::nullopt;
-    auto const name = local_name(root);
+std::optional<Request> decode(MessageTree const& message) {
+    if (message.name_space() != message_namespace) return std::nullopt;
+    auto const root = message.root();
     for (auto const& [operation, decode_it] : operations) {
-        if (operation == name) return Request{decode_it(root), attribute_text(root, "request_id")};
+        if (operation == root.name()) return Request{decode_it(root), root.attribute_text("request_id")};
     }
     return std::nullopt;
 }
 
-Identifier decode_identifier(pugi::xml_node node) {
-    return {attribute_text(node, "code"), attribute_text(node, "authority"), attribute_text(node, "codebook_ref"),
-            attribute_text(node, "version")};
+Identifier decode_identifier(Node node) {
+    return {node.attribute_text("code"), node.attribute_text("authority"), node.attribute_text("codebook_ref"),
+            node.attribute_text("version")};
 }
 
-ParameterList decode_parameters(pugi::xml_node list) {
+ParameterList decode_parameters(Node list) {
     ParameterList parameters;
     for (auto const node : list.children()) {
-        if (local_name(node) != "parameter") continue;
+        if (node.name() != "parameter") continue;
         auto& parameter = parameters.emplace_back();
-        parameter.name = attribute_text(node, "name");
+        parameter.name = node.attribute_text("name");
         for (auto const part : node.children()) {
-            if (local_name(part) == "data_type_ref") parameter.data_type_ref = decode_identifier(part);
-            if (local_name(part) == "value") parameter.values.push_back(text_of(part));
+            if (part.name() == "data_type_ref") parameter.data_type_ref = decode_identifier(part);
+            if (part.name() == "value") parameter.values.emplace_back(part.text());
         }
     }
     return parameters;

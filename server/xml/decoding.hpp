@@ -1,12 +1,12 @@
-// From trees of valid documents to messages.
+// From trees of valid messages to messages.
 #pragma once
 
 #include <optional>
-#include <pugixml.hpp>
 #include <span>
 #include <string_view>
 
 #include "types/messages.hpp"
+#include "xml/message_tree.hpp"
 
 namespace rois::xml {
 
@@ -14,13 +14,13 @@ namespace rois::xml {
 std::span<std::string_view const> operation_names();
 
 // Nothing when the root is no request.
-std::optional<Request> decode(pugi::xml_node root);
+std::optional<Request> decode(MessageTree const&);
 
-// Parts of messages.
-Identifier decode_identifier(pugi::xml_node);
-ParameterList decode_parameters(pugi::xml_node list);
-CommandUnitSequence decode_sequence(pugi::xml_node command_unit_sequence);
-QueryExpression decode_condition(pugi::xml_node condition);  // a null node restricts nothing
+// Parts of messages. Of none: empty ones; no condition restricts nothing.
+Identifier decode_identifier(MessageTree::Node);
+ParameterList decode_parameters(MessageTree::Node list);
+CommandUnitSequence decode_sequence(MessageTree::Node command_unit_sequence);
+QueryExpression decode_condition(MessageTree::Node condition);
 
 // "true" and "1", with white space around them.
 bool decode_boolean(std::string_view);

@@ -5,11 +5,12 @@
 #include "types/texts.hpp"
 #include "xml/decoding.hpp"
 #include "xml/decoding_expression.hpp"
-#include "xml/tree.hpp"
 
 namespace rois::xml {
 
 namespace {
+
+using Node = MessageTree::Node;
 
 template <class Value, std::size_t size>
 using Names = std::array<std::pair<std::string_view, Value>, size>;
@@ -39,86 +40,85 @@ Value const* find(Names<Value, size> const& names, std::string_view name) {
     return nullptr;
 }
 
-bool match_case(pugi::xml_node node) {
-    auto const given = attribute(node, "matchCase");
-    return !given || decode_boolean(given.value());
+bool match_case(Node node) {
+    auto const given = node.attribute("matchCase");
+    return !given || decode_boolean(*given);
 }
 
-MatchAction match_action(pugi::xml_node node) {
-    auto const given = attribute_text(node, "matchAction");
+MatchAction match_action(Node node) {
+    auto const given = node.attribute_text("matchAction");
     if (given == "All") return MatchAction::all;
     return given == "One" ? MatchAction::one : MatchAction::any;
 }
 
-std::vector<Expression> operands(pugi::xml_node node) {
+std::vector<Expression> operands(Node node) {
     std::vector<Expression> expressions;
-    for (auto const each : elements_in(node)) {
-        if (local_name(each) != "Distance") expressions.push_back(decode_expression(each));
+    for (auto const each : node.children()) {
+        if (each.name() != "Distance") expressions.push_back(decode_expression(each));
     }
     return expressions;
 }
 
-Condition decode_comparison(pugi::xml_node node, Comparator comparator) {
-    auto const sides = elements_in(node);
-    return {PropertyComparison{comparator, decode_expression(sides.at(0)), decode_expression(sides.at(1)), match_case(node),
+Condition decode_comparison(Node node, Comparator comparator) {
+    auto const first = node.first_child();
+    return {PropertyComparison{comparator, decode_expression(first), decode_expression(first.next()), match_case(node),
                                match_action(node)}};
 }
 
-Condition decode_like(pugi::xml_node node) {
-    auto const sides = elements_in(node);
-    return {PropertyIsLike{decode_expression(sides.at(0)), decode_expression(sides.at(1)), attribute_text(node, "wildCard"),
-                           attribute_text(node, "singleChar"), attribute_text(node, "escapeChar"), match_case(node)}};
+Condition decode_like(Node node) {
+    auto const first = node.first_child();
+    return {PropertyIsLike{decode_expression(first), decode_expression(first.next()), node.attribute_text("wildCard"),
+                           node.attribute_text("singleChar"), node.attribute_text("escapeChar"), match_case(node)}};
 }
 
-Condition decode_between(pugi::xml_node node) {
-    auto const parts = elements_in(node);
-    auto const boundary = [](pugi::xml_node side) { return decode_expression(elements_in(side).front()); };
-    return {PropertyIsBetween{decode_expression(parts.at(0)), boundary(parts.at(1)), boundary(parts.at(2))}};
+Condition decode_between(Node node) {
+    auto const value = node.first_child();
+    auto const lower = value.next();
+    auto const upper = lower.next();
+    return {PropertyIsBetween{decode_expression(value), decode_expression(lower.first_child()),
+                              decode_expression(upper.first_child())}};
 }
 
-Condition decode_distance(pugi::xml_node node, DistanceRelation relation) {
-    auto const distance = child(node, "Distance");
-    return {
-        DistanceComparison{relation, operands(node), to_double(text_of(distance)).value_or(0), attribute_text(distance, "uom")}};
+Condition decode_distance(Node node, DistanceRelation relation) {
+    auto const distance = node.child("Distance");
+    return {DistanceComparison{relation, operands(node), to_double(distance.text()).value_or(0), distance.attribute_text("uom")}};
 }
 
-Condition decode_resource_id(pugi::xml_node node) {
+Condition decode_resource_id(Node node) {
     for (auto const* other : {"previousRid", "version", "startDate", "endDate"}) {
-        if (attribute(node, other)) return {not_understood(other)};
+        if (node.attribute(other)) return {not_understood(other)};
     }
-    return {ResourceId{attribute_text(node, "rid")}};
+    return {ResourceId{node.attribute_text("rid")}};
 }
 
-Condition decode_predicate(pugi::xml_node node);
+Condition decode_predicate(Node node);
 
-std::vector<Condition> decode_predicates(std::vector<pugi::xml_node> const& nodes) {
+std::vector<Condition> decode_predicates(Node parent) {
     std::vector<Condition> conditions;
-    conditions.reserve(nodes.size());
-    for (auto const node : nodes) conditions.push_back(decode_predicate(node));
+    for (auto const each : parent.children()) conditions.push_back(decode_predicate(each));
     return conditions;
 }
 
-Condition decode_predicate(pugi::xml_node node) {
-    auto const name = local_name(node);
+Condition decode_predicate(Node node) {
+    auto const name = node.name();
     if (auto const* comparator = find(comparators, name)) return decode_comparison(node, *comparator);
     if (auto const* relation = find(spatial_relations, name)) return {SpatialComparison{*relation, operands(node)}};
     if (auto const* relation = find(distance_relations, name)) return decode_distance(node, *relation);
     if (auto const* relation = find(temporal_relations, name)) return {TemporalComparison{*relation, operands(node)}};
     if (name == "PropertyIsLike") return decode_like(node);
-    if (name == "PropertyIsNull") return {PropertyIsNull{decode_expression(elements_in(node).front())}};
-    if (name == "PropertyIsNil")
-        return {PropertyIsNil{decode_expression(elements_in(node).front()), attribute_text(node, "nilReason")}};
+    if (name == "PropertyIsNull") return {PropertyIsNull{decode_expression(node.first_child())}};
+    if (name == "PropertyIsNil") return {PropertyIsNil{decode_expression(node.first_child()), node.attribute_text("nilReason")}};
     if (name == "PropertyIsBetween") return decode_between(node);
     if (name == "ResourceId") return decode_resource_id(node);
-    if (name == "And") return {And{decode_predicates(elements_in(node))}};
-    if (name == "Or") return {Or{decode_predicates(elements_in(node))}};
-    if (name == "Not") return {Not{decode_predicates(elements_in(node))}};
+    if (name == "And") return {And{decode_predicates(node)}};
+    if (name == "Or") return {Or{decode_predicates(node)}};
+    if (name == "Not") return {Not{decode_predicates(node)}};
     return {not_understood(name)};
 }
 
 // A Filter: one predicate, or several names of resources, any of which is meant. Nothing when it is empty.
-std::optional<Condition> decode_filter(pugi::xml_node filter) {
-    auto predicates = decode_predicates(elements_in(filter));
+std::optional<Condition> decode_filter(Node filter) {
+    auto predicates = decode_predicates(filter);
     if (predicates.empty()) return {};
     if (predicates.size() == 1) return std::move(predicates.front());
     return Condition{Or{std::move(predicates)}};
@@ -131,8 +131,8 @@ Condition equal(std::string path, std::string literal) {
 }
 
 // A filter of the wrapper, with or without an element around it; what has the place of one.
-std::optional<Condition> decode_bare_filter(pugi::xml_node node) {
-    auto const name = local_name(node);
+std::optional<Condition> decode_bare_filter(Node node) {
+    auto const name = node.name();
     if (name == "Filter" || name == "filter") return decode_filter(node);
     return decode_predicate(node);
 }
@@ -145,14 +145,14 @@ std::string component_type(std::string_view written) {
 }
 
 // A component of the type that meets the filter; `exclusive`: one that nobody else has bound.
-Condition decode_component(pugi::xml_node node) {
+Condition decode_component(Node node) {
     And all;
-    auto const type = component_type(attribute_text(node, "type"));
+    auto const type = component_type(node.attribute_text("type"));
     if (!type.empty()) all.operands.push_back(equal("component_type", type));
-    auto const mode = std::string{trimmed(attribute_text(node, "mode"))};
+    auto const mode = std::string{trimmed(node.attribute_text("mode"))};
     if (mode == "exclusive") all.operands.push_back({Not{{equal("status", "BUSY")}}});
     if (!mode.empty() && mode != "exclusive" && mode != "shared") return {not_understood("the mode " + mode)};
-    for (auto const each : elements_in(node)) {
+    for (auto const each : node.children()) {
         if (auto filter = decode_bare_filter(each)) all.operands.push_back(std::move(*filter));
     }
     return {std::move(all)};
@@ -168,14 +168,14 @@ std::vector<std::string> words_in(std::string_view text) {
     return words;
 }
 
-Condition decode_group(pugi::xml_node node) {
+Condition decode_group(Node node) {
     ComponentGroup group;
-    for (auto const& type : words_in(attribute_text(node, "types"))) group.types.push_back(component_type(type));
-    group.aliases = words_in(attribute_text(node, "aliases"));
+    for (auto const& type : words_in(node.attribute_text("types"))) group.types.push_back(component_type(type));
+    group.aliases = words_in(node.attribute_text("aliases"));
     if (group.aliases.size() > group.types.size())
         return {NotUnderstood{"the condition has more aliases than types in a ComponentGroupCondition"}};
-    for (auto const each : elements_in(node)) {
-        if (local_name(each) == "ComponentCondition") {
+    for (auto const each : node.children()) {
+        if (each.name() == "ComponentCondition") {
             group.members.push_back(decode_component(each));
         } else if (auto filter = decode_bare_filter(each)) {
             group.filter.push_back(std::move(*filter));
@@ -185,34 +185,33 @@ Condition decode_group(pugi::xml_node node) {
 }
 
 // What any of its conditions looks for is found.
-std::optional<Condition> decode_search_condition(pugi::xml_node node) {
+std::optional<Condition> decode_search_condition(Node node) {
     Or any;
-    for (auto const each : elements_in(node)) {
-        bool const group = local_name(each) == "ComponentGroupCondition";
+    for (auto const each : node.children()) {
+        bool const group = each.name() == "ComponentGroupCondition";
         any.operands.push_back(group ? decode_group(each) : decode_component(each));
     }
     if (any.operands.empty()) return {};
     return Condition{std::move(any)};
 }
 
-std::vector<SortProperty> decode_sort_by(pugi::xml_node sort_by) {
+std::vector<SortProperty> decode_sort_by(Node sort_by) {
     std::vector<SortProperty> properties;
-    for (auto const each : elements_in(sort_by)) {
-        bool const descending = trimmed(text_of(child(each, "SortOrder"))) == "DESC";
-        properties.push_back(
-            {decode_expression(elements_in(each).front()), descending ? SortOrder::descending : SortOrder::ascending});
+    for (auto const each : sort_by.children()) {
+        bool const descending = trimmed(each.child_text("SortOrder")) == "DESC";
+        properties.push_back({decode_expression(each.first_child()), descending ? SortOrder::descending : SortOrder::ascending});
     }
     return properties;
 }
 
 }  // namespace
 
-QueryExpression decode_condition(pugi::xml_node condition) {
+QueryExpression decode_condition(Node condition) {
     QueryExpression query;
-    for (auto const each : elements_in(condition)) {
-        if (local_name(each) == "Filter") query.filter = decode_filter(each);
-        if (local_name(each) == "SearchCondition") query.filter = decode_search_condition(each);
-        if (local_name(each) == "SortBy") query.sort_by = decode_sort_by(each);
+    for (auto const each : condition.children()) {
+        if (each.name() == "Filter") query.filter = decode_filter(each);
+        if (each.name() == "SearchCondition") query.filter = decode_search_condition(each);
+        if (each.name() == "SortBy") query.sort_by = decode_sort_by(each);
     }
     return query;
 }

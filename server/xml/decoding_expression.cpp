@@ -7,11 +7,12 @@
 
 #include "types/texts.hpp"
 #include "xml/decoding.hpp"
-#include "xml/tree.hpp"
 
 namespace rois::xml {
 
 namespace {
+
+using Node = MessageTree::Node;
 
 // The numbers of a list that is valid: separated by white space.
 std::vector<double> numbers_in(std::string_view text) {
@@ -40,27 +41,27 @@ struct Frame {
     std::size_t dimensions = 0;  // 0: not said
     std::optional<NotUnderstood> problem;
 
-    void read(pugi::xml_node node) {
-        if (auto const name = attribute(node, "srsName")) crs = trimmed(name.value());
-        if (!all_words_are(attribute_text(node, "uomLabels"), "mm")) problem = not_understood("uomLabels other than mm");
-        auto const axes = attribute_text(node, "axisLabels");
+    void read(Node node) {
+        if (auto const name = node.attribute("srsName")) crs = trimmed(*name);
+        if (!all_words_are(node.attribute_text("uomLabels"), "mm")) problem = not_understood("uomLabels other than mm");
+        auto const axes = node.attribute_text("axisLabels");
         if (!axes.empty() && axes != "x y" && axes != "x y z") problem = not_understood("axisLabels other than x y z");
-        auto const dimension = attribute(node, "srsDimension");
+        auto const dimension = node.attribute("srsDimension");
         if (!dimension) return;
-        dimensions = trimmed(dimension.value()) == "2" ? 2 : 3;
-        if (dimensions == 3 && trimmed(dimension.value()) != "3") problem = not_understood("srsDimension other than 2 and 3");
+        dimensions = trimmed(*dimension) == "2" ? 2 : 3;
+        if (dimensions == 3 && trimmed(*dimension) != "3") problem = not_understood("srsDimension other than 2 and 3");
     }
 };
 
 // Two points of the same frame are the opposite corners of a box; one point is its own.
-Expression decode_corners(Frame frame, std::vector<pugi::xml_node> const& corners) {
+Expression decode_corners(Frame frame, MessageTree::Children corners) {
     Geometry geometry;
     std::vector<std::vector<double>> points;
     for (auto const corner : corners) {
         auto const crs = frame.crs;
         frame.read(corner);
         if (!crs.empty() && frame.crs != crs) return {not_understood("corners in two frames")};
-        points.push_back(numbers_in(text_of(corner)));
+        points.push_back(numbers_in(corner.text()));
     }
     if (frame.problem) return {*frame.problem};
     auto const dimensions = points.front().size();
@@ -82,27 +83,27 @@ Expression decode_corners(Frame frame, std::vector<pugi::xml_node> const& corner
     return {geometry};
 }
 
-Expression decode_geometry(pugi::xml_node node) {
-    if (local_name(node) != "Envelope" && local_name(node) != "Point") return {not_understood(local_name(node))};
+Expression decode_geometry(Node node) {
+    if (node.name() != "Envelope" && node.name() != "Point") return {not_understood(node.name())};
     Frame frame;
     frame.read(node);
-    return decode_corners(std::move(frame), elements_in(node));
+    return decode_corners(std::move(frame), node.children());
 }
 
 // beginPosition, or begin with a TimeInstant inside.
-Expression decode_position(pugi::xml_node node) {
-    if (local_name(node) == "begin" || local_name(node) == "end") node = elements_in(node).front();
-    if (local_name(node) == "TimeInstant") node = elements_in(node).front();
-    if (attribute(node, "indeterminatePosition")) return {not_understood("indeterminatePosition")};
-    auto const text = text_of(node);
+Expression decode_position(Node node) {
+    if (node.name() == "begin" || node.name() == "end") node = node.first_child();
+    if (node.name() == "TimeInstant") node = node.first_child();
+    if (node.attribute("indeterminatePosition")) return {not_understood("indeterminatePosition")};
+    auto const text = node.text();
     if (auto const period = to_period(text)) return {*period};
     return {NotUnderstood{"the condition has the time " + quoted(text) + ", which is no moment, day, month or year"}};
 }
 
-Expression decode_period(pugi::xml_node node) {
-    auto const ends = elements_in(node);
-    auto const begin = decode_position(ends.at(0));
-    auto const end = decode_position(ends.at(1));
+Expression decode_period(Node node) {
+    auto const written = node.first_child();
+    auto const begin = decode_position(written);
+    auto const end = decode_position(written.next());
     for (auto const* side : {&begin, &end}) {
         if (!std::holds_alternative<Period>(side->value)) return *side;
     }
@@ -118,23 +119,16 @@ NotUnderstood not_understood(std::string_view what) {
     return {"the condition has " + quoted(what) + ", which is not understood"};
 }
 
-std::vector<pugi::xml_node> elements_in(pugi::xml_node node) {
-    std::vector<pugi::xml_node> elements;
-    for (auto const each : node.children()) {
-        if (each.type() == pugi::node_element) elements.push_back(each);
-    }
-    return elements;
-}
-
-Expression decode_expression(pugi::xml_node node) {
-    auto const name = local_name(node);
-    auto const inside = elements_in(node);
-    if (name == "ValueReference") return {ValueReference{std::string{trimmed(text_of(node))}}};
-    if (name == "Literal") return inside.empty() ? Expression{Literal{text_of(node)}} : decode_expression(inside.front());
+Expression decode_expression(Node node) {
+    auto const name = node.name();
+    auto const inside = node.children();
+    if (name == "ValueReference") return {ValueReference{std::string{trimmed(node.text())}}};
+    if (name == "Literal")
+        return inside.empty() ? Expression{Literal{std::string{node.text()}}} : decode_expression(inside.front());
     if (name == "TimeInstant") return decode_position(node);
     if (name == "TimePeriod") return decode_period(node);
     if (name != "Function") return decode_geometry(node);
-    Function function{attribute_text(node, "name"), {}};
+    Function function{node.attribute_text("name"), {}};
     for (auto const argument : inside) function.arguments.push_back(decode_expression(argument));
     return {std::move(function)};
 }

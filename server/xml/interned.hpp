@@ -23,6 +23,9 @@ public:
     // `unknown` for a text that was not added.
     Id find(std::string_view) const;
 
+    // Of a number that `add` gave.
+    std::string_view text(Id id) const { return texts_[id]; }
+
 private:
     void place(Id);
 

@@ -31,6 +31,11 @@ std::string text_of_child(pugi::xml_node element, std::string_view name) {
     return std::string{trimmed(text_of(child(element, name)))};
 }
 
+Identifier identifier(pugi::xml_node node) {
+    return {attribute_text(node, "code"), attribute_text(node, "authority"), attribute_text(node, "codebook_ref"),
+            attribute_text(node, "version")};
+}
+
 // Reads profiles out of a valid tree, and says where it cannot.
 class ProfileDecoder {
 public:
@@ -106,7 +111,7 @@ private:
 
     ParameterProfile parameter(pugi::xml_node element) {
         ParameterProfile read{.name = std::string{trimmed(attribute_text(element, "name"))},
-                              .data_type_ref = decode_identifier(child(element, "data_type_ref")),
+                              .data_type_ref = identifier(child(element, "data_type_ref")),
                               .default_value = {},
                               .description = attribute_text(element, "description")};
         if (read.name.empty()) throw complain(element, "the name is empty");

@@ -12,7 +12,7 @@ public:
 
     std::variant<Request, Fault> read(std::string_view document) {
         if (auto fault = reader_.read(document)) return *std::move(fault);
-        if (auto request = decode(reader_.root())) return *std::move(request);
+        if (auto request = decode(reader_.message())) return *std::move(request);
         // Valid, but an answer, a notification or a profile.
         auto const explanation = explain(*schemas_, reader_.root(), operation_names());
         return reader_.complain(reader_.root(), explanation ? explanation->reason : "this is no request");

@@ -70,6 +70,8 @@ public:
 
     Interned::Id name(std::string_view text) const { return names_.find(text); }
 
+    std::string_view text(Interned::Id name) const { return names_.text(name); }
+
     // The number of a namespace that may be declared and that the tables know; else `unknown`.
     Interned::Id name_space(std::string_view text) const;
 

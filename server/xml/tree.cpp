@@ -25,11 +25,10 @@ pugi::xml_node child(pugi::xml_node node, std::string_view name) {
 }
 
 pugi::xml_attribute attribute(pugi::xml_node node, std::string_view name) {
-    bool const perhaps_xsi = std::ranges::find(xsi_attributes, name) != xsi_attributes.end();
     for (auto candidate = node.first_attribute(); candidate; candidate = candidate.next_attribute()) {
         std::string_view const full = candidate.name();
         if (!full.ends_with(name) || local_part(full) != name || declares_namespace(full)) continue;
-        if (!perhaps_xsi || full.size() == name.size() || namespace_of(node, prefix_of(full)) != xsi_namespace) return candidate;
+        if (!is_of_xsi(node, candidate)) return candidate;
     }
     return {};
 }
@@ -57,11 +56,17 @@ std::string_view namespace_of(pugi::xml_node node, std::string_view prefix) {
     return {};
 }
 
+bool is_of_xsi(pugi::xml_node node, pugi::xml_attribute attribute) {
+    auto const prefix = prefix_of(attribute.name());
+    bool const perhaps =
+        !prefix.empty() && std::ranges::find(xsi_attributes, local_part(attribute.name())) != xsi_attributes.end();
+    return perhaps && namespace_of(node, prefix) == xsi_namespace;
+}
+
 pugi::xml_attribute xsi_attribute(pugi::xml_node node, std::string_view name) {
     for (auto candidate = node.first_attribute(); candidate; candidate = candidate.next_attribute()) {
         std::string_view const full = candidate.name();
-        auto const prefix = prefix_of(full);
-        if (!prefix.empty() && local_part(full) == name && namespace_of(node, prefix) == xsi_namespace) return candidate;
+        if (local_part(full) == name && is_of_xsi(node, candidate)) return candidate;
     }
     return {};
 }

@@ -1,5 +1,6 @@
 #include "xml/writer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -36,6 +37,17 @@ constexpr std::string_view escaped(char c, Place place) {
     }
 }
 
+using Table = std::array<bool, 256>;
+
+// The bytes that stand for themselves, wherever they are.
+constexpr Table plain(Place place) {
+    Table table{};
+    for (std::size_t c = ' '; c < 0x80; ++c) table[c] = escaped(static_cast<char>(c), place).empty();
+    return table;
+}
+constexpr Table plain_in_text = plain(Place::text);
+constexpr Table plain_in_attributes = plain(Place::attribute);
+
 void append_escaped(std::string& out, std::string_view clean, Place place) {
     std::size_t done = 0;
     for (std::size_t i = 0; i < clean.size(); ++i) {
@@ -48,6 +60,12 @@ void append_escaped(std::string& out, std::string_view clean, Place place) {
 }
 
 void append(std::string& out, std::string_view value, Place place) {
+    auto const& is_plain = place == Place::text ? plain_in_text : plain_in_attributes;
+    auto const unusual = std::ranges::find_if_not(value, [&](char c) { return is_plain[static_cast<unsigned char>(c)]; });
+    auto const length = static_cast<std::size_t>(unusual - value.begin());
+    out.append(value.substr(0, length));
+    value.remove_prefix(length);
+    if (value.empty()) return;
     while (auto const bad = first_bad_character(value)) {
         append_escaped(out, value.substr(0, bad->offset), place);
         out += replacement;

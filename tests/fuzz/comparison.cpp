@@ -6,6 +6,7 @@
 #include "fuzz/reading.hpp"
 #include "xml/grammars.hpp"
 #include "xml/scan.hpp"
+#include "xml/tree.hpp"
 
 namespace rois::fuzz {
 
@@ -17,12 +18,23 @@ Comparison::Outcome Comparison::look_at(std::string const& document) {
     auto objection = objection_to(document);
     if (accepted && !objection && read_by_xerces(document) != read_by_pugixml(document))
         objection = "the tree holds something else";
+    if (accepted && !objection && trees_differ(document)) objection = "the acceptor's tree holds something else";
     auto const outcome = accepted    ? (objection ? Outcome::wrong : Outcome::both)
                          : objection ? Outcome::neither
                                      : Outcome::xerces_only;
     if (outcome == Outcome::wrong) complaint_ = objection.value_or("");
     ++counts_[static_cast<std::size_t>(outcome)];
     return outcome;
+}
+
+// The acceptor's, where it has made one, and pugixml's.
+bool Comparison::trees_differ(std::string document) const {
+    if (acceptor_.tree() == nullptr) return false;
+    pugi::xml_document parsed;
+    parsed.load_buffer_inplace(document.data(), document.size(), xml::as_xerces_reads, pugi::encoding_utf8);
+    xml::MessageTree expected;
+    expected.read(parsed.document_element());
+    return *acceptor_.tree() != expected;
 }
 
 std::optional<std::string> Comparison::objection_to(std::string const& document) {

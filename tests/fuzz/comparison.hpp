@@ -1,4 +1,4 @@
-// The tables and xerces-c side by side: what the tables accept, xerces-c must accept, and the tree must hold what xerces-c reads.
+// The tables and xerces-c side by side: what the tables accept, xerces-c must accept, and both trees must hold what xerces-c reads.
 #pragma once
 
 #include <cstdint>
@@ -29,6 +29,7 @@ public:
 private:
     // Why the document must not be accepted; nothing when it may.
     std::optional<std::string> objection_to(std::string const& document);
+    bool trees_differ(std::string document) const;
 
     std::shared_ptr<xml::Schemas const> schemas_;
     xml::DocumentLimits limits_;

@@ -1,0 +1,93 @@
+#include "xml/message_tree.hpp"
+
+#include "types/texts.hpp"
+#include "xml/names.hpp"
+#include "xml/tree.hpp"
+
+namespace rois::xml {
+
+namespace {
+
+constexpr std::size_t keep_at_most = 1024;  // elements, and attributes, between two messages
+
+template <class T>
+void clear(std::vector<T>& list) {
+    list.clear();
+    if (list.capacity() > keep_at_most) list.shrink_to_fit();
+}
+
+bool is_white_space(std::string_view text) { return text.find_first_not_of(" \t\r\n") == text.npos; }
+
+}  // namespace
+
+void MessageTree::clear() {
+    xml::clear(elements_);
+    xml::clear(attributes_);
+    joined_.clear();
+    name_space_ = {};
+    innermost_ = 0;
+}
+
+void MessageTree::open(std::string_view name, std::string_view type) {
+    auto const index = static_cast<Index>(elements_.size());
+    if (index > 0) {
+        auto& parent = elements_[innermost_];
+        if (is_white_space(parent.text)) parent.text = {};
+        if (parent.first_child == 0) {
+            parent.first_child = index;
+        } else {
+            elements_[parent.last_child].next = index;
+        }
+        parent.last_child = index;
+    }
+    elements_.push_back({.name = name,
+                         .type = type,
+                         .text = {},
+                         .parent = innermost_,
+                         .attributes = {.first = static_cast<Index>(attributes_.size())}});
+    innermost_ = index;
+}
+
+void MessageTree::add_text(std::string_view piece) {
+    auto& element = elements_[innermost_];
+    if (element.first_child != 0 && is_white_space(piece)) return;
+    element.text = element.text.empty() ? piece : joined_.emplace_back(std::string{element.text}.append(piece));
+}
+
+void MessageTree::read(pugi::xml_node root) {
+    clear();
+    name_space_ = namespace_of(root, prefix_of(root.name()));
+    read_inside(root);
+}
+
+void MessageTree::read_inside(pugi::xml_node node) {
+    auto const type = xsi_type(node);
+    open(local_name(node), type ? type->local_name : std::string_view{});
+    for (auto const each : node.attributes()) {
+        if (!declares_namespace(each.name()) && !is_of_xsi(node, each)) add_attribute(local_part(each.name()), each.value());
+    }
+    for (auto const each : node.children()) {
+        if (each.type() == pugi::node_element) read_inside(each);
+        if (each.type() == pugi::node_pcdata || each.type() == pugi::node_cdata) add_text(each.value());
+    }
+    close();
+}
+
+constinit MessageTree::Element const MessageTree::nothing;
+
+MessageTree::Node MessageTree::Node::child(std::string_view name) const {
+    for (auto const each : children()) {
+        if (each.name() == name) return each;
+    }
+    return {};
+}
+
+std::optional<std::string_view> MessageTree::Node::attribute(std::string_view name) const {
+    auto const& [first, count] = element().attributes;
+    for (auto i = first; i < first + count; ++i) {
+        if (tree_->attributes_[i].name == name) return tree_->attributes_[i].value;
+    }
+    return std::nullopt;
+}
+
+}  // namespace rois::xml
