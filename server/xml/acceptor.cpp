@@ -78,9 +78,15 @@ bool Acceptor::between_elements() {
 }
 
 bool Acceptor::skip_white_space() {
-    auto const begin = at_;
-    while (at_ < text_.size() && is_white_space(text_[at_])) ++at_;
-    return at_ > begin;
+    auto end = at_;
+    while (end < text_.size() && is_white_space(text_[end])) ++end;
+    return std::exchange(at_, end) < end;
+}
+
+void Acceptor::skip_until(std::array<bool, 256> const& ends) {
+    auto end = at_;
+    while (end < text_.size() && !ends[static_cast<unsigned char>(text_[end])]) ++end;
+    at_ = end;
 }
 
 // One piece of what stands in the innermost open element: text and the markup after it.
@@ -115,7 +121,7 @@ bool Acceptor::comment() {
 // Up to the next markup.
 bool Acceptor::text() {
     for (;;) {
-        while (at_ < text_.size() && !ends_text[static_cast<unsigned char>(text_[at_])]) ++at_;
+        skip_until(ends_text);
         switch (peek()) {
             case '<':
                 return true;
@@ -258,7 +264,7 @@ bool Acceptor::attribute_value(std::string_view& value) {
     if (quote != '"' && quote != '\'') return false;
     auto const begin = ++at_;
     for (;;) {
-        while (at_ < text_.size() && !ends_value[static_cast<unsigned char>(text_[at_])]) ++at_;
+        skip_until(ends_value);
         if (peek() == quote) break;
         if (at_ == text_.size() || peek() == '<') return false;
         if (peek() == '&') {

@@ -1,6 +1,7 @@
 // Says of most valid documents, in one pass over their bytes, that they are valid.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -83,6 +84,7 @@ private:
         return text_.size() - at_ >= wanted.size() && std::memcmp(text_.data() + at_, wanted.data(), wanted.size()) == 0;
     }
     bool skip_white_space();  // whether there was any
+    void skip_until(std::array<bool, 256> const& ends);
 
     std::shared_ptr<Schemas const> schemas_;
     Tables const& tables_;

@@ -1,5 +1,8 @@
 #include "xml/characters.hpp"
 
+#include <cstdint>
+#include <cstring>
+
 namespace rois::xml {
 
 namespace {
@@ -9,8 +12,21 @@ constexpr std::string_view not_a_character = "a character that XML cannot carry"
 
 constexpr std::size_t block = 32;
 
+// Whether the bytes of a block are ASCII from the space on; eight bytes are looked at together.
+bool all_printed(char const* bytes) {
+    constexpr std::uint64_t spaces = 0x2020202020202020, high_bits = 0x8080808080808080;
+    std::uint64_t other = 0;
+    for (std::size_t i = 0; i < block; i += sizeof other) {
+        std::uint64_t eight = 0;
+        std::memcpy(&eight, bytes + i, sizeof eight);
+        other |= eight | (eight - spaces);  // below a space it borrows from the high bit
+    }
+    return (other & high_bits) == 0;
+}
+
 // Whether the bytes of a block are ASCII that XML may carry. Without branches: the compiler looks at many bytes at once.
 bool all_plain(char const* bytes) {
+    if (all_printed(bytes)) return true;
     unsigned char bad = 0;
     for (std::size_t i = 0; i < block; ++i) {
         auto const byte = static_cast<unsigned char>(bytes[i]);

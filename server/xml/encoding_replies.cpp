@@ -92,7 +92,9 @@ void write_answer(Writer& out, R const& reply, std::string_view request_id) {
 }  // namespace
 
 std::string encode(Reply const& reply, std::string_view request_id) {
+    constexpr std::size_t usual_length = 1000;
     std::string text;
+    text.reserve(usual_length);
     Writer out{text};
     std::visit([&](auto const& each) { write_answer(out, each, request_id); }, reply);
     return text;

@@ -32,7 +32,7 @@ inline constexpr auto in_names = [] {
     std::array<bool, 256> table{};
     for (auto c = 'a'; c <= 'z'; ++c) table[static_cast<unsigned char>(c)] = true;
     for (auto c = 'A'; c <= 'Z'; ++c) table[static_cast<unsigned char>(c)] = true;
-    for (auto const c : std::string_view{"0123456789_-.:"}) table[static_cast<unsigned char>(c)] = true;
+    for (auto const c : std::string_view{"0123456789_-."}) table[static_cast<unsigned char>(c)] = true;
     return table;
 }();
 
@@ -40,15 +40,17 @@ inline constexpr auto in_names = [] {
 
 // The one that a text begins with.
 inline PlainName plain_name_before(std::string_view text) {
-    std::size_t colons = 0, colon = 0, end = 0;
-    for (; end < text.size() && plain::in_names[static_cast<unsigned char>(text[end])]; ++end) {
-        if (text[end] != ':') continue;
-        ++colons;
-        colon = end;
-    }
-    bool const begins = end > 0 && plain::is_letter(text.front());
-    bool const goes_on = colons == 0 || (colons == 1 && colon + 1 < end && plain::is_letter(text[colon + 1]));
-    return {text.substr(0, begins && goes_on ? end : 0), colon};
+    auto const end_of_part = [&](std::size_t begin) {
+        auto end = begin;
+        while (end < text.size() && plain::in_names[static_cast<unsigned char>(text[end])]) ++end;
+        return end > begin && plain::is_letter(text[begin]) ? end : begin;
+    };
+    auto const is_colon = [&](std::size_t at) { return at < text.size() && text[at] == ':'; };
+    auto const first = end_of_part(0);
+    if (first == 0 || !is_colon(first)) return {text.substr(0, first), 0};
+    auto const end = end_of_part(first + 1);
+    if (end == first + 1 || is_colon(end)) return {};
+    return {text.substr(0, end), first};
 }
 
 // The text as a whole.
