@@ -26,14 +26,14 @@ public:
     void resume(Instant) override {}
 
     std::vector<Results> query(std::string_view query_type, Instant now) override {
-        if (query_type == "robot_position") return {robot_position(last_step().value_or(now))};
-        if (query_type == "engine_status") return {engine_status()};
+        if (query_type == "robot_position") return one_row(robot_position(last_step().value_or(now)));
+        if (query_type == "engine_status") return one_row(engine_status());
         return {};
     }
 
 private:
     void stepped(Instant when) override {
-        if (!operable_since_) operable_since_ = when.utc;
+        if (!operable_time_) operable_time_ = date_time("operable_time", when.utc);
     }
 
     // WARNING while somebody is in the robot's way.
@@ -61,12 +61,14 @@ private:
     }
 
     Results engine_status() const {
-        Results results{{status_of("status", status())}, {}};
-        if (operable_since_) results.parameters.push_back(date_time("operable_time", *operable_since_));
+        Results results;
+        results.parameters.reserve(2);
+        results.parameters.push_back(status_of("status", status()));
+        if (operable_time_) results.parameters.push_back(*operable_time_);
         return results;
     }
 
-    std::optional<Utc> operable_since_;
+    std::optional<Parameter> operable_time_;  // nothing before the first step
 };
 
 }  // namespace

@@ -2,23 +2,15 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
-#include "engine/places.hpp"
 #include "engine/vocabulary.hpp"
 #include "types/values.hpp"
 
 namespace rois {
-
-class RegisteredComponent;
-class Registry;
-struct Session;
 
 // How far something is from fulfilling a condition. `maybe`: what it depends on is not known yet or may change.
 enum class Match : std::uint8_t { no, maybe, yes };
@@ -46,39 +38,6 @@ public:
     // Where it is kept what a condition on a group makes of this one's robot, for as long as the robots are looked at; null for
     // what belongs to none.
     virtual std::optional<Match>* verdict(void const* group) const = 0;
-};
-
-class ComponentCandidate;
-
-// How all components look to one asker at one moment (`present`), or whatever becomes of their status, binding, place and
-// parameters
-// (`ever`). Lives no longer than the engine's one step.
-class Perspective {
-public:
-    enum class Of : std::uint8_t { present, ever };
-
-    Perspective(Registry const&, Places const&, Session const* asker, Of);
-    ~Perspective();
-    Perspective(Perspective const&) = delete;
-    Perspective& operator=(Perspective const&) = delete;
-
-    Candidate const& candidate(RegisteredComponent const&);
-
-    Places const& places() const { return places_; }
-    Session const* asker() const { return asker_; }
-    Of of() const { return of_; }
-
-private:
-    friend class ComponentCandidate;
-    std::vector<Candidate const*> const& robot(std::string_view engine);
-
-    Registry const& registry_;
-    Places const& places_;
-    Session const* asker_;
-    Of of_;
-    std::map<RegisteredComponent const*, std::unique_ptr<ComponentCandidate>> components_;
-    std::map<std::string, std::vector<Candidate const*>, std::less<>> robots_;
-    std::map<std::pair<void const*, std::string>, std::optional<Match>> verdicts_;  // of groups on robots
 };
 
 // A component together with the results of an event of it, or of its answer to a query. What it refers to lives longer.

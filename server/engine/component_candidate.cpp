@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "engine/perspective.hpp"
 #include "engine/referred.hpp"
 #include "engine/registry.hpp"
 #include "engine/space.hpp"

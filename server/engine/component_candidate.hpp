@@ -7,6 +7,9 @@
 
 namespace rois {
 
+class Perspective;
+class RegisteredComponent;
+
 // Asks the component for what a condition wants to know, and for nothing twice.
 class ComponentCandidate final : public Candidate {
 public:

@@ -14,6 +14,7 @@
 #include "engine/executor.hpp"
 #include "engine/filter.hpp"
 #include "engine/notifier.hpp"
+#include "engine/perspective.hpp"
 #include "engine/registry.hpp"
 #include "engine/session.hpp"
 #include "engine/subscriptions.hpp"

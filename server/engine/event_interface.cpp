@@ -11,10 +11,7 @@ Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instan
     auto const& components = registry_.with(MessageKind::event, subscribe.event_type);
     if (components.empty())
         return refused<Subscribe::Reply>(ReturnCode::unsupported, "no component has the event " + quoted(subscribe.event_type));
-    Declarations results;
-    for (auto const* component : components)
-        results.add(find_message(component->profile(), MessageKind::event, subscribe.event_type)->results);
-    auto filter = Filter::compile(subscribe.condition, vocabulary(&results));
+    auto filter = Filter::compile(subscribe.condition, vocabulary(&registry_.results(MessageKind::event, subscribe.event_type)));
     if (auto* problem = std::get_if<std::string>(&filter))
         return refused<Subscribe::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto& wanted = std::get<Filter>(filter);

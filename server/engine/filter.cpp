@@ -36,7 +36,14 @@ std::string Filter::meaning() const { return predicate_ ? predicate_->canonical(
 
 Match Filter::match(Candidate const& candidate) const { return predicate_ ? predicate_->match(candidate) : Match::yes; }
 
-std::optional<Refs> Filter::refs() const { return predicate_ ? predicate_->refs() : std::nullopt; }
+std::optional<Refs> Filter::refs() const {
+    auto refs = predicate_ ? predicate_->refs() : std::nullopt;
+    if (!refs) return refs;
+    std::ranges::sort(*refs);
+    auto const again = std::ranges::unique(*refs);
+    refs->erase(again.begin(), again.end());
+    return refs;
+}
 
 Selection::Selection() = default;
 Selection::~Selection() = default;

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -19,7 +19,7 @@ namespace rois {
 class Predicate;
 class SortKey;
 
-using Refs = std::set<std::string>;  // of components
+using Refs = std::vector<std::string_view>;  // of components
 
 // What is true or false of candidates.
 class Filter {
@@ -38,7 +38,8 @@ public:
     // The condition's canonical text: the same for conditions that mean the same (decision 20). Made anew each time.
     std::string meaning() const;
 
-    // The components that alone can be let through, by ref, when the condition names them; nothing when it may be any.
+    // The components that alone can be let through, ordered by ref, each once, when the condition names them; nothing when it may
+    // be any. Good for as long as the filter.
     std::optional<Refs> refs() const;
 
     // How many predicates it is made of: what it costs to hold it against something.

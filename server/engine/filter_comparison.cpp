@@ -1,6 +1,9 @@
 // The comparisons (ISO 19143, Minimum Standard Filter) and PropertyIsBetween: numbers as numbers, times as times, else texts.
 #include <algorithm>
+#include <array>
 #include <compare>
+#include <initializer_list>
+#include <span>
 
 #include "engine/filter_compiler.hpp"
 #include "engine/space.hpp"
@@ -49,101 +52,109 @@ struct Manner {
     }
 };
 
+// A value that the condition says itself.
+struct Known {
+    enum class Is : std::uint8_t { literal, time } is = Is::literal;
+    Comparable value;
+};
+
 // One side of a comparison.
 class Side {
 public:
-    explicit Side(std::string literal) : literal_{std::move(literal)} {}
-    explicit Side(Utc time) : time_{time} {}
-    explicit Side(Reference reference) : told_{std::move(reference)} {}
-    explicit Side(Distance distance) : told_{std::move(distance)} {}
-
-    std::optional<ValueKind> kind() const {
-        if (auto const* reference = std::get_if<Reference>(&told_)) return reference->kind;
-        if (std::holds_alternative<Distance>(told_)) return ValueKind::number;
-        return time_ ? std::optional{ValueKind::time} : std::nullopt;
-    }
-
-    // A literal that is not of the kind it is compared as; nothing when all is well.
-    std::optional<std::string> misfit(ValueKind kind) const {
-        if (!literal_) return {};
-        bool const fits = kind == ValueKind::number    ? to_double(*literal_).has_value()
-                          : kind == ValueKind::time    ? to_utc(*literal_).has_value()
-                          : kind == ValueKind::boolean ? is_boolean(*literal_)
-                                                       : true;
-        return fits ? std::nullopt : literal_;
-    }
-
-    // What is known beforehand is read once.
-    void settle(Manner const& manner) {
-        if (literal_) known_ = {manner.read(*literal_)};
-        if (time_) known_ = {{.text = to_text(*time_), .number = {}, .time = time_}};
-    }
-
-    // Null while open. What a candidate tells is kept in `told`.
-    Comparables const* values(Candidate const& candidate, Manner const& manner, Comparables& told) const {
-        if (auto const* distance = std::get_if<Distance>(&told_)) {
-            auto const lengths = distance->of(candidate);
-            if (!lengths) return nullptr;
-            for (double const length : *lengths) told.push_back({.text = {}, .number = length, .time = {}});
-            return &told;
+    // Reads what stands there; the compiler has a problem when it cannot be compared.
+    void read(FilterCompiler& compiler, Expression const& expression) {
+        if (auto const* reference = std::get_if<ValueReference>(&expression.value)) {
+            if (auto resolved = compiler.resolve(reference->path)) what_ = std::move(*resolved);
+        } else if (auto const* literal = std::get_if<Literal>(&expression.value)) {
+            what_ =
+                Known{.is = Known::Is::literal, .value = {.text = std::string{trimmed(literal->text)}, .number = {}, .time = {}}};
+        } else if (auto const* function = std::get_if<Function>(&expression.value)) {
+            if (auto distance = compiler.distance(*function)) what_ = std::make_unique<Distance const>(std::move(*distance));
+        } else if (auto const* not_understood = std::get_if<NotUnderstood>(&expression.value)) {
+            compiler.refuse(not_understood->reason);
+        } else if (auto const* period = std::get_if<Period>(&expression.value);
+                   period != nullptr && period->begin == period->end) {
+            what_ = Known{.is = Known::Is::time, .value = {.text = to_text(period->begin), .number = {}, .time = period->begin}};
+        } else {
+            compiler.refuse(
+                "the condition compares a geometry or a period as if it were a value: operators of space and time do that");
         }
-        auto const* reference = std::get_if<Reference>(&told_);
-        if (reference == nullptr) return &known_;
-        auto const texts = candidate.texts(*reference);
-        if (!texts) return nullptr;
-        for (auto const& text : *texts) told.push_back(manner.read(text));
-        return &told;
+    }
+
+    // The kind that it is of by itself; a literal is of any.
+    std::optional<ValueKind> kind() const {
+        if (auto const* reference = std::get_if<Reference>(&what_)) return reference->kind;
+        auto const* known = std::get_if<Known>(&what_);
+        if (known == nullptr) return ValueKind::number;
+        return known->is == Known::Is::time ? std::optional{ValueKind::time} : std::nullopt;
+    }
+
+    // Null when it is no literal.
+    std::string const* literal() const {
+        auto const* known = std::get_if<Known>(&what_);
+        return known != nullptr && known->is == Known::Is::literal ? &known->value.text : nullptr;
+    }
+
+    // Whether a literal is of the kind it is compared as.
+    bool fits(ValueKind kind) const {
+        auto const* text = literal();
+        if (text == nullptr) return true;
+        if (kind == ValueKind::number) return to_double(*text).has_value();
+        if (kind == ValueKind::time) return to_utc(*text).has_value();
+        return kind != ValueKind::boolean || is_boolean(*text);
+    }
+
+    // A literal is read once, as what it is compared as.
+    void settle(Manner const& manner) {
+        auto const* text = literal();
+        bool const as_it_is = manner.kind == ValueKind::text && manner.letters == Case::matched;
+        if (text != nullptr && !as_it_is) std::get<Known>(what_).value = manner.read(*text);
+    }
+
+    // Nothing while open. What a candidate tells is kept in `told`.
+    std::optional<std::span<Comparable const>> values(Candidate const& candidate, Manner const& manner, Comparables& told) const {
+        if (auto const* known = std::get_if<Known>(&what_)) return std::span{&known->value, 1};
+        if (auto const* reference = std::get_if<Reference>(&what_)) {
+            auto const texts = candidate.texts(*reference);
+            if (!texts) return {};
+            told.reserve(texts->size());
+            for (auto const& text : *texts) told.push_back(manner.read(text));
+            return told;
+        }
+        auto const lengths = std::get<DistancePtr>(what_)->of(candidate);
+        if (!lengths) return {};
+        for (double const length : *lengths) told.push_back({.text = {}, .number = length, .time = {}});
+        return told;
     }
 
     std::string canonical(ValueKind kind) const {
-        if (auto const* reference = std::get_if<Reference>(&told_)) return rois::canonical(*reference);
-        if (auto const* distance = std::get_if<Distance>(&told_)) return distance->canonical();
-        auto const& known = known_.front();
-        if (kind == ValueKind::number) return "N" + rois::canonical(*known.number);
-        if (kind == ValueKind::time || time_) return "T" + std::to_string(known.time->time_since_epoch().count());
-        return "L" + std::to_string(known.text.size()) + ":" + known.text;
+        if (auto const* reference = std::get_if<Reference>(&what_)) return rois::canonical(*reference);
+        if (auto const* distance = std::get_if<DistancePtr>(&what_)) return (*distance)->canonical();
+        auto const& [is, value] = std::get<Known>(what_);
+        if (kind == ValueKind::number) return "N" + rois::canonical(*value.number);
+        if (kind == ValueKind::time || is == Known::Is::time) return "T" + std::to_string(value.time->time_since_epoch().count());
+        return "L" + std::to_string(value.text.size()) + ":" + value.text;
     }
 
-    std::optional<std::string> const& literal() const { return literal_; }
     bool is_component_ref() const {
-        auto const* reference = std::get_if<Reference>(&told_);
-        return reference != nullptr && reference->to == Reference::To::component_ref &&
+        auto const* reference = std::get_if<Reference>(&what_);
+        return reference != nullptr && reference->to == Reference::To::component_ref && reference->position <= 1 &&
                (reference->part == Reference::Part::value || reference->part == Reference::Part::code);
     }
 
 private:
+    using DistancePtr = std::unique_ptr<Distance const>;
+
     static bool is_boolean(std::string_view text) {
         text = trimmed(text);
         return text == "true" || text == "false" || text == "1" || text == "0";
     }
 
-    std::variant<std::monostate, Reference, Distance> told_;
-    std::optional<std::string> literal_;
-    std::optional<Utc> time_;
-    Comparables known_;
+    std::variant<Known, Reference, DistancePtr> what_;
 };
 
-// Nothing when refused.
-std::optional<Side> side(FilterCompiler& compiler, Expression const& expression) {
-    if (auto const* reference = std::get_if<ValueReference>(&expression.value)) {
-        auto resolved = compiler.resolve(reference->path);
-        return resolved ? std::optional{Side{std::move(*resolved)}} : std::nullopt;
-    }
-    if (auto const* literal = std::get_if<Literal>(&expression.value)) return Side{std::string{trimmed(literal->text)}};
-    if (auto const* function = std::get_if<Function>(&expression.value)) {
-        auto distance = compiler.distance(*function);
-        return distance ? std::optional{Side{std::move(*distance)}} : std::nullopt;
-    }
-    if (auto const* not_understood = std::get_if<NotUnderstood>(&expression.value))
-        return compiler.refuse(not_understood->reason);
-    auto const* period = std::get_if<Period>(&expression.value);
-    if (period != nullptr && period->begin == period->end) return Side{period->begin};
-    return compiler.refuse(
-        "the condition compares a geometry or a period as if it were a value: operators of space and time do that");
-}
-
 // The kind that all sides agree on.
-ValueKind common_kind(std::vector<Side> const& sides) {
+ValueKind common_kind(std::span<Side const> sides) {
     std::optional<ValueKind> common;
     for (auto const& side : sides) {
         auto const kind = side.kind();
@@ -166,24 +177,24 @@ std::string name_of(ValueKind kind) {
     return kind == ValueKind::time ? "time" : "true or false";
 }
 
-// The sides of a comparison, ready to be compared; nothing when refused.
-std::optional<std::vector<Side>> sides(FilterCompiler& compiler, std::vector<Expression const*> const& expressions, Case letters,
-                                       Manner& manner) {
-    std::vector<Side> all;
-    for (auto const* expression : expressions) {
-        auto made = side(compiler, *expression);
-        if (!made) return {};
-        all.push_back(std::move(*made));
-    }
-    manner.kind = common_kind(all);
+// Makes the sides of a comparison ready to be compared; the compiler has a problem when they cannot be.
+Manner settle(FilterCompiler& compiler, std::span<Side> sides, std::initializer_list<Expression const*> expressions,
+              Case letters) {
+    Manner manner;
+    auto side = sides.begin();
+    for (auto const* expression : expressions) (side++)->read(compiler, *expression);
+    if (compiler.problem()) return manner;
+    manner.kind = common_kind(sides);
     manner.letters = manner.kind == ValueKind::name ? Case::ignored : letters;
-    for (auto& each : all) {
-        if (auto const misfit = each.misfit(manner.kind))
-            return compiler.refuse("the condition compares a " + name_of(manner.kind) + " with " + quoted(*misfit) +
-                                   ", which is none");
+    for (auto& each : sides) {
+        if (!each.fits(manner.kind)) {
+            compiler.refuse("the condition compares a " + name_of(manner.kind) + " with " + quoted(*each.literal()) +
+                            ", which is none");
+            return manner;
+        }
         each.settle(manner);
     }
-    return all;
+    return manner;
 }
 
 bool holds(Comparator comparator, std::partial_ordering order) {
@@ -205,17 +216,22 @@ bool holds(Comparator comparator, std::partial_ordering order) {
 // "greater" is "less" with the sides exchanged.
 class Comparison final : public Predicate {
 public:
-    Comparison(Comparator comparator, Side left, Side right, Manner manner, MatchAction action)
-        : comparator_{comparator}, left_{std::move(left)}, right_{std::move(right)}, manner_{manner}, action_{action} {
-        if (comparator == Comparator::greater || comparator == Comparator::greater_or_equal) std::swap(left_, right_);
+    Comparison(FilterCompiler& compiler, PropertyComparison const& comparison)
+        : comparator_{comparison.comparator}, action_{comparison.match_action} {
+        manner_ = settle(compiler, sides_, {&comparison.left, &comparison.right},
+                         comparison.match_case ? Case::matched : Case::ignored);
+        if (comparator_ == Comparator::greater || comparator_ == Comparator::greater_or_equal) std::swap(sides_[0], sides_[1]);
+        named_ = named();
     }
 
     Match match(Candidate const& candidate) const override {
+        auto const rid = candidate.rid();
+        if (named_ != nullptr && !rid.empty()) return rid == *named_ ? Match::yes : Match::no;
         Comparables told, also_told;
-        auto const* left = left_.values(candidate, manner_, told);
-        auto const* right = right_.values(candidate, manner_, also_told);
-        if ((left != nullptr && left->empty()) || (right != nullptr && right->empty())) return Match::no;
-        if (left == nullptr || right == nullptr) return Match::maybe;
+        auto const left = sides_[0].values(candidate, manner_, told);
+        auto const right = sides_[1].values(candidate, manner_, also_told);
+        if ((left && left->empty()) || (right && right->empty())) return Match::no;
+        if (!left || !right) return Match::maybe;
         if (make_too_many_pairs(*left, *right)) return Match::no;
         std::size_t holding = 0;
         for (auto const& a : *left)
@@ -230,7 +246,7 @@ public:
     std::string canonical() const override {
         static constexpr std::array<std::string_view, 6> signs{"=", "!", "<", "<", "[", "["};
         static constexpr std::array<std::string_view, 3> actions{"", "A", "O"};
-        auto left = left_.canonical(manner_.kind), right = right_.canonical(manner_.kind);
+        auto left = sides_[0].canonical(manner_.kind), right = sides_[1].canonical(manner_.kind);
         bool const symmetric = comparator_ == Comparator::equal || comparator_ == Comparator::not_equal;
         if (symmetric && right < left) std::swap(left, right);
         bool const by_letters = manner_.kind == ValueKind::any || manner_.kind == ValueKind::text;
@@ -240,36 +256,42 @@ public:
     }
 
     std::optional<Refs> refs() const override {
-        bool const exact =
-            comparator_ == Comparator::equal && manner_.kind == ValueKind::text && manner_.letters == Case::matched;
-        bool const right = right_.is_component_ref();
-        auto const& literal = right ? left_.literal() : right_.literal();
-        if (!exact || !literal || !(right || left_.is_component_ref())) return {};
-        return Refs{*literal};
+        if (named_ == nullptr) return {};
+        return Refs{*named_};
     }
 
 private:
+    // The component that alone meets it, by ref; null when it is not about that.
+    std::string const* named() const {
+        bool const exact =
+            comparator_ == Comparator::equal && manner_.kind == ValueKind::text && manner_.letters == Case::matched;
+        if (!exact) return nullptr;
+        if (sides_[0].is_component_ref()) return sides_[1].literal();
+        return sides_[1].is_component_ref() ? sides_[0].literal() : nullptr;
+    }
+
     Comparator comparator_;
-    Side left_;
-    Side right_;
-    Manner manner_;
     MatchAction action_;
+    std::array<Side, 2> sides_;
+    Manner manner_;
+    std::string const* named_ = nullptr;
 };
 
 // One of the values is between the boundaries, both included.
 class Between final : public Predicate {
 public:
-    Between(Side value, Side lower, Side upper, Manner manner)
-        : value_{std::move(value)}, lower_{std::move(lower)}, upper_{std::move(upper)}, manner_{manner} {}
+    Between(FilterCompiler& compiler, PropertyIsBetween const& between) {
+        manner_ = settle(compiler, sides_, {&between.value, &between.lower, &between.upper}, Case::matched);
+    }
 
     Match match(Candidate const& candidate) const override {
         Comparables told[3];
-        auto const* values = value_.values(candidate, manner_, told[0]);
-        auto const* lowest = lower_.values(candidate, manner_, told[1]);
-        auto const* highest = upper_.values(candidate, manner_, told[2]);
-        for (auto const* all : {values, lowest, highest})
-            if (all != nullptr && all->empty()) return Match::no;
-        if (values == nullptr || lowest == nullptr || highest == nullptr) return Match::maybe;
+        auto const values = sides_[0].values(candidate, manner_, told[0]);
+        auto const lowest = sides_[1].values(candidate, manner_, told[1]);
+        auto const highest = sides_[2].values(candidate, manner_, told[2]);
+        for (auto const& all : {values, lowest, highest})
+            if (all && all->empty()) return Match::no;
+        if (!values || !lowest || !highest) return Match::maybe;
         if (make_too_many_pairs(*values, *lowest) || make_too_many_pairs(*values, *highest)) return Match::no;
         bool const met = std::ranges::any_of(*values, [&](Comparable const& value) {
             return std::ranges::any_of(*lowest, [&](auto const& low) { return manner_.compare(low, value) <= 0; }) &&
@@ -279,33 +301,27 @@ public:
     }
 
     std::string canonical() const override {
-        return "b(" + value_.canonical(manner_.kind) + "," + lower_.canonical(manner_.kind) + "," +
-               upper_.canonical(manner_.kind) + ")";
+        return "b(" + sides_[0].canonical(manner_.kind) + "," + sides_[1].canonical(manner_.kind) + "," +
+               sides_[2].canonical(manner_.kind) + ")";
     }
 
 private:
-    Side value_;
-    Side lower_;
-    Side upper_;
+    std::array<Side, 3> sides_;
     Manner manner_;
 };
 
 }  // namespace
 
 PredicatePtr FilterCompiler::operator()(PropertyComparison const& comparison) {
-    Manner manner;
-    auto both =
-        sides(*this, {&comparison.left, &comparison.right}, comparison.match_case ? Case::matched : Case::ignored, manner);
-    if (!both) return nullptr;
-    return std::make_unique<Comparison>(comparison.comparator, std::move((*both)[0]), std::move((*both)[1]), manner,
-                                        comparison.match_action);
+    auto made = std::make_unique<Comparison>(*this, comparison);
+    if (problem_) return nullptr;
+    return made;
 }
 
 PredicatePtr FilterCompiler::operator()(PropertyIsBetween const& between) {
-    Manner manner;
-    auto all = sides(*this, {&between.value, &between.lower, &between.upper}, Case::matched, manner);
-    if (!all) return nullptr;
-    return std::make_unique<Between>(std::move((*all)[0]), std::move((*all)[1]), std::move((*all)[2]), manner);
+    auto made = std::make_unique<Between>(*this, between);
+    if (problem_) return nullptr;
+    return made;
 }
 
 }  // namespace rois

@@ -24,7 +24,7 @@ public:
     // The same text for conditions that mean the same.
     virtual std::string canonical() const = 0;
     virtual bool met_by_everything() const { return false; }
-    // The components that alone can meet it, by ref; nothing when it names none.
+    // The components that alone can meet it, in any order, by refs of its own; nothing when it names none.
     virtual std::optional<Refs> refs() const { return {}; }
 };
 

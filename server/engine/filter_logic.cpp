@@ -57,9 +57,9 @@ public:
     std::optional<Refs> refs() const override {
         Refs all;
         for (auto const& operand : operands_) {
-            auto refs = operand->refs();
+            auto const refs = operand->refs();
             if (!refs) return {};
-            all.merge(*refs);
+            all.insert(all.end(), refs->begin(), refs->end());
         }
         return all;
     }
@@ -105,6 +105,7 @@ public:
     explicit Flattened(FilterCompiler& compiler) : compiler_{compiler} {}
 
     void add(Operator const& many) {
+        operands_.reserve(operands_.size() + many.operands.size());
         for (auto const& each : many.operands) {
             auto const& operand = *innermost(&each);
             if (auto const* same = std::get_if<Operator>(&operand.predicate)) {

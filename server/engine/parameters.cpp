@@ -25,13 +25,35 @@ std::string names_of(std::vector<ParameterProfile> const& profiles) {
     return names.empty() ? "none" : names;
 }
 
-std::optional<std::string> why_not(ParameterProfile const& profile, Parameter const& parameter) {
-    auto const due = DataType::of(profile.data_type_ref);
+std::optional<std::string> why_not(ParameterProfile const& profile, DataType const& due, Parameter const& parameter) {
     bool const as_due = parameter.data_type_ref.code == profile.data_type_ref.code;
     if (!as_due && !(DataType::of(parameter.data_type_ref) == due))
         return "parameter " + quoted(parameter.name) + " is declared as " + quoted(parameter.data_type_ref.code) +
                ", its type is " + to_text(due);
     if (auto const problem = why_not(due, parameter.values)) return "parameter " + quoted(parameter.name) + ": " + *problem;
+    return {};
+}
+
+// Where the profile is that a parameter's name means, mostly at the parameter's own place; at the end when there is none.
+std::size_t place_of(std::vector<ParameterProfile> const& profiles, std::string_view name, std::size_t likely) {
+    if (likely < profiles.size() && profiles[likely].name == name) return likely;
+    auto const* found = profile_for(profiles, name);
+    return found == nullptr ? profiles.size() : static_cast<std::size_t>(found - profiles.data());
+}
+
+// `type_at` says of which type the profile at a place is.
+template <class TypeAt>
+std::optional<std::string> problem_of(ParameterList const& list, std::vector<ParameterProfile> const& profiles,
+                                      TypeAt const& type_at) {
+    std::vector<bool> seen(profiles.size());
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        auto const& parameter = list[i];
+        auto const place = place_of(profiles, parameter.name, i);
+        if (place == profiles.size()) return "unknown parameter " + quoted(parameter.name) + "; known are " + names_of(profiles);
+        if (seen[place]) return "parameter " + quoted(parameter.name) + " is there twice";
+        seen[place] = true;
+        if (auto problem = why_not(profiles[place], type_at(place), parameter)) return problem;
+    }
     return {};
 }
 
@@ -49,15 +71,17 @@ std::string_view seed_spelling(std::string_view name) {
 }
 
 std::optional<std::string> why_not(std::vector<ParameterProfile> const& profiles, ParameterList const& list) {
-    std::vector<ParameterProfile const*> seen;
-    for (auto const& parameter : list) {
-        auto const* profile = profile_for(profiles, parameter.name);
-        if (profile == nullptr) return "unknown parameter " + quoted(parameter.name) + "; known are " + names_of(profiles);
-        if (std::ranges::find(seen, profile) != seen.end()) return "parameter " + quoted(parameter.name) + " is there twice";
-        seen.push_back(profile);
-        if (auto problem = why_not(*profile, parameter)) return problem;
-    }
-    return {};
+    return problem_of(list, profiles, [&](std::size_t place) { return DataType::of(profiles[place].data_type_ref); });
+}
+
+TypedProfiles::TypedProfiles(std::vector<ParameterProfile> const& profiles) : profiles_{&profiles} {
+    types_.reserve(profiles.size());
+    for (auto const& profile : profiles) types_.push_back(DataType::of(profile.data_type_ref));
+}
+
+std::optional<std::string> TypedProfiles::why_not(ParameterList const& list) const {
+    return problem_of(
+        list, *profiles_, [&](std::size_t place) -> auto const& { return types_[place]; });
 }
 
 ParameterList normalized(std::vector<ParameterProfile> const& profiles, ParameterList const& list) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "types/data_type.hpp"
 #include "types/profiles.hpp"
 #include "types/values.hpp"
 
@@ -19,6 +20,19 @@ std::string_view seed_spelling(std::string_view name);
 
 // Why these parameters are not what the profiles say: unknown, twice, of another type. Nothing when they are.
 std::optional<std::string> why_not(std::vector<ParameterProfile> const&, ParameterList const&);
+
+// Profiles whose types are read once, for lists that are held against them again and again.
+class TypedProfiles {
+public:
+    explicit TypedProfiles(std::vector<ParameterProfile> const&);  // which must live as long
+
+    // As above.
+    std::optional<std::string> why_not(ParameterList const&) const;
+
+private:
+    std::vector<ParameterProfile> const* profiles_;
+    std::vector<DataType> types_;
+};
 
 // The same parameters under the profiles' names and type codes; `list` was checked.
 ParameterList normalized(std::vector<ParameterProfile> const&, ParameterList const& list);

@@ -1,6 +1,5 @@
 // Query interface (7.4.2, table 4).
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <utility>
 
@@ -15,17 +14,22 @@ namespace {
 struct Possible {
     RegisteredComponent* component;
     std::optional<Results> row;
+    std::optional<ComponentStatus> status = {};  // asked for once
 };
 
-bool is_ready(Possible const& possible, Session const& asker) {
-    return possible.component->status_for(&asker) == ComponentStatus::ready;
+bool is_ready(Possible& possible, Session const& asker) {
+    if (!possible.status) possible.status = possible.component->status_for(&asker);
+    return possible.status == ComponentStatus::ready;
 }
+
+// So many components are sooner looked at than looked up by the refs that a condition names.
+constexpr std::size_t few = 4;
 
 // A component is asked only when the condition or SortBy may depend on what it answers; and nobody behind the one that will be
 // chosen when nothing is sorted.
+template <class RowsOf>
 std::vector<Possible> who_may_answer(std::vector<RegisteredComponent*> const& able, Selection const& selection,
-                                     Perspective& looked_at,
-                                     std::function<std::vector<Results>(RegisteredComponent&)> const& rows_of) {
+                                     Perspective& looked_at, RowsOf const& rows_of) {
     std::vector<Possible> found;
     for (auto* component : able) {
         auto const& candidate = looked_at.candidate(*component);
@@ -43,12 +47,11 @@ std::vector<Possible> who_may_answer(std::vector<RegisteredComponent*> const& ab
     return found;
 }
 
-// In the order of the selection.
+// In the order of the selection, which sorts.
 std::vector<Possible> in_order(Selection const& selection, std::vector<Possible> found, Perspective& looked_at) {
-    if (!selection.sorts()) return found;
     std::vector<std::unique_ptr<ToldCandidate>> told;
     std::vector<Candidate const*> candidates;
-    for (auto const& [component, row] : found) {
+    for (auto const& [component, row, status] : found) {
         candidates.push_back(&looked_at.candidate(*component));
         if (row) candidates.back() = told.emplace_back(std::make_unique<ToldCandidate>(*candidates.back(), *row)).get();
     }
@@ -71,20 +74,21 @@ Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
         return refused<Query::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto const& selection = std::get<Selection>(compiled);
     Perspective looked_at{registry_, places_, &session, Perspective::Of::present};
-    auto const refs = selection.refs();
+    auto const& all = registry_.with(MessageKind::query, query.query_type);
+    auto const refs = all.size() > few ? selection.refs() : std::nullopt;
     auto named = refs ? possible(refs) : std::vector<RegisteredComponent*>{};
     std::erase_if(named, [&](auto const* component) {
         return find_message(component->profile(), MessageKind::query, query.query_type) == nullptr;
     });
-    auto const& able = refs ? named : registry_.with(MessageKind::query, query.query_type);
+    auto const& able = refs ? named : all;
     auto found = who_may_answer(able, selection, looked_at, [&](RegisteredComponent& component) {
         return answers(session, component, query.query_type, now);
     });
     if (found.empty())
         return refused<Query::Reply>(ReturnCode::unsupported,
                                      "nothing that matches is answered to queries of the type " + quoted(query.query_type));
-    found = in_order(selection, std::move(found), looked_at);
-    auto const ready = std::ranges::find_if(found, [&](Possible const& possible) { return is_ready(possible, session); });
+    if (selection.sorts()) found = in_order(selection, std::move(found), looked_at);
+    auto const ready = std::ranges::find_if(found, [&](Possible& possible) { return is_ready(possible, session); });
     auto& chosen = ready == found.end() ? found.front() : *ready;
     if (!chosen.row) {
         auto rows = answers(session, *chosen.component, query.query_type, now);
@@ -102,7 +106,11 @@ Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
 // Rows of results; none when it could not answer.
 std::vector<Results> Engine::Core::answers(Session const& session, RegisteredComponent& component, std::string const& query_type,
                                            Instant now) {
-    if (query_type == "component_status") return {Results{{status_of("status", component.status_for(&session))}, {}}};
+    if (query_type == "component_status") {
+        Results row;
+        row.parameters.push_back(status_of("status", component.status_for(&session)));
+        return one_row(std::move(row));
+    }
     std::vector<Results> rows;
     if (query_type == "get_parameter") {
         if (auto parameters = component.all_parameters()) rows.push_back({std::move(*parameters), {}});

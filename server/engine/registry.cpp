@@ -1,7 +1,6 @@
 #include "engine/registry.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <stdexcept>
 #include <utility>
 
@@ -57,6 +56,7 @@ RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, C
               .type = std::move(type),
               .engine = std::move(engine),
               .profile = std::make_shared<ComponentProfile const>(std::move(profile))};
+    for (auto const& message : entry_.profile->messages) results_.emplace_back(message.results);
     for (auto const& parameter : settable_)
         if (parameter.default_value)
             parameters.push_back(
@@ -69,21 +69,6 @@ ComponentStatus RegisteredComponent::status_for(Session const* asker) const {
     auto status = ComponentStatus::error;
     if (!failed_) call([&](Component& c) { status = c.status(); });
     return status;
-}
-
-RegisteredComponent::Called RegisteredComponent::call(std::function<void(Component&)> const& what, Report report) const {
-    if (!component_) return Called::failed;
-    std::string problem;
-    try {
-        what(*component_);
-        return Called::ok;
-    } catch (std::exception const& exception) {
-        problem = exception.what();
-    } catch (...) {
-        problem = "an unknown exception left the component";
-    }
-    report_failure(std::move(problem), report);
-    return Called::failed;
 }
 
 void RegisteredComponent::report_failure(std::string problem, Report report) const {
@@ -101,10 +86,15 @@ void RegisteredComponent::succeeded() {
     told_once_.clear();
 }
 
+TypedProfiles const* RegisteredComponent::results_of(MessageKind kind, std::string_view message) const {
+    auto const* found = find_message(profile(), kind, message);
+    return found == nullptr ? nullptr : &results_[static_cast<std::size_t>(found - profile().messages.data())];
+}
+
 RegisteredComponent::Answer RegisteredComponent::check(MessageKind kind, std::string_view message, Results const& results,
                                                        Report report) const {
-    auto const* profile = find_message(this->profile(), kind, message);
-    auto const problem = profile == nullptr ? "it is not in the profile" : why_not(profile->results, results.parameters);
+    auto const* profiles = results_of(kind, message);
+    auto const problem = profiles == nullptr ? "it is not in the profile" : profiles->why_not(results.parameters);
     if (!problem) return Answer::right;
     report_failure("wrong results of " + quoted(message) + ": " + *problem, report);
     return Answer::wrong;
@@ -175,12 +165,15 @@ std::optional<std::string> RegisteredComponent::why_no_frame(ParameterList const
     return {};
 }
 
-ParameterList RegisteredComponent::taken(ParameterList list) const {
-    if (frames_.are_one()) return list;
-    for (auto& parameter : list)
-        if (!parameter.data_type_ref.codebook_ref.empty() || is_position(parameter.name))
-            frames_.change(parameter, crs_, Frames::Rounding::millionth);
-    return list;
+ParameterList const& RegisteredComponent::taken(ParameterList const& list, ParameterList& changed) const {
+    auto const has_a_frame = [&](Parameter const& parameter) {
+        return !parameter.data_type_ref.codebook_ref.empty() || is_position(parameter.name);
+    };
+    if (frames_.are_one() || std::ranges::none_of(list, has_a_frame)) return list;
+    changed = list;
+    for (auto& parameter : changed)
+        if (has_a_frame(parameter)) frames_.change(parameter, crs_, Frames::Rounding::millionth);
+    return changed;
 }
 
 std::optional<ParameterList> RegisteredComponent::merged(ParameterList stored, ParameterList const& arrived) const {
@@ -212,9 +205,8 @@ RegisteredComponent& Registry::add(std::shared_ptr<RegisteredComponent> componen
     place->second = std::move(component);
     auto& registered = *place->second;
     parameters_.reset();
-    results_.clear();
     for (auto const& message : registered.profile().messages) {
-        auto& list = by_message_[{message.kind, message.name}];
+        auto& list = change(message).components;
         list.insert(std::ranges::upper_bound(
                         list, ref, {}, [](auto const* c) -> auto const& { return c->ref().code; }),
                     &registered);
@@ -224,10 +216,24 @@ RegisteredComponent& Registry::add(std::shared_ptr<RegisteredComponent> componen
 
 void Registry::remove(RegisteredComponent const& component) {
     for (auto const& message : component.profile().messages)
-        std::erase_if(by_message_[{message.kind, message.name}], [&](auto const* each) { return each == &component; });
+        std::erase_if(change(message).components, [&](auto const* each) { return each == &component; });
     components_.erase(component.ref().code);
     parameters_.reset();
-    results_.clear();
+}
+
+// What was gathered of a message is not good any more.
+Registry::Tellers& Registry::change(MessageProfile const& message) {
+    auto& tellers = by_message_[message.kind][message.name];
+    tellers.results.reset();
+    return tellers;
+}
+
+Registry::Tellers const& Registry::tellers(MessageKind kind, std::string_view message) const {
+    static Tellers const none;
+    auto const by_name = by_message_.find(kind);
+    if (by_name == by_message_.end()) return none;
+    auto const found = by_name->second.find(message);
+    return found == by_name->second.end() ? none : found->second;
 }
 
 Declarations const& Registry::parameters() const {
@@ -247,19 +253,17 @@ RegisteredComponent* Registry::find(std::string_view ref) const {
 }
 
 std::vector<RegisteredComponent*> const& Registry::with(MessageKind kind, std::string_view message) const {
-    static std::vector<RegisteredComponent*> const none;
-    auto const found = by_message_.find({kind, std::string{message}});
-    return found == by_message_.end() ? none : found->second;
+    return tellers(kind, message).components;
 }
 
 Declarations const& Registry::results(MessageKind kind, std::string_view message) const {
+    auto const& [components, results] = tellers(kind, message);
     static Declarations const none;
-    auto const& able = with(kind, message);
-    if (able.empty()) return none;
-    auto const [place, missing] = results_.try_emplace({kind, std::string{message}});
-    if (missing)
-        for (auto const* component : able) place->second.add(find_message(component->profile(), kind, message)->results);
-    return place->second;
+    if (components.empty()) return none;
+    if (results) return *results;
+    auto& gathered = results.emplace();
+    for (auto const* component : components) gathered.add(find_message(component->profile(), kind, message)->results);
+    return gathered;
 }
 
 Registry::Bound Registry::bind(RegisteredComponent& component, Session& session) {

@@ -1,7 +1,7 @@
 // Which components exist, what is stored for them, and who has bound them (decisions 4 to 7).
 #pragma once
 
-#include <functional>
+#include <exception>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,6 +14,7 @@
 #include "engine/command.hpp"
 #include "engine/component.hpp"
 #include "engine/frames.hpp"
+#include "engine/parameters.hpp"
 #include "engine/vocabulary.hpp"
 #include "types/messages.hpp"
 
@@ -41,7 +42,8 @@ public:
 
     // Asks or tells the component something. An exception that leaves it is reported and makes its status ERROR (decision 16).
     enum class Called : std::uint8_t { ok, failed };
-    Called call(std::function<void(Component&)> const& what, Report = Report::each) const;
+    template <class What>
+    Called call(What const& what, Report = Report::each) const;
 
     // Whether these results of a message are what the profile says; wrong ones are reported as an exception is (decision 16).
     enum class Answer : std::uint8_t { right, wrong };
@@ -66,8 +68,9 @@ public:
     // Why these parameters cannot be taken: positions are in a frame that nobody knows. `normalized` ones.
     std::optional<std::string> why_no_frame(ParameterList const& normalized) const;
 
-    // The parameters as the component takes them, positions in its own frame.
-    ParameterList taken(ParameterList) const;
+    // The parameters as the component takes them, positions in its own frame: the same list, or another one, kept in `changed`,
+    // when any has to be changed.
+    ParameterList const& taken(ParameterList const&, ParameterList& changed) const;
 
     // `stored` with what arrived, as the component reconciles the two; nothing when it failed.
     std::optional<ParameterList> merged(ParameterList stored, ParameterList const& arrived) const;
@@ -89,6 +92,8 @@ public:
     void error(ErrorType, std::string text, Report) override;
 
 private:
+    // What a message tells; null when the profile has no such message.
+    TypedProfiles const* results_of(MessageKind, std::string_view message) const;
     void report_failure(std::string problem, Report) const;
     void report(ErrorType, std::string text, Report) const;
     // Nothing when it failed, because what it told cannot be told in the engine's frame.
@@ -101,11 +106,26 @@ private:
     Identifier ref_;
     ComponentEntry entry_;
     std::vector<ParameterProfile> settable_;
+    std::vector<TypedProfiles> results_;  // of the profile's messages, in their order
     Agenda& agenda_;
     Frames const& frames_;
     std::string crs_;
     std::vector<std::string> positions_;
 };
+
+template <class What>
+RegisteredComponent::Called RegisteredComponent::call(What const& what, Report report) const {
+    if (!component_) return Called::failed;
+    try {
+        what(*component_);
+        return Called::ok;
+    } catch (std::exception const& exception) {
+        report_failure(exception.what(), report);
+    } catch (...) {
+        report_failure("an unknown exception left the component", report);
+    }
+    return Called::failed;
+}
 
 // All components of the engine, by ref.
 class Registry {
@@ -134,10 +154,19 @@ public:
     static Bound bind(RegisteredComponent&, Session&);
 
 private:
+    // Who has a message, and what they tell with it: nothing when that is to be gathered anew.
+    struct Tellers {
+        std::vector<RegisteredComponent*> components;
+        mutable std::optional<Declarations> results;
+    };
+    using ByName = std::map<std::string, Tellers, std::less<>>;
+
+    Tellers& change(MessageProfile const&);
+    Tellers const& tellers(MessageKind, std::string_view message) const;
+
     Components components_;
-    mutable std::optional<Declarations> parameters_;                               // nothing when they are to be gathered anew
-    mutable std::map<std::pair<MessageKind, std::string>, Declarations> results_;  // those that were asked for since the change
-    std::map<std::pair<MessageKind, std::string>, std::vector<RegisteredComponent*>> by_message_;
+    mutable std::optional<Declarations> parameters_;  // nothing when they are to be gathered anew
+    std::map<MessageKind, ByName> by_message_;
 };
 
 }  // namespace rois

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/filter.hpp"
+#include "engine/perspective.hpp"
 #include "types/ids.hpp"
 #include "types/messages.hpp"
 

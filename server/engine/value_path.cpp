@@ -1,7 +1,6 @@
 #include "engine/value_path.hpp"
 
 #include <charconv>
-#include <utility>
 
 #include "types/texts.hpp"
 
@@ -31,7 +30,7 @@ public:
     }
 
     // A name, without its prefix; "." and ".." are none.
-    std::optional<std::string> name() {
+    std::optional<std::string_view> name() {
         auto local = plain_name();
         if (local && rest_.starts_with(':')) {
             rest_.remove_prefix(1);
@@ -47,7 +46,7 @@ public:
         if (!attribute || !take('=')) return false;
         auto text = quoted_text();
         if (!text || !take(']')) return false;
-        step.predicates.push_back({std::move(*attribute), std::move(*text)});
+        step.predicates.push_back({*attribute, *text});
         return true;
     }
 
@@ -57,12 +56,12 @@ private:
         rest_.remove_prefix(first == std::string_view::npos ? rest_.size() : first);
     }
 
-    std::optional<std::string> plain_name() {
+    std::optional<std::string_view> plain_name() {
         std::size_t length = 0;
         while (length < rest_.size() && may_be_in_a_name(rest_[length])) ++length;
         bool const begins_well = length > 0 && std::string_view{".-0123456789"}.find(rest_[0]) == std::string_view::npos;
         if (!begins_well) return {};
-        std::string name{rest_.substr(0, length)};
+        auto const name = rest_.substr(0, length);
         rest_.remove_prefix(length);
         return name;
     }
@@ -75,11 +74,11 @@ private:
         return true;
     }
 
-    std::optional<std::string> quoted_text() {
+    std::optional<std::string_view> quoted_text() {
         if (rest_.empty() || (rest_.front() != '\'' && rest_.front() != '"')) return {};
         auto const end = rest_.find(rest_.front(), 1);
         if (end == std::string_view::npos) return {};
-        std::string text{rest_.substr(1, end - 1)};
+        auto const text = rest_.substr(1, end - 1);
         rest_.remove_prefix(end + 1);
         return text;
     }
@@ -96,13 +95,13 @@ std::optional<ValuePath> ValuePath::parse(std::string_view text) {
         if (reader.take('@')) {
             auto attribute = reader.name();
             if (!attribute || path.steps.empty() || !reader.at_end()) return {};
-            path.attribute = std::move(*attribute);
+            path.attribute = *attribute;
             return path;
         }
         auto name = reader.name();
         if (!name) return {};
         auto& step = path.steps.emplace_back();
-        step.name = std::move(*name);
+        step.name = *name;
         while (reader.take('['))
             if (!reader.predicate(step)) return {};
     } while (reader.take('/'));

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,19 +11,20 @@ namespace rois {
 // A step down to a child, without its prefix.
 struct PathStep {
     struct Predicate {  // [@attribute='text']
-        std::string attribute;
-        std::string text;
+        std::string_view attribute;
+        std::string_view text;
     };
 
-    std::string name;
+    std::string_view name;
     std::size_t position = 0;  // [n], counted from 1; 0 when none is said
     std::vector<Predicate> predicates;
 };
 
-// Relative, abbreviated: steps divided by "/", the last one perhaps an attribute.
+// Relative, abbreviated: steps divided by "/", the last one perhaps an attribute. Its texts are parts of the text that was
+// parsed, which must live as long.
 struct ValuePath {
     std::vector<PathStep> steps;  // one at least
-    std::string attribute;        // after "@"; empty when there is none
+    std::string_view attribute;   // after "@"; empty when there is none
 
     // Nothing when the text is no such path: absolute, with other axes, functions or predicates.
     static std::optional<ValuePath> parse(std::string_view);

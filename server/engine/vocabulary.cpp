@@ -95,15 +95,15 @@ std::optional<Reference> declared(Declarations const* declarations, To to, std::
 }
 
 // The name in `[@name='volume']`; nothing when the step has no such predicate.
-std::optional<std::string> name_in(PathStep const& step) {
+std::optional<std::string_view> name_in(PathStep const& step) {
     if (step.predicates.size() != 1 || !equal_ignoring_case(step.predicates.front().attribute, "name")) return {};
     return step.predicates.front().text;
 }
 
 // Takes `[2]` and `[@ref='person-3']` into the reference; nothing when it has a predicate that it cannot have.
-bool restrict(Reference& reference, PathStep const& step) {
-    reference.position = step.position;
-    for (auto const& predicate : step.predicates) {
+bool restrict(Reference& reference, std::size_t position, std::span<PathStep::Predicate const> predicates) {
+    reference.position = position;
+    for (auto const& predicate : predicates) {
         bool const by_entity = equal_ignoring_case(predicate.attribute, "ref");
         bool const by_name = equal_ignoring_case(predicate.attribute, "of") && reference.to == To::located;
         if (by_entity && (reference.to == To::located || reference.to == To::result)) {
@@ -176,6 +176,8 @@ std::optional<Reference> named(Vocabulary const& vocabulary, std::span<PathStep 
 }  // namespace
 
 std::variant<Reference, std::string> Vocabulary::resolve(std::string_view written, std::span<std::string const> aliases) const {
+    // Nearly all references are one of these words alone.
+    if (auto found = word(*this, trimmed(written))) return std::move(*found);
     auto const path = ValuePath::parse(written);
     if (!path)
         return "the condition refers to " + quoted(written) +
@@ -190,10 +192,11 @@ std::variant<Reference, std::string> Vocabulary::resolve(std::string_view writte
     if (aliased) reference->alias = static_cast<std::size_t>(alias - aliases.begin());
     bool const by_name =
         steps.size() == 1 && (reference->to == To::parameter || reference->to == To::result) && name_in(steps.front());
-    PathStep last = steps.back();
-    if (by_name) last.predicates.clear();
-    if (!restrict(*reference, last)) return "the condition refers to " + quoted(written) + ", whose predicate is not known here";
-    if (path->attribute.empty()) return *reference;
+    auto const& last = steps.back();
+    auto const predicates = by_name ? std::span<PathStep::Predicate const>{} : std::span{last.predicates};
+    if (!restrict(*reference, last.position, predicates))
+        return "the condition refers to " + quoted(written) + ", whose predicate is not known here";
+    if (path->attribute.empty()) return std::move(*reference);
     auto const part = std::ranges::find_if(
         identifier_parts, [&](PartWord const& known) { return equal_ignoring_case(known.name, path->attribute); });
     if (part == identifier_parts.end() || !has_part(reference->to, part->part))
@@ -201,7 +204,7 @@ std::variant<Reference, std::string> Vocabulary::resolve(std::string_view writte
     reference->part = part->part;
     reference->kind = part->part == Part::data_type_ref || part->part == Part::codebook_ref ? ValueKind::name : ValueKind::text;
     reference->items = Reference::Items::one_each;
-    return *reference;
+    return std::move(*reference);
 }
 
 std::string_view Vocabulary::own_position() const {

@@ -74,16 +74,18 @@ bool is_date_time(std::string_view text) {
 }
 
 bool is_component_status(std::string_view text) {
+    text = trimmed(text);
     for (auto status : {ComponentStatus::uninitialized, ComponentStatus::ready, ComponentStatus::busy, ComponentStatus::warning,
                         ComponentStatus::error})
-        if (trimmed(text) == to_text(status)) return true;
+        if (text == to_text(status)) return true;
     return false;
 }
 
 bool is_stream_status(std::string_view text) {
+    text = trimmed(text);
     for (auto status : {StreamStatus::not_running, StreamStatus::not_connected, StreamStatus::running, StreamStatus::suspended,
                         StreamStatus::resumed})
-        if (trimmed(text) == to_text(status)) return true;
+        if (text == to_text(status)) return true;
     return false;
 }
 

@@ -10,6 +10,8 @@ namespace {
 
 constexpr char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
+constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
 // XML Schema allows a plus sign, from_chars does not.
 std::string_view without_plus(std::string_view text) {
     if (text.size() > 1 && text.front() == '+' && text[1] != '-') text.remove_prefix(1);
@@ -46,7 +48,10 @@ std::size_t whole_characters(std::string_view text, std::size_t longest) {
 
 }  // namespace
 
-bool equal_ignoring_case(std::string_view a, std::string_view b) { return std::ranges::equal(a, b, {}, lower, lower); }
+// Most texts that are equal are so to the letter.
+bool equal_ignoring_case(std::string_view a, std::string_view b) {
+    return a.size() == b.size() && (a == b || std::ranges::equal(a, b, {}, lower, lower));
+}
 
 std::string lower_case(std::string_view text) {
     std::string lowered{text};
@@ -107,10 +112,9 @@ std::string folded_case(std::string_view text) {
 }
 
 std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t\r\n";
-    auto const first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+    while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+    return text;
 }
 
 std::optional<double> to_double(std::string_view text) {

@@ -15,30 +15,43 @@ Parameter typed(std::string name, std::string type, std::vector<std::string> val
             .values = std::move(values)};
 }
 
+// Not as an initializer list, of which the text would be copied.
+std::vector<std::string> one(std::string value) {
+    std::vector<std::string> values;
+    values.push_back(std::move(value));
+    return values;
+}
+
 }  // namespace
 
-Parameter integer(std::string name, std::int64_t value) { return typed(std::move(name), "int", {std::to_string(value)}); }
+std::vector<Results> one_row(Results results) {
+    std::vector<Results> rows;
+    rows.push_back(std::move(results));
+    return rows;
+}
 
-Parameter boolean(std::string name, bool value) { return typed(std::move(name), "bool", {value ? "true" : "false"}); }
+Parameter integer(std::string name, std::int64_t value) { return typed(std::move(name), "int", one(std::to_string(value))); }
 
-Parameter text(std::string name, std::string value) { return typed(std::move(name), "string", {std::move(value)}); }
+Parameter boolean(std::string name, bool value) { return typed(std::move(name), "bool", one(value ? "true" : "false")); }
+
+Parameter text(std::string name, std::string value) { return typed(std::move(name), "string", one(std::move(value))); }
 
 Parameter texts(std::string name, std::vector<std::string> values) {
     return typed(std::move(name), "string[]", std::move(values));
 }
 
-Parameter date_time(std::string name, Utc value) { return typed(std::move(name), "DateTime", {to_text(value)}); }
+Parameter date_time(std::string name, Utc value) { return typed(std::move(name), "DateTime", one(to_text(value))); }
 
 Parameter status_of(std::string name, ComponentStatus value) {
-    return typed(std::move(name), "Component_Status", {std::string{to_text(value)}});
+    return typed(std::move(name), "Component_Status", one(std::string{to_text(value)}));
 }
 
 Parameter status_of(std::string name, StreamStatus value) {
-    return typed(std::move(name), "Stream_Status", {std::string{to_text(value)}});
+    return typed(std::move(name), "Stream_Status", one(std::string{to_text(value)}));
 }
 
 Parameter reference(std::string name, std::string code, std::string codebook_ref) {
-    return typed(std::move(name), "RoISIdentifier", {std::move(code)}, std::move(codebook_ref));
+    return typed(std::move(name), "RoISIdentifier", one(std::move(code)), std::move(codebook_ref));
 }
 
 Parameter references(std::string name, std::vector<std::string> codes, std::string codebook_ref) {

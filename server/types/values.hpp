@@ -63,6 +63,9 @@ struct Results {
     std::vector<Located> located;
 };
 
+// A single row, which a list in braces would copy.
+std::vector<Results> one_row(Results);
+
 // Makers of well-typed parameters, for whoever answers a query or fires an event. The type codes are those of the profiles.
 Parameter integer(std::string name, std::int64_t value);
 Parameter boolean(std::string name, bool value);

@@ -39,6 +39,18 @@ TEST(Query, GoesWhereTheConditionSays) {
     EXPECT_EQ(desk.query("route", not_understood("what is this")).reason, "what is this");
 }
 
+TEST(Query, GoesToTheNamedAmongMany) {
+    World world{named("a", navigation), named("b", navigation), named("c", navigation),
+                named("d", navigation), named("e", navigation), speech};
+    auto desk = world.connect(), hall = world.connect();
+    auto const names = either({equal("component_ref", "e"), equal("component_ref", "speech"), equal("component_ref", "d"),
+                               equal("component_ref", "e"), equal("component_ref", "nobody")});
+    EXPECT_EQ(desk.query("route", names).component_ref.code, "d");
+    hall.bind("d");
+    EXPECT_EQ(desk.query("route", names).component_ref.code, "e");
+    EXPECT_EQ(desk.query("route", equal("component_ref", "speech")).return_code, ReturnCode::unsupported);
+}
+
 namespace {
 
 Results route(std::string length, std::string to) {
