@@ -36,7 +36,6 @@ void take_turn(Answer& answer, Operation const& operation, Reply const& reply) {
         answer.last_sequence = resume->last_sequence;
     } else if (std::holds_alternative<Disconnect>(operation)) {
         answer.turn = Answer::Turn::disconnected;
-        answer.session = {};
     }
 }
 
@@ -95,9 +94,8 @@ NotificationDocument document_of(Numbered const& numbered) {
 }
 
 Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std::string_view text, Via via) {
-    auto const begun = std::chrono::steady_clock::now();
+    auto const begun = present();
     Answer answer;
-    answer.session = session;
     auto const refuse = [&](Fault fault, std::string const& request_id) {
         fault.request_id = request_id;
         answer.fault = fault.code;
@@ -115,18 +113,18 @@ Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std
         return answer;
     }
 
-    auto const said = perform(session, request.operation, via, answer.hold);
+    auto const said = perform(session, request.operation, via, begun, answer.hold);
     if (auto const* fault = std::get_if<Fault>(&said)) return refuse(*fault, request.request_id), std::move(answer);
     auto const& reply = std::get<Reply>(said);
     answer.document = xml::encode(reply, request.request_id);
     auto const code = std::visit([](Outcome const& outcome) { return outcome.return_code; }, reply);
-    telemetry_.answered(request.operation, code, std::chrono::steady_clock::now() - begun);
+    telemetry_.answered(request.operation, code, std::chrono::steady_clock::now() - begun.steady);
     if (code == ReturnCode::ok) take_turn(answer, request.operation, reply);
     return answer;
 }
 
-std::variant<Reply, Fault> Gateway::perform(SessionId const& session, Operation const& operation, Via via, Hold& hold) {
-    auto const now = present();
+std::variant<Reply, Fault> Gateway::perform(SessionId const& session, Operation const& operation, Via via, Instant now,
+                                            Hold& hold) {
     std::lock_guard const lock{mutex_};
     auto const queue = engine_.notifications(session);
     // The readers of a session that disconnects hear the last of it before the answer (decision 3): then nothing is held.

@@ -87,8 +87,8 @@ enum class Via : std::uint8_t { http, websocket };
 struct Answer {
     std::string document;
     std::optional<FaultCode> fault;  // the document is a fault; no operation ran
-    SessionId session;               // which the connection speaks for from now on; empty when none
     enum class Turn : std::uint8_t { stays, connected, resumed, disconnected } turn = Turn::stays;
+    SessionId session;                // connected, resumed: which the connection speaks for from now on
     std::uint64_t last_sequence = 0;  // resumed: where its notifications go on
     Hold hold;
 };
@@ -124,7 +124,7 @@ private:
     friend class Hold;
     friend class Reading;
 
-    std::variant<Reply, Fault> perform(SessionId const&, Operation const&, Via, Hold&);
+    std::variant<Reply, Fault> perform(SessionId const&, Operation const&, Via, Instant now, Hold&);
     void heard_from_opened(std::variant<Reply, Refusal> const&, Instant now);
 
     Engine& engine_;

@@ -98,9 +98,10 @@ Task<> WebSocket::take_text(std::string_view text) {
 
 // Follows the answer to the session that it opened, took over or left.
 void WebSocket::join(Answer const& answer) {
+    if (answer.turn == Answer::Turn::stays) return;
     bool const same = answer.session == session_ && reading_;
     session_ = answer.session;
-    if (answer.turn == Answer::Turn::stays || answer.turn == Answer::Turn::disconnected) return;
+    if (answer.turn == Answer::Turn::disconnected) return;
     if (same && answer.turn == Answer::Turn::connected) return;
     reading_.reset();
     session_over_ = false;
