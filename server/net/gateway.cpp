@@ -1,5 +1,6 @@
 #include "net/gateway.hpp"
 
+#include <charconv>
 #include <utility>
 
 namespace rois::net {
@@ -56,10 +57,9 @@ Hold& Hold::operator=(Hold&& other) noexcept {
 void Hold::release() {
     auto* const gateway = std::exchange(gateway_, nullptr);
     if (!gateway) return;
+    if (!queue_->release(place_)) return;
     std::lock_guard const lock{gateway->mutex_};
-    auto const answered_at = *place_;
-    queue_->release(place_);
-    if (queue_->last_sequence() > answered_at || queue_->closed()) gateway->readers_.notify(session_);
+    gateway->readers_.notify(session_);
 }
 
 Reading::Reading(Gateway& gateway, SessionId session, Link link, std::uint64_t after, Reader& reader,
@@ -73,14 +73,9 @@ Reading::~Reading() {
 }
 
 Reading::Taken Reading::take(std::size_t most) {
-    std::lock_guard const lock{gateway_.mutex_};
-    Taken taken{queue_->read(after_, most), Then::wait};
+    Taken taken{queue_->read(after_, most), {}};
     if (!taken.notifications.empty()) after_ = taken.notifications.back().sequence;
-    if (queue_->has_after(after_)) {
-        taken.then = Then::more;
-    } else if (queue_->closed()) {
-        taken.then = queue_->overflowed() ? Then::overflowed : Then::ended;
-    }
+    taken.then = queue_->next(after_);
     return taken;
 }
 
@@ -88,9 +83,23 @@ Fault shutting_down() { return {FaultCode::shutting_down, "the gateway is shutti
 
 Fault no_such_session() { return {FaultCode::no_session, "there is no such session; connect first", {}, {}}; }
 
-NotificationDocument document_of(Numbered const& numbered) {
-    auto const& notification = *numbered.notification;
-    return {xml::notification_head(notification.body, numbered.sequence), notification.text(xml::notification_tail)};
+NotificationDocument::NotificationDocument(Numbered const& numbered) {
+    constexpr std::string_view no_sequence = "0\"";  // the end of a head with that sequence
+    auto const whole_without_sequence = [&](Notification const& notification) {
+        auto text = xml::notification_head(notification, 0);
+        text.resize(text.size() - no_sequence.size());
+        return text.append("\"").append(xml::notification_tail(notification));
+    };
+    std::string_view const text = numbered.notification->text(whole_without_sequence);
+    auto const place = text.find('"') + 1;  // the sequence is the first attribute
+    before_ = text.substr(0, place);
+    after_ = text.substr(place);
+    digits_size_ =
+        static_cast<std::size_t>(std::to_chars(digits_.begin(), digits_.end(), numbered.sequence).ptr - digits_.begin());
+}
+
+void NotificationDocument::append_to(std::string& out) const {
+    out.append(before_).append(digits_.data(), digits_size_).append(after_);
 }
 
 Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std::string_view text, Via via) {
