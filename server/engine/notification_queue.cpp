@@ -22,6 +22,7 @@ std::uint64_t before(Numbered const& entry) {
 }  // namespace
 
 NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotification const> notification) {
+    std::lock_guard const lock{mutex_};
     if (waiting_ >= max_waiting_ && !make_room()) overflowed_ = true;
     if (overflowed_ && std::holds_alternative<ReceiveEvent>(notification->body)) return Pushed::overflow;
     entries_.push_back({++last_sequence_, std::move(notification)});
@@ -51,8 +52,10 @@ bool NotificationQueue::make_room() {
 
 std::vector<Numbered> NotificationQueue::read(std::uint64_t after, std::size_t most) {
     std::vector<Numbered> entries;
+    std::lock_guard const lock{mutex_};
     auto const until = visible_until();
     auto entry = first_after(after);
+    entries.reserve(std::min(most, static_cast<std::size_t>(entries_.end() - entry)));
     if (entry != entries_.end() && entry->sequence <= until && before(*entry) != after) {
         // The position lies before all that is kept, or inside a gap: what is missing comes first, counted from the position.
         auto const missing_until = as_lost(*entry) == nullptr ? before(*entry) : entry->sequence;
@@ -64,14 +67,41 @@ std::vector<Numbered> NotificationQueue::read(std::uint64_t after, std::size_t m
     return entries;
 }
 
+// Most readers go on where the last has stopped: at the first that waits.
 std::vector<Numbered>::const_iterator NotificationQueue::first_after(std::uint64_t sequence) const {
-    return std::upper_bound(entries_.begin() + static_cast<std::ptrdiff_t>(forgotten_), entries_.end(), sequence,
+    bool const knows_sent = sent_ == 0 || entries_[sent_ - 1].sequence <= sequence;
+    auto const begin = entries_.begin() + static_cast<std::ptrdiff_t>(knows_sent ? sent_ : forgotten_);
+    return std::upper_bound(begin, entries_.end(), sequence,
                             [](std::uint64_t s, Numbered const& entry) { return s < entry.sequence; });
 }
 
-bool NotificationQueue::has_after(std::uint64_t after) const {
+NotificationQueue::Next NotificationQueue::next(std::uint64_t after) const {
+    std::lock_guard const lock{mutex_};
     auto const entry = first_after(after);
-    return entry != entries_.end() && entry->sequence <= visible_until();
+    if (entry != entries_.end() && entry->sequence <= visible_until()) return Next::more;
+    if (!shows_closed()) return Next::wait;
+    return overflowed_ ? Next::overflowed : Next::ended;
+}
+
+NotificationQueue::Hold NotificationQueue::hold() {
+    std::lock_guard const lock{mutex_};
+    return holds_.emplace_back(last_sequence_);
+}
+
+bool NotificationQueue::release(Hold hold) {
+    std::lock_guard const lock{mutex_};
+    holds_.erase(std::ranges::lower_bound(holds_, hold));
+    return last_sequence_ > hold || shows_closed();
+}
+
+void NotificationQueue::close() {
+    std::lock_guard const lock{mutex_};
+    closed_ = true;
+}
+
+bool NotificationQueue::closed() const {
+    std::lock_guard const lock{mutex_};
+    return shows_closed();
 }
 
 void NotificationQueue::mark_sent(std::uint64_t until) {

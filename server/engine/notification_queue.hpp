@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -12,7 +11,7 @@
 
 namespace rois {
 
-// A notification on its way to one or many sessions. Its text after the first tag is the same for all of them; it is made
+// A notification on its way to one or many sessions. But for its sequence its text is the same for all of them; it is made
 // once, by whoever writes it first, on any thread.
 class OutgoingNotification {
 public:
@@ -38,8 +37,8 @@ struct Numbered {
 };
 
 // Holds the notifications of a session: those that wait (never read) and those that were read, for reading them again. Any number
-// of readers, each with its own position; reading discards nothing but marks as sent. Not thread-safe: the engine's mutex guards
-// it.
+// of readers, each with its own position; reading discards nothing but marks as sent. Only the engine pushes and closes, and asks
+// what it has done; readers and holders come from any thread, and wait for nothing but each other: not for the engine's turn.
 class NotificationQueue {
 public:
     NotificationQueue(std::size_t max_waiting, std::size_t max_sent) : max_waiting_{max_waiting}, max_sent_{max_sent} {}
@@ -50,39 +49,45 @@ public:
     // when there is no event to drop: then the session must end. From then on it keeps what must not be lost, and no event.
     Pushed push(std::shared_ptr<OutgoingNotification const>);
 
-    // At most `most` visible entries with a sequence above `after`, oldest first, which count as sent from now on. A position
-    // that is older than what is kept begins with a `Lost`.
-    std::vector<Numbered> read(std::uint64_t after, std::size_t most);
-
-    // Whether `read(after, ...)` would give something.
-    bool has_after(std::uint64_t after) const;
+    // No more will come: the session has ended. As what is told, it shows when nothing is held.
+    void close();
 
     std::uint64_t last_sequence() const { return last_sequence_; }
 
     // How many were dropped so far.
     std::uint64_t lost() const { return lost_; }
 
-    // While held, what is pushed from now on stays invisible: an answer that must come first is still on its way (decision 22).
-    // Holds may overlap; each is released once.
-    using Hold = std::multiset<std::uint64_t>::const_iterator;
-    Hold hold() { return holds_.insert(last_sequence_); }
-    void release(Hold h) { holds_.erase(h); }
-
-    // No more will come: the session has ended. As what is told, it shows when nothing is held.
-    void close() { closed_ = true; }
-    bool closed() const { return closed_ && holds_.empty(); }
-
     // Whether the session had to end because too many waited.
     bool overflowed() const { return overflowed_; }
 
+    // At most `most` visible entries with a sequence above `after`, oldest first, which count as sent from now on. A position
+    // that is older than what is kept begins with a `Lost`.
+    std::vector<Numbered> read(std::uint64_t after, std::size_t most);
+
+    // What comes behind a position: ended: nothing, ever; overflowed: as well, because too many waited.
+    enum class Next : std::uint8_t { more, wait, ended, overflowed };
+    Next next(std::uint64_t after) const;
+    bool has_after(std::uint64_t after) const { return next(after) == Next::more; }
+
+    // While held, what is pushed from now on stays invisible: an answer that must come first is still on its way (decision 22).
+    // Holds may overlap; each is released once.
+    using Hold = std::uint64_t;  // the sequence behind which it hides
+    Hold hold();
+    // Whether it has hidden something.
+    bool release(Hold);
+
+    bool closed() const;
+
 private:
-    std::uint64_t visible_until() const { return holds_.empty() ? last_sequence_ : *holds_.begin(); }
+    std::uint64_t visible_until() const { return holds_.empty() ? last_sequence_ : holds_.front(); }
     bool make_room();
+    bool shows_closed() const { return closed_ && holds_.empty(); }
     std::vector<Numbered>::const_iterator first_after(std::uint64_t sequence) const;
     void mark_sent(std::uint64_t until);
 
     std::size_t max_waiting_;
     std::size_t max_sent_;
+    mutable std::mutex mutex_;  // guards what follows; what only the engine changes it may read without
     // In the order of their sequence; a `Lost` stands for several; first those that were forgotten, then those that were sent.
     // Nothing is allocated for a session that has heard nothing.
     std::vector<Numbered> entries_;
@@ -91,7 +96,7 @@ private:
     std::size_t waiting_ = 0;          // the others, without `Lost`
     std::uint64_t last_sequence_ = 0;  // given last
     std::uint64_t lost_ = 0;
-    std::multiset<std::uint64_t> holds_;
+    std::vector<Hold> holds_;  // ascending, since sequences are
     bool closed_ = false;
     bool overflowed_ = false;
 };

@@ -16,8 +16,6 @@ Steady now() { return std::chrono::steady_clock::now(); }
 
 Fault too_slow() { return {FaultCode::too_slow, "the request did not arrive in time", {}, {}}; }
 
-SessionId session_of(RequestHead const& head) { return {std::string{head.field("RoIS-Session").value_or("")}}; }
-
 }  // namespace
 
 Connection::Connection(Loop& loop, Socket socket)
@@ -31,8 +29,8 @@ Connection::~Connection() { loop_.connections_.erase(this); }
 
 Task<> Connection::run() {
     loop_.connections_.insert(this);
-    auto then = loop_.draining() ? Then::end : Then::next;
-    while (then == Then::next) then = co_await serve();
+    auto then = Then::end;
+    if (!loop_.draining()) then = co_await serve();
     if (then == Then::websocket) co_await serve_websocket();
     if (then == Then::linger) {
         co_await flush();
@@ -51,96 +49,116 @@ void Connection::shut_down() {
     if (idle_) wire_.stop_waiting();
 }
 
-// Serves one request.
+// Serves one request after the other.
 Task<Connection::Then> Connection::serve() {
-    auto const received = co_await receive_head();
-    if (auto const* then = std::get_if<Then>(&received)) co_return *then;
-    auto const& head = std::get<RequestHead>(received);
-    auto const route = route_of(head.path);
-    if (auto const refused = refusal(head, route, loop_.shared().settings)) {
-        if (head.content_length > wire_.received().size()) co_return reply(*refused, head, Framed::last);
-        wire_.use(head.content_length);
-        co_return reply(*refused, head);
+    auto then = Then::next;
+    while (then == Then::next) {
+        then = take_request();
+        if (then == Then::receive) {
+            then = co_await receive();
+            continue;
+        }
+        request_due_ = Steady::max();
+        bool const whole = std::exchange(has_head_, false);
+        if (whole && head_.method != "POST") then = co_await serve_other();
+        if (whole && head_.method == "POST") {
+            auto answer = operate();
+            if (answer.turn == Answer::Turn::disconnected) {
+                co_await flush();
+                co_await others_heard(loop_.shared().gateway, session_, loop_.wakes());
+            }
+            then = reply(std::move(answer));
+        }
+        if (out_.size() > most_to_gather || holds_.size() >= loop_.shared().settings.max_requests_in_flight) co_await flush();
     }
-    auto then = co_await receive_body(head);
-    if (then != Then::next) co_return then;
-    then = co_await dispatch(route, head);
-    if (out_.size() > most_to_gather || holds_.size() >= loop_.shared().settings.max_requests_in_flight) co_await flush();
     co_return then;
 }
 
-Task<std::variant<RequestHead, Connection::Then>> Connection::receive_head() {
-    auto const& settings = loop_.shared().settings;
-    request_due_ = wire_.received().empty() ? Steady::max() : now() + settings.request_timeout;
-    std::size_t searched = 0;
-    std::size_t size = 0;
-    while (true) {
-        while (wire_.text().starts_with("\r\n")) {  // RFC 9112, 2.2
-            wire_.use(2);
-            searched = 0;
-        }
-        size = find_head(wire_.text(), searched);
-        if (size > 0 || wire_.received().size() > settings.max_header) break;
-        co_await flush();
-        idle_ = wire_.received().empty();
-        if (idle_ && loop_.draining()) co_return Then::end;
-        auto const outcome = co_await wire_.receive(idle_ ? now() + settings.idle_timeout : request_due_);
-        bool const silent = std::exchange(idle_, false);
-        if (outcome == Wire::Outcome::closed || (outcome == Wire::Outcome::late && silent)) co_return Then::end;
-        if (outcome == Wire::Outcome::late) co_return refuse(too_slow());
-        if (silent) request_due_ = now() + settings.request_timeout;
+// Goes as far as what has been received allows: `next` when a request is there, whole, or has been refused.
+Connection::Then Connection::take_request() {
+    if (!has_head_) {
+        auto const then = take_head();
+        if (then != Then::next) return then;
+        auto const judged = judge_head();
+        if (!has_head_) return judged;
+        if (wire_.received().size() < head_.content_length && !head_.http_1_0 && head_.lists("Expect", "100-continue"))
+            out_.append("HTTP/1.1 100 Continue\r\n\r\n");
     }
-    if (size == 0 || size > settings.max_header) co_return refuse(overlong_head(wire_.text(), settings));
-    head_text_.assign(wire_.text().substr(0, size));
-    wire_.use(size);
-    auto read = read_head(head_text_, settings);
-    if (auto const* fault = std::get_if<Fault>(&read)) co_return refuse(*fault);
-    co_return std::get<RequestHead>(std::move(read));
+    return wire_.received().size() < head_.content_length ? Then::receive : Then::next;
 }
 
-// `next` when the body is there, whole.
-Task<Connection::Then> Connection::receive_body(RequestHead const& head) {
-    if (wire_.received().size() >= head.content_length) co_return Then::next;
-    if (!head.http_1_0 && head.lists("Expect", "100-continue")) out_.append("HTTP/1.1 100 Continue\r\n\r\n");
-    co_await flush();
-    while (wire_.received().size() < head.content_length) {
-        auto const outcome = co_await wire_.receive(request_due_, head.content_length - wire_.received().size());
-        if (outcome == Wire::Outcome::closed) co_return Then::end;
-        if (outcome == Wire::Outcome::late) co_return refuse(too_slow());
+Connection::Then Connection::take_head() {
+    auto const& settings = loop_.shared().settings;
+    while (wire_.text().starts_with("\r\n")) {  // RFC 9112, 2.2
+        wire_.use(2);
+        searched_ = 0;
     }
+    auto const size = find_head(wire_.text(), searched_);
+    if (size == 0 && wire_.received().size() <= settings.max_header) return Then::receive;
+    if (size == 0 || size > settings.max_header) return refuse(overlong_head(wire_.text(), settings));
+    searched_ = 0;
+    head_text_.assign(wire_.text().substr(0, size));
+    wire_.use(size);
+    if (auto const fault = read_head(head_text_, settings, head_)) return refuse(*fault);
+    return Then::next;
+}
+
+// Sends a request away by its head alone, or keeps it.
+Connection::Then Connection::judge_head() {
+    route_ = route_of(head_.path);
+    auto const refused = refusal(head_, route_, loop_.shared().settings);
+    has_head_ = !refused;
+    if (!refused) return Then::next;
+    if (head_.content_length > wire_.received().size()) return reply(*refused, Framed::last);
+    wire_.use(head_.content_length);
+    return reply(*refused);
+}
+
+// Waits for more of the request, or for a new one: `next` when something has come.
+Task<Connection::Then> Connection::receive() {
+    auto const& settings = loop_.shared().settings;
+    if (!flush_at_once()) co_await flush();
+    idle_ = !has_head_ && wire_.received().empty();
+    if (idle_ && loop_.draining()) co_return Then::end;
+    if (idle_) request_due_ = Steady::max();
+    if (!idle_ && request_due_ == Steady::max()) request_due_ = now() + settings.request_timeout;
+    auto const expected = has_head_ ? head_.content_length - wire_.received().size() : 0;
+    auto const outcome = co_await wire_.receive(idle_ ? now() + settings.idle_timeout : request_due_, expected);
+    bool const silent = std::exchange(idle_, false);
+    if (outcome == Wire::Outcome::closed || (outcome == Wire::Outcome::late && silent)) co_return Then::end;
+    if (outcome == Wire::Outcome::late) co_return refuse(too_slow());
     co_return Then::next;
 }
 
-Task<Connection::Then> Connection::dispatch(Route const& route, RequestHead const& head) {
-    if (head.method == "POST") co_return co_await serve_operation(head);
-    wire_.use(head.content_length);
-    if (route.endpoint == Endpoint::rois) co_return serve_upgrade(head);
-    if (route.endpoint == Endpoint::notifications) co_return co_await serve_notifications(head);
-    co_return reply(loop_.shared().documents.answer(route, head), head);
+Answer Connection::operate() {
+    session_.text.assign(head_.field("RoIS-Session").value_or(""));
+    auto answer =
+        loop_.shared().gateway.answer(loop_.reader(), session_, wire_.text().substr(0, head_.content_length), Via::http);
+    wire_.use(head_.content_length);
+    return answer;
 }
 
-Task<Connection::Then> Connection::serve_operation(RequestHead const& head) {
-    auto& gateway = loop_.shared().gateway;
-    auto const session = session_of(head);
-    auto answer = gateway.answer(loop_.reader(), session, wire_.text().substr(0, head.content_length), Via::http);
-    wire_.use(head.content_length);
+Connection::Then Connection::reply(Answer&& answer) {
     HttpAnswer http;
     http.body = std::move(answer.document);
     if (answer.fault) http.status = status_of(*answer.fault);
     if (answer.turn == Answer::Turn::connected) http.set("RoIS-Session", answer.session.text);
-    if (answer.turn == Answer::Turn::disconnected) {
-        co_await flush();
-        co_await others_heard(gateway, session, loop_.wakes());
-    }
     holds_.push_back(std::move(answer.hold));
-    co_return reply(http, head);
+    return reply(http);
 }
 
-Connection::Then Connection::serve_upgrade(RequestHead const& head) {
+Task<Connection::Then> Connection::serve_other() {
+    wire_.use(head_.content_length);
+    if (route_.endpoint == Endpoint::rois) co_return serve_upgrade();
+    if (route_.endpoint == Endpoint::notifications) co_return co_await serve_notifications();
+    co_return reply(loop_.shared().documents.answer(route_, head_));
+}
+
+Connection::Then Connection::serve_upgrade() {
     auto const& shared = loop_.shared();
-    if (shared.gateway.shutting_down()) return reply(answer_of(shutting_down()), head);
-    auto const answer = upgrade(head, shared.settings);
-    if (answer.status != 101) return reply(answer, head);
+    if (shared.gateway.shutting_down()) return reply(answer_of(shutting_down()));
+    auto const answer = upgrade(head_, shared.settings);
+    if (answer.status != 101) return reply(answer);
     append(out_, answer, {});
     return Then::websocket;
 }
@@ -150,6 +168,7 @@ Task<> Connection::serve_websocket() {
     co_await flush();
     std::string{}.swap(head_text_);
     std::string{}.swap(out_);
+    head_ = {};
     auto const& shared = loop_.shared();
     counted_.emplace(shared.telemetry, Telemetry::Kind::websocket);
     auto const websocket = std::make_shared<WebSocket>(std::shared_ptr<Wire>{shared_from_this(), &wire_}, shared.gateway,
@@ -159,30 +178,30 @@ Task<> Connection::serve_websocket() {
     co_await websocket->run();
 }
 
-Task<Connection::Then> Connection::serve_notifications(RequestHead const& head) {
+Task<Connection::Then> Connection::serve_notifications() {
     auto const& shared = loop_.shared();
-    auto const read = read_wanted(head);
-    if (auto const* fault = std::get_if<Fault>(&read)) co_return reply(answer_of(*fault), head);
-    if (shared.gateway.shutting_down()) co_return reply(answer_of(shutting_down()), head);
+    auto const read = read_wanted(head_);
+    if (auto const* fault = std::get_if<Fault>(&read)) co_return reply(answer_of(*fault));
+    if (shared.gateway.shutting_down()) co_return reply(answer_of(shutting_down()));
     auto wanted = std::get<NotificationsWanted>(read);
-    auto const session = session_of(head);
+    session_.text.assign(head_.field("RoIS-Session").value_or(""));
     co_await flush();
-    if (wanted.as == NotificationsWanted::As::stream && head.method == "GET") {
+    if (wanted.as == NotificationsWanted::As::stream && head_.method == "GET") {
         counted_.emplace(shared.telemetry, Telemetry::Kind::stream);
         auto const refused =
-            co_await stream(wire_, shared.gateway, shared.telemetry, loop_.wakes(), session, wanted, shared.settings);
+            co_await stream(wire_, shared.gateway, shared.telemetry, loop_.wakes(), session_, wanted, shared.settings);
         if (!refused) co_return Then::linger;
         counted_.emplace(shared.telemetry, Telemetry::Kind::http);
-        co_return reply(*refused, head);
+        co_return reply(*refused);
     }
-    auto const answer = co_await poll(wire_, shared.gateway, shared.telemetry, loop_.wakes(), session, wanted);
-    co_return reply(answer, head);
+    auto const answer = co_await poll(wire_, shared.gateway, shared.telemetry, loop_.wakes(), session_, wanted);
+    co_return reply(answer);
 }
 
-Connection::Then Connection::reply(HttpAnswer const& answer, RequestHead const& head, Framed framed) {
+Connection::Then Connection::reply(HttpAnswer const& answer, Framed framed) {
     if (answer.fault) loop_.shared().telemetry.faulted(*answer.fault);
-    bool const close = framed == Framed::last || !head.keep_alive() || loop_.draining();
-    append(out_, answer, {.body = head.method != "HEAD", .close = close});
+    bool const close = framed == Framed::last || !head_.keep_alive() || loop_.draining();
+    append(out_, answer, {.body = head_.method != "HEAD", .close = close});
     return close ? Then::linger : Then::next;
 }
 
@@ -193,8 +212,15 @@ Connection::Then Connection::refuse(Fault const& fault) {
     return Then::linger;
 }
 
+bool Connection::flush_at_once() {
+    out_.erase(0, wire_.send_now(out_));
+    if (!out_.empty()) return false;
+    holds_.clear();
+    return true;
+}
+
 Task<> Connection::flush() {
-    if (out_.empty()) co_return;
+    if (flush_at_once()) co_return;
     co_await wire_.send(out_);
     out_.clear();
     holds_.clear();

@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "net/gateway.hpp"
@@ -18,6 +17,7 @@
 namespace rois::net {
 
 // Always held by a shared_ptr. All but the constructor belongs to the loop's thread; the loop must outlive it.
+// A coroutine is only what may have to wait: a request whose bytes are there is read and answered without one.
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
     Connection(Loop&, Socket);
@@ -31,30 +31,41 @@ public:
     void cut() { wire_.cut(); }
 
 private:
-    // What becomes of the connection after a request.
-    enum class Then : std::uint8_t { next, websocket, linger, end };
+    // What becomes of the connection after a request; `receive`: it has not arrived whole.
+    enum class Then : std::uint8_t { next, receive, websocket, linger, end };
 
     Task<Then> serve();
-    Task<std::variant<RequestHead, Then>> receive_head();
-    Task<Then> receive_body(RequestHead const&);
-    Task<Then> dispatch(Route const&, RequestHead const&);
-    Task<Then> serve_operation(RequestHead const&);
-    Then serve_upgrade(RequestHead const&);
+    Then take_request();
+    Then take_head();
+    Then judge_head();
+    Task<Then> receive();
+    Answer operate();
+    Then reply(Answer&&);
+    Task<Then> serve_other();
+    Then serve_upgrade();
     Task<> serve_websocket();
-    Task<Then> serve_notifications(RequestHead const&);
+    Task<Then> serve_notifications();
 
-    // Both only queue the answer; flush sends what is queued.
+    // They only queue the answer; flush sends what is queued.
     enum class Framed : std::uint8_t { as_asked, last };
-    Then reply(HttpAnswer const&, RequestHead const&, Framed = Framed::as_asked);
+    Then reply(HttpAnswer const&, Framed = Framed::as_asked);
     Then refuse(Fault const&);
+    // False when the socket takes only a part at once: then `flush` goes on.
+    bool flush_at_once();
     Task<> flush();
 
     Loop& loop_;
     Wire wire_;
     std::optional<Telemetry::Counted> counted_;
-    std::string head_text_;  // of the request that is being served
+    // The request that is being received or served.
+    std::size_t searched_ = 0;  // bytes in which no head ends
+    bool has_head_ = false;     // of these four
+    std::string head_text_;
+    RequestHead head_;  // views into head_text_
+    Route route_;
+    SessionId session_;  // that it names; empty when it names none
     Steady request_due_ = Steady::max();
-    bool idle_ = false;        // no byte of the next request has come
+    bool idle_ = false;        // no byte of it has come
     std::string out_;          // answers that wait for the next write
     std::vector<Hold> holds_;  // and the notifications that wait for them
     std::weak_ptr<WebSocket> websocket_;

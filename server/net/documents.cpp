@@ -65,17 +65,17 @@ bool is_known(std::string_view etag, RequestHead const& head) {
 }
 
 // A document that clients may keep as long as they ask whether it has changed.
-HttpAnswer versioned(std::string content_type, std::string body, RequestHead const& head) {
+HttpAnswer versioned(std::string_view content_type, std::string body, RequestHead const& head) {
     HttpAnswer answer;
     auto const etag = '"' + digest(body) + '"';
     answer.cache_control = "no-cache";
     answer.set("ETag", etag);
     if (is_known(etag, head)) {
         answer.status = 304;
-        answer.content_type.clear();
+        answer.content_type = {};
         return answer;
     }
-    answer.content_type = std::move(content_type);
+    answer.content_type = content_type;
     answer.body = std::move(body);
     return answer;
 }

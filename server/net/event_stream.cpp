@@ -27,8 +27,8 @@ HttpAnswer no_session() { return answer_of(no_such_session()); }
 
 // One event: its id is the sequence, its data the document line by line.
 void append_event(std::string& out, Numbered const& numbered) {
-    auto const parts = document_of(numbered);
-    auto const document = parts.head + std::string{parts.tail};
+    std::string document;
+    NotificationDocument{numbered}.append_to(document);
     out.append("id: ").append(std::to_string(numbered.sequence)).append("\n");
     for (std::size_t begin = 0; begin <= document.size();) {
         auto const end = std::min(document.find_first_of("\r\n", begin), document.size());
@@ -82,10 +82,7 @@ Task<HttpAnswer> poll(Wire& wire, Gateway& gateway, Telemetry& telemetry, Wakes&
     }
     HttpAnswer answer;
     answer.body = xml::notifications_begin();
-    for (auto const& numbered : taken.notifications) {
-        auto const document = document_of(numbered);
-        answer.body.append(document.head).append(document.tail);
-    }
+    for (auto const& numbered : taken.notifications) NotificationDocument{numbered}.append_to(answer.body);
     answer.body.append(xml::notifications_end());
     telemetry.delivered(taken.notifications.size());
     co_return answer;

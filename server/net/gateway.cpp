@@ -1,5 +1,6 @@
 #include "net/gateway.hpp"
 
+#include <charconv>
 #include <utility>
 
 namespace rois::net {
@@ -36,7 +37,6 @@ void take_turn(Answer& answer, Operation const& operation, Reply const& reply) {
         answer.last_sequence = resume->last_sequence;
     } else if (std::holds_alternative<Disconnect>(operation)) {
         answer.turn = Answer::Turn::disconnected;
-        answer.session = {};
     }
 }
 
@@ -57,10 +57,9 @@ Hold& Hold::operator=(Hold&& other) noexcept {
 void Hold::release() {
     auto* const gateway = std::exchange(gateway_, nullptr);
     if (!gateway) return;
+    if (!queue_->release(place_)) return;
     std::lock_guard const lock{gateway->mutex_};
-    auto const answered_at = *place_;
-    queue_->release(place_);
-    if (queue_->last_sequence() > answered_at || queue_->closed()) gateway->readers_.notify(session_);
+    gateway->readers_.notify(session_);
 }
 
 Reading::Reading(Gateway& gateway, SessionId session, Link link, std::uint64_t after, Reader& reader,
@@ -74,14 +73,9 @@ Reading::~Reading() {
 }
 
 Reading::Taken Reading::take(std::size_t most) {
-    std::lock_guard const lock{gateway_.mutex_};
-    Taken taken{queue_->read(after_, most), Then::wait};
+    Taken taken{queue_->read(after_, most), {}};
     if (!taken.notifications.empty()) after_ = taken.notifications.back().sequence;
-    if (queue_->has_after(after_)) {
-        taken.then = Then::more;
-    } else if (queue_->closed()) {
-        taken.then = queue_->overflowed() ? Then::overflowed : Then::ended;
-    }
+    taken.then = queue_->next(after_);
     return taken;
 }
 
@@ -89,15 +83,28 @@ Fault shutting_down() { return {FaultCode::shutting_down, "the gateway is shutti
 
 Fault no_such_session() { return {FaultCode::no_session, "there is no such session; connect first", {}, {}}; }
 
-NotificationDocument document_of(Numbered const& numbered) {
-    auto const& notification = *numbered.notification;
-    return {xml::notification_head(notification.body, numbered.sequence), notification.text(xml::notification_tail)};
+NotificationDocument::NotificationDocument(Numbered const& numbered) {
+    constexpr std::string_view no_sequence = "0\"";  // the end of a head with that sequence
+    auto const whole_without_sequence = [&](Notification const& notification) {
+        auto text = xml::notification_head(notification, 0);
+        text.resize(text.size() - no_sequence.size());
+        return text.append("\"").append(xml::notification_tail(notification));
+    };
+    std::string_view const text = numbered.notification->text(whole_without_sequence);
+    auto const place = text.find('"') + 1;  // the sequence is the first attribute
+    before_ = text.substr(0, place);
+    after_ = text.substr(place);
+    digits_size_ =
+        static_cast<std::size_t>(std::to_chars(digits_.begin(), digits_.end(), numbered.sequence).ptr - digits_.begin());
+}
+
+void NotificationDocument::append_to(std::string& out) const {
+    out.append(before_).append(digits_.data(), digits_size_).append(after_);
 }
 
 Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std::string_view text, Via via) {
-    auto const begun = std::chrono::steady_clock::now();
+    auto const begun = present();
     Answer answer;
-    answer.session = session;
     auto const refuse = [&](Fault fault, std::string const& request_id) {
         fault.request_id = request_id;
         answer.fault = fault.code;
@@ -115,18 +122,18 @@ Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std
         return answer;
     }
 
-    auto const said = perform(session, request.operation, via, answer.hold);
+    auto const said = perform(session, request.operation, via, begun, answer.hold);
     if (auto const* fault = std::get_if<Fault>(&said)) return refuse(*fault, request.request_id), std::move(answer);
     auto const& reply = std::get<Reply>(said);
     answer.document = xml::encode(reply, request.request_id);
     auto const code = std::visit([](Outcome const& outcome) { return outcome.return_code; }, reply);
-    telemetry_.answered(request.operation, code, std::chrono::steady_clock::now() - begun);
+    telemetry_.answered(request.operation, code, std::chrono::steady_clock::now() - begun.steady);
     if (code == ReturnCode::ok) take_turn(answer, request.operation, reply);
     return answer;
 }
 
-std::variant<Reply, Fault> Gateway::perform(SessionId const& session, Operation const& operation, Via via, Hold& hold) {
-    auto const now = present();
+std::variant<Reply, Fault> Gateway::perform(SessionId const& session, Operation const& operation, Via via, Instant now,
+                                            Hold& hold) {
     std::lock_guard const lock{mutex_};
     auto const queue = engine_.notifications(session);
     // The readers of a session that disconnects hear the last of it before the answer (decision 3): then nothing is held.

@@ -2,6 +2,7 @@
 // session's notifications are read. All functions may be called from any thread.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -38,7 +39,7 @@ private:
     Gateway* gateway_ = nullptr;  // null: holds nothing
     SessionId session_;
     std::shared_ptr<NotificationQueue> queue_;
-    NotificationQueue::Hold place_;
+    NotificationQueue::Hold place_ = 0;
 };
 
 // One reader's place in a session's notifications, and its link to the session. The gateway and the reader must outlive it.
@@ -49,13 +50,12 @@ public:
     Reading(Reading const&) = delete;
     Reading& operator=(Reading const&) = delete;
 
-    // ended: the session has, and all was taken; overflowed: as well, because too much waited to be taken
-    enum class Then : std::uint8_t { more, wait, ended, overflowed };
+    using Then = NotificationQueue::Next;
     struct Taken {
         std::vector<Numbered> notifications;
         Then then;
     };
-    // The next ones, at most `most`; the place moves behind them.
+    // The next ones, at most `most`; the place moves behind them. The engine is not locked for it.
     Taken take(std::size_t most);
 
     SessionId const& session() const { return session_; }
@@ -73,13 +73,20 @@ private:
 Fault no_such_session();
 Fault shutting_down();
 
-// The document of a notification (wire.md), in two parts: its session's own, and what all its receivers share, which is encoded
-// once and lives as long as the notification.
-struct NotificationDocument {
-    std::string head;
-    std::string_view tail;
+// The document of a notification (wire.md): the sequence is its session's own; what stands before and behind it is shared by all
+// its receivers, encoded once, and lives as long as the notification.
+class NotificationDocument {
+public:
+    explicit NotificationDocument(Numbered const&);
+    std::size_t size() const { return before_.size() + digits_size_ + after_.size(); }
+    void append_to(std::string& out) const;
+
+private:
+    std::string_view before_;
+    std::string_view after_;
+    std::array<char, 20> digits_;
+    std::size_t digits_size_;
 };
-NotificationDocument document_of(Numbered const&);
 
 enum class Via : std::uint8_t { http, websocket };
 
@@ -87,8 +94,8 @@ enum class Via : std::uint8_t { http, websocket };
 struct Answer {
     std::string document;
     std::optional<FaultCode> fault;  // the document is a fault; no operation ran
-    SessionId session;               // which the connection speaks for from now on; empty when none
     enum class Turn : std::uint8_t { stays, connected, resumed, disconnected } turn = Turn::stays;
+    SessionId session;                // connected, resumed: which the connection speaks for from now on
     std::uint64_t last_sequence = 0;  // resumed: where its notifications go on
     Hold hold;
 };
@@ -124,13 +131,13 @@ private:
     friend class Hold;
     friend class Reading;
 
-    std::variant<Reply, Fault> perform(SessionId const&, Operation const&, Via, Hold&);
+    std::variant<Reply, Fault> perform(SessionId const&, Operation const&, Via, Instant now, Hold&);
     void heard_from_opened(std::variant<Reply, Refusal> const&, Instant now);
 
     Engine& engine_;
     Readers& readers_;
     Telemetry& telemetry_;
-    mutable std::mutex mutex_;  // guards the engine, its queues and the readers
+    mutable std::mutex mutex_;  // guards the engine and the readers
     std::atomic<bool> shutting_down_ = false;
 };
 

@@ -14,8 +14,8 @@ int status_of(FaultCode);
 
 struct HttpAnswer {
     int status = 200;
-    std::string content_type = "application/xml; charset=utf-8";
-    std::string cache_control = "no-store";
+    std::string_view content_type = "application/xml; charset=utf-8";  // this and the next are texts of the program
+    std::string_view cache_control = "no-store";
     std::string body;
     std::optional<FaultCode> fault;  // what the body says, when it is a fault
 

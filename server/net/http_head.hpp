@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "net/settings.hpp"
@@ -45,8 +44,8 @@ struct RequestHead {
 // which refuses it.
 std::size_t find_head(std::string_view text, std::size_t& searched);
 
-// Reads a complete head. A fault means that the connection cannot go on.
-std::variant<RequestHead, Fault> read_head(std::string_view head, Settings const&);
+// Reads a complete head into one whose memory is used again. A fault means that the connection cannot go on.
+std::optional<Fault> read_head(std::string_view text, Settings const&, RequestHead&);
 
 // What to answer when a head has grown over the limit without an end.
 Fault overlong_head(std::string_view text, Settings const&);

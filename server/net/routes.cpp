@@ -46,6 +46,7 @@ std::optional<std::string> decoded(std::string_view text) {
 
 // The XML content types, in UTF-8 (RFC 7303).
 bool is_xml(std::string_view content_type) {
+    if (content_type == "application/xml") return true;  // as most say it
     auto const semicolon = std::min(content_type.find(';'), content_type.size());
     auto const type = lower_case(trimmed(content_type.substr(0, semicolon)));
     bool const structured = type.starts_with("application/") && type.ends_with("+xml");

@@ -59,8 +59,8 @@ HttpAnswer upgrade(RequestHead const& head, Settings const& settings) {
     }
     HttpAnswer answer;
     answer.status = 101;
-    answer.content_type.clear();
-    answer.cache_control.clear();
+    answer.content_type = {};
+    answer.cache_control = {};
     answer.set("Upgrade", "websocket");
     answer.set("Connection", "Upgrade");
     answer.set("Sec-WebSocket-Accept", websocket_accept(*key));

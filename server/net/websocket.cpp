@@ -33,7 +33,6 @@ WebSocket::WebSocket(std::shared_ptr<Wire> wire, Gateway& gateway, Telemetry& te
       reader_{reader},
       settings_{settings},
       messages_{settings.document.bytes, settings.max_fragments},
-      room_{std::make_shared<Signal>(wakes)},
       heard_{now()} {}
 
 Task<> WebSocket::run() {
@@ -49,9 +48,7 @@ Task<> WebSocket::run() {
     broken_ = true;
     wire_->cut();
     reading_.reset();
-    while (writing_) {
-        co_await room_->wait_until(Steady::max());
-    }
+    while (writing_) co_await something_written();
 }
 
 // Takes all whole frames that have arrived.
@@ -98,9 +95,10 @@ Task<> WebSocket::take_text(std::string_view text) {
 
 // Follows the answer to the session that it opened, took over or left.
 void WebSocket::join(Answer const& answer) {
+    if (answer.turn == Answer::Turn::stays) return;
     bool const same = answer.session == session_ && reading_;
     session_ = answer.session;
-    if (answer.turn == Answer::Turn::stays || answer.turn == Answer::Turn::disconnected) return;
+    if (answer.turn == Answer::Turn::disconnected) return;
     if (same && answer.turn == Answer::Turn::connected) return;
     reading_.reset();
     session_over_ = false;
@@ -111,9 +109,13 @@ void WebSocket::join(Answer const& answer) {
 Task<> WebSocket::wait_for_room() {
     if (answers_waiting_ < settings_.max_requests_in_flight) co_return;
     flush();
-    while (answers_waiting_ + answers_in_out_ >= settings_.max_requests_in_flight && !broken_) {
-        co_await room_->wait_until(Steady::max());
-    }
+    while (answers_waiting_ + answers_in_out_ >= settings_.max_requests_in_flight && !broken_) co_await something_written();
+}
+
+Task<> WebSocket::something_written() {
+    room_ = std::make_shared<Signal>(wakes());
+    co_await room_->wait_until(Steady::max());
+    room_.reset();
 }
 
 void WebSocket::note_message(Steady at) {
@@ -150,17 +152,24 @@ void WebSocket::shut_down() {
     flush();
 }
 
+// Most writes are taken whole: those are put together where the last one was, of whatever connection, since that memory is near.
 void WebSocket::flush() {
-    while (!writing_ && !broken_ && gather()) {
-        auto const sent = wire_->send_now(out_);
+    thread_local std::string near;
+    while (!writing_ && !broken_) {
+        std::swap(out_, near);
+        bool const something = gather();
+        auto const sent = something ? wire_->send_now(out_) : 0;
         if (sent < out_.size()) {
+            out_.erase(0, sent);
             writing_ = true;
             asio::co_spawn(
-                wire_->executor(),
-                [self = std::static_pointer_cast<WebSocket>(shared_from_this()), sent] { return self->drain(sent); },
+                wire_->executor(), [self = std::static_pointer_cast<WebSocket>(shared_from_this())] { return self->drain(); },
                 asio::detached);
             return;
         }
+        out_.clear();
+        std::swap(out_, near);
+        if (!something) return;
         written();
     }
 }
@@ -168,8 +177,8 @@ void WebSocket::flush() {
 // Moves what waits into out_; false when nothing does.
 bool WebSocket::gather() {
     if (close_gathered_) return false;
-    out_.clear();
-    std::swap(out_, answers_);
+    out_.assign(answers_);
+    answers_.clear();
     answers_in_out_ = std::exchange(answers_waiting_, 0);
     if (pong_) append_frame(out_, Opcode::pong, *std::exchange(pong_, {}));
     if (std::exchange(ping_due_, false)) append_frame(out_, Opcode::ping, "");
@@ -187,9 +196,9 @@ bool WebSocket::gather_notifications(std::string& out) {
     if (!reading_) return false;
     auto const taken = reading_->take(most_at_once);
     for (auto const& numbered : taken.notifications) {
-        auto const document = document_of(numbered);
-        append_text_head(out, document.head.size() + document.tail.size());
-        out.append(document.head).append(document.tail);
+        NotificationDocument const document{numbered};
+        append_text_head(out, document.size());
+        document.append_to(out);
     }
     telemetry_.delivered(taken.notifications.size());
     session_over_ = taken.then == Reading::Then::ended || taken.then == Reading::Then::overflowed;
@@ -205,12 +214,13 @@ void WebSocket::written() {
         wire_->finish();
         close_due_ = now() + longest_farewell;
     }
-    room_->raise();
+    if (room_) room_->raise();
 }
 
 // Writes what the socket did not take at once, then goes on with what has come since.
-Task<> WebSocket::drain(std::size_t sent) {
-    auto const outcome = co_await wire_->send(std::string_view{out_}.substr(sent));
+Task<> WebSocket::drain() {
+    auto const outcome = co_await wire_->send(out_);
+    std::string{}.swap(out_);
     writing_ = false;
     if (outcome == Wire::Outcome::done) {
         written();
@@ -219,7 +229,7 @@ Task<> WebSocket::drain(std::size_t sent) {
         broken_ = true;
         wire_->cut();
     }
-    room_->raise();
+    if (room_) room_->raise();
 }
 
 }  // namespace rois::net

@@ -40,6 +40,7 @@ private:
     Task<> take_frames();
     Task<> take_text(std::string_view);
     Task<> wait_for_room();
+    Task<> something_written();
     void join(Answer const&);
     void note_message(Steady now);
     void close(Ending);
@@ -48,7 +49,7 @@ private:
     bool gather();
     bool gather_notifications(std::string& out);
     void written();
-    Task<> drain(std::size_t sent);
+    Task<> drain();
 
     std::shared_ptr<Wire> wire_;
     Gateway& gateway_;
@@ -56,14 +57,14 @@ private:
     xml::RequestReader& reader_;
     Settings const& settings_;
     MessageReader messages_;
-    std::shared_ptr<Signal> room_;  // raised when output was written
+    std::shared_ptr<Signal> room_;  // raised when output was written; null while nobody waits for that
     SessionId session_;
     std::unique_ptr<Reading> reading_;  // of the session, until its last notification was written
     bool session_over_ = false;         // reading_ has given its last
 
     std::string answers_;  // frames that wait for the next write
     std::size_t answers_waiting_ = 0;
-    std::string out_;  // what is being written
+    std::string out_;  // what is being written; empty while everything is taken at once
     std::size_t answers_in_out_ = 0;
     std::optional<std::string> pong_;
     bool ping_due_ = false;

@@ -32,7 +32,7 @@ void Wire::use(std::size_t bytes) {
     used_ = 0;
 }
 
-// A read that fills less than its buffer tells Asio to wait for the next bytes before it reads again: a request costs one read.
+// Asio 1.26 tries to read before it waits, in vain nearly always: a request costs two reads. Its other ways to wait cost as much.
 // The buffer of a connection that waits for its next request is small, since there may be many of them.
 Task<Wire::Outcome> Wire::receive(Steady until, std::size_t expected) {
     input_.erase(0, std::exchange(used_, 0));

@@ -1,6 +1,8 @@
 // Decisions 22 and 23: numbers without gaps, holds, and what is dropped when nobody reads.
 #include <gmock/gmock.h>
 
+#include <thread>
+
 #include "engine/notification_queue.hpp"
 
 namespace rois {
@@ -12,7 +14,9 @@ namespace {
 
 // A queue of at most four that wait and three that were sent; events are "e", commands "c", as in "2 e" or "5 lost 3".
 struct Queue : testing::Test {
-    NotificationQueue queue{4, 3};
+    explicit Queue(std::size_t max_sent = 3) : queue{4, max_sent} {}
+
+    NotificationQueue queue;
 
     void events(int count) {
         while (count-- > 0) EXPECT_EQ(push(ReceiveEvent{}), NotificationQueue::Pushed::ok);
@@ -32,6 +36,10 @@ struct Queue : testing::Test {
         }
         return words;
     }
+};
+
+struct LongMemory : Queue {
+    LongMemory() : Queue{100} {}
 };
 
 }  // namespace
@@ -120,8 +128,9 @@ TEST_F(Queue, AnswersAPositionInsideAGapWithTheRestOfIt) {
     events(8);
     EXPECT_THAT(read(0), ElementsAre("4 lost 4", "5 e", "6 e", "7 e", "8 e"));
     EXPECT_THAT(read(4), ElementsAre("5 lost 1", "6 e", "7 e", "8 e")) << "three of those that were sent are kept";
-    NotificationQueue other{4, 100};
-    std::swap(queue, other);
+}
+
+TEST_F(LongMemory, AnswersAPositionInsideAGapWithTheRestOfIt) {
     events(8);
     read(0);
     EXPECT_THAT(read(2), ElementsAre("4 lost 2", "5 e", "6 e", "7 e", "8 e"));
@@ -213,6 +222,39 @@ TEST(OutgoingNotification, IsEncodedOnce) {
     EXPECT_EQ(notification.text(encode), "go");
     EXPECT_EQ(notification.text(encode), "go");
     EXPECT_EQ(encoded, 1);
+}
+
+TEST_F(Queue, SaysWhetherAHoldHasHiddenSomething) {
+    auto const before_nothing = queue.hold();
+    EXPECT_FALSE(queue.release(before_nothing));
+    auto const first = queue.hold();
+    events(1);
+    auto const second = queue.hold();
+    EXPECT_FALSE(queue.release(second));
+    EXPECT_TRUE(queue.release(first));
+    auto const last = queue.hold();
+    queue.close();
+    EXPECT_EQ(queue.next(1), NotificationQueue::Next::wait) << "the end is hidden as well";
+    EXPECT_TRUE(queue.release(last));
+    EXPECT_EQ(queue.next(1), NotificationQueue::Next::ended);
+}
+
+// The engine does not wait for readers, nor they for the engine.
+TEST(QueueOnTwoThreads, IsReadWhileItIsFilled) {
+    constexpr std::uint64_t count = 20'000;
+    NotificationQueue queue{count, 10};
+    std::jthread const engine{[&] {
+        auto const same = std::make_shared<OutgoingNotification const>(Completed{});
+        for (std::uint64_t i = 0; i < count; ++i) queue.push(same);
+        queue.close();
+    }};
+    std::uint64_t after = 0;
+    for (auto next = NotificationQueue::Next::wait; next != NotificationQueue::Next::ended; next = queue.next(after)) {
+        auto const held = queue.hold();
+        for (auto const& entry : queue.read(after, 64)) EXPECT_EQ(entry.sequence, ++after);
+        queue.release(held);
+    }
+    EXPECT_EQ(after, count);
 }
 
 }  // namespace rois
