@@ -1,8 +1,9 @@
 #include "net/http_head.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
+#include <boost/asio/buffer.hpp>
+#include <boost/beast/http/basic_parser.hpp>
+#include <boost/none.hpp>
 #include <string>
 #include <utility>
 
@@ -12,29 +13,6 @@ namespace rois::net {
 
 namespace {
 
-// Where a byte may stand (RFC 9110, 5.5 and 5.6.2). Bytes beyond ASCII are nobody's business in targets and values.
-enum Place : unsigned char { token = 1, target = 2, value = 4 };
-
-constexpr std::array<unsigned char, 256> places = [] {
-    std::array<unsigned char, 256> all{};
-    for (unsigned c = 0x21; c < 256; ++c) all[c] = c == 0x7F ? 0 : target | value;
-    all[' '] = all['\t'] = value;
-    for (unsigned c = '0'; c <= 'z'; ++c) {
-        bool const letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-        if (letter || c <= '9') all[c] |= token;
-    }
-    for (unsigned char const c : std::string_view{"!#$%&'*+-.^_`|~"}) all[c] |= token;
-    return all;
-}();
-
-bool all_may_stand(std::string_view text, Place place) {
-    unsigned char all = place;
-    for (char const c : text) all &= places[static_cast<unsigned char>(c)];
-    return all != 0;
-}
-
-bool is_token(std::string_view text) { return !text.empty() && all_may_stand(text, token); }
-
 constexpr bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
 std::string_view without_blanks(std::string_view text) {
@@ -42,9 +20,6 @@ std::string_view without_blanks(std::string_view text) {
     while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
     return text;
 }
-
-// As most write it, or in other letters.
-bool same_name(std::string_view a, std::string_view b) { return a.size() == b.size() && (a == b || equal_ignoring_case(a, b)); }
 
 // Calls `what` with each member of a comma-separated list until one makes it true.
 template <class What>
@@ -57,116 +32,106 @@ bool any_member(std::string_view list, What what) {
     return false;
 }
 
-Fault broken(std::string_view reason) { return {FaultCode::not_well_formed, "broken HTTP: " + std::string{reason}, {}, {}}; }
+Fault broken(std::string reason) { return {FaultCode::not_well_formed, "broken HTTP: " + std::move(reason), {}, {}}; }
 
 Fault overlong_target(Settings const& settings) {
     return {
         FaultCode::uri_too_long, "the request target is longer than " + std::to_string(settings.max_target) + " bytes", {}, {}};
 }
 
-// Reads one head, line by line.
-class HeadReader {
-public:
-    HeadReader(std::string_view text, Settings const& settings, RequestHead& head)
-        : rest_{text}, settings_{settings}, head_{head} {}
+Fault no_transfer_encoding() {
+    return {FaultCode::length_required, "send the body with a Content-Length; Transfer-Encoding is not taken", {}, {}};
+}
 
-    std::optional<Fault> read() {
-        if (auto fault = request_line()) return fault;
-        while (!rest_.starts_with("\r\n")) {
-            if (auto fault = field()) return fault;
-        }
-        if (hosts_ > 1 || (hosts_ == 0 && !head_.http_1_0)) return broken("exactly one Host header is needed");
-        if (transfer_encoded_)
-            return Fault{
-                FaultCode::length_required, "send the body with a Content-Length; Transfer-Encoding is not taken", {}, {}};
-        return {};
+// Splits "http://host/path?query" or "/path?query"; both are allowed (RFC 9112, 3.2).
+bool read_target(std::string_view target, RequestHead& head) {
+    if (!target.starts_with('/') &&
+        (equal_ignoring_case(target.substr(0, 7), "http://") || equal_ignoring_case(target.substr(0, 8), "https://"))) {
+        auto const path = target.find('/', target.find("//") + 2);
+        target = path == std::string_view::npos ? std::string_view{"/"} : target.substr(path);
+    }
+    auto const question = std::min(target.find('?'), target.size());
+    head.path = target.substr(0, question);
+    head.query = target.substr(std::min(question + 1, target.size()));
+    return head.path.starts_with('/') || head.path == "*" || head.method == "CONNECT";
+}
+
+namespace http = boost::beast::http;
+using boost::beast::error_code;
+using boost::beast::string_view;
+
+std::string_view view(string_view text) { return {text.data(), text.size()}; }
+
+// Beast's parser, which gives the parts of a head as it finds them.
+class HeadParser : public http::basic_parser<true> {
+public:
+    HeadParser(Settings const& settings, RequestHead& head) : settings_{settings}, head_{head} {
+        body_limit(boost::none);  // the routes know how much they take
+        head_.fields.clear();
+    }
+
+    std::optional<Fault> read(std::string_view text) {
+        header_limit(static_cast<std::uint32_t>(text.size()) + 1);
+        error_code problem;
+        put(boost::asio::buffer(text), problem);
+        if (fault_) return std::move(fault_);
+        if (problem) return problem == http::error::bad_transfer_encoding ? no_transfer_encoding() : broken(problem.message());
+        if (!is_header_done()) return broken("a line that does not end with CR LF");
+        head_.content_length = content_length().value_or(0);
+        return too_lenient(text);
     }
 
 private:
-    std::optional<Fault> request_line() {
-        auto const line = take_line();
-        if (!line) return unended();
-        auto const method_end = std::min(line->find(' '), line->size());
-        head_.method = line->substr(0, method_end);
-        if (!is_token(head_.method)) return broken("the method is no token");
-        auto const behind = line->substr(std::min(method_end + 1, line->size()));
-        auto const target_end = std::min(behind.find(' '), behind.size());
-        auto const version = behind.substr(std::min(target_end + 1, behind.size()));
-        head_.http_1_0 = version == "HTTP/1.0";
-        if (!head_.http_1_0 && version != "HTTP/1.1") return broken("a request line is METHOD TARGET HTTP/1.1");
-        return read_target(behind.substr(0, target_end));
+    void on_request_impl(http::verb, string_view method, string_view target, int version, error_code& problem) override {
+        head_.method = view(method);
+        head_.http_1_0 = version == 10;
+        if (target.size() > settings_.max_target) return refuse(overlong_target(settings_), problem);
+        if (!read_target(view(target), head_)) refuse(broken("the target does not begin with '/'"), problem);
     }
 
-    // Splits "http://host/path?query" or "/path?query"; both are allowed (RFC 9112, 3.2).
-    std::optional<Fault> read_target(std::string_view text) {
-        if (text.size() > settings_.max_target) return overlong_target(settings_);
-        if (text.empty()) return broken("a request line is METHOD TARGET HTTP/1.1");
-        if (!all_may_stand(text, target)) return broken("a character that no target has");
-        if (!text.starts_with('/') &&
-            (equal_ignoring_case(text.substr(0, 7), "http://") || equal_ignoring_case(text.substr(0, 8), "https://"))) {
-            auto const path = text.find('/', text.find("//") + 2);
-            text = path == std::string_view::npos ? std::string_view{"/"} : text.substr(path);
-        }
-        auto const question = std::min(text.find('?'), text.size());
-        head_.path = text.substr(0, question);
-        head_.query = text.substr(std::min(question + 1, text.size()));
-        if (head_.path.starts_with('/') || head_.path == "*" || head_.method == "CONNECT") return {};
-        return broken("the target does not begin with '/'");
-    }
-
-    std::optional<Fault> field() {
-        if (!rest_.empty() && is_blank(rest_.front())) return broken("a folded header line");
-        auto const line = take_line();
-        if (!line) return unended();
-        auto const colon = line->find(':');
-        if (colon == std::string_view::npos || !is_token(line->substr(0, colon)))
-            return broken("a header line is a name, a colon and a value");
-        Field const field{line->substr(0, colon), without_blanks(line->substr(colon + 1))};
-        if (!all_may_stand(field.value, value)) return broken("a control character in a header field");
+    void on_field_impl(http::field field, string_view name, string_view value, error_code& problem) override {
         if (head_.fields.size() >= settings_.max_fields) {
-            return Fault{
-                FaultCode::header_too_large, "more than " + std::to_string(settings_.max_fields) + " header fields", {}, {}};
+            return refuse(
+                {FaultCode::header_too_large, "more than " + std::to_string(settings_.max_fields) + " header fields", {}, {}},
+                problem);
         }
-        head_.fields.push_back(field);
-        return look_into(field);
+        head_.fields.push_back({view(name), view(value)});
+        if (field == http::field::host) ++hosts_;
+        if (field == http::field::content_length) ++lengths_;
+        if (field == http::field::transfer_encoding) transfer_encoded_ = true;
     }
 
-    // What the length of the message and the fate of the connection depend on is checked whoever asks for it.
-    std::optional<Fault> look_into(Field const& field) {
-        if (same_name(field.name, "Host")) {
-            ++hosts_;
-            if (field.value.find_first_of(" \t,/\\@\"<>") != std::string_view::npos)
-                return broken("Host is no name or address, perhaps with a port");
-        } else if (same_name(field.name, "Content-Length")) {
-            if (std::exchange(has_length_, true)) return broken("two lengths in Content-Length");
-            auto const* const end = field.value.data() + field.value.size();
-            auto const [stopped, problem] = std::from_chars(field.value.data(), end, head_.content_length);
-            if (problem != std::errc{} || stopped != end) return broken("Content-Length is no length");
-        } else if (same_name(field.name, "Transfer-Encoding")) {
-            transfer_encoded_ = true;
-        } else if (same_name(field.name, "Connection") || same_name(field.name, "Proxy-Connection")) {
-            auto const wrong = [](std::string_view member) { return !member.empty() && !is_token(member); };
-            if (any_member(field.value, wrong)) return broken("Connection is a list of tokens");
-        }
+    void on_header_impl(error_code&) override {}
+    void on_response_impl(int, string_view, int, error_code&) override {}
+    void on_body_init_impl(boost::optional<std::uint64_t> const&, error_code&) override {}
+    std::size_t on_body_impl(string_view body, error_code&) override { return body.size(); }
+    void on_chunk_header_impl(std::uint64_t, string_view, error_code&) override {}
+    std::size_t on_chunk_body_impl(std::uint64_t, string_view body, error_code&) override { return body.size(); }
+    void on_finish_impl(error_code&) override {}
+
+    // What Beast lets pass: lines folded into the next, and no Host, or two, or two lengths that agree (RFC 9112, 3.2, 5.2, 6.3).
+    std::optional<Fault> too_lenient(std::string_view text) const {
+        if (text.find("\r\n ") != std::string_view::npos || text.find("\r\n\t") != std::string_view::npos)
+            return broken("a folded header line");
+        if (hosts_ > 1 || (hosts_ == 0 && !head_.http_1_0)) return broken("exactly one Host header is needed");
+        if (head_.field("Host").value_or("").find_first_of(" \t,/\\@\"<>") != std::string_view::npos)
+            return broken("Host is no name or address, perhaps with a port");
+        if (transfer_encoded_) return no_transfer_encoding();
+        bool const two_in_one = lengths_ == 1 && head_.field("Content-Length").value_or("").find(',') != std::string_view::npos;
+        if (lengths_ > 1 || two_in_one) return broken("two lengths in Content-Length");
         return {};
     }
 
-    // Without its end; nothing when that is not CR LF.
-    std::optional<std::string_view> take_line() {
-        auto const end = rest_.find('\n');
-        if (end == std::string_view::npos || end == 0 || rest_[end - 1] != '\r') return {};
-        auto const line = rest_.substr(0, end - 1);
-        rest_.remove_prefix(end + 1);
-        return line;
+    void refuse(Fault fault, error_code& problem) {
+        fault_ = std::move(fault);
+        problem = http::error::bad_value;
     }
 
-    static Fault unended() { return broken("a line that does not end with CR LF"); }
-
-    std::string_view rest_;
     Settings const& settings_;
     RequestHead& head_;
+    std::optional<Fault> fault_;
     std::size_t hosts_ = 0;
-    bool has_length_ = false;
+    std::size_t lengths_ = 0;
     bool transfer_encoded_ = false;
 };
 
@@ -175,7 +140,7 @@ private:
 std::optional<std::string_view> RequestHead::field(std::string_view name) const {
     std::optional<std::string_view> found;
     for (auto const& field : fields) {
-        if (!same_name(field.name, name)) continue;
+        if (!equal_ignoring_case(field.name, name)) continue;
         if (found) return {};
         found = field.value;
     }
@@ -184,7 +149,7 @@ std::optional<std::string_view> RequestHead::field(std::string_view name) const 
 
 std::size_t RequestHead::count(std::string_view name) const {
     return static_cast<std::size_t>(
-        std::ranges::count_if(fields, [&](Field const& field) { return same_name(field.name, name); }));
+        std::ranges::count_if(fields, [&](Field const& field) { return equal_ignoring_case(field.name, name); }));
 }
 
 bool RequestHead::lists(std::string_view name, std::string_view member, Case letters) const {
@@ -192,7 +157,7 @@ bool RequestHead::lists(std::string_view name, std::string_view member, Case let
         return letters == Case::kept ? each == member : equal_ignoring_case(each, member);
     };
     return std::ranges::any_of(
-        fields, [&](Field const& field) { return same_name(field.name, name) && any_member(field.value, is_meant); });
+        fields, [&](Field const& field) { return equal_ignoring_case(field.name, name) && any_member(field.value, is_meant); });
 }
 
 std::optional<std::string_view> RequestHead::parameter(std::string_view name) const {
@@ -216,9 +181,7 @@ std::size_t find_head(std::string_view text, std::size_t& searched) {
 }
 
 std::optional<Fault> read_head(std::string_view text, Settings const& settings, RequestHead& head) {
-    head.fields.clear();
-    head.content_length = 0;
-    return HeadReader{text, settings, head}.read();
+    return HeadParser{settings, head}.read(text);
 }
 
 Fault overlong_head(std::string_view text, Settings const& settings) {
