@@ -1,5 +1,8 @@
 #include "net/websocket_frames.hpp"
 
+#include <cstdint>
+#include <cstring>
+
 namespace rois::net {
 
 namespace {
@@ -49,7 +52,17 @@ bool may_be_sent(unsigned code) {
 }
 
 void unmask(std::span<char> payload, char const* mask) {
-    for (std::size_t i = 0; i < payload.size(); ++i) payload[i] = static_cast<char>(payload[i] ^ mask[i & 3]);
+    std::uint32_t four = 0;
+    std::memcpy(&four, mask, sizeof four);
+    std::uint64_t const key = std::uint64_t{four} << 32 | four;
+    std::uint64_t eight = 0;
+    std::size_t i = 0;
+    for (; i + sizeof eight <= payload.size(); i += sizeof eight) {
+        std::memcpy(&eight, payload.data() + i, sizeof eight);
+        eight ^= key;
+        std::memcpy(payload.data() + i, &eight, sizeof eight);
+    }
+    for (; i < payload.size(); ++i) payload[i] = static_cast<char>(payload[i] ^ mask[i & 3]);
 }
 
 constexpr MessageReader::Violation protocol_error(std::string_view reason) { return {CloseCode::protocol_error, reason}; }
