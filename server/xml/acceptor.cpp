@@ -84,9 +84,9 @@ bool Acceptor::skip_white_space() {
 }
 
 void Acceptor::skip_until(std::array<bool, 256> const& ends) {
-    auto const rest = text_.substr(at_);
-    auto const end = std::find_if(rest.begin(), rest.end(), [&](char c) { return ends[static_cast<unsigned char>(c)]; });
-    at_ += static_cast<std::size_t>(end - rest.begin());
+    auto end = at_;
+    while (end < text_.size() && !ends[static_cast<unsigned char>(text_[end])]) ++end;
+    at_ = end;
 }
 
 // One piece of what stands in the innermost open element: text and the markup after it.

@@ -61,8 +61,7 @@ void append_escaped(std::string& out, std::string_view clean, Place place) {
 
 void append(std::string& out, std::string_view value, Place place) {
     auto const& is_plain = place == Place::text ? plain_in_text : plain_in_attributes;
-    auto const unusual =
-        std::find_if_not(value.begin(), value.end(), [&](char c) { return is_plain[static_cast<unsigned char>(c)]; });
+    auto const unusual = std::ranges::find_if_not(value, [&](char c) { return is_plain[static_cast<unsigned char>(c)]; });
     auto const length = static_cast<std::size_t>(unusual - value.begin());
     out.append(value.substr(0, length));
     value.remove_prefix(length);
