@@ -112,8 +112,8 @@ void Executor::run(SharedCommand const& command, Instant now) {
 void Executor::run_set_parameter(SharedCommand const& command, Instant now) {
     auto const& component = *command->component;
     auto called = store(*command);
-    ParameterList changed;
-    auto const& parameters = component.taken(component.parameters, changed);
+    auto const changed = component.in_own_frame(component.parameters);
+    auto const& parameters = changed ? *changed : component.parameters;
     if (called == Called::ok) called = component.call([&](Component& c) { c.parameters_changed(parameters, now); });
     end(command, called == Called::ok ? CompletedStatus::ok : CompletedStatus::error, {}, now);
 }
@@ -133,8 +133,8 @@ void Executor::run_start(SharedCommand const& command, Instant now) {
     component.activity = RegisteredComponent::Activity::running;
     component.start = command;
     await_start(command, now);
-    ParameterList changed;
-    auto const& parameters = component.taken(component.parameters, changed);
+    auto const changed = component.in_own_frame(component.parameters);
+    auto const& parameters = changed ? *changed : component.parameters;
     if (component.call([&](Component& c) { c.start(command->handle, parameters, now); }) == Called::ok) return;
     component.activity = RegisteredComponent::Activity::idle;
     component.start = nullptr;
@@ -170,8 +170,8 @@ void Executor::run_resume(SharedCommand const& command, Instant now) {
 
 void Executor::run_function(SharedCommand const& command, Instant now) {
     await_start(command, now);
-    ParameterList changed;
-    auto const& arguments = command->component->taken(command->arguments, changed);
+    auto const changed = command->component->in_own_frame(command->arguments);
+    auto const& arguments = changed ? *changed : command->arguments;
     auto const called =
         command->component->call([&](Component& c) { c.perform(command->handle, command->type, arguments, now); });
     if (called == Called::failed) end(command, CompletedStatus::error, {}, now);

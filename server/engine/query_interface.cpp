@@ -14,7 +14,7 @@ namespace {
 struct Possible {
     RegisteredComponent* component;
     std::optional<Results> row;
-    std::optional<ComponentStatus> status = {};  // asked for once
+    std::optional<ComponentStatus> status;  // asked for once
 };
 
 bool is_ready(Possible& possible, Session const& asker) {
@@ -37,9 +37,9 @@ std::vector<Possible> who_may_answer(std::vector<RegisteredComponent*> const& ab
         if (match == Match::no) continue;
         bool const ask = match == Match::maybe || selection.sorts();
         auto rows = ask ? rows_of(*component) : std::vector<Results>{};
-        if (rows.empty() && match == Match::yes) found.push_back({component, {}});
+        if (rows.empty() && match == Match::yes) found.push_back({component, {}, {}});
         for (auto& row : rows)
-            if (selection.match(ToldCandidate{candidate, row}) == Match::yes) found.push_back({component, std::move(row)});
+            if (selection.match(ToldCandidate{candidate, row}) == Match::yes) found.push_back({component, std::move(row), {}});
         if (!selection.sorts() && !found.empty() && found.back().component == component &&
             is_ready(found.back(), *looked_at.asker()))
             break;

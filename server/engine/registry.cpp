@@ -165,12 +165,12 @@ std::optional<std::string> RegisteredComponent::why_no_frame(ParameterList const
     return {};
 }
 
-ParameterList const& RegisteredComponent::taken(ParameterList const& list, ParameterList& changed) const {
+std::optional<ParameterList> RegisteredComponent::in_own_frame(ParameterList const& list) const {
     auto const has_a_frame = [&](Parameter const& parameter) {
         return !parameter.data_type_ref.codebook_ref.empty() || is_position(parameter.name);
     };
-    if (frames_.are_one() || std::ranges::none_of(list, has_a_frame)) return list;
-    changed = list;
+    if (frames_.are_one() || std::ranges::none_of(list, has_a_frame)) return {};
+    auto changed = list;
     for (auto& parameter : changed)
         if (has_a_frame(parameter)) frames_.change(parameter, crs_, Frames::Rounding::millionth);
     return changed;

@@ -68,9 +68,8 @@ public:
     // Why these parameters cannot be taken: positions are in a frame that nobody knows. `normalized` ones.
     std::optional<std::string> why_no_frame(ParameterList const& normalized) const;
 
-    // The parameters as the component takes them, positions in its own frame: the same list, or another one, kept in `changed`,
-    // when any has to be changed.
-    ParameterList const& taken(ParameterList const&, ParameterList& changed) const;
+    // The parameters with positions in the component's own frame; nothing when it takes them as they are.
+    std::optional<ParameterList> in_own_frame(ParameterList const&) const;
 
     // `stored` with what arrived, as the component reconciles the two; nothing when it failed.
     std::optional<ParameterList> merged(ParameterList stored, ParameterList const& arrived) const;

@@ -103,8 +103,8 @@ std::optional<Objection> SequenceCheck::values(CommandMessage const& message, Re
         parameters = with_defaults(*profiles, parameters);
     }
     std::optional<std::string> refusal;
-    ParameterList changed;
-    auto const& taken = component.taken(parameters, changed);
+    auto const changed = component.in_own_frame(parameters);
+    auto const& taken = changed ? *changed : parameters;
     auto const called = component.call([&](Component& c) { refusal = c.refusal(message.command_type, taken); });
     if (called == RegisteredComponent::Called::failed) return failed(component);
     if (refusal) return bad_parameter(std::move(*refusal));

@@ -84,8 +84,8 @@ public:
 private:
     std::string_view before_;
     std::string_view after_;
-    std::array<char, 20> digits_;
-    std::size_t digits_size_;
+    std::array<char, 20> digits_{};
+    std::size_t digits_size_ = 0;
 };
 
 enum class Via : std::uint8_t { http, websocket };
