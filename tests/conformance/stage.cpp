@@ -126,6 +126,19 @@ std::string Guest::component_status(std::string const& ref) {
     return value_of(ok(query("component_status", client::where(client::equal("component_ref", ref)))).values(), "status");
 }
 
+// It is the one of which the engine of the component tells: another engine's query would be of another robot (decision 18).
+std::optional<Robot> Guest::robot_of(Component const& component) {
+    std::vector<Component const*> tellers;
+    for (auto const& each : stage_.catalogue().components)
+        if (each.engine == component.engine && each.query("robot_position")) tellers.push_back(&each);
+    if (tellers.size() != 1) return {};
+    auto const told = query("robot_position", only(*tellers.front())).values();
+    auto const refs = told.find("robot_ref"), positions = told.find("position_data");
+    if (refs == told.end() || refs->second.size() != 1) return {};
+    if (positions == told.end() || positions->second.size() != 1) return {};
+    return Robot{refs->second.front(), positions->second.front()};
+}
+
 std::vector<std::string> Guest::endings(std::string const& command_id) const {
     std::vector<std::string> statuses;
     for (auto const& heard : history())
