@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
 #include "main/configuration_file.hpp"
 #include "main/settings.hpp"
+#include "simulation/adapters.hpp"
+#include "simulation/component_refs.hpp"
 #include "types/texts.hpp"
 #include "xml/profile_document.hpp"
 
@@ -31,6 +35,7 @@ std::vector<std::filesystem::path> documents_in(std::string const& folder) {
 struct Read {
     ProfileFile file;
     std::vector<std::string> sub_component_places;
+    std::string adapter_place, identifier_place, name_place;
 };
 
 void refuse(ProfileFile& file, std::string why) {
@@ -54,6 +59,9 @@ Read read(std::shared_ptr<xml::Schemas const> const& schemas, std::filesystem::p
         if (!document.warnings.empty()) read.file.verdict = Verdict::warning;
         read.file.findings = std::move(document.warnings);
         read.sub_component_places = std::move(document.sub_component_places);
+        read.adapter_place = std::move(document.adapter_place);
+        read.identifier_place = std::move(document.identifier_place);
+        read.name_place = std::move(document.name_place);
         if (auto* const profile = std::get_if<ComponentProfile>(&document.profile)) read.file.profile = std::move(*profile);
     } catch (xml::BadDocument const& bad) {
         refuse(read.file, bad.what());
@@ -90,8 +98,8 @@ std::vector<ComponentProfile> with_known(std::vector<Read> const& all, std::vect
     return together;
 }
 
-// Why the profile cannot be put together with those that it includes; nothing when it can.
-using Objection = std::optional<std::string> (*)(Read const&, std::vector<ComponentProfile> const& known);
+// Why nothing can be made of the profile; nothing when something can. Asked of one file after the other.
+using Objection = std::function<std::optional<std::string>(Read const&, std::vector<ComponentProfile> const& known)>;
 
 std::optional<std::string> includes_unknown(Read const& read, std::vector<ComponentProfile> const& known) {
     auto const& parts = read.file.profile->sub_components;
@@ -112,7 +120,7 @@ std::optional<std::string> includes_itself(Read const& read, std::vector<Compone
 
 enum class Refused : std::uint8_t { none, some };
 
-Refused refuse(std::vector<Read>& all, std::vector<ComponentProfile> const& known, Objection objection) {
+Refused refuse(std::vector<Read>& all, std::vector<ComponentProfile> const& known, Objection const& objection) {
     auto refused = Refused::none;
     auto const together = with_known(all, known);
     for (auto& each : all) {
@@ -124,12 +132,45 @@ Refused refuse(std::vector<Read>& all, std::vector<ComponentProfile> const& know
     return refused;
 }
 
-// Until nobody includes what was refused.
-void refuse_incomplete(std::vector<Read>& all, std::vector<ComponentProfile> const& known) {
-    do {
-        while (refuse(all, known, includes_unknown) == Refused::some) {
+// The gateway keeps to its own profile with this URN.
+bool is_idle(Read const& read, std::vector<ComponentProfile> const& known) {
+    auto const* const meant = find_profile(known, read.file.profile->object.identifier);
+    return meant == nullptr || *meant != *read.file.profile;
+}
+
+Objection asks_for_no_adapter(simulation::Streams streams) {
+    return [=](Read const& read, std::vector<ComponentProfile> const& known) -> std::optional<std::string> {
+        if (is_idle(read, known)) return {};
+        try {
+            simulation::adapter_of(*read.file.profile, known, streams);
+            return {};
+        } catch (std::runtime_error const& error) {
+            return read.adapter_place + ": " + error.what();
         }
-    } while (refuse(all, known, includes_itself) == Refused::some);
+    };
+}
+
+Objection is_named_as_another(simulation::Streams streams) {
+    auto const files = std::make_shared<std::map<std::string, std::string>>();  // by the names of their components
+    return [=](Read const& read, std::vector<ComponentProfile> const& known) -> std::optional<std::string> {
+        auto const& profile = *read.file.profile;
+        if (is_idle(read, known) || simulation::adapter_of(profile, known, streams).empty()) return {};
+        auto const name = simulation::component_name(profile);
+        auto const [first, is_first] = files->try_emplace(name, read.file.name);
+        bool const is_basic = simulation::is_basic(name);
+        if (is_first && !is_basic) return {};
+        return (name == profile.object.name ? read.name_place : read.identifier_place) + ": there is a component " +
+               quoted(name, 200) + " already: it is " + (is_basic ? "the gateway's own" : "that of " + first->second);
+    };
+}
+
+// Until nobody includes what was refused.
+void refuse_what_makes_nothing(std::vector<Read>& all, std::vector<ComponentProfile> const& known, simulation::Streams streams) {
+    auto const some = [&](Objection const& objection) { return refuse(all, known, objection) == Refused::some; };
+    do {
+        while (some(includes_unknown)) {
+        }
+    } while (some(includes_itself) || some(asks_for_no_adapter(streams)) || some(is_named_as_another(streams)));
 }
 
 void warn_of_ambiguous(std::vector<Read>& all, std::vector<ComponentProfile> const& known) {
@@ -150,11 +191,11 @@ void warn_of_ambiguous(std::vector<Read>& all, std::vector<ComponentProfile> con
 }  // namespace
 
 std::vector<ProfileFile> read_profile_folder(std::shared_ptr<xml::Schemas const> const& schemas, std::string const& folder,
-                                             std::vector<ComponentProfile> const& known) {
+                                             std::vector<ComponentProfile> const& known, simulation::Streams streams) {
     std::vector<Read> all;
     for (auto const& path : documents_in(folder)) all.push_back(read(schemas, path));
     refuse_doubles(all, known);
-    refuse_incomplete(all, known);
+    refuse_what_makes_nothing(all, known, streams);
     warn_of_ambiguous(all, known);
     std::vector<ProfileFile> files;
     files.reserve(all.size());

@@ -79,7 +79,7 @@ std::vector<std::unique_ptr<Component>> UserComponents::components(ProfileFile c
 }
 
 ComponentChange UserComponents::read() {
-    auto const found = read_profile_folder(schemas_, folder_, own_);
+    auto const found = read_profile_folder(schemas_, folder_, own_, adapters_.streams());
     ComponentChange change;
     change.known_profiles = with_own(found);
     auto next = stay(found, change.known_profiles);

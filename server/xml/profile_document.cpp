@@ -51,6 +51,12 @@ public:
 private:
     std::string place(pugi::xml_node element) const { return at(name_, place_of(text_, offset_of(element))); }
 
+    // Empty when there is none.
+    std::string place_of_child(pugi::xml_node element, std::string_view name) const {
+        auto const found = child(element, name);
+        return found ? place(found) : std::string{};
+    }
+
     BadDocument complain(pugi::xml_node element, std::string const& reason) const {
         return BadDocument{place(element) + ": " + reason};
     }
@@ -67,6 +73,9 @@ private:
     ComponentProfile component(pugi::xml_node root) {
         ComponentProfile profile{object(root), {}, {}, parameters(root, "ParameterProfile")};
         if (profile.object.identifier.empty()) throw complain(root, "the identifier is empty: expected a URN");
+        document_.adapter_place = place_of_child(root, "metaDataProperty");
+        document_.identifier_place = place_of_child(root, "identifier");
+        document_.name_place = place_of_child(root, "name");
         for (auto const element : root.children()) {
             if (local_name(element) == "SubComponentProfile") {
                 profile.sub_components.emplace_back(trimmed(text_of(element)));
