@@ -36,6 +36,7 @@ struct Read {
     ProfileFile file;
     std::vector<std::string> sub_component_places;
     std::string adapter_place, identifier_place, name_place;
+    bool is_idle = false;  // the gateway has a profile of its own with this URN, and keeps to it
 };
 
 void refuse(ProfileFile& file, std::string why) {
@@ -85,6 +86,7 @@ void refuse_doubles(std::vector<Read>& all, std::vector<ComponentProfile> const&
             refuse(each->file,
                    first_place(each->file) + "the profile " + quoted(urn, 200) + " is in " + before->file.name + " already");
         } else if (std::ranges::any_of(known, same)) {
+            each->is_idle = true;
             warn(each->file,
                  first_place(each->file) + "the gateway has a profile " + quoted(urn, 200) + " of its own and keeps to it");
         }
@@ -132,15 +134,9 @@ Refused refuse(std::vector<Read>& all, std::vector<ComponentProfile> const& know
     return refused;
 }
 
-// The gateway keeps to its own profile with this URN.
-bool is_idle(Read const& read, std::vector<ComponentProfile> const& known) {
-    auto const* const meant = find_profile(known, read.file.profile->object.identifier);
-    return meant == nullptr || *meant != *read.file.profile;
-}
-
 Objection asks_for_no_adapter(simulation::Streams streams) {
     return [=](Read const& read, std::vector<ComponentProfile> const& known) -> std::optional<std::string> {
-        if (is_idle(read, known)) return {};
+        if (read.is_idle) return {};
         try {
             simulation::adapter_of(*read.file.profile, known, streams);
             return {};
@@ -154,7 +150,7 @@ Objection is_named_as_another(simulation::Streams streams) {
     auto const files = std::make_shared<std::map<std::string, std::string>>();  // by the names of their components
     return [=](Read const& read, std::vector<ComponentProfile> const& known) -> std::optional<std::string> {
         auto const& profile = *read.file.profile;
-        if (is_idle(read, known) || simulation::adapter_of(profile, known, streams).empty()) return {};
+        if (read.is_idle || simulation::adapter_of(profile, known, streams).empty()) return {};
         auto const name = simulation::component_name(profile);
         auto const [first, is_first] = files->try_emplace(name, read.file.name);
         bool const is_basic = simulation::is_basic(name);

@@ -121,6 +121,10 @@ private:
         if (read.name.empty()) throw complain(element, "the name is empty");
         if (trimmed(read.data_type_ref.code).empty())
             throw complain(element, "the data type of " + quoted(read.name) + " is empty");
+        if (!is_known(DataType::of(read.data_type_ref)))
+            document_.warnings.push_back(place(child(element, "data_type_ref")) + ": the data type " +
+                                         quoted(trimmed(read.data_type_ref.code)) + " of " + quoted(read.name) +
+                                         " is not known: its values are not checked");
         if (auto const written = attribute(element, "default_value")) set_default(element, read, written.value());
         return read;
     }

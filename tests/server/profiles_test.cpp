@@ -71,6 +71,28 @@ TEST(CheckProfiles, WarnsOfNamesThatMayMeanTwoProfiles) {
                                      "first: write the whole identifier\n"));
 }
 
+TEST(CheckProfiles, WarnsOfTypesThatNobodyKnowsAsTheStartDoes) {
+    ProfileFolder const folder;
+    folder.put("a.xml", profile_document("urn:a",
+                                         "<rois:ParameterProfile rois:name='p'>\n<rois:data_type_ref rois:code='Shade'/>"
+                                         "</rois:ParameterProfile>"));
+    auto const ended = run_gateway({"--check-profiles", folder.name()});
+    EXPECT_EQ(ended.exit_code, 0) << ended.out;
+    std::string const finding = "a.xml:4:1: the data type 'Shade' of 'p' is not known: its values are not checked\n";
+    EXPECT_THAT(ended.out, HasSubstr("warning: " + finding));
+    GatewayProcess gateway{{"--profiles", folder.name()}};
+    gateway.signal(SIGTERM);
+    EXPECT_THAT(gateway.wait().error, HasSubstr("profiles: " + finding));
+}
+
+TEST(CheckProfiles, FindsNothingWrongWithTheExamples) {
+    for (auto const* folder : {"/components/simulation/profiles", "/schemas/profiles"}) {
+        auto const ended = run_gateway({"--check-profiles", std::string{ROIS_SOURCE_DIR} + folder});
+        EXPECT_EQ(ended.exit_code, 0) << ended.out;
+        EXPECT_THAT(ended.out, Not(HasSubstr("is not known"))) << folder;
+    }
+}
+
 TEST(CheckProfiles, WithoutAFolderIsBadUse) {
     auto const ended = run_gateway({"--check-profiles", "/nowhere/at.all"});
     EXPECT_EQ(ended.exit_code, 2);
