@@ -100,6 +100,12 @@ Message const* Component::event(std::string const& name) const {
     return found == events.end() ? nullptr : &*found;
 }
 
+bool Component::parameter(std::string const& name) const {
+    auto const is_named = [&](TypedName const& one) { return lower(one.name) == lower(name); };
+    auto const* const read = query("get_parameter");
+    return std::ranges::any_of(parameters, is_named) || (read && std::ranges::any_of(read->results, is_named));
+}
+
 std::string Component::detection() const {
     auto const kind = basic();
     return kind.substr(0, kind.find("detection")) + "_detected";

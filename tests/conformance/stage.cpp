@@ -163,6 +163,7 @@ void Guest::check_answer(Document const& answer, std::string const& operation, s
         traffic.see("refusals_give_a_reason", answer.children() == std::vector<std::string>{"reason"} && !answer.reason().empty(),
                     answer.whole());
     if (answer.return_code() != "OK") return;
+    traffic.look_at_located(answer.root().child("results"));
     if (operation == "connect" && !is_connected()) {
         commands_.clear();
         completed_.clear();
@@ -185,6 +186,7 @@ void Guest::check_notification(Document const& notification, std::uint64_t seque
     traffic.see("notifications_are_counted_without_gaps", notification.attribute("sequence") == std::to_string(sequence),
                 "the sequence should be " + std::to_string(sequence) + ": " + notification.whole());
     if (notification.name() == "receive_event") check_event(notification);
+    traffic.look_at_located(notification.root().child("results"));
     if (notification.name() == "receive_error") errors_.push_back(notification.text("error_id"));
     if (notification.name() != "completed") return;
     auto const id = notification.text("command_id");
