@@ -153,6 +153,7 @@ std::vector<BrokenRule> rules_of_information() {
         {"positions contradict their texts", "located_elements_say_what_texts_say", [] { return locates_elsewhere("position"); }},
         {"orientations contradict their texts", "located_elements_say_what_texts_say",
          [] { return locates_elsewhere("orientation"); }},
+        {"Japanese is told as jp", "languages_are_iso_639_1", [] { return edits_answers("query", replaces("ja", "jp")); }},
         {"the same subscription has another id", "the_same_subscription_again_changes_nothing", subscribes_anew},
         {"unsubscribe does nothing", "after_unsubscribe_nothing_is_heard", [] { return does_nothing_at("unsubscribe"); }},
         {"events come twice", "the_same_subscription_again_changes_nothing", [] { return repeats("receive_event"); }},
