@@ -41,8 +41,8 @@ std::string_view included(ComponentProfile const& profile, std::vector<Component
     for (auto const& basic : basic_components(streams))
         if (equal_ignoring_case(profile.object.identifier, urn_of(basic))) return basic.ref;
     for (auto const& urn : profile.sub_components)
-        if (auto const* sub = find_profile(known, urn))
-            if (auto const name = included(*sub, known, streams); !name.empty()) return name;
+        if (auto const meant = find_parts(known, profile, urn); !meant.empty())
+            if (auto const name = included(*meant.front(), known, streams); !name.empty()) return name;
     return {};
 }
 

@@ -55,7 +55,7 @@ Read read(std::shared_ptr<xml::Schemas const> const& schemas, std::filesystem::p
     read.file.name = path.filename();
     try {
         std::error_code error;
-        if (!std::filesystem::is_regular_file(path, error)) throw BadSettings{path.string() + ": is no file"};
+        if (!std::filesystem::is_regular_file(path, error)) throw BadSettings{read.file.name + ": is no file"};
         auto document = xml::read_profile_document(schemas, read.file.name, text_of_file(path));
         if (!document.warnings.empty()) read.file.verdict = Verdict::warning;
         read.file.findings = std::move(document.warnings);
@@ -67,7 +67,9 @@ Read read(std::shared_ptr<xml::Schemas const> const& schemas, std::filesystem::p
     } catch (xml::BadDocument const& bad) {
         refuse(read.file, bad.what());
     } catch (BadSettings const& bad) {
-        refuse(read.file, bad.what());
+        std::string why = bad.what();
+        if (why.starts_with(path.string())) why.replace(0, path.string().size(), read.file.name);
+        refuse(read.file, std::move(why));
     }
     return read;
 }
@@ -106,7 +108,7 @@ using Objection = std::function<std::optional<std::string>(Read const&, std::vec
 std::optional<std::string> includes_unknown(Read const& read, std::vector<ComponentProfile> const& known) {
     auto const& parts = read.file.profile->sub_components;
     for (std::size_t i = 0; i < parts.size(); ++i)
-        if (find_profile(known, parts[i]) == nullptr)
+        if (find_parts(known, *read.file.profile, parts[i]).empty())
             return read.sub_component_places[i] + ": no component profile " + quoted(parts[i], 200) + " is known";
     return {};
 }
@@ -175,7 +177,7 @@ void warn_of_ambiguous(std::vector<Read>& all, std::vector<ComponentProfile> con
         if (!each.file.profile) continue;
         auto const& parts = each.file.profile->sub_components;
         for (std::size_t i = 0; i < parts.size(); ++i) {
-            auto const meant = find_profiles(together, parts[i]);
+            auto const meant = find_parts(together, *each.file.profile, parts[i]);
             if (meant.size() < 2) continue;
             warn(each.file, each.sub_component_places[i] + ": " + rois::quoted(parts[i]) + " may mean " +
                                 quoted(meant[0]->object.identifier, 200) + " or " + quoted(meant[1]->object.identifier, 200) +

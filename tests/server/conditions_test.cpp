@@ -40,6 +40,18 @@ TEST_P(Conditions, FindByPlace) {
     EXPECT_THAT(desk.search(where(related("Beyond", "location", place("cloakroom") + distance("500")))), SizeIs(15));
 }
 
+TEST_P(Conditions, KnowUnitsByTheirNamesInBothSpellings) {
+    for (auto const* unit : {"m", "metre", "meter"})
+        EXPECT_THAT(
+            desk.search(where(related("DWithin", "location",
+                                      place("desk") + "<fes:Distance uom='" + std::string{unit} + "'>50</fes:Distance>"))),
+            SizeIs(15))
+            << unit;
+    EXPECT_THAT(
+        desk.search(where(related("DWithin", "location", place("desk") + "<fes:Distance uom='millimeter'>50</fes:Distance>"))),
+        IsEmpty());
+}
+
 TEST_P(Conditions, NameWhatIsNotKnown) {
     EXPECT_THAT(desk.ask("search", where(related("Within", "location", place("attic")))), IsRefused("BAD_PARAMETER", "'attic'"));
     EXPECT_THAT(desk.ask("search", where(related("Within", "location", box("0 0", "1 1", "urn:atr:def:crs:IDK::01")))),

@@ -93,6 +93,29 @@ TEST(CheckProfiles, FindsNothingWrongWithTheExamples) {
     }
 }
 
+TEST(CheckProfiles, NamesWhatIsNoFileAsTheOthers) {
+    ProfileFolder const folder;
+    std::filesystem::create_symlink("/nowhere/at.all", folder.name() + "/lost.xml");
+    std::filesystem::create_directory(folder.name() + "/nest.xml");
+    auto const ended = run_gateway({"--check-profiles", folder.name()});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_EQ(ended.out,
+              "refused: lost.xml: is no file\nrefused: nest.xml: is no file\n2 files: 0 ok, 0 with warnings, 2 refused\n");
+}
+
+TEST(CheckProfiles, TakesANameForAnotherProfileThanTheOneThatSaysIt) {
+    ProfileFolder const folder;
+    folder.put("a.xml", profile_document("urn:a::Lamp", "<rois:SubComponentProfile>Lamp</rois:SubComponentProfile>"));
+    folder.put("b.xml", profile_document("urn:b::Lamp", includes_common));
+    auto mine = profile_document("urn:c::Navigation", "<rois:SubComponentProfile>Navigation</rois:SubComponentProfile>");
+    folder.put("c.xml", mine.insert(mine.find("<rois:Sub"), "<gml:name>my_navigation</gml:name>"));
+    folder.put("d.xml", profile_document("urn:d::Own", "<rois:SubComponentProfile>Own</rois:SubComponentProfile>"));
+    auto const ended = run_gateway({"--check-profiles", folder.name()});
+    EXPECT_EQ(ended.out,
+              "a.xml: ok\nb.xml: ok\nc.xml: ok\nrefused: d.xml:3:1: the component profile 'urn:d::Own' includes itself\n"
+              "4 files: 3 ok, 0 with warnings, 1 refused\n");
+}
+
 TEST(CheckProfiles, WithoutAFolderIsBadUse) {
     auto const ended = run_gateway({"--check-profiles", "/nowhere/at.all"});
     EXPECT_EQ(ended.exit_code, 2);
