@@ -18,14 +18,13 @@ namespace {
 
 constexpr std::string_view adapter_urn = "urn:x-rois:def:adapter:simulation::";
 
-using SharedMedia = std::shared_ptr<media::Media>;
-
 // Makes the component of one robot; the profile has the messages of its sub components.
 using Make = std::function<std::unique_ptr<Component>(Fitting, ComponentProfile const&)>;
 
-std::map<std::string, Make, std::less<>> adapters(std::shared_ptr<xml::Schemas const> const& schemas, SharedMedia const& media) {
+// By name.
+std::map<std::string, Make, std::less<>> adapters(std::shared_ptr<xml::Schemas const> const& schemas, Streams streams) {
     std::map<std::string, Make, std::less<>> all;
-    for (auto const& basic : basic_components(media))
+    for (auto const& basic : basic_components(streams))
         all.emplace(basic.ref, [make = basic.make](Fitting fitting, auto const&) { return make(std::move(fitting)); });
     all.emplace("srgs_speech_recognition",
                 [schemas](Fitting fitting, auto const&) { return srgs_speech_recognition(std::move(fitting), schemas); });
@@ -38,40 +37,39 @@ std::map<std::string, Make, std::less<>> adapters(std::shared_ptr<xml::Schemas c
 }
 
 // The adapter of the first basic component among the profile and those that it includes; empty when there is none.
-std::string_view included(ComponentProfile const& profile, std::vector<ComponentProfile> const& known, SharedMedia const& media) {
-    for (auto const& basic : basic_components(media))
+std::string_view included(ComponentProfile const& profile, std::vector<ComponentProfile> const& known, Streams streams) {
+    for (auto const& basic : basic_components(streams))
         if (equal_ignoring_case(profile.object.identifier, urn_of(basic))) return basic.ref;
     for (auto const& urn : profile.sub_components)
-        if (auto const* sub = find_profile(known, urn))
-            if (auto const name = included(*sub, known, media); !name.empty()) return name;
+        if (auto const meant = find_parts(known, profile, urn); !meant.empty())
+            if (auto const name = included(*meant.front(), known, streams); !name.empty()) return name;
     return {};
-}
-
-// Empty when the profile asks for none.
-std::string adapter_name(ComponentProfile const& profile, std::vector<ComponentProfile> const& known, SharedMedia const& media) {
-    auto const& said = profile.object.meta_data;
-    if (said.size() > adapter_urn.size() && equal_ignoring_case(said.substr(0, adapter_urn.size()), adapter_urn))
-        return lower_case(said.substr(adapter_urn.size()));
-    return std::string{included(profile, known, media)};
 }
 
 }  // namespace
 
+std::string adapter_of(ComponentProfile const& profile, std::vector<ComponentProfile> const& known, Streams streams) {
+    auto const& said = profile.object.meta_data;
+    if (said.size() <= adapter_urn.size() || !equal_ignoring_case(said.substr(0, adapter_urn.size()), adapter_urn))
+        return std::string{included(profile, known, streams)};
+    auto name = lower_case(said.substr(adapter_urn.size()));
+    auto const all = adapters({}, streams);
+    if (!all.contains(name))
+        throw std::runtime_error("there is no adapter " + quoted(name) + "; there are " + listed(all | std::views::keys));
+    return name;
+}
+
 std::vector<std::unique_ptr<Component>> Adapters::components(ComponentProfile const& profile,
                                                              std::vector<ComponentProfile> const& known) const {
-    auto const name = adapter_name(profile, known, media_);
+    auto const name = adapter_of(profile, known, streams());
     if (name.empty()) return {};
-    auto const all = adapters(schemas_, media_);
-    auto const found = all.find(name);
-    if (found == all.end()) {
-        throw std::runtime_error("there is no adapter " + quoted(name) + "; there are " + listed(all | std::views::keys));
-    }
+    auto const make = adapters(schemas_, streams()).at(name);
     auto const whole = flattened(profile, known);
     auto const shared = std::make_shared<ComponentProfile const>(profile);
     std::vector<std::unique_ptr<Component>> made;
     for (Robot const& robot : simulation_->hall().robots())
         made.push_back(
-            with_faults(found->second(fitting(simulation_, media_, robot, component_name(profile), shared), whole), simulation_));
+            with_faults(make(fitting(simulation_, media_, robot, component_name(profile), shared), whole), simulation_));
     return made;
 }
 

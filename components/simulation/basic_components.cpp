@@ -25,10 +25,10 @@ std::span<BasicComponent const> basic_components() {
     return all;
 }
 
-std::span<BasicComponent const> basic_components(std::shared_ptr<media::Media> const& media) {
+std::span<BasicComponent const> basic_components(Streams streams) {
     constexpr std::size_t that_stream = 2;  // the last ones
     auto const all = basic_components();
-    return media ? all : all.first(all.size() - that_stream);
+    return streams == Streams::served ? all : all.first(all.size() - that_stream);
 }
 
 }  // namespace rois::simulation

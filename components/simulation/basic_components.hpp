@@ -1,6 +1,7 @@
 // The basic components (7.6, and the two of RoIS 2.0) and their makers, each defined in the file of its name.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -37,8 +38,12 @@ struct BasicComponent {
 // All of them, in the order of the specification.
 std::span<BasicComponent const> basic_components();
 
-// Those that can be made: without media (null) none that stream.
-std::span<BasicComponent const> basic_components(std::shared_ptr<media::Media> const&);
+// Whether there are media, through which components stream.
+enum class Streams : std::uint8_t { none, served };
+
+// Those that can be made: without streams none that stream.
+std::span<BasicComponent const> basic_components(Streams);
+inline Streams streams(std::shared_ptr<media::Media> const& media) { return media ? Streams::served : Streams::none; }
 
 // Of its profile.
 inline std::string urn_of(BasicComponent const& basic) { return "urn:x-rois:def:component:OMG::" + std::string{basic.urn_name}; }

@@ -64,6 +64,10 @@ std::vector<std::string> component_refs(FloorPlan const& plan, std::vector<std::
     return refs;
 }
 
+bool is_basic(std::string_view name) {
+    return std::ranges::find(basic_components(), name, &BasicComponent::ref) != basic_components().end();
+}
+
 std::string component_name(ComponentProfile const& profile) {
     if (is_name(profile.object.name)) return profile.object.name;
     auto const& urn = profile.object.identifier;

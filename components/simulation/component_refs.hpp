@@ -18,6 +18,9 @@ std::string component_ref(std::string_view component, std::string_view engine);
 // names.
 std::vector<std::string> component_refs(FloorPlan const&, std::vector<std::string> const& names = {});
 
+// Whether a basic component is named so, also one that is there with media only.
+bool is_basic(std::string_view name);
+
 // How a component with this profile is named: as the profile (gml:name) when that is a name without dots, else after its URN, in
 // small letters with underscores ("PersonMonitor": "person_monitor").
 std::string component_name(ComponentProfile const&);

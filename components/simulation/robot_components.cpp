@@ -27,11 +27,11 @@ std::vector<std::unique_ptr<Component>> robot_components(std::shared_ptr<Simulat
                                                          std::shared_ptr<media::Media> const& media,
                                                          std::vector<ComponentProfile> const& profiles) {
     std::vector<SharedProfile> found;
-    for (auto const& basic : basic_components(media)) found.push_back(profile_of(basic, profiles));
+    for (auto const& basic : basic_components(streams(media))) found.push_back(profile_of(basic, profiles));
     std::vector<std::unique_ptr<Component>> components;
     for (Robot const& robot : simulation->hall().robots()) {
         auto profile = found.begin();
-        for (auto const& basic : basic_components(media))
+        for (auto const& basic : basic_components(streams(media)))
             components.push_back(with_faults(basic.make(fitting(simulation, media, robot, basic.ref, *profile++)), simulation));
     }
     return components;

@@ -34,7 +34,7 @@ public:
         auto made = make(Kind::sequence);
         for (auto const& part : element.content()) {
             if (auto const* text = std::get_if<std::string>(&part)) {
-                add_tokens(made, *text);
+                add_tokens(made, element, *text);
             } else {
                 add(made, std::get<xml::Element>(part));
             }
@@ -55,7 +55,7 @@ private:
         if (name == "item") sequence.parts.push_back(item(element));
         if (name == "one-of") sequence.parts.push_back(one_of(element));
         if (name == "ruleref") sequence.parts.push_back(rule_ref(element));
-        if (name == "token") add_token(sequence, element.text());
+        if (name == "token") add_token(sequence, element, element.text());
         if (name == "tag") {
             sequence.parts.push_back(make(Kind::tag));
             sequence.parts.back().text = trimmed(element.text());
@@ -63,20 +63,24 @@ private:
     }
 
     // Text between elements: tokens are separated by white space, or stand in quotes.
-    void add_tokens(Expansion& sequence, std::string_view text) {
+    void add_tokens(Expansion& sequence, xml::Element const& element, std::string_view text) {
         for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
             bool const is_quoted = text.front() == '"' && text.find('"', 1) != text.npos;
             auto const end = is_quoted ? text.find('"', 1) + 1 : std::min(text.find_first_of(" \t\r\n"), text.size());
-            add_token(sequence, text.substr(0, end));
+            add_token(sequence, element, text.substr(0, end));
             text.remove_prefix(end);
         }
     }
 
-    void add_token(Expansion& sequence, std::string_view text) {
+    // Of the text of `element`.
+    void add_token(Expansion& sequence, xml::Element const& element, std::string_view written) {
+        auto text = trimmed(written);
+        if (text.size() > 1 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
+        if (text.find('"') != text.npos)
+            throw element.complain("the token " + quoted(trimmed(written)) + " has a quote that does not enclose it");
         auto words = split_into_words(text);
         if (words.empty()) return;
         auto token = make(Kind::token);
-        if (text.size() > 1 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
         token.text = trimmed(text);
         token.words = std::move(words);
         sequence.parts.push_back(std::move(token));

@@ -147,7 +147,9 @@ private:
 // A group speaks of robots and components, never of results.
 PredicatePtr FilterCompiler::operator()(ComponentGroup const& group) {
     if (vocabulary_.parameters == nullptr) {
-        refuse("the condition has 'ComponentGroupCondition', which means nothing where results are chosen");
+        refuse(
+            "the condition looks for components (ComponentCondition, ComponentGroupCondition), which means nothing where results "
+            "are chosen");
         return nullptr;
     }
     auto const around = vocabulary_;

@@ -73,14 +73,18 @@ struct Unit {
     std::string_view name;
     double mm;
 };
-constexpr std::array<Unit, 8> units{{{"mm", 1},
-                                     {"cm", 10},
-                                     {"m", 1'000},
-                                     {"km", 1'000'000},
-                                     {"millimetre", 1},
-                                     {"centimetre", 10},
-                                     {"metre", 1'000},
-                                     {"kilometre", 1'000'000}}};
+constexpr std::array<Unit, 12> units{{{"mm", 1},
+                                      {"cm", 10},
+                                      {"m", 1'000},
+                                      {"km", 1'000'000},
+                                      {"millimetre", 1},
+                                      {"centimetre", 10},
+                                      {"metre", 1'000},
+                                      {"kilometre", 1'000'000},
+                                      {"millimeter", 1},
+                                      {"centimeter", 10},
+                                      {"meter", 1'000},
+                                      {"kilometer", 1'000'000}}};
 
 // Both operands, or the one that is there with the candidate's own position before it; nothing when refused.
 std::optional<Pair> pair_of(FilterCompiler& compiler, std::vector<Expression> const& operands) {

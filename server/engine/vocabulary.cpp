@@ -76,6 +76,8 @@ ValueKind kind_of(DataType const& type) {
         case BaseType::stream_status:
             return ValueKind::text;
         case BaseType::string:
+        case BaseType::date:
+        case BaseType::time:
         case BaseType::other:
             break;
     }

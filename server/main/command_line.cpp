@@ -97,9 +97,10 @@ CommandLine read_command_line(int argc, char const* const* argv) {
     } catch (CLI::ParseError const& error) {
         throw BadSettings{error.what()};
     }
-    if (app.count("--check-profiles") > 0) return {CommandLine::Wish::check_profiles, {}, std::move(flags.check_profiles), {}};
     if (flags.version) return say("rois-gateway " ROIS_VERSION "\n");
     auto settings = gather(app, flags);
+    if (app.count("--check-profiles") > 0)
+        return {CommandLine::Wish::check_profiles, {}, std::move(flags.check_profiles), std::move(settings)};
     if (flags.print_config) return say(commented_configuration(settings));
     if (flags.check_config) return {CommandLine::Wish::check_config, {}, {}, std::move(settings)};
     if (flags.check_health) return {CommandLine::Wish::check_health, {}, {}, std::move(settings)};

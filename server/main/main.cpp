@@ -50,12 +50,16 @@ std::string chosen(std::string const& file, std::string_view built_in) {
     return file.empty() ? std::string{files::simulation().at(std::string{built_in})} : text_of_file(file);
 }
 
+simulation::Streams streams(Settings const& settings) {
+    return settings.media.host.empty() ? simulation::Streams::none : simulation::Streams::served;
+}
+
 // How the components are named that come of the folder of profiles, as it is now.
 std::vector<std::string> user_names(std::shared_ptr<xml::Schemas const> const& schemas, Settings const& settings,
                                     std::vector<ComponentProfile> const& own) {
     std::vector<std::string> names;
     if (settings.profiles.empty()) return names;
-    for (auto const& file : read_profile_folder(schemas, settings.profiles, own))
+    for (auto const& file : read_profile_folder(schemas, settings.profiles, own, streams(settings)))
         if (file.profile) names.push_back(simulation::component_name(*file.profile));
     return names;
 }
@@ -153,9 +157,9 @@ int check_health(Settings const& settings) {
     return could_not_start;
 }
 
-int check_profiles(std::string const& folder) {
+int check_profiles(std::string const& folder, Settings const& settings) {
     auto const schemas = std::make_shared<xml::Schemas const>(files::schemas());
-    auto const checked = read_profile_folder(schemas, folder, read_profiles(schemas));
+    auto const checked = read_profile_folder(schemas, folder, read_profiles(schemas), streams(settings));
     std::fputs(report_of(checked).c_str(), stdout);
     bool const refused = std::ranges::find(checked, ProfileFile::Verdict::refused, &ProfileFile::verdict) != checked.end();
     return refused ? profile_refused : done;
@@ -170,7 +174,7 @@ int run(int argc, char const* const* argv) {
         case CommandLine::Wish::check_health:
             return check_health(command.settings);
         case CommandLine::Wish::check_profiles:
-            return check_profiles(command.folder);
+            return check_profiles(command.folder, command.settings);
         case CommandLine::Wish::serve:
         case CommandLine::Wish::check_config:
             break;

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
 #include "main/configuration_file.hpp"
 #include "main/settings.hpp"
+#include "simulation/adapters.hpp"
+#include "simulation/component_refs.hpp"
 #include "types/texts.hpp"
 #include "xml/profile_document.hpp"
 
@@ -31,6 +35,8 @@ std::vector<std::filesystem::path> documents_in(std::string const& folder) {
 struct Read {
     ProfileFile file;
     std::vector<std::string> sub_component_places;
+    std::string adapter_place, identifier_place, name_place;
+    bool is_idle = false;  // the gateway has a profile of its own with this URN, and keeps to it
 };
 
 void refuse(ProfileFile& file, std::string why) {
@@ -49,16 +55,21 @@ Read read(std::shared_ptr<xml::Schemas const> const& schemas, std::filesystem::p
     read.file.name = path.filename();
     try {
         std::error_code error;
-        if (!std::filesystem::is_regular_file(path, error)) throw BadSettings{path.string() + ": is no file"};
+        if (!std::filesystem::is_regular_file(path, error)) throw BadSettings{read.file.name + ": is no file"};
         auto document = xml::read_profile_document(schemas, read.file.name, text_of_file(path));
         if (!document.warnings.empty()) read.file.verdict = Verdict::warning;
         read.file.findings = std::move(document.warnings);
         read.sub_component_places = std::move(document.sub_component_places);
+        read.adapter_place = std::move(document.adapter_place);
+        read.identifier_place = std::move(document.identifier_place);
+        read.name_place = std::move(document.name_place);
         if (auto* const profile = std::get_if<ComponentProfile>(&document.profile)) read.file.profile = std::move(*profile);
     } catch (xml::BadDocument const& bad) {
         refuse(read.file, bad.what());
     } catch (BadSettings const& bad) {
-        refuse(read.file, bad.what());
+        std::string why = bad.what();
+        if (why.starts_with(path.string())) why.replace(0, path.string().size(), read.file.name);
+        refuse(read.file, std::move(why));
     }
     return read;
 }
@@ -77,6 +88,7 @@ void refuse_doubles(std::vector<Read>& all, std::vector<ComponentProfile> const&
             refuse(each->file,
                    first_place(each->file) + "the profile " + quoted(urn, 200) + " is in " + before->file.name + " already");
         } else if (std::ranges::any_of(known, same)) {
+            each->is_idle = true;
             warn(each->file,
                  first_place(each->file) + "the gateway has a profile " + quoted(urn, 200) + " of its own and keeps to it");
         }
@@ -90,13 +102,13 @@ std::vector<ComponentProfile> with_known(std::vector<Read> const& all, std::vect
     return together;
 }
 
-// Why the profile cannot be put together with those that it includes; nothing when it can.
-using Objection = std::optional<std::string> (*)(Read const&, std::vector<ComponentProfile> const& known);
+// Why nothing can be made of the profile; nothing when something can. Asked of one file after the other.
+using Objection = std::function<std::optional<std::string>(Read const&, std::vector<ComponentProfile> const& known)>;
 
 std::optional<std::string> includes_unknown(Read const& read, std::vector<ComponentProfile> const& known) {
     auto const& parts = read.file.profile->sub_components;
     for (std::size_t i = 0; i < parts.size(); ++i)
-        if (find_profile(known, parts[i]) == nullptr)
+        if (find_parts(known, *read.file.profile, parts[i]).empty())
             return read.sub_component_places[i] + ": no component profile " + quoted(parts[i], 200) + " is known";
     return {};
 }
@@ -112,7 +124,7 @@ std::optional<std::string> includes_itself(Read const& read, std::vector<Compone
 
 enum class Refused : std::uint8_t { none, some };
 
-Refused refuse(std::vector<Read>& all, std::vector<ComponentProfile> const& known, Objection objection) {
+Refused refuse(std::vector<Read>& all, std::vector<ComponentProfile> const& known, Objection const& objection) {
     auto refused = Refused::none;
     auto const together = with_known(all, known);
     for (auto& each : all) {
@@ -124,12 +136,39 @@ Refused refuse(std::vector<Read>& all, std::vector<ComponentProfile> const& know
     return refused;
 }
 
-// Until nobody includes what was refused.
-void refuse_incomplete(std::vector<Read>& all, std::vector<ComponentProfile> const& known) {
-    do {
-        while (refuse(all, known, includes_unknown) == Refused::some) {
+Objection asks_for_no_adapter(simulation::Streams streams) {
+    return [=](Read const& read, std::vector<ComponentProfile> const& known) -> std::optional<std::string> {
+        if (read.is_idle) return {};
+        try {
+            simulation::adapter_of(*read.file.profile, known, streams);
+            return {};
+        } catch (std::runtime_error const& error) {
+            return read.adapter_place + ": " + error.what();
         }
-    } while (refuse(all, known, includes_itself) == Refused::some);
+    };
+}
+
+Objection is_named_as_another(simulation::Streams streams) {
+    auto const files = std::make_shared<std::map<std::string, std::string>>();  // by the names of their components
+    return [=](Read const& read, std::vector<ComponentProfile> const& known) -> std::optional<std::string> {
+        auto const& profile = *read.file.profile;
+        if (read.is_idle || simulation::adapter_of(profile, known, streams).empty()) return {};
+        auto const name = simulation::component_name(profile);
+        auto const [first, is_first] = files->try_emplace(name, read.file.name);
+        bool const is_basic = simulation::is_basic(name);
+        if (is_first && !is_basic) return {};
+        return (name == profile.object.name ? read.name_place : read.identifier_place) + ": there is a component " +
+               quoted(name, 200) + " already: it is " + (is_basic ? "the gateway's own" : "that of " + first->second);
+    };
+}
+
+// Until nobody includes what was refused.
+void refuse_what_makes_nothing(std::vector<Read>& all, std::vector<ComponentProfile> const& known, simulation::Streams streams) {
+    auto const some = [&](Objection const& objection) { return refuse(all, known, objection) == Refused::some; };
+    do {
+        while (some(includes_unknown)) {
+        }
+    } while (some(includes_itself) || some(asks_for_no_adapter(streams)) || some(is_named_as_another(streams)));
 }
 
 void warn_of_ambiguous(std::vector<Read>& all, std::vector<ComponentProfile> const& known) {
@@ -138,7 +177,7 @@ void warn_of_ambiguous(std::vector<Read>& all, std::vector<ComponentProfile> con
         if (!each.file.profile) continue;
         auto const& parts = each.file.profile->sub_components;
         for (std::size_t i = 0; i < parts.size(); ++i) {
-            auto const meant = find_profiles(together, parts[i]);
+            auto const meant = find_parts(together, *each.file.profile, parts[i]);
             if (meant.size() < 2) continue;
             warn(each.file, each.sub_component_places[i] + ": " + rois::quoted(parts[i]) + " may mean " +
                                 quoted(meant[0]->object.identifier, 200) + " or " + quoted(meant[1]->object.identifier, 200) +
@@ -150,11 +189,11 @@ void warn_of_ambiguous(std::vector<Read>& all, std::vector<ComponentProfile> con
 }  // namespace
 
 std::vector<ProfileFile> read_profile_folder(std::shared_ptr<xml::Schemas const> const& schemas, std::string const& folder,
-                                             std::vector<ComponentProfile> const& known) {
+                                             std::vector<ComponentProfile> const& known, simulation::Streams streams) {
     std::vector<Read> all;
     for (auto const& path : documents_in(folder)) all.push_back(read(schemas, path));
     refuse_doubles(all, known);
-    refuse_incomplete(all, known);
+    refuse_what_makes_nothing(all, known, streams);
     warn_of_ambiguous(all, known);
     std::vector<ProfileFile> files;
     files.reserve(all.size());

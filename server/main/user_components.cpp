@@ -6,6 +6,8 @@
 #include <exception>
 #include <utility>
 
+#include "types/texts.hpp"
+
 namespace rois {
 
 namespace {
@@ -54,13 +56,15 @@ UserComponents::Files UserComponents::stay(std::vector<ProfileFile> const& found
     return staying;
 }
 
-// None when the profile asks for none, or they would have the refs of others.
+// None when the profile asks for none or is one of the gateway's own, or they would have the refs of others.
 std::vector<std::unique_ptr<Component>> UserComponents::components(ProfileFile const& file,
                                                                    std::vector<ComponentProfile> const& known,
                                                                    std::set<std::string>& taken) const {
     auto const& profile = *file.profile;
-    auto const* const meant = find_profile(known, profile.object.identifier);
-    if (meant == nullptr || *meant != profile) return {};
+    auto const same = [&](ComponentProfile const& p) {
+        return equal_ignoring_case(p.object.identifier, profile.object.identifier);
+    };
+    if (std::ranges::any_of(own_, same)) return {};
     try {
         auto made = adapters_.components(profile, known);
         if (made.empty())
@@ -79,7 +83,7 @@ std::vector<std::unique_ptr<Component>> UserComponents::components(ProfileFile c
 }
 
 ComponentChange UserComponents::read() {
-    auto const found = read_profile_folder(schemas_, folder_, own_);
+    auto const found = read_profile_folder(schemas_, folder_, own_, adapters_.streams());
     ComponentChange change;
     change.known_profiles = with_own(found);
     auto next = stay(found, change.known_profiles);

@@ -149,7 +149,7 @@ struct Not {
     bool operator==(Not const&) const;
 };
 
-// unr:ComponentGroupCondition: components of one robot.
+// unr:ComponentGroupCondition: components of one robot; and the type of a unr:ComponentCondition, as a group of this type alone.
 struct ComponentGroup {
     std::vector<std::string> types;
     std::vector<std::string> aliases;  // no more than types

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <chrono>
 #include <utility>
 
@@ -14,24 +15,63 @@ namespace {
 struct Known {
     std::string_view name;
     BaseType base;
+    std::int64_t lowest = std::numeric_limits<std::int32_t>::min();
+    std::int64_t highest = std::numeric_limits<std::int32_t>::max();
 };
 
-// The first name of a base is the one that we write.
-constexpr std::array<Known, 15> known_types{{{"int", BaseType::integer},
-                                             {"integer", BaseType::integer},
-                                             {"UnlimitedNatural", BaseType::integer},
-                                             {"double", BaseType::real},
-                                             {"real", BaseType::real},
-                                             {"bool", BaseType::boolean},
-                                             {"boolean", BaseType::boolean},
+constexpr std::int64_t longest = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t natural = std::numeric_limits<std::int32_t>::max();
+
+// The first name of a base is the one that we write, unless its range is another.
+constexpr std::array<Known, 44> known_types{{{"int", BaseType::integer},
                                              {"string", BaseType::string},
+                                             {"double", BaseType::real},
+                                             {"bool", BaseType::boolean},
                                              {"DateTime", BaseType::date_time},
                                              {"RoISIdentifier", BaseType::identifier},
-                                             {"RoIS_Identifier", BaseType::identifier},
                                              {"Component_Status", BaseType::component_status},
-                                             {"ComponentStatus", BaseType::component_status},
                                              {"Stream_Status", BaseType::stream_status},
-                                             {"StreamStatus", BaseType::stream_status}}};
+                                             {"Date", BaseType::date},
+                                             {"Time", BaseType::time},
+                                             {"integer", BaseType::integer},
+                                             {"real", BaseType::real},
+                                             {"boolean", BaseType::boolean},
+                                             {"RoIS_Identifier", BaseType::identifier},
+                                             {"ComponentStatus", BaseType::component_status},
+                                             {"StreamStatus", BaseType::stream_status},
+                                             {"UnlimitedNatural", BaseType::integer, 0, natural},
+                                             {"float", BaseType::real},
+                                             {"decimal", BaseType::real},
+                                             {"number", BaseType::real},
+                                             {"long", BaseType::integer, -longest - 1, longest},
+                                             {"short", BaseType::integer, -0x8000, 0x7FFF},
+                                             {"byte", BaseType::integer, -0x80, 0x7F},
+                                             {"unsignedLong", BaseType::integer, 0, longest},
+                                             {"unsignedInt", BaseType::integer, 0, 0xFFFF'FFFF},
+                                             {"unsignedShort", BaseType::integer, 0, 0xFFFF},
+                                             {"unsignedByte", BaseType::integer, 0, 0xFF},
+                                             {"nonNegativeInteger", BaseType::integer, 0, natural},
+                                             {"positiveInteger", BaseType::integer, 1, natural},
+                                             {"nonPositiveInteger", BaseType::integer, -natural - 1, 0},
+                                             {"negativeInteger", BaseType::integer, -natural - 1, -1},
+                                             {"CharacterString", BaseType::string},
+                                             {"Data", BaseType::string},  // of RLS (decision 27)
+                                             {"normalizedString", BaseType::string},
+                                             {"token", BaseType::string},
+                                             {"anyURI", BaseType::string},
+                                             {"URI", BaseType::string},
+                                             {"language", BaseType::string},
+                                             {"Name", BaseType::string},
+                                             {"NCName", BaseType::string},
+                                             {"NMTOKEN", BaseType::string},
+                                             {"ID", BaseType::string},
+                                             {"char", BaseType::string},
+                                             {"QName", BaseType::string}}};
+
+// Texts in forms of their own (annex C).
+constexpr std::array<std::string_view, 2> known_forms{"NBestType", "LatticeType"};
+
+constexpr std::array<std::string_view, 4> names_of_lists{"Set", "List", "Sequence", "seq"};
 
 // `urn:x-rois:def:DataType:<authority>::<name>` gives the name; what is no such URN stays as it is.
 std::string_view without_urn(std::string_view code) {
@@ -39,6 +79,21 @@ std::string_view without_urn(std::string_view code) {
     if (code.size() <= urn.size() || !equal_ignoring_case(code.substr(0, urn.size()), urn)) return code;
     auto const colon = code.rfind(':');
     return code.substr(colon + 1);
+}
+
+// "int" of "xsd:int", of "urn:x-other:int" and of "http://www.w3.org/2001/XMLSchema#int".
+std::string_view last_part(std::string_view code) { return code.substr(code.find_last_of(":#/") + 1); }
+
+// `T` of `T[]`, `Set<T>`, `List<T>` and so on; nothing when it is no list.
+std::optional<std::string_view> item_of(std::string_view code) {
+    if (code.ends_with("[]")) return trimmed(code.substr(0, code.size() - 2));
+    auto const open = code.find('<');
+    if (open == code.npos || !code.ends_with('>')) return {};
+    auto const name = trimmed(code.substr(0, open));
+    auto const item = trimmed(code.substr(open + 1, code.size() - open - 2));
+    bool const is_list = std::ranges::any_of(names_of_lists, [&](auto known) { return equal_ignoring_case(known, name); });
+    if (!is_list || item.empty()) return {};
+    return item;
 }
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -52,25 +107,56 @@ bool is_offset(std::string_view text) {
     return (hours < "14" && minutes < "60") || (hours == "14" && minutes == "00");
 }
 
-// "2026-11-20T12:00:00.123Z": the date, the time, any number of digits after the point, and Z or an offset.
-bool is_date_time(std::string_view text) {
-    constexpr std::string_view shape = "dddd-dd-ddTdd:dd:dd";
-    text = trimmed(text);
+// Whether the text begins with digits where the shape has a d, and else with what the shape has; then it is taken away.
+bool take_shape(std::string_view& text, std::string_view shape) {
     if (text.size() < shape.size()) return false;
     for (std::size_t i = 0; i < shape.size(); ++i)
         if (shape[i] == 'd' ? !is_digit(text[i]) : text[i] != shape[i]) return false;
-    auto const number = [&](std::size_t at) { return static_cast<unsigned>((text[at] - '0') * 10 + (text[at + 1] - '0')); };
-    std::chrono::year_month_day const date{std::chrono::year{static_cast<int>(number(0) * 100 + number(2))},
-                                           std::chrono::month{number(5)}, std::chrono::day{number(8)}};
-    if (!date.ok() || number(11) > 23 || number(14) > 59 || number(17) > 59) return false;
     text.remove_prefix(shape.size());
-    if (text.starts_with('.')) {
-        auto const end = std::ranges::find_if_not(text.substr(1), is_digit);
-        auto const digits = static_cast<std::size_t>(end - text.begin()) - 1;
-        if (digits == 0) return false;
-        text.remove_prefix(digits + 1);
-    }
-    return text == "Z" || is_offset(text);
+    return true;
+}
+
+unsigned two_digits(std::string_view text, std::size_t at) {
+    return static_cast<unsigned>((text[at] - '0') * 10 + (text[at + 1] - '0'));
+}
+
+// "2026-11-20", a day that exists.
+bool take_date(std::string_view& text) {
+    auto const whole = text;
+    if (!take_shape(text, "dddd-dd-dd")) return false;
+    std::chrono::year_month_day const date{std::chrono::year{static_cast<int>(two_digits(whole, 0) * 100 + two_digits(whole, 2))},
+                                           std::chrono::month{two_digits(whole, 5)}, std::chrono::day{two_digits(whole, 8)}};
+    return date.ok();
+}
+
+// "12:00:00.123", with any number of digits after the point.
+bool take_time(std::string_view& text) {
+    auto const whole = text;
+    if (!take_shape(text, "dd:dd:dd")) return false;
+    if (two_digits(whole, 0) > 23 || two_digits(whole, 3) > 59 || two_digits(whole, 6) > 59) return false;
+    if (!text.starts_with('.')) return true;
+    auto const end = std::ranges::find_if_not(text.substr(1), is_digit);
+    auto const digits = static_cast<std::size_t>(end - text.begin()) - 1;
+    text.remove_prefix(digits + 1);
+    return digits > 0;
+}
+
+bool is_zone(std::string_view text) { return text == "Z" || is_offset(text); }
+
+// "2026-11-20T12:00:00.123Z", with Z or an offset.
+bool is_date_time(std::string_view text) {
+    text = trimmed(text);
+    return take_date(text) && take_shape(text, "T") && take_time(text) && is_zone(text);
+}
+
+// Both may leave their zone out.
+bool is_date(std::string_view text) {
+    text = trimmed(text);
+    return take_date(text) && (text.empty() || is_zone(text));
+}
+bool is_time(std::string_view text) {
+    text = trimmed(text);
+    return take_time(text) && (text.empty() || is_zone(text));
 }
 
 bool is_component_status(std::string_view text) {
@@ -89,10 +175,18 @@ bool is_stream_status(std::string_view text) {
     return false;
 }
 
-bool is_of(BaseType base, std::string_view text) {
-    switch (base) {
+bool is_whole_number(DataType const& type, std::string_view text) {
+    text = trimmed(text);
+    if (text.starts_with('+') && text.size() > 1 && is_digit(text[1])) text.remove_prefix(1);
+    std::int64_t number = 0;
+    auto const [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return problem == std::errc{} && end == text.data() + text.size() && type.lowest <= number && number <= type.highest;
+}
+
+bool is_of(DataType const& type, std::string_view text) {
+    switch (type.base) {
         case BaseType::integer:
-            return to_int(text).has_value();
+            return is_whole_number(type, text);
         case BaseType::real:
             return to_double(text).has_value();
         case BaseType::boolean:
@@ -100,6 +194,10 @@ bool is_of(BaseType base, std::string_view text) {
             return text == "true" || text == "false" || text == "1" || text == "0";
         case BaseType::date_time:
             return is_date_time(text);
+        case BaseType::date:
+            return is_date(text);
+        case BaseType::time:
+            return is_time(text);
         case BaseType::identifier:
             return !trimmed(text).empty();
         case BaseType::component_status:
@@ -115,9 +213,7 @@ bool is_of(BaseType base, std::string_view text) {
 
 bool is_packed(BaseType base) { return base == BaseType::integer || base == BaseType::real || base == BaseType::boolean; }
 
-std::string not_of(DataType const& type, std::string_view text) {
-    return quoted(text) + " is not of the type " + to_text(DataType{type.base, false, type.name});
-}
+std::string not_of(DataType const& type, std::string_view text) { return quoted(text) + " is not of the type " + type.name; }
 
 // A list of numbers or bools: one text, its items separated by white space; none for an empty list.
 std::optional<std::string> why_not_packed(DataType const& type, std::span<std::string const> values) {
@@ -126,7 +222,7 @@ std::optional<std::string> why_not_packed(DataType const& type, std::span<std::s
     std::string_view rest = trimmed(values.front());
     while (!rest.empty()) {
         auto const item = rest.substr(0, rest.find_first_of(" \t\r\n"));
-        if (!is_of(type.base, item)) return not_of(type, item);
+        if (!is_of(type, item)) return not_of(type, item);
         rest = trimmed(rest.substr(item.size()));
     }
     return {};
@@ -137,19 +233,28 @@ std::optional<std::string> why_not_packed(DataType const& type, std::span<std::s
 DataType DataType::of(Identifier const& data_type_ref) {
     std::string_view code = trimmed(data_type_ref.code);
     DataType type;
-    if (code.ends_with("[]")) {
+    if (auto const item = item_of(code)) {
         type.list = true;
-        code.remove_suffix(2);
+        code = *item;
     }
-    code = without_urn(code);
-    auto const known = std::ranges::find_if(known_types, [&](Known const& k) { return equal_ignoring_case(k.name, code); });
+    auto const last = last_part(code);
+    auto const known = std::ranges::find_if(known_types, [&](Known const& k) { return equal_ignoring_case(k.name, last); });
     if (known == known_types.end()) {
-        type.name = code;
+        type.name = without_urn(code);
         return type;
     }
     type.base = known->base;
-    type.name = std::ranges::find(known_types, known->base, &Known::base)->name;
+    type.lowest = known->lowest;
+    type.highest = known->highest;
+    auto const first = std::ranges::find(known_types, known->base, &Known::base);
+    bool const same_range = known->lowest == first->lowest && known->highest == first->highest;
+    type.name = same_range ? first->name : known->name;
     return type;
+}
+
+bool is_known(DataType const& type) {
+    return type.base != BaseType::other ||
+           std::ranges::any_of(known_forms, [&](auto form) { return equal_ignoring_case(form, last_part(type.name)); });
 }
 
 bool DataType::operator==(DataType const& other) const {
@@ -165,7 +270,7 @@ std::optional<std::string> why_not(DataType const& type, std::span<std::string c
         return "a single value of the type " + to_text(type) + " needs exactly one value, here are " +
                std::to_string(values.size());
     for (auto const& value : values)
-        if (!is_of(type.base, value)) return not_of(type, value);
+        if (!is_of(type, value)) return not_of(type, value);
     return {};
 }
 

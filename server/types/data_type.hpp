@@ -1,6 +1,8 @@
 // The types that values have (decision 26), and whether texts are of them.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,22 +19,33 @@ enum class BaseType : std::uint8_t {
     boolean,
     string,
     date_time,
+    date,
+    time,
     identifier,
     component_status,
     stream_status,
     other
 };
 
-// A data_type_ref read: `int`, `string[]`, `urn:x-rois:def:DataType:ATR::Integer`, ... in any case.
+// A data_type_ref read: `int`, `string[]`, `Set<Integer>`, `xsd:float`, `urn:x-rois:def:DataType:ATR::Integer`, ... in any case.
+// A type that is known is so under the last part of any name with colons.
 struct DataType {
     BaseType base = BaseType::other;
     bool list = false;
     std::string name;  // the base's own name, for messages and for user-defined types (base `other`)
+    // Of whole numbers, both included.
+    std::int64_t lowest = std::numeric_limits<std::int32_t>::min();
+    std::int64_t highest = std::numeric_limits<std::int32_t>::max();
 
     static DataType of(Identifier const& data_type_ref);
 
-    bool operator==(DataType const&) const;  // names count for `other` only, without regard to case
+    // Names count for `other` only, without regard to case; how far whole numbers go does not.
+    bool operator==(DataType const&) const;
 };
+
+// Whether it is said here or in the specification which texts are of the type; else any text is. Of a list, whether its items'
+// is.
+bool is_known(DataType const&);
 
 std::string to_text(DataType const&);
 

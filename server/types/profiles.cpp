@@ -22,12 +22,6 @@ bool same_name(std::string_view a, std::string_view b) {
     return equal_ignoring_case(without_underscores(a), without_underscores(b));
 }
 
-ComponentProfile const& look_up(std::string const& urn, std::vector<ComponentProfile> const& known) {
-    auto const* const found = find_profile(known, urn);
-    if (found == nullptr) throw std::runtime_error("no component profile " + quoted(urn, 200) + " is known");
-    return *found;
-}
-
 // Adds what `part` and its own parts have, each name once; `path` are the profiles that are being added.
 void add_all(ComponentProfile& whole, ComponentProfile const& part, std::vector<ComponentProfile> const& known,
              std::vector<ComponentProfile const*>& path) {
@@ -38,7 +32,11 @@ void add_all(ComponentProfile& whole, ComponentProfile const& part, std::vector<
         if (find_message(whole, message.kind, message.name) == nullptr) whole.messages.push_back(message);
     for (auto const& parameter : part.parameters)
         if (find_parameter(whole.parameters, parameter.name) == nullptr) whole.parameters.push_back(parameter);
-    for (auto const& urn : part.sub_components) add_all(whole, look_up(urn, known), known, path);
+    for (auto const& urn : part.sub_components) {
+        auto const meant = find_parts(known, part, urn);
+        if (meant.empty()) throw std::runtime_error("no component profile " + quoted(urn, 200) + " is known");
+        add_all(whole, *meant.front(), known, path);
+    }
     path.pop_back();
 }
 
@@ -66,6 +64,14 @@ std::vector<ComponentProfile const*> find_profiles(std::vector<ComponentProfile>
 ComponentProfile const* find_profile(std::vector<ComponentProfile> const& known, std::string_view urn_or_name) {
     auto const found = find_profiles(known, urn_or_name);
     return found.empty() ? nullptr : found.front();
+}
+
+std::vector<ComponentProfile const*> find_parts(std::vector<ComponentProfile> const& known, ComponentProfile const& whole,
+                                                std::string_view urn_or_name) {
+    auto found = find_profiles(known, urn_or_name);
+    if (found.size() > 1)
+        std::erase_if(found, [&](auto const* p) { return equal_ignoring_case(p->object.identifier, whole.object.identifier); });
+    return found;
 }
 
 MessageProfile const* find_message(ComponentProfile const& profile, MessageKind kind, std::string_view name) {

@@ -76,6 +76,10 @@ ComponentProfile const* find_profile(std::vector<ComponentProfile> const& known,
 // All that the text may mean, in their order; the first is the one that is found.
 std::vector<ComponentProfile const*> find_profiles(std::vector<ComponentProfile> const& known, std::string_view urn_or_name);
 
+// All that a profile may mean by the name of one of its sub components: itself only where there is no other.
+std::vector<ComponentProfile const*> find_parts(std::vector<ComponentProfile> const& known, ComponentProfile const& whole,
+                                                std::string_view urn_or_name);
+
 // Null when the profile has no such message or parameter. Names of messages are compared to the letter, names of parameters
 // without regard to case (decision 26).
 MessageProfile const* find_message(ComponentProfile const&, MessageKind, std::string_view name);

@@ -144,11 +144,12 @@ std::string component_type(std::string_view written) {
     return misspelt ? "urn:" + std::string{written.substr(4)} : std::string{written};
 }
 
-// A component of the type that meets the filter; `exclusive`: one that nobody else has bound.
+// A component of the type, in any of the ways to write one, that meets the filter; `exclusive`: one that nobody else has bound.
 Condition decode_component(Node node) {
     And all;
-    auto const type = component_type(node.attribute_text("type"));
-    if (!type.empty()) all.operands.push_back(equal("component_type", type));
+    auto type = component_type(node.attribute_text("type"));
+    if (!type.empty())
+        all.operands.push_back({ComponentGroup{.types = {std::move(type)}, .aliases = {}, .filter = {}, .members = {}}});
     auto const mode = std::string{trimmed(node.attribute_text("mode"))};
     if (mode == "exclusive") all.operands.push_back({Not{{equal("status", "BUSY")}}});
     if (!mode.empty() && mode != "exclusive" && mode != "shared") return {not_understood("the mode " + mode)};

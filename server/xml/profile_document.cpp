@@ -56,6 +56,12 @@ public:
 private:
     std::string place(pugi::xml_node element) const { return at(name_, place_of(text_, offset_of(element))); }
 
+    // Empty when there is none.
+    std::string place_of_child(pugi::xml_node element, std::string_view name) const {
+        auto const found = child(element, name);
+        return found ? place(found) : std::string{};
+    }
+
     BadDocument complain(pugi::xml_node element, std::string const& reason) const {
         return BadDocument{place(element) + ": " + reason};
     }
@@ -72,6 +78,9 @@ private:
     ComponentProfile component(pugi::xml_node root) {
         ComponentProfile profile{object(root), {}, {}, parameters(root, "ParameterProfile")};
         if (profile.object.identifier.empty()) throw complain(root, "the identifier is empty: expected a URN");
+        document_.adapter_place = place_of_child(root, "metaDataProperty");
+        document_.identifier_place = place_of_child(root, "identifier");
+        document_.name_place = place_of_child(root, "name");
         for (auto const element : root.children()) {
             if (local_name(element) == "SubComponentProfile") {
                 profile.sub_components.emplace_back(trimmed(text_of(element)));
@@ -117,6 +126,10 @@ private:
         if (read.name.empty()) throw complain(element, "the name is empty");
         if (trimmed(read.data_type_ref.code).empty())
             throw complain(element, "the data type of " + quoted(read.name) + " is empty");
+        if (!is_known(DataType::of(read.data_type_ref)))
+            document_.warnings.push_back(place(child(element, "data_type_ref")) + ": the data type " +
+                                         quoted(trimmed(read.data_type_ref.code)) + " of " + quoted(read.name) +
+                                         " is not known: its values are not checked");
         if (auto const written = attribute(element, "default_value")) set_default(element, read, written.value());
         return read;
     }

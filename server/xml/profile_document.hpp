@@ -14,8 +14,12 @@ namespace rois::xml {
 
 struct ProfileDocument {
     std::variant<ComponentProfile, EngineProfile> profile;
-    std::vector<std::string> warnings;              // "name:line:column: what it says, and what it was taken for"
-    std::vector<std::string> sub_component_places;  // of a component profile: "name:line:column" of each of its sub_components
+    std::vector<std::string> warnings;  // "name:line:column: what it says, and what it was taken for"
+    // Of a component profile, "name:line:column" each:
+    std::vector<std::string> sub_component_places;
+    std::string adapter_place;     // of what says its meta_data; empty when nothing does
+    std::string identifier_place;  // of its URN
+    std::string name_place;        // of its name; empty when it has none
 };
 
 // Throws BadDocument when it is not well-formed, or not valid and not understood.

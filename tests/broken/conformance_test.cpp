@@ -56,9 +56,16 @@ std::set<std::string> broken_in(std::string const& report) {
 }
 
 struct EmptyHall : GatewayProcess {
-    explicit EmptyHall(std::string const& validation = "fast")
-        : GatewayProcess{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--sim-speed", "20", "--seed", "1",
-                          "--media", "127.0.0.1:0", "--validation", validation}} {}
+    explicit EmptyHall(std::vector<std::string> const& settings = {}) : GatewayProcess{with_usual(settings)} {}
+
+private:
+    static std::vector<std::string> with_usual(std::vector<std::string> settings) {
+        std::vector<std::string> const usual{
+            "--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--seed", "1", "--media", "127.0.0.1:0"};
+        if (std::ranges::find(settings, "--sim-speed") == settings.end()) settings.insert(settings.end(), {"--sim-speed", "20"});
+        settings.insert(settings.end(), usual.begin(), usual.end());
+        return settings;
+    }
 };
 
 std::string url(std::uint16_t port) { return "http://127.0.0.1:" + std::to_string(port); }
@@ -77,9 +84,17 @@ TEST(Conformance, OfOurGatewayIsWhole) {
 }
 
 TEST(Conformance, OfOurGatewayIsWholeWhenItValidatesInFull) {
-    EmptyHall gateway{"full"};
+    EmptyHall gateway{{"--validation", "full"}};
     auto const judged = judge(url(gateway.port()));
     EXPECT_EQ(judged.exit_code, 0) << judged.text;
+}
+
+// Each robot is asked where it is itself: a robot that is sent to the place of the other one needs longer than this patience.
+TEST(Conformance, OfOurGatewayIsWholeWhenItHasTwoRobots) {
+    EmptyHall gateway{{"--floor-plan", ROIS_SOURCE_DIR "/components/simulation/data/two-robots.xml", "--sim-speed", "1"}};
+    auto const judged = judge(url(gateway.port()) + " --patience 3");
+    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+    EXPECT_THAT(judged.text, testing::HasSubstr("  holds      events_of_an_action_come_before_its_end over HTTP "));
 }
 
 TEST(Conformance, OfAGatewayInUseFindsNothingElse) {

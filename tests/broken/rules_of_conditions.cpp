@@ -34,6 +34,30 @@ Breaking knows_no_wildcards() {
     });
 }
 
+Breaking minds_the_case(bool always) {
+    return edits_conditions("search", "fes:PropertyIsEqualTo", [=](pugi::xml_node node) {
+        node.remove_attribute("matchCase");
+        if (!always) node.append_attribute("matchCase").set_value(false);
+    });
+}
+
+Breaking finds_nothing_null() {
+    return edits_conditions("search", "fes:PropertyIsNull", [](pugi::xml_node node) {
+        node.set_name("fes:PropertyIsEqualTo");
+        node.child("fes:ValueReference").text().set("component_ref");
+        node.append_child("fes:Literal").text().set("nobody");
+    });
+}
+
+// What has a value, too.
+Breaking finds_everything_null() {
+    return edits_conditions("search", "fes:PropertyIsNull", [](pugi::xml_node node) {
+        node.set_name("fes:PropertyIsNotEqualTo");
+        node.child("fes:ValueReference").text().set("component_ref");
+        node.append_child("fes:Literal").text().set("nobody");
+    });
+}
+
 Breaking sorts_nothing() {
     return edits_requests("search", [](pugi::xml_node root) {
         auto condition = root.child("condition");
@@ -111,6 +135,10 @@ std::vector<BrokenRule> rules_of_conditions() {
             {"bound means nothing", "references_mean_what_they_say", [] { return takes_for_name("bound"); }},
             {"status means nothing", "references_mean_what_they_say", [] { return takes_for_name("status"); }},
             {"engine means nothing", "references_mean_what_they_say", [] { return takes_for_name("engine"); }},
+            {"matchCase is passed over", "case_counts_unless_it_is_said_not_to", [] { return minds_the_case(true); }},
+            {"case never counts", "case_counts_unless_it_is_said_not_to", [] { return minds_the_case(false); }},
+            {"nothing is null", "what_has_no_value_is_null", finds_nothing_null},
+            {"everything is null", "what_has_no_value_is_null", finds_everything_null},
             {"nothing is sorted", "what_is_found_can_be_sorted", sorts_nothing},
             {"a follow that was stopped is told as aborted", "follow_goes_on_until_it_is_stopped",
              [] { return ends_follow_with("OK", "ABORT"); }},

@@ -1,5 +1,6 @@
 // Profiles, queries and events.
 #include <memory>
+#include <sstream>
 
 #include "broken/breaking.hpp"
 #include "broken/rules.hpp"
@@ -25,6 +26,20 @@ Breaking tells_no_structure() {
     return edits_answers("query", [](pugi::xml_node root) {
         auto results = root.child("results");
         while (results.remove_child("located")) {
+        }
+    });
+}
+
+// The first number of each `name` within `located` becomes another one.
+Breaking locates_elsewhere(char const* name) {
+    return edits_answers("query", [=](pugi::xml_node root) {
+        for (auto const located : root.child("results").children("located")) {
+            std::istringstream written{located.child(name).text().get()};
+            double numbers[3] = {};
+            for (auto& number : numbers) written >> number;
+            std::ostringstream changed;
+            changed << numbers[0] + 5'000 << " " << numbers[1] << " " << numbers[2] + 90;
+            located.child(name).text().set(changed.str().c_str());
         }
     });
 }
@@ -119,40 +134,45 @@ Edit replaces(std::string const& value, std::string const& instead) {
 }  // namespace
 
 std::vector<BrokenRule> rules_of_information() {
-    return {{"a stream that is held is told as running", "a_stream_is_suspended_until_it_is_resumed",
-             [] { return edits_answers("query", replaces("STREAMING_SUSPENDED", "STREAMING_RUNNING")); }},
-            {"the end of a stream is not told", "a_stream_is_connected_until_it_is_disconnected",
-             [] { return edits_notifications("receive_event", replaces("STREAMING_NOT_CONNECTED", "STREAMING_NOT_RUNNING")); }},
-            {"a profile is missing", "each_component_has_a_profile", forgets_a_profile},
-            {"get_profile tells all, whatever is asked for", "get_profile_chooses_by_condition",
-             [] { return edits_requests("get_profile", remove_condition); }},
-            {"details of unknown errors are told", "details_of_an_unknown_error_are_refused",
-             [] { return says("get_error_detail", "BAD_PARAMETER", "OK", no_results); }},
-            {"unknown queries have an empty answer", "a_query_that_nobody_knows_is_unsupported",
-             [] { return says("query", "UNSUPPORTED", "OK", nobody + no_results); }},
-            {"any component answers a query", "every_query_of_every_component_is_answered",
-             [] { return edits_requests("query", remove_condition); }},
-            {"results are not of their type", "every_query_of_every_component_is_answered", tells_no_times},
-            {"positions have no structure", "located_results_have_their_structure", tells_no_structure},
-            {"the same subscription has another id", "the_same_subscription_again_changes_nothing", subscribes_anew},
-            {"unsubscribe does nothing", "after_unsubscribe_nothing_is_heard", [] { return does_nothing_at("unsubscribe"); }},
-            {"events come twice", "the_same_subscription_again_changes_nothing", [] { return repeats("receive_event"); }},
-            {"results are never inline", "results_come_inline_when_asked_for", never_inlines},
-            {"events name another subscription", "events_are_those_that_were_subscribed", names_another_subscription},
-            {"details are not chosen", "details_are_chosen_by_condition",
-             [] { return edits_requests("get_event_detail", remove_condition); }},
-            {"details of unknown events are told", "details_of_an_unknown_event_are_refused",
-             [] { return says("get_event_detail", "BAD_PARAMETER", "OK", no_results); }},
-            {"what cannot happen is subscribed", "what_cannot_happen_is_unsupported",
-             [] { return says("subscribe", "UNSUPPORTED", "OK", "<subscribe_id>s-0</subscribe_id>"); }},
-            {"all events are sent, whatever is asked for", "only_events_that_match_are_heard",
-             [] { return edits_requests("subscribe", remove_condition); }},
-            {"ids of events are used again", "each_event_has_an_id_of_its_own", uses_one_event_id},
-            {"events expired long ago", "events_expire_in_the_future", expired_long_ago},
-            {"results stay inline", "inline_results_are_taken_back", keeps_inlining},
-            {"get_profile tells profiles that were not chosen", "get_profile_chooses_by_condition", tells_a_profile_too_many},
-            {"functions are never silent", "what_does_not_run_is_silent", is_never_silent},
-            {"times are local", "times_are_utc", tells_local_time}};
+    return {
+        {"a stream that is held is told as running", "a_stream_is_suspended_until_it_is_resumed",
+         [] { return edits_answers("query", replaces("STREAMING_SUSPENDED", "STREAMING_RUNNING")); }},
+        {"the end of a stream is not told", "a_stream_is_connected_until_it_is_disconnected",
+         [] { return edits_notifications("receive_event", replaces("STREAMING_NOT_CONNECTED", "STREAMING_NOT_RUNNING")); }},
+        {"a profile is missing", "each_component_has_a_profile", forgets_a_profile},
+        {"get_profile tells all, whatever is asked for", "get_profile_chooses_by_condition",
+         [] { return edits_requests("get_profile", remove_condition); }},
+        {"details of unknown errors are told", "details_of_an_unknown_error_are_refused",
+         [] { return says("get_error_detail", "BAD_PARAMETER", "OK", no_results); }},
+        {"unknown queries have an empty answer", "a_query_that_nobody_knows_is_unsupported",
+         [] { return says("query", "UNSUPPORTED", "OK", nobody + no_results); }},
+        {"any component answers a query", "every_query_of_every_component_is_answered",
+         [] { return edits_requests("query", remove_condition); }},
+        {"results are not of their type", "every_query_of_every_component_is_answered", tells_no_times},
+        {"positions have no structure", "located_results_have_their_structure", tells_no_structure},
+        {"positions contradict their texts", "located_elements_say_what_texts_say", [] { return locates_elsewhere("position"); }},
+        {"orientations contradict their texts", "located_elements_say_what_texts_say",
+         [] { return locates_elsewhere("orientation"); }},
+        {"Japanese is told as jp", "languages_are_iso_639_1", [] { return edits_answers("query", replaces("ja", "jp")); }},
+        {"the same subscription has another id", "the_same_subscription_again_changes_nothing", subscribes_anew},
+        {"unsubscribe does nothing", "after_unsubscribe_nothing_is_heard", [] { return does_nothing_at("unsubscribe"); }},
+        {"events come twice", "the_same_subscription_again_changes_nothing", [] { return repeats("receive_event"); }},
+        {"results are never inline", "results_come_inline_when_asked_for", never_inlines},
+        {"events name another subscription", "events_are_those_that_were_subscribed", names_another_subscription},
+        {"details are not chosen", "details_are_chosen_by_condition",
+         [] { return edits_requests("get_event_detail", remove_condition); }},
+        {"details of unknown events are told", "details_of_an_unknown_event_are_refused",
+         [] { return says("get_event_detail", "BAD_PARAMETER", "OK", no_results); }},
+        {"what cannot happen is subscribed", "what_cannot_happen_is_unsupported",
+         [] { return says("subscribe", "UNSUPPORTED", "OK", "<subscribe_id>s-0</subscribe_id>"); }},
+        {"all events are sent, whatever is asked for", "only_events_that_match_are_heard",
+         [] { return edits_requests("subscribe", remove_condition); }},
+        {"ids of events are used again", "each_event_has_an_id_of_its_own", uses_one_event_id},
+        {"events expired long ago", "events_expire_in_the_future", expired_long_ago},
+        {"results stay inline", "inline_results_are_taken_back", keeps_inlining},
+        {"get_profile tells profiles that were not chosen", "get_profile_chooses_by_condition", tells_a_profile_too_many},
+        {"functions are never silent", "what_does_not_run_is_silent", is_never_silent},
+        {"times are local", "times_are_utc", tells_local_time}};
 }
 
 }  // namespace rois::broken

@@ -1,6 +1,7 @@
 #include "client/application.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <sstream>
 
 #include "client/websocket_client.hpp"
@@ -11,15 +12,12 @@ namespace {
 
 class HttpWire final : public Wire {
 public:
-    explicit HttpWire(Address const& address)
-        : client_{address}, patience_{static_cast<unsigned>(std::max<std::int64_t>(address.patience.count() * 3 / 4'000, 1))} {}
+    explicit HttpWire(Address const& address) : client_{address}, patience_{address.patience} {}
 
     std::string ask(std::string const& request, std::vector<std::string>&) override { return client_.post(request).body; }
 
     void wait(std::vector<std::string>& news) override {
-        auto const reply = client_.notifications(last_, patience_);
-        if (!reply.root().first_child())
-            throw LineEnded{"no notification for " + std::to_string(patience_) + " s: " + reply.body};
+        auto const reply = poll();
         pugi::xml_document as_written;
         as_written.load_buffer(reply.body.data(), reply.body.size());
         for (auto const notification : as_written.document_element().children()) {
@@ -34,6 +32,25 @@ public:
     }
 
 private:
+    // The answer of the first long poll that has anything; as many as the patience takes.
+    HttpReply poll() {
+        using Clock = std::chrono::steady_clock;
+        constexpr std::chrono::seconds longest{30};  // of one (wire.md, endpoints)
+        constexpr std::chrono::milliseconds imprecision{500};
+        auto const patience = std::max(std::chrono::ceil<std::chrono::seconds>(patience_), std::chrono::seconds{1});
+        auto const end = Clock::now() + patience;
+        std::string empty;
+        for (auto left = patience; left.count() > 0; left = std::chrono::round<std::chrono::seconds>(end - Clock::now())) {
+            auto const wait = std::min(left, longest);
+            auto const due = Clock::now() + wait - imprecision;
+            auto reply = client_.notifications(last_, static_cast<unsigned>(wait.count()));
+            if (reply.root().first_child()) return reply;
+            empty = reply.body;
+            if (Clock::now() < due) throw LineEnded{"a long poll has nothing to tell and does not wait: " + empty};
+        }
+        throw LineEnded{"no notification for " + std::to_string(patience.count()) + " s: " + empty};
+    }
+
     // With the namespaces that the list around it declares.
     static std::string document_of(pugi::xml_node notification) {
         for (auto const declared : notification.parent().attributes()) {
@@ -45,7 +62,7 @@ private:
     }
 
     HttpClient client_;
-    unsigned patience_;  // seconds
+    std::chrono::milliseconds patience_;
     unsigned last_ = 0;
 };
 

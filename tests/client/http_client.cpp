@@ -172,7 +172,12 @@ HttpReply HttpClient::call(std::string const& operation, std::string const& chil
 }
 
 HttpReply HttpClient::notifications(unsigned after, unsigned wait) {
-    return get("/rois/notifications?after=" + std::to_string(after) + "&wait=" + std::to_string(wait));
+    constexpr std::chrono::seconds on_its_way{5};  // at most, an answer
+    reopen_when_closed();
+    line_->be_patient(std::max<std::chrono::milliseconds>(address_.patience, std::chrono::seconds{wait} + on_its_way));
+    auto reply = get("/rois/notifications?after=" + std::to_string(after) + "&wait=" + std::to_string(wait));
+    line_->be_patient(address_.patience);
+    return reply;
 }
 
 }  // namespace rois::client

@@ -59,7 +59,7 @@ public:
 
     // An operation in the session that `connect` opened here.
     HttpReply call(std::string const& operation, std::string const& children = "", std::string const& attributes = "");
-    // The sequences of the notifications after this one.
+    // The notifications after this one, or none after `wait` seconds, for which its line waits longer than that.
     HttpReply notifications(unsigned after, unsigned wait = 10);
 
     std::string session;

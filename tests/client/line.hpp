@@ -30,7 +30,10 @@ public:
     std::size_t send_now(std::string_view bytes);
     void finish();  // nothing more will be sent
 
-    // The next bytes, exactly so many. Throws LineEnded, also when they do not come within the address's patience.
+    // How long what comes next is waited for; the address's patience at first.
+    void be_patient(std::chrono::milliseconds patience) { patience_ = patience; }
+
+    // The next bytes, exactly so many. Throws LineEnded, also when they do not come in time.
     std::string take(std::size_t size);
     // Up to and with the mark.
     std::string take_until(std::string_view mark);

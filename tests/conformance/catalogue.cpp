@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <regex>
 #include <string_view>
 
@@ -44,12 +45,23 @@ void read_profile(Component& component, pugi::xml_node profile) {
     }
 }
 
-// The last part of a type's URN, without `[]`.
-std::string item_type(std::string const& type) {
-    auto const colon = type.rfind(':');
-    auto name = lower(colon == std::string::npos ? type : type.substr(colon + 1));
-    if (name.ends_with("[]")) name.resize(name.size() - 2);
-    return name;
+struct ReadType {
+    std::string item;  // the last part of its URN, in lower case; of a number or a bool the shortest of its names
+    bool is_list;
+};
+
+// "int", "urn:x-rois:def:DataType:ATR::Integer[]", "Set<Integer>".
+ReadType read_type(std::string const& type) {
+    static std::regex const list{"\\s*(?:(?:set|list|sequence|seq)\\s*<\\s*(.+?)\\s*>|(.*?)\\s*\\[\\])\\s*"};
+    static std::map<std::string, std::string> const shorter{
+        {"integer", "int"}, {"unlimitednatural", "int"}, {"real", "double"}, {"float", "double"}, {"boolean", "bool"}};
+    auto name = lower(type);
+    std::smatch parts;
+    bool const is_list = std::regex_match(name, parts, list);
+    if (is_list) name = std::string{parts[1].matched ? parts[1] : parts[2]};
+    auto item = name.substr(name.find_last_of(":#/") + 1);
+    auto const found = shorter.find(item);
+    return {found == shorter.end() ? item : found->second, is_list};
 }
 
 bool is_item(std::string const& type, std::string const& text) {
@@ -61,9 +73,9 @@ bool is_item(std::string const& type, std::string const& text) {
     static std::regex const time{"[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}([.][0-9]+)?Z"};
     static std::regex const status{"UNINITIALIZED|READY|BUSY|WARNING|ERROR"};
     static std::regex const stream_status{"STREAMING_(NOT_RUNNING|NOT_CONNECTED|RUNNING|SUSPENDED|RESUMED)"};
-    if (type == "int" || type == "integer") return std::regex_match(text, whole_number);
+    if (type == "int") return std::regex_match(text, whole_number);
     if (type == "double") return std::regex_match(text, number);
-    if (type == "bool" || type == "boolean") return std::regex_match(text, truth);
+    if (type == "bool") return std::regex_match(text, truth);
     if (type == "datetime") return std::regex_match(text, time);
     if (type == "component_status") return std::regex_match(text, status);
     if (type == "stream_status") return std::regex_match(text, stream_status);
@@ -86,6 +98,12 @@ Message const* Component::query(std::string const& name) const {
 Message const* Component::event(std::string const& name) const {
     auto const found = std::ranges::find(events, name, &Message::name);
     return found == events.end() ? nullptr : &*found;
+}
+
+bool Component::parameter(std::string const& name) const {
+    auto const is_named = [&](TypedName const& one) { return lower(one.name) == lower(name); };
+    auto const* const read = query("get_parameter");
+    return std::ranges::any_of(parameters, is_named) || (read && std::ranges::any_of(read->results, is_named));
 }
 
 std::string Component::detection() const {
@@ -116,10 +134,10 @@ Component const* Catalogue::find(std::string const& ref) const {
 }
 
 bool is_of_type(std::string const& type, std::vector<std::string> const& values) {
-    auto const item = item_type(type);
-    if (!type.ends_with("[]")) return values.size() == 1 && is_item(item, values.front());
+    auto const [item, is_list] = read_type(type);
+    if (!is_list) return values.size() == 1 && is_item(item, values.front());
     if (item != "int" && item != "double" && item != "bool")
-        return std::ranges::all_of(values, [&](auto const& value) { return is_item(item, value); });
+        return std::ranges::all_of(values, [&item = item](auto const& value) { return is_item(item, value); });
     for (auto const& value : values) {
         static std::regex const space{"\\s+"};
         for (std::sregex_token_iterator word{value.begin(), value.end(), space, -1}, end; word != end; ++word)

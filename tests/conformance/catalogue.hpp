@@ -33,6 +33,8 @@ struct Component {
     std::string basic() const;
     Message const* query(std::string const& name) const;
     Message const* event(std::string const& name) const;
+    // Whether it can be read or set.
+    bool parameter(std::string const& name) const;
     // Of "persondetection": "person_detected", the event of its first measurement.
     std::string detection() const;
 };

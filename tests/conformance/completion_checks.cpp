@@ -136,11 +136,10 @@ void events_of_an_action_come_before_its_end(Stage& stage) {
     if (!navigation.event(event)) throw NotPlayed{navigation.ref + " has no event " + event};
     Guest guest{stage};
     guest.take(navigation);
-    auto const here = guest.query("robot_position").values();
-    if (!here.contains("position_data") || here.at("position_data").empty()) throw NotPlayed{"no robot says where it is"};
+    auto const robot = guest.robot_of(navigation);
+    if (!robot) throw NotPlayed{"where the robot of " + navigation.ref + " is cannot be known"};
     ok(guest.subscribe(event, only(navigation)));
-    auto const id =
-        guest.order({.component = navigation.ref, .arguments = {client::target_position({here.at("position_data").front()})}});
+    auto const id = guest.order({.component = navigation.ref, .arguments = {client::target_position({robot->position})}});
     auto const status = guest.status_of(id);
     if (status != "OK") throw NotPlayed{"navigation to where the robot stands ends with " + status};
     require(guest.heard_events(event) == 1, event + " should come once before the command completes");

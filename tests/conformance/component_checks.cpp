@@ -11,28 +11,24 @@ namespace {
 
 // What `start` of a basic component needs; nothing when that cannot be known here.
 std::optional<std::vector<Argument>> arguments_of_start(Guest& guest, Component const& component) {
-    auto const first_of = [](Document const& answer, char const* values, char const* name) -> std::string {
-        auto const all = answer.values(values);
-        auto const found = all.find(name);
-        return found == all.end() || found->second.empty() ? "" : found->second.front();
-    };
     auto const kind = component.basic();
     if (kind == "speechsynthesis") return {{client::speech_text("Hi.")}};
     if (kind == "move") return {{{"line", "int[]", {"10 0"}}}};
     if (kind == "follow") {
-        auto const robot = first_of(guest.query("robot_position"), "results", "robot_ref");
-        if (robot.empty()) return {};
-        return {{{"target_object_ref", "RoISIdentifier", {robot}}, {"distance", "int", {"1000"}}}};
+        auto const robot = guest.robot_of(component);
+        if (!robot) return {};
+        return {{{"target_object_ref", "RoISIdentifier", {robot->ref}}, {"distance", "int", {"1000"}}}};
     }
     if (kind == "navigation") {
-        auto const here = first_of(guest.query("robot_position"), "results", "position_data");
-        if (here.empty()) return {};
-        return {{client::target_position({here})}};
+        auto const robot = guest.robot_of(component);
+        if (!robot) return {};
+        return {{client::target_position({robot->position})}};
     }
     if (kind == "reaction") {
-        auto const reaction = first_of(guest.get_parameter(component.ref), "parameters", "available_reactions");
-        if (reaction.empty()) return {};
-        return {{{"reaction_ref", "RoISIdentifier", {reaction}}}};
+        auto const parameters = guest.get_parameter(component.ref).values("parameters");
+        auto const reactions = parameters.find("available_reactions");
+        if (reactions == parameters.end() || reactions->second.empty()) return {};
+        return {{{"reaction_ref", "RoISIdentifier", {reactions->second.front()}}}};
     }
     if (kind.empty()) return {};
     return std::vector<Argument>{};

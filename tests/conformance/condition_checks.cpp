@@ -56,13 +56,53 @@ void operands_stand_in_either_order(Stage& stage) {
     same_refs("a literal before the reference", {ref}, found(guest, where(client::literal_first(ref, "component_ref"))));
 }
 
+std::string upper(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return text;
+}
+
 void component_types_have_no_case(Stage& stage) {
     Guest guest{stage};
     auto const& one = *stage.two_common().first;
-    auto type = one.type;
-    std::ranges::transform(type, type.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    auto const type = upper(one.type);
     auto const due = refs_of(stage, [&](Component const& component) { return component.type == one.type; });
     same_refs("component_type = " + type, due, found(guest, where(equal("component_type", type))));
+}
+
+void case_counts_unless_it_is_said_not_to(Stage& stage) {
+    Guest guest{stage};
+    auto const& ref = stage.two_common().first->ref;
+    auto const other = upper(ref);
+    if (other == ref) throw NotPlayed{ref + " has no small letters"};
+    auto const same_name = refs_of(stage, [&](Component const& component) { return component.ref == other; });
+    auto const same_letters = refs_of(stage, [&](Component const& component) { return upper(component.ref) == other; });
+    auto filter = equal("component_ref", other);
+    same_refs("component_ref = " + other, same_name, found(guest, where(filter)));
+    filter.insert(filter.find('>'), " matchCase=\"true\"");
+    same_refs("component_ref = " + other + " with matchCase=\"true\"", same_name, found(guest, where(filter)));
+    filter.replace(filter.find("true"), 4, "false");
+    same_refs("component_ref = " + other + " with matchCase=\"false\"", same_letters, found(guest, where(filter)));
+}
+
+// A parameter is null for whoever does not have it, and not for one that has just been given a value.
+void what_has_no_value_is_null(Stage& stage) {
+    Guest guest{stage};
+    auto const dial = dial_of(stage);
+    guest.take(*dial.component);
+    ok(guest.set_parameter(dial.component->ref, {turned(dial, 50)}));
+    guest.settle(*dial.component);
+    auto const is_null = client::is_null("Property/" + dial.parameter);
+    auto const null = found(guest, where(is_null)), others = found(guest, where(contrary(is_null)));
+    for (auto const& component : stage.catalogue().components) {
+        bool const among_null = std::ranges::binary_search(null, component.ref);
+        bool const among_others = std::ranges::binary_search(others, component.ref);
+        auto const parameter = dial.parameter + " of " + component.ref;
+        require(among_null != among_others,
+                parameter + " should be found by PropertyIsNull or by its contrary, and is by " + (among_null ? "both" : "none"));
+        require(among_null || component.parameter(dial.parameter), parameter + " should be null: it has no such parameter");
+    }
+    require(std::ranges::binary_search(others, dial.component->ref),
+            dial.parameter + " of " + dial.component->ref + " has been set, and is null");
 }
 
 void like_has_wildcards(Stage& stage) {
@@ -264,6 +304,8 @@ Clause condition_clause() {
              {"operands_stand_in_either_order", "Minimum Standard Filter", operands_stand_in_either_order},
              {"component_types_have_no_case", "decision 25", component_types_have_no_case},
              {"numbers_are_compared_as_numbers", "Standard Filter", numbers_are_compared_as_numbers},
+             {"case_counts_unless_it_is_said_not_to", "Minimum Standard Filter: matchCase", case_counts_unless_it_is_said_not_to},
+             {"what_has_no_value_is_null", "Standard Filter: PropertyIsNull", what_has_no_value_is_null},
              {"like_has_wildcards", "Standard Filter", like_has_wildcards},
              {"times_are_compared_as_times", "Temporal Filter; decision 28", times_are_compared_as_times},
              {"space_chooses_components", "Spatial Filter; decision 18", space_chooses_components},

@@ -126,6 +126,19 @@ std::string Guest::component_status(std::string const& ref) {
     return value_of(ok(query("component_status", client::where(client::equal("component_ref", ref)))).values(), "status");
 }
 
+// It is the one of which the engine of the component tells: another engine's query would be of another robot (decision 18).
+std::optional<Robot> Guest::robot_of(Component const& component) {
+    std::vector<Component const*> tellers;
+    for (auto const& each : stage_.catalogue().components)
+        if (each.engine == component.engine && each.query("robot_position")) tellers.push_back(&each);
+    if (tellers.size() != 1) return {};
+    auto const told = query("robot_position", only(*tellers.front())).values();
+    auto const refs = told.find("robot_ref"), positions = told.find("position_data");
+    if (refs == told.end() || refs->second.size() != 1) return {};
+    if (positions == told.end() || positions->second.size() != 1) return {};
+    return Robot{refs->second.front(), positions->second.front()};
+}
+
 std::vector<std::string> Guest::endings(std::string const& command_id) const {
     std::vector<std::string> statuses;
     for (auto const& heard : history())
@@ -150,6 +163,7 @@ void Guest::check_answer(Document const& answer, std::string const& operation, s
         traffic.see("refusals_give_a_reason", answer.children() == std::vector<std::string>{"reason"} && !answer.reason().empty(),
                     answer.whole());
     if (answer.return_code() != "OK") return;
+    traffic.look_at_located(answer.root().child("results"));
     if (operation == "connect" && !is_connected()) {
         commands_.clear();
         completed_.clear();
@@ -172,6 +186,7 @@ void Guest::check_notification(Document const& notification, std::uint64_t seque
     traffic.see("notifications_are_counted_without_gaps", notification.attribute("sequence") == std::to_string(sequence),
                 "the sequence should be " + std::to_string(sequence) + ": " + notification.whole());
     if (notification.name() == "receive_event") check_event(notification);
+    traffic.look_at_located(notification.root().child("results"));
     if (notification.name() == "receive_error") errors_.push_back(notification.text("error_id"));
     if (notification.name() != "completed") return;
     auto const id = notification.text("command_id");

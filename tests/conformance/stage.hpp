@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -64,6 +65,12 @@ private:
     client::Values before_;
 };
 
+// One robot, as the query robot_position tells it (table 34).
+struct Robot {
+    std::string ref;
+    std::string position;  // "x, y, th"
+};
+
 // A service application. It looks at all that it hears, and leaves nothing behind.
 class Guest : public client::Application {
 public:
@@ -87,6 +94,8 @@ public:
     // get_command_result's `status`.
     std::string state_of(std::string const& command_id);
     std::string component_status(std::string const& ref);
+    // The robot that a component is part of; nothing when that cannot be known here.
+    std::optional<Robot> robot_of(Component const&);
     // Of what was heard: the statuses with which this command completed.
     std::vector<std::string> endings(std::string const& command_id) const;
     std::size_t heard_events(std::string const& type) const;

@@ -1,7 +1,11 @@
 #include "conformance/traffic.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 #include "files/files.hpp"
 
@@ -12,6 +16,37 @@ namespace {
 std::shared_ptr<xml::Schemas const> schemas() {
     auto const& files = files::schemas();
     return std::make_shared<xml::Schemas const>(xml::NamedFiles{files.begin(), files.end()});
+}
+
+struct Point {
+    double x, y;
+    std::optional<double> heading;  // degrees
+};
+
+// "x, y" or "x, y, th".
+std::optional<Point> point_in(std::string text) {
+    std::ranges::replace(text, ',', ' ');
+    std::istringstream numbers{text};
+    Point point{};
+    if (!(numbers >> point.x >> point.y)) return {};
+    if (double heading = 0; numbers >> heading) point.heading = heading;
+    return point;
+}
+
+// Texts may be rounded to whole millimetres and degrees.
+bool says(pugi::xml_node located, Point const& point) {
+    constexpr double rounded = 1;
+    std::istringstream position{located.child("position").text().get()}, orientation{located.child("orientation").text().get()};
+    double x = 0, y = 0, roll = 0, pitch = 0, yaw = 0;
+    if (!(position >> x >> y) || std::abs(x - point.x) > rounded || std::abs(y - point.y) > rounded) return false;
+    if (!point.heading || !(orientation >> roll >> pitch >> yaw)) return true;
+    return std::abs(std::remainder(yaw - *point.heading, 360)) <= rounded;
+}
+
+std::string written(pugi::xml_node node) {
+    std::ostringstream text;
+    node.print(text, "", pugi::format_raw);
+    return text.str();
 }
 
 }  // namespace
@@ -26,6 +61,7 @@ Traffic::Traffic()
              {"events_are_those_that_were_subscribed", "figure 13; table 6"},
              {"an_event_id_names_one_event", "table 6; decisions 20, 21"},
              {"events_expire_in_the_future", "table 6; decision 21"},
+             {"located_elements_say_what_texts_say", "decision 27; wire.md"},
              {"times_are_utc", "table 6; decision 28"},
              {"nothing_is_sent_outside_of_a_session", "figure 6; decision 3"},
              {"errors_have_details", "figure 7; tables 6, 7; decision 24"}},
@@ -36,6 +72,25 @@ void Traffic::see(std::string const& name, bool holds, std::string const& otherw
     if (rule == rules_.end()) throw std::logic_error{"no rule " + name};
     ++rule->seen;
     if (!holds && rule->objection.empty()) rule->objection = otherwise;
+}
+
+void Traffic::look_at_located(pugi::xml_node results) {
+    for (auto const result : results.children("result")) {
+        std::string_view const frame = result.child("rois:data_type_ref").attribute("rois:codebook_ref").value();
+        std::vector<pugi::xml_node> located;
+        for (auto const one : results.children("located"))
+            if (std::string_view{one.attribute("of").value()} == result.attribute("rois:name").value() &&
+                one.attribute("crs").value() == frame)
+                located.push_back(one);
+        if (located.empty()) continue;
+        for (auto const value : result.children("rois:value")) {
+            auto const said = point_in(value.text().get());
+            if (!said) continue;  // the name of a place
+            auto const fits = [&](auto const one) { return says(one, *said); };
+            see("located_elements_say_what_texts_say", std::ranges::any_of(located, fits),
+                std::string{"no element `located` says \""} + value.text().get() + "\": " + written(results));
+        }
+    }
 }
 
 void Traffic::validate(std::string const& document) {

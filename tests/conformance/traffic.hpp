@@ -28,6 +28,8 @@ public:
 
     // One occasion to see the rule of this name; `otherwise` is kept when it does not hold.
     void see(std::string const& name, bool holds, std::string const& otherwise);
+    // The positions in `results`, as texts and as elements: they say the same.
+    void look_at_located(pugi::xml_node results);
     // A document of the messages' or the profiles' schemas.
     void validate(std::string const& document);
 

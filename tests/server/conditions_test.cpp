@@ -40,6 +40,18 @@ TEST_P(Conditions, FindByPlace) {
     EXPECT_THAT(desk.search(where(related("Beyond", "location", place("cloakroom") + distance("500")))), SizeIs(15));
 }
 
+TEST_P(Conditions, KnowUnitsByTheirNamesInBothSpellings) {
+    for (auto const* unit : {"m", "metre", "meter"})
+        EXPECT_THAT(
+            desk.search(where(related("DWithin", "location",
+                                      place("desk") + "<fes:Distance uom='" + std::string{unit} + "'>50</fes:Distance>"))),
+            SizeIs(15))
+            << unit;
+    EXPECT_THAT(
+        desk.search(where(related("DWithin", "location", place("desk") + "<fes:Distance uom='millimeter'>50</fes:Distance>"))),
+        IsEmpty());
+}
+
 TEST_P(Conditions, NameWhatIsNotKnown) {
     EXPECT_THAT(desk.ask("search", where(related("Within", "location", place("attic")))), IsRefused("BAD_PARAMETER", "'attic'"));
     EXPECT_THAT(desk.ask("search", where(related("Within", "location", box("0 0", "1 1", "urn:atr:def:crs:IDK::01")))),
@@ -57,12 +69,32 @@ TEST_P(Conditions, SortWhatIsFound) {
     EXPECT_THAT(desk.subscribe("person_detected", ordered("", sorted_by("name", "ASC"))), IsRefused("BAD_PARAMETER", "SortBy"));
 }
 
-TEST_P(Conditions, OfTheWrapperOfThePublishedExamples) {
-    auto const wrapped = [](std::string const& inside) {
-        return "<condition xmlns:fes=\"http://www.opengis.net/fes/2.0\" xmlns:unr=\"http://www.irc.atr.jp/std/unr/0.1\">"
-               "<unr:SearchCondition>" +
-               inside + "</unr:SearchCondition></condition>";
+// In the wrapper of the published examples.
+std::string wrapped(std::string const& inside) {
+    return "<condition xmlns:fes=\"http://www.opengis.net/fes/2.0\" xmlns:unr=\"http://www.irc.atr.jp/std/unr/0.1\">"
+           "<unr:SearchCondition>" +
+           inside + "</unr:SearchCondition></condition>";
+}
+
+TEST_P(Conditions, TakeATypeByItsUrnOrItsLastPart) {
+    auto const of_type = [](std::string const& type) { return "<unr:ComponentCondition type=\"" + type + "\"/>"; };
+    auto const in_a_group = [&](std::string const& type) {
+        return "<unr:ComponentGroupCondition>" + of_type(type) + "</unr:ComponentGroupCondition>";
     };
+    for (auto const* type : {"urn:x-rois:def:component:OMG::SpeechSynthesis", "unr:x-rois:def:component:OMG::speechsynthesis",
+                             "SpeechSynthesis", "speechsynthesis"}) {
+        EXPECT_THAT(desk.search(wrapped(of_type(type))), ElementsAre("speech_synthesis")) << type;
+        EXPECT_THAT(desk.search(wrapped(in_a_group(type))), ElementsAre("speech_synthesis")) << type;
+    }
+    EXPECT_THAT(desk.search(wrapped(of_type("Synthesis"))), IsEmpty());
+    EXPECT_EQ(desk.search(wrapped(of_type("Robot"))).size(), desk.search().size());
+    EXPECT_EQ(desk.ask("bind_any", wrapped(of_type("Reaction"))).ref(), "reaction");
+    EXPECT_EQ(desk.subscribe("person_detected", wrapped(of_type("PersonDetection"))).return_code(), "OK");
+    EXPECT_THAT(desk.subscribe("person_detected", wrapped(of_type("Move"))), IsRefused("UNSUPPORTED", ""));
+    EXPECT_EQ(desk.query("component_status", wrapped(of_type("Follow"))).ref(), "follow");
+}
+
+TEST_P(Conditions, OfTheWrapperOfThePublishedExamples) {
     std::string const group =
         "<unr:ComponentGroupCondition types=\"Robot\" aliases=\"a\">" +
         related("Within", "a/Property/location", place("Reception hall")) +

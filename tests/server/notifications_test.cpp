@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+
+#include "client/application.hpp"
 #include "server/http_client.hpp"
 
 namespace rois::test {
@@ -179,6 +182,22 @@ TEST(Link, OfAStreamKeepsTheSession) {
     EXPECT_EQ(stream.next()->id, "1");
     for (int i = 0; i < 2; ++i) EXPECT_THAT(sequences(other.notifications(0, 1)), IsEmpty());  // longer than timeout and window
     EXPECT_EQ(watched.call("get_parameter", component_ref("navigation")).return_code(), "OK");
+}
+
+// Whoever judges a gateway by what does not come, waits for it as long as it says, whichever way.
+TEST(Patience, IsTheSameBothWays) {
+    constexpr std::chrono::seconds patience{2};
+    for (auto const way : client::all_ways) {
+        auto address = shared_gateway().address();
+        address.patience = patience;
+        auto const wire = client::wire_to(address, way);
+        std::vector<std::string> news;
+        wire->use(client::Document{wire->ask(request("connect"), news)}.text("session"));
+        auto const began = std::chrono::steady_clock::now();
+        EXPECT_THROW(wire->wait(news), LineEnded);
+        auto const waited = std::chrono::steady_clock::now() - began;
+        EXPECT_GE(waited, patience - std::chrono::milliseconds{50}) << way;
+    }
 }
 
 }  // namespace

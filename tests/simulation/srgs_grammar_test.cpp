@@ -50,6 +50,15 @@ constexpr std::string_view order =
     "<rule id='drink' scope='public'><one-of><item><token>green tea</token><tag>tea</tag></item>"
     "<item>coffee<tag>coffee</tag></item></one-of></rule>";
 
+TEST(SrgsGrammar, HasEachQuoteClosed) {
+    for (auto const* text : {"to \"new york", "to new york\"", "to new\"york", "\"", "<token>\"new york</token>"}) {
+        auto const rule = "\n<rule id='top'>go " + std::string{text} + "</rule>";
+        EXPECT_THAT(flaw(grammar(rule)), AllOf(StartsWith("grammar:3:"), HasSubstr("quote"))) << text;
+    }
+    EXPECT_EQ(understood("<rule id='top'>go to \"new york\" \"now\"</rule>", "go to New York now"), "go to new york now");
+    EXPECT_EQ(understood("<rule id='top'>go to <token>\"new york\"</token></rule>", "go to New York"), "go to new york");
+}
+
 TEST(SrgsGrammar, UnderstandsWhatItsRulesAllow) {
     EXPECT_EQ(understood(order, "Please, bring me two coffee!"), "please bring me two coffee");
     EXPECT_EQ(understood(order, "bring me a Green Tea"), "bring me a green tea");

@@ -40,6 +40,64 @@ TEST(DataType, IsKnownInAnyCaseAndUnderItsOtherNames) {
         EXPECT_EQ(type(code), type("Stream_Status")) << code;
 }
 
+TEST(DataType, IsKnownAsProgramsAndSchemasCallIt) {
+    for (auto const* code : {"long", "Long", "xsd:int", "xs:integer", "xsd:long", "xs:unsignedInt", "xs:nonNegativeInteger",
+                             "xsd:short", "urn:x-other:types:int", "http://www.w3.org/2001/XMLSchema#int"})
+        EXPECT_EQ(type(code), type("int")) << code;
+    for (auto const* code :
+         {"Float", "float", "Double", "xsd:double", "xs:float", "xsd:decimal", "urn:ogc:def:dataType:OGC::Real"})
+        EXPECT_EQ(type(code), type("double")) << code;
+    for (auto const* code : {"xsd:boolean", "xs:boolean"}) EXPECT_EQ(type(code), type("bool")) << code;
+    for (auto const* code : {"xsd:string", "xs:anyURI", "CharacterString", "xsd:token", "RLS::Data"})
+        EXPECT_EQ(type(code), type("string")) << code;
+    EXPECT_EQ(type("xsd:dateTime"), type("DateTime"));
+    EXPECT_EQ(type("xs:date"), type("Date"));
+    EXPECT_EQ(type("xs:time"), type("Time"));
+}
+
+TEST(DataType, IsAListInAnyForm) {
+    for (auto const* code : {"Set<Integer>", "List<int>", "list< Long >", "Sequence<xsd:int>", "seq<Integer>", "xsd:int[]"})
+        EXPECT_EQ(type(code), type("int[]")) << code;
+    EXPECT_EQ(type("Set<RoIS_Identifier>"), type("RoISIdentifier[]"));
+    EXPECT_EQ(to_text(type("List<Shade>")), "Shade[]");
+    EXPECT_EQ(type("List<List<int>>").base, BaseType::other);
+    EXPECT_EQ(type("Set<>").base, BaseType::other);
+    EXPECT_EQ(type("Map<int>").base, BaseType::other);
+    EXPECT_FALSE(type("Map<int>").list);
+}
+
+TEST(DataType, IsKnownOrIsAnyText) {
+    for (auto const* code : {"int", "Set<Date>", "string[]", "NBestType", "urn:x-rois:def:DataType:OMG::LatticeType"})
+        EXPECT_TRUE(is_known(type(code))) << code;
+    for (auto const* code : {"Shade", "Shade[]", "urn:x-other:Shade", "Map<int>"}) EXPECT_FALSE(is_known(type(code))) << code;
+}
+
+TEST(DataType, WholeNumbersHaveTheRangeOfTheirName) {
+    for (auto const* code : {"UnlimitedNatural", "xsd:nonNegativeInteger", "xs:unsignedInt", "unsignedShort"}) {
+        EXPECT_TRUE(is(code, "0")) << code;
+        EXPECT_FALSE(is(code, "-1")) << code;
+    }
+    EXPECT_EQ(reason("UnlimitedNatural", {"-1"}), "'-1' is not of the type UnlimitedNatural");
+    EXPECT_FALSE(is("UnlimitedNatural[]", "1 -1"));
+    EXPECT_FALSE(is("positiveInteger", "0"));
+    EXPECT_TRUE(is("xsd:long", "9223372036854775807"));
+    EXPECT_FALSE(is("xsd:long", "9223372036854775808"));
+    EXPECT_TRUE(is("unsignedInt", "4294967295"));
+    EXPECT_FALSE(is("unsignedInt", "4294967296"));
+    EXPECT_FALSE(is("short", "32768"));
+    EXPECT_FALSE(is("byte", "-129"));
+}
+
+TEST(DataType, DatesAndTimesOfDayExist) {
+    for (auto const* text : {"2026-11-20", " 2024-02-29 ", "2026-11-20Z", "2026-11-20+09:00"})
+        EXPECT_TRUE(is("Date", text)) << text;
+    for (auto const* text : {"", "2026-02-30", "2026-11", "2026-11-20T12:00:00Z", "2026-11-20z", "20 November"})
+        EXPECT_FALSE(is("Date", text)) << text;
+    for (auto const* text : {"12:00:00", " 23:59:59.5 ", "12:00:00Z", "12:00:00.25-03:30"}) EXPECT_TRUE(is("Time", text)) << text;
+    for (auto const* text : {"", "24:00:00", "12:60:00", "12:00", "12:00:00.", "noon", "2026-11-20T12:00:00Z"})
+        EXPECT_FALSE(is("Time", text)) << text;
+}
+
 TEST(DataType, IsWrittenUnderItsFirstName) {
     EXPECT_EQ(to_text(type("urn:x-rois:def:DataType:ATR::Integer")), "int");
     EXPECT_EQ(to_text(type("REAL[]")), "double[]");

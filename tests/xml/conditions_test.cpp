@@ -253,7 +253,11 @@ TEST(SearchCondition, OfAComponentIsItsTypeItsModeAndItsFilter) {
                          "</unr:ComponentCondition></unr:SearchCondition>");
     };
     auto const any_of = [](std::vector<Condition> all) { return Condition{Or{{Condition{And{std::move(all)}}}}}; };
-    auto const type = equal("component_type", "urn:x-rois:def:component:OMG::Move");
+    auto const of_type = [](std::string type) {
+        return Condition{ComponentGroup{.types = {std::move(type)}, .aliases = {}, .filter = {}, .members = {}}};
+    };
+    auto const type = of_type("urn:x-rois:def:component:OMG::Move");
+    EXPECT_EQ(component("type=' Move '", ""), any_of({of_type("Move")}));
     EXPECT_EQ(component("id='a' type='urn:x-rois:def:component:OMG::Move'", ""), any_of({type}));
     EXPECT_EQ(component("type='unr:x-rois:def:component:OMG::Move'", ""), any_of({type})) << "as the published example spells it";
     EXPECT_EQ(component("mode='exclusive'", ""), any_of({Condition{Not{{equal("status", "BUSY")}}}}));
@@ -275,7 +279,10 @@ TEST(SearchCondition, OfAGroupHasTypesAliasesAFilterAndMembers) {
     EXPECT_THAT(group.types, ElementsAre("Robot", "urn:a:Move"));
     EXPECT_THAT(group.aliases, ElementsAre("a", "b"));
     EXPECT_THAT(group.filter, ElementsAre(equal("status", "READY")));
-    EXPECT_THAT(group.members, ElementsAre(Condition{And{}}, Condition{And{{equal("component_type", "t")}}}));
+    EXPECT_THAT(
+        group.members,
+        ElementsAre(Condition{And{}},
+                    Condition{And{{Condition{ComponentGroup{.types = {"t"}, .aliases = {}, .filter = {}, .members = {}}}}}}));
     EXPECT_THAT(the<ComponentGroup>(read("<unr:ComponentGroupCondition/>")).members, IsEmpty());
     EXPECT_THAT(reason_in(read("<unr:ComponentGroupCondition types='a' aliases='b c'/>")), HasSubstr("aliases"));
 }

@@ -145,6 +145,28 @@ TEST(ProfileOfOthers, MayHaveEmptyDefaultsWhereThereIsNone) {
               "");
 }
 
+TEST(ProfileOfOthers, MayHaveTypesThatNobodyKnows) {
+    auto const read = whole(
+        profile("\n" + message("Event", parameter("Results", "Shade")) + "\n" + parameter("ParameterProfile", "List&lt;Shade>")));
+    EXPECT_THAT(
+        read.warnings,
+        testing::UnorderedElementsAre(
+            testing::MatchesRegex("p.xml:4:[0-9]+: the data type 'Shade' of 'p' is not known: its values are not checked"),
+            testing::MatchesRegex("p.xml:5:[0-9]+: the data type 'List<Shade>' of 'p' is not known: .*")));
+    for (auto const* known : {"xsd:float", "Set&lt;Date>", "UnlimitedNatural", "urn:x-other:int", "NBestType"})
+        EXPECT_THAT(whole(profile(parameter("ParameterProfile", known))).warnings, IsEmpty()) << known;
+}
+
+TEST(ProfileOfOthers, IsRefusedWithADefaultThatIsNotOfItsType) {
+    for (auto const* type : {"Float", "xsd:int", "urn:x-other:int", "UnlimitedNatural", "Boolean", "Date", "xs:time",
+                             "Set&lt;Integer>", "Sequence&lt;xsd:dateTime>"})
+        EXPECT_THAT(refusal(profile("\n" + parameter("ParameterProfile", type, "rois:default_value='-a lot'"))),
+                    AllOf(StartsWith("p.xml:4:1: the default value of 'p': "), HasSubstr("is not of the type")))
+            << type;
+    EXPECT_THAT(refusal(profile("\n" + parameter("ParameterProfile", "UnlimitedNatural", "rois:default_value='-1'"))),
+                StartsWith("p.xml:4:1: the default value of 'p': '-1' is not of the type UnlimitedNatural"));
+}
+
 TEST(ProfileOfOthers, IsRefusedWhereItContradictsItself) {
     EXPECT_THAT(refusal(profile("\n" + parameter("ParameterProfile", "int", "rois:default_value='many'"))),
                 AllOf(StartsWith("p.xml:4:1: "), HasSubstr("'many' is not of the type int")));
