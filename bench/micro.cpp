@@ -238,12 +238,7 @@ ReceiveEvent event() {
     return event;
 }
 
-void encode_head(benchmark::State& state) {
-    Notification const notification{event()};
-    for (auto _ : state) benchmark::DoNotOptimize(xml::notification_head(notification, 12'345));
-}
-
-void encode_tail(benchmark::State& state) {
+void encode_notification(benchmark::State& state) {
     Notification const notification{event()};
     for (auto _ : state) benchmark::DoNotOptimize(xml::notification_tail(notification));
 }
@@ -279,8 +274,7 @@ void register_all(Documents const& documents) {
     benchmark::RegisterBenchmark("filter_compile", [=](benchmark::State& s) { compile_filter(s, conditioned); });
     benchmark::RegisterBenchmark("filter_match", [=](benchmark::State& s) { match_filter(s, conditioned); });
     benchmark::RegisterBenchmark("encode_answer", encode_answer);
-    benchmark::RegisterBenchmark("encode_notification_head", encode_head);
-    benchmark::RegisterBenchmark("encode_notification_tail", encode_tail);
+    benchmark::RegisterBenchmark("encode_notification", encode_notification);
 }
 
 }  // namespace

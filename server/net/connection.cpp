@@ -100,6 +100,7 @@ Connection::Then Connection::take_head() {
     head_text_.assign(wire_.text().substr(0, size));
     wire_.use(size);
     if (auto const fault = read_head(head_text_, settings, head_)) return refuse(*fault);
+    session_.text.assign(head_.field("RoIS-Session").value_or(""));
     return Then::next;
 }
 
@@ -131,7 +132,6 @@ Task<Connection::Then> Connection::receive() {
 }
 
 Answer Connection::operate() {
-    session_.text.assign(head_.field("RoIS-Session").value_or(""));
     auto answer =
         loop_.shared().gateway.answer(loop_.reader(), session_, wire_.text().substr(0, head_.content_length), Via::http);
     wire_.use(head_.content_length);
@@ -184,7 +184,6 @@ Task<Connection::Then> Connection::serve_notifications() {
     if (auto const* fault = std::get_if<Fault>(&read)) co_return reply(answer_of(*fault));
     if (shared.gateway.shutting_down()) co_return reply(answer_of(shutting_down()));
     auto wanted = std::get<NotificationsWanted>(read);
-    session_.text.assign(head_.field("RoIS-Session").value_or(""));
     co_await flush();
     if (wanted.as == NotificationsWanted::As::stream && head_.method == "GET") {
         counted_.emplace(shared.telemetry, Telemetry::Kind::stream);

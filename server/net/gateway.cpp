@@ -83,17 +83,8 @@ Fault shutting_down() { return {FaultCode::shutting_down, "the gateway is shutti
 
 Fault no_such_session() { return {FaultCode::no_session, "there is no such session; connect first", {}, {}}; }
 
-NotificationDocument::NotificationDocument(Numbered const& numbered) {
-    constexpr std::string_view no_sequence = "0\"";  // the end of a head with that sequence
-    auto const whole_without_sequence = [&](Notification const& notification) {
-        auto text = xml::notification_head(notification, 0);
-        text.resize(text.size() - no_sequence.size());
-        return text.append("\"").append(xml::notification_tail(notification));
-    };
-    std::string_view const text = numbered.notification->text(whole_without_sequence);
-    auto const place = text.find('"') + 1;  // the sequence is the first attribute
-    before_ = text.substr(0, place);
-    after_ = text.substr(place);
+NotificationDocument::NotificationDocument(Numbered const& numbered)
+    : before_{xml::notification_head(numbered.notification->body)}, after_{numbered.notification->text(xml::notification_tail)} {
     digits_size_ =
         static_cast<std::size_t>(std::to_chars(digits_.begin(), digits_.end(), numbered.sequence).ptr - digits_.begin());
 }

@@ -53,8 +53,9 @@ private:
 std::string encode(Reply const&, std::string_view request_id);
 std::string encode(Fault const&);
 
-// A notification's document is `head(n, sequence) + tail(n)`: the tail is the same for all its receivers.
-std::string notification_head(Notification const&, std::uint64_t sequence);
+// A notification's document is `head(n)`, the digits of its sequence and `tail(n)`: but for the digits it is the same for all its
+// receivers. The head is a text of the program.
+std::string_view notification_head(Notification const&);
 std::string notification_tail(Notification const&);
 
 // The document that `/rois/notifications` answers: `<notifications>` with the given documents inside.

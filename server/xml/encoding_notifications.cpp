@@ -7,11 +7,11 @@ namespace rois::xml {
 
 namespace {
 
-constexpr std::string_view root_of(ReceiveEvent const&) { return "receive_event"; }
-constexpr std::string_view root_of(ReceiveError const&) { return "receive_error"; }
-constexpr std::string_view root_of(Completed const&) { return "completed"; }
-constexpr std::string_view root_of(Lost const&) { return "lost"; }
-constexpr std::string_view root_of(ProfileChanged const&) { return "profile_changed"; }
+constexpr std::string_view head_of(ReceiveEvent const&) { return R"(<receive_event sequence=")"; }
+constexpr std::string_view head_of(ReceiveError const&) { return R"(<receive_error sequence=")"; }
+constexpr std::string_view head_of(Completed const&) { return R"(<completed sequence=")"; }
+constexpr std::string_view head_of(Lost const&) { return R"(<lost sequence=")"; }
+constexpr std::string_view head_of(ProfileChanged const&) { return R"(<profile_changed sequence=")"; }
 
 void write(Writer& out, ReceiveEvent const& event) {
     declare_rois(out);
@@ -35,27 +35,25 @@ void write(Writer& out, Lost const& lost) { out.attribute("count", lost.count); 
 
 void write(Writer&, ProfileChanged const&) {}
 
-std::string_view root_of(Notification const& notification) {
-    return std::visit([](auto const& each) { return root_of(each); }, notification);
-}
-
 }  // namespace
 
-std::string notification_head(Notification const& notification, std::uint64_t sequence) {
-    std::string text;
-    Writer{text}.start(root_of(notification)).attribute("sequence", sequence);
-    return text;
+std::string_view notification_head(Notification const& notification) {
+    return std::visit([](auto const& each) { return head_of(each); }, notification);
 }
 
-// Written whole, without the beginning that the head has.
+// Written whole, then without the beginning that the head has; the quote that ends the sequence takes the place of its last
+// letter.
 std::string notification_tail(Notification const& notification) {
+    auto const head = notification_head(notification);
+    auto const root = head.substr(1, head.find(' ') - 1);
     std::string text;
     Writer out{text};
-    auto const root = root_of(notification);
     out.start(root).attribute("xmlns", message_namespace);
     std::visit([&](auto const& each) { write(out, each); }, notification);
     out.end();
-    return text.erase(0, root.size() + 1);
+    text.erase(0, root.size());
+    text.front() = '"';
+    return text;
 }
 
 std::string notifications_begin() {

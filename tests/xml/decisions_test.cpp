@@ -124,7 +124,7 @@ TEST(Decision29, SequencesOfAllVersionsAreRead) {
 
 TEST(Decision29, NotificationsHaveTheNamesOfTheSeed) {
     auto const written = [](Notification const& notification) {
-        return notification_head(notification, 1) + notification_tail(notification);
+        return std::string{notification_head(notification)} + "1" + notification_tail(notification);
     };
     EXPECT_THAT(written(ReceiveEvent{{"e-1"}, "seen", {"s-1"}, {}, {"lamp", {}, {}, {}}, {}}), StartsWith("<receive_event "));
     EXPECT_THAT(written(ReceiveError{{"x-1"}, ErrorType::user_defined_error, {}}), StartsWith("<receive_error "));
