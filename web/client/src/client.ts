@@ -1,0 +1,387 @@
+// A service application's side of the RoIS interfaces (tables 2 to 6).
+import { component_ref_of, identifier_of, parameter_of, profile_of, results_of, trouble_of } from './answers.js';
+import { type CommandUnit, commands_of, named } from './commands.js';
+import { all_of, component_type, property } from './conditions.js';
+import { RoisError } from './errors.js';
+import { Commands, Execution } from './execution.js';
+import { Link, type LinkSettings, type State } from './link.js';
+import { Listeners } from './listeners.js';
+import type { Gap, Notification } from './messages.js';
+import type { Profile } from './profiles.js';
+import { component_ref_xml, condition_xml, type Operation, parameter_xml, sequence_xml, type Writable } from './requests.js';
+import type { OpenSocket } from './socket.js';
+import { Stream } from './stream.js';
+import { Subscription, Subscriptions, type Wanted } from './subscriptions.js';
+import { type Arguments, code_of, type Identifier, parameters_of, type Ref, Results } from './values.js';
+import { element, text_element, type XmlElement } from './xml.js';
+
+/** How a client behaves; all of it may be left out. */
+export interface ClientOptions {
+  /** Sent as the second subprotocol, since a page cannot set headers. */
+  token?: string;
+  /** ms that a call takes at most, unless it says otherwise: 10,000. */
+  deadline?: number;
+  /** ms of silence after which the gateway is asked whether it lives: 10,000. The link is given up after as many again. */
+  heartbeat?: number;
+  /** ms before the first new try after a loss: 100. Doubled with each further one, and cut at random by up to a half. */
+  first_delay?: number;
+  /** ms between two tries at most: 5,000. */
+  most_delay?: number;
+  /** How many notifications wait in a stream that nobody reads: 10,000. Then the oldest go, and the gap is told. */
+  buffer?: number;
+  /** 0 to 1, for the delays. */
+  random?: () => number;
+}
+
+/** What a call may say. */
+export interface CallOptions {
+  deadline?: number; // ms
+}
+
+export interface SubscribeOptions extends CallOptions {
+  condition?: Writable;
+  /** Whether events bring their results along: true. */
+  inline_results?: boolean;
+}
+
+/** How the link has turned, and why: empty when it is open. */
+export interface StateChange {
+  state: State;
+  reason: string;
+}
+
+/** What a client tells those who listen with `on`. */
+export interface ClientNews {
+  state: StateChange;
+  gap: Gap;
+  notification: Notification;
+  /** Every document, as it goes in and out. */
+  document: { direction: 'in' | 'out'; text: string };
+}
+
+const close_within = 3000; // ms
+const without_end = 2 ** 31 - 1; // ms; the longest that a timer takes
+
+export class Client {
+  private readonly listeners = new Listeners<ClientNews>();
+  private readonly link: Link;
+  private readonly buffer: number;
+  private readonly commands = new Commands();
+  private readonly subscriptions = new Subscriptions();
+  private readonly streams = new Set<Stream<Notification>>();
+  private readonly bound = new Set<string>();
+  private readonly prefix = Math.random().toString(36).slice(2, 8); // of command ids: several clients may share a session
+  private next_command = 1;
+
+  /** Does not connect; `connect` of the package does both. */
+  constructor(url: string, options: ClientOptions, open_socket: OpenSocket) {
+    this.buffer = options.buffer ?? 10_000;
+    const settings: LinkSettings = {
+      url: socket_url(url),
+      deadline: options.deadline ?? 10_000,
+      heartbeat: options.heartbeat ?? 10_000,
+      first_delay: options.first_delay ?? 100,
+      most_delay: options.most_delay ?? 5000,
+      random: options.random ?? Math.random,
+      open_socket,
+    };
+    if (options.token !== undefined) settings.token = options.token;
+    this.link = new Link(settings, {
+      state_changed: (state, reason) => this.listeners.tell('state', { state, reason }),
+      session_began: () => this.restore(),
+      session_ended: (error) => this.ended(error),
+      notified: (notification) => this.notified(notification),
+      missed: (gap) => this.listeners.tell('gap', gap),
+      document: (direction, text) => this.listeners.tell('document', { direction, text }),
+    });
+  }
+
+  /** Begins to connect, and waits for the session. Rejects with `unreachable`, and is closed then. */
+  start(deadline = 10_000): Promise<void> {
+    return new Promise((resolve, reject) => {
+      let reason = 'no answer';
+      const stop = this.on('state', (change) => {
+        if (change.state === 'connecting') reason = change.reason;
+        if (change.state === 'connecting') return;
+        clearTimeout(timer);
+        stop();
+        if (change.state === 'closed') reject(new RoisError('unreachable', change.reason));
+        else resolve();
+      });
+      const timer = setTimeout(() => this.link.finish(new RoisError('unreachable', `no session within ${deadline} ms: ${reason}`)), deadline);
+      this.link.start();
+    });
+  }
+
+  // --- The link ---
+
+  get state(): State {
+    return this.link.current_state;
+  }
+
+  /** The session's id; empty while there is none. */
+  get session(): string {
+    return this.link.session_id;
+  }
+
+  /** Tells of each piece of news; gives the function that ends it. */
+  on<Kind extends keyof ClientNews>(kind: Kind, listener: (news: ClientNews[Kind]) => void): () => void {
+    return this.listeners.add(kind, listener);
+  }
+
+  /** All notifications from now on, until the client is closed or the stream is ended. */
+  notifications(): Stream<Notification> {
+    const stream = new Stream<Notification>(this.buffer, (count) => this.dropped(count));
+    this.streams.add(stream);
+    return stream;
+  }
+
+  /** `disconnect`: ends the session, and the client with it. A link that is lost is waited for, 3 s unless the options say otherwise. */
+  close(options: CallOptions = {}): Promise<void> {
+    return this.link.close(options.deadline ?? close_within);
+  }
+
+  /**
+   * Sends any document and gives the answer, whatever it says: a response or a fault. It is not repeated when the link breaks. A
+   * `disconnect` closes the client; `resume` is the client's own business and refused.
+   */
+  async send(text: string, options: CallOptions = {}): Promise<XmlElement> {
+    if (/<(?:[^\s<>/:]+:)?resume[\s/>]/.test(text)) throw new RoisError('invalid', 'a client resumes its session by itself');
+    return this.link.send(text, options.deadline);
+  }
+
+  // --- System interface (table 2) ---
+
+  get_profile(condition?: Writable, options: CallOptions = {}): Promise<Profile> {
+    return this.ask('get_profile', () => condition_xml(condition), options, profile_of);
+  }
+
+  get_error_detail(error_id: string, condition?: Writable, options: CallOptions = {}): Promise<Results> {
+    return this.ask('get_error_detail', () => text_element('error_id', error_id) + condition_xml(condition), options, results_of);
+  }
+
+  // --- Command interface (table 3) ---
+
+  search(condition?: Writable, options: CallOptions = {}): Promise<Identifier[]> {
+    return this.ask('search', () => condition_xml(condition), options, (answer) =>
+      (answer.child('component_ref_list')?.all('component_ref') ?? []).map(identifier_of),
+    );
+  }
+
+  bind(component_ref: Ref, options: CallOptions = {}): Promise<void> {
+    return this.ask('bind', () => component_ref_xml(component_ref), options, () => void this.bound.add(code_of(component_ref)));
+  }
+
+  /** Binds any component that meets the condition, or any of the type that is named. One that this session has already may be the answer. */
+  async bind_any(condition?: Writable | string, options: CallOptions = {}): Promise<Identifier> {
+    const meant = typeof condition === 'string' ? component_type(condition) : condition;
+    const deadline = this.deadline_of(options);
+    for (;;) {
+      try {
+        return await this.ask('bind_any', () => condition_xml(meant), deadline(), (answer) => this.taken(component_ref_of(answer)), false);
+      } catch (error) {
+        if (!is_failure(error, 'link_lost')) throw error;
+        const mine = await this.bound_unawares(meant, deadline());
+        if (mine) return this.taken(mine);
+      }
+    }
+  }
+
+  release(component_ref: Ref, options: CallOptions = {}): Promise<void> {
+    return this.ask('release', () => component_ref_xml(component_ref), options, () => void this.bound.delete(code_of(component_ref)));
+  }
+
+  get_parameter(component_ref: Ref, options: CallOptions = {}): Promise<Results> {
+    return this.ask('get_parameter', () => component_ref_xml(component_ref), options, (answer) => new Results((answer.child('parameters')?.all('parameter') ?? []).map(parameter_of)));
+  }
+
+  set_parameter(component_ref: Ref, parameters: Arguments, options: CallOptions = {}): Promise<Execution> {
+    const list = () => element('parameters', {}, ...parameters_of(parameters).map((one) => parameter_xml(one)));
+    return this.ask('set_parameter', () => component_ref_xml(component_ref) + list(), options, (answer) => {
+      const id = answer.text_of('command_id');
+      return new Execution([id], [this.commands.expect(id)]);
+    });
+  }
+
+  /**
+   * Sends commands. Those without a name get one, by which the client finds out after a broken link whether they were accepted: they are
+   * executed once, or not at all.
+   */
+  async execute(units: readonly CommandUnit[], options: CallOptions = {}): Promise<Execution> {
+    const sequence = named(units, () => `${this.prefix}-${this.next_command++}`);
+    const ids = commands_of(sequence).map((one) => one.command_id);
+    const fresh = ids.filter((id) => !this.commands.is_used(id));
+    const ends = ids.map((id) => this.commands.expect(id));
+    try {
+      await this.execute_once(() => sequence_xml(sequence), fresh[0], this.deadline_of(options));
+    } catch (error) {
+      this.commands.forget(fresh);
+      throw error;
+    }
+    this.commands.use(ids);
+    return new Execution(ids, ends);
+  }
+
+  get_command_result(command_id: string, condition?: Writable, options: CallOptions = {}): Promise<Results> {
+    return this.ask('get_command_result', () => text_element('command_id', command_id) + condition_xml(condition), options, results_of);
+  }
+
+  // --- Query interface (table 4) ---
+
+  /** Asks the engine, or a component that meets the condition. The results name it. */
+  query(query_type: string, condition?: Writable, options: CallOptions = {}): Promise<{ component_ref: Identifier; results: Results }> {
+    return this.ask('query', () => text_element('query_type', query_type) + condition_xml(condition), options, (answer) => ({
+      component_ref: component_ref_of(answer),
+      results: results_of(answer),
+    }));
+  }
+
+  // --- Event interface (table 5) ---
+
+  subscribe(event_type: string, options: SubscribeOptions = {}): Promise<Subscription> {
+    const wanted: Wanted = { event_type, condition: options.condition, inline_results: options.inline_results ?? true };
+    const subscription = new Subscription(
+      wanted,
+      this.buffer,
+      (count) => this.dropped(count),
+      (one) => this.leave(one),
+    );
+    return this.ask_to_subscribe(subscription, options);
+  }
+
+  get_event_detail(event_id: string, condition?: Writable, options: CallOptions = {}): Promise<Results> {
+    return this.ask('get_event_detail', () => text_element('event_id', event_id) + condition_xml(condition), options, results_of);
+  }
+
+  // --- Inside ---
+
+  private ask<T>(operation: Operation, content: () => string, options: CallOptions, read: (answer: XmlElement) => T, repeatable = true): Promise<T> {
+    return this.asked(operation, {}, content, options, read, repeatable);
+  }
+
+  private asked<T>(
+    operation: Operation,
+    attributes: Record<string, boolean>,
+    content: () => string,
+    { deadline }: CallOptions,
+    read: (answer: XmlElement) => T,
+    repeatable: boolean,
+  ): Promise<T> {
+    const checked = (answer: XmlElement) => {
+      const trouble = trouble_of(answer);
+      if (trouble) throw trouble;
+      return read(answer);
+    };
+    return this.link.ask(operation, attributes, content, { deadline, repeatable, read: checked });
+  }
+
+  // What is left of the time of a call that takes several requests.
+  private deadline_of({ deadline }: CallOptions): () => CallOptions {
+    if (deadline === undefined) return () => ({});
+    const end = performance.now() + deadline;
+    return () => ({ deadline: Math.max(0, end - performance.now()) });
+  }
+
+  private async execute_once(sequence: () => string, id: string | undefined, deadline: () => CallOptions): Promise<void> {
+    for (let sent = 1; ; ++sent) {
+      try {
+        return await this.ask('execute', sequence, deadline(), () => undefined, false);
+      } catch (error) {
+        const refused = is_failure(error, 'refused');
+        const unsure = is_failure(error, 'link_lost') || (refused && sent > 1);
+        if (!unsure || id === undefined) throw error;
+        if (await this.is_known(id, deadline())) return;
+        if (refused) throw error;
+      }
+    }
+  }
+
+  private is_known(command_id: string, options: CallOptions): Promise<boolean> {
+    return this.get_command_result(command_id, undefined, options).then(
+      () => true,
+      (error: unknown) => {
+        if (is_failure(error, 'refused')) return false;
+        throw error;
+      },
+    );
+  }
+
+  // What a bind_any whose answer was lost has bound: meets the condition, is this session's, and we do not know of it.
+  private async bound_unawares(condition: Writable | undefined, options: CallOptions): Promise<Identifier | undefined> {
+    const is_mine = all_of(property('bound').equals('true'), property('status').differs_from('BUSY'));
+    const [meant, mine] = await Promise.all([this.search(condition, options), this.search(is_mine, options)]);
+    return meant.find(({ code }) => mine.some((one) => one.code === code) && !this.bound.has(code));
+  }
+
+  private taken(component: Identifier): Identifier {
+    this.bound.add(component.code);
+    return component;
+  }
+
+  private ask_to_subscribe(subscription: Subscription, options: CallOptions): Promise<Subscription> {
+    const { event_type, condition, inline_results } = subscription.wanted;
+    const content = () => text_element('event_type', event_type) + condition_xml(condition);
+    return this.asked('subscribe', { inline_results }, content, options, (answer) => {
+      this.subscriptions.add(subscription, answer.text_of('subscribe_id'));
+      return subscription;
+    }, true);
+  }
+
+  private async leave(subscription: Subscription): Promise<void> {
+    const { subscribe_id } = subscription;
+    if (!this.subscriptions.remove(subscription)) return;
+    await this.ask('unsubscribe', () => text_element('subscribe_id', subscribe_id), {}, () => undefined).catch((error: unknown) => {
+      if (!is_failure(error, 'session_lost') && !is_failure(error, 'closed')) throw error;
+    });
+  }
+
+  // In a new session: all subscriptions, each once. When this session is lost, too, the next one restores them.
+  private restore(): void {
+    for (const subscription of this.subscriptions.list())
+      this.ask_to_subscribe(subscription, { deadline: without_end }).catch((error: unknown) => {
+        if (is_failure(error, 'session_lost') || is_failure(error, 'closed')) return;
+        this.subscriptions.remove(subscription);
+        subscription.end(error);
+      });
+  }
+
+  private ended(error: RoisError): void {
+    this.commands.fail(error);
+    this.bound.clear();
+    this.subscriptions.forget_ids();
+    if (error.failure === 'session_lost') return;
+    for (const stream of [...this.subscriptions.list(), ...this.streams]) stream.end();
+    this.streams.clear();
+  }
+
+  private notified(notification: Notification): void {
+    if (notification.name === 'completed') this.commands.completed(notification);
+    if (notification.name === 'receive_event') this.subscriptions.tell(notification);
+    for (const stream of this.streams) {
+      if (stream.ended) this.streams.delete(stream);
+      else stream.push(notification);
+    }
+    this.listeners.tell('notification', notification);
+  }
+
+  private dropped(count: number): void {
+    this.listeners.tell('gap', { reason: 'buffer', count });
+  }
+}
+
+function is_failure(error: unknown, failure: RoisError['failure']): error is RoisError {
+  return error instanceof RoisError && error.failure === failure;
+}
+
+// http(s)://host[/path] or ws(s)://...: the WebSocket's address below it.
+function socket_url(url: string): string {
+  let at: URL;
+  try {
+    at = new URL(url);
+  } catch {
+    throw new RoisError('invalid', `'${url}' is no URL`);
+  }
+  if (!/^(https?|wss?):$/.test(at.protocol)) throw new RoisError('invalid', `a gateway is not reached by ${at.protocol}`);
+  const path = at.pathname.replace(/\/+$/, '');
+  return `${at.protocol.replace('http', 'ws')}//${at.host}${path.endsWith('/rois') ? path : `${path}/rois`}`;
+}

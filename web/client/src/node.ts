@@ -1,0 +1,12 @@
+// The package in Node.
+import { Client, type ClientOptions } from './client.js';
+import { open_node_socket } from './node_socket.js';
+
+export * from './index.js';
+
+/** Connects to the gateway at this URL. Rejects with RoisError `unreachable`. */
+export async function connect(url: string = 'http://127.0.0.1:8080', options: ClientOptions = {}): Promise<Client> {
+  const client = new Client(url, options, open_node_socket);
+  await client.start(options.deadline);
+  return client;
+}

@@ -1,0 +1,116 @@
+// A WebSocket over Node's own HTTP: Node 18 brings none.
+import { createHash, randomBytes } from 'node:crypto';
+import { type ClientRequest, type IncomingMessage, request as http_request } from 'node:http';
+import { request as https_request } from 'node:https';
+import type { Duplex } from 'node:stream';
+
+import { frame, FrameError, FrameReader, Opcode } from './node_frames.js';
+import { type OpenSocket, type Socket, type SocketEnd, type SocketListener, subprotocol } from './socket.js';
+
+const most_refusal = 64 * 1024; // bytes of a refusal that are read
+const close_within = 2000; // ms for the other side to end a link that we have ended
+
+class NodeSocket implements Socket {
+  private readonly request: ClientRequest;
+  private readonly key = randomBytes(16).toString('base64');
+  private stream: Duplex | undefined;
+  private told = true;
+
+  constructor(
+    url: string,
+    subprotocols: string[],
+    private readonly listener: SocketListener,
+  ) {
+    const target = new URL(url.replace(/^ws/, 'http'));
+    this.request = (target.protocol === 'https:' ? https_request : http_request)(target, {
+      agent: false,
+      headers: {
+        Connection: 'Upgrade',
+        Upgrade: 'websocket',
+        'Sec-WebSocket-Version': '13',
+        'Sec-WebSocket-Key': this.key,
+        'Sec-WebSocket-Protocol': subprotocols.join(', '),
+      },
+    });
+    this.request.on('upgrade', (answer, stream, head) => this.shaken(answer, stream, head));
+    this.request.on('response', (answer) => this.refused(answer));
+    this.request.on('error', (error) => this.end({ reason: error.message, final: false }));
+    this.request.end();
+  }
+
+  send(text: string): void {
+    this.stream?.write(frame(Opcode.text, Buffer.from(text)));
+  }
+
+  close(): void {
+    this.told = false;
+    const stream = this.stream;
+    if (stream === undefined) {
+      this.request.destroy();
+      return;
+    }
+    stream.end(frame(Opcode.close, Buffer.from([0x03, 0xe8])));
+    const patience = setTimeout(() => stream.destroy(), close_within);
+    stream.once('close', () => clearTimeout(patience));
+  }
+
+  private shaken(answer: IncomingMessage, stream: Duplex, head: Buffer): void {
+    stream.on('error', (error) => this.end({ reason: error.message, final: false }));
+    if (!this.told) {
+      stream.destroy();
+      return;
+    }
+    const accept = createHash('sha1').update(`${this.key}258EAFA5-E914-47DA-95CA-C5AB0DC85B11`).digest('base64');
+    if (answer.headers['sec-websocket-accept'] !== accept || answer.headers['sec-websocket-protocol'] !== subprotocol) {
+      stream.destroy();
+      this.end({ reason: `this is no gateway that speaks ${subprotocol}`, final: true });
+      return;
+    }
+    this.stream = stream;
+    const reader = new FrameReader({
+      text: (message) => this.told && this.listener.received(message),
+      ping: (payload) => stream.write(frame(Opcode.pong, payload)),
+      close: (code, reason) => {
+        stream.end(frame(Opcode.close, Buffer.alloc(0)));
+        this.end({ reason: `the gateway closed the link with ${code ?? 'no code'}${reason && `, ${reason}`}`, final: false });
+      },
+    });
+    const feed = (bytes: Buffer) => {
+      try {
+        reader.feed(bytes);
+      } catch (error) {
+        if (!(error instanceof FrameError)) throw error;
+        stream.end(frame(Opcode.close, Buffer.from([error.code >> 8, error.code & 255])));
+        stream.removeListener('data', feed);
+        stream.resume();
+        this.end({ reason: `the gateway breaks the WebSocket protocol: ${error.message}`, final: false });
+      }
+    };
+    stream.on('close', () => this.end({ reason: 'the link broke', final: false }));
+    stream.on('end', () => stream.end());
+    this.listener.opened();
+    if (head.length > 0) feed(head);
+    stream.on('data', feed);
+  }
+
+  // An answer without an upgrade: its status and the fault in it say why.
+  private refused(answer: IncomingMessage): void {
+    let text = '';
+    answer.setEncoding('utf8');
+    answer.on('data', (piece: string) => {
+      if (text.length < most_refusal) text += piece;
+    });
+    answer.on('close', () => {
+      const status = answer.statusCode ?? 0;
+      const later = status === 408 || status === 429 || status >= 500;
+      this.end({ reason: `the gateway answered ${status}: ${text.trim()}`, final: !later });
+    });
+  }
+
+  private end(end: SocketEnd): void {
+    if (this.told) this.listener.ended(end);
+    this.told = false;
+  }
+}
+
+export const open_node_socket: OpenSocket = (url, subprotocols, listener) => new NodeSocket(url, subprotocols, listener);

@@ -1,0 +1,26 @@
+// What a link needs of a WebSocket: the browser's own or that of node_socket.ts.
+
+/** Why a socket could not be opened, or ended. */
+export interface SocketEnd {
+  reason: string;
+  /** The other side has said that it will not have us, and says so again when asked again. */
+  final: boolean;
+}
+
+/** What a socket tells, in this order: `opened` once, `received` for each text, `ended` once; only `ended` when it does not open. */
+export interface SocketListener {
+  opened(): void;
+  received(text: string): void;
+  ended(end: SocketEnd): void;
+}
+
+export interface Socket {
+  send(text: string): void;
+  /** Ends it; nothing is told any more. */
+  close(): void;
+}
+
+/** Begins to open a socket; never throws, and tells nothing before it has returned. */
+export type OpenSocket = (url: string, subprotocols: string[], listener: SocketListener) => Socket;
+
+export const subprotocol = 'rois.xml.v1';

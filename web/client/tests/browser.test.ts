@@ -1,0 +1,60 @@
+// What is different in a browser. That it misses nothing there either: endurance.test.ts.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { Gateway, root } from './gateway.js';
+import { bring_client, in_chromium } from './page.js';
+
+const flags = ['--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '100'];
+
+test('a page speaks to the gateway that serves it, without a URL', () =>
+  in_chromium(async (page) => {
+    const gateway = await Gateway.start(...flags);
+    await bring_client(page, gateway.url);
+    const came = await page.evaluate(async () => {
+      const { connect, Navigation, component_type, distance }: typeof import('rois-client') = await import(`${location.origin}/dist/browser.js`);
+      const client = await connect(undefined, { token: 'a secret' });
+      const documents: string[] = [];
+      client.on('document', ({ direction, text }) => documents.push(`${direction} ${text.slice(0, 30)}`));
+      const navigation = await Navigation.bind_any(client);
+      const targets = await navigation.subscribe('reached_target');
+      const status = await navigation.go_to({ x: 6500, y: 6000, th: 0 });
+      const event = await targets.next(5000);
+      const profile = await client.get_profile(component_type('Move').sorted_by(distance('location', 'desk')));
+      const fault = await client.send('<bind').then((answer) => answer.attribute('code'));
+      const refusal = await client.bind('elevator').catch((error) => [error.name, error.failure, error.return_code]);
+      await client.close();
+      return { status, target: event?.results.text('target'), components: profile.components, fault, refusal, state: client.state, first: documents[0] };
+    });
+    assert.deepEqual(came, {
+      status: 'OK',
+      target: '6500, 6000, 0',
+      components: [{ ref: 'move', type: 'urn:x-rois:def:component:OMG::Move', engine: 'reception' }],
+      fault: 'not_well_formed',
+      refusal: ['RoisError', 'refused', 'BAD_PARAMETER'],
+      state: 'closed',
+      first: 'out <bind_any xmlns="urn:x-rois:ps',
+    });
+    await gateway.stop();
+  }));
+
+test('a page of another server needs the consent of the gateway', () =>
+  in_chromium(async (page) => {
+    const try_it = (url: string) =>
+      page.evaluate(async (to) => {
+        const { connect } = await import('rois-client');
+        return connect(to, { deadline: 500, first_delay: 50 }).then(
+          async (client) => {
+            await client.close();
+            return 'welcome';
+          },
+          (error: { failure: string }) => error.failure,
+        );
+      }, url);
+    const closed = await Gateway.start(...flags);
+    assert.equal(await try_it(closed.url), 'unreachable');
+    await closed.stop();
+    const open = await Gateway.start(...flags, '--allowed-origins', new URL(page.url()).origin);
+    assert.equal(await try_it(open.url), 'welcome');
+    await open.stop();
+  }));

@@ -1,0 +1,55 @@
+// The real program, run by a test.
+import { type ChildProcess, spawn } from 'node:child_process';
+import { createServer } from 'node:net';
+import { dirname, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+/** The project's root. Compiled, this file is web/client/build/tests/gateway.js. */
+export const root = resolve(dirname(fileURLToPath(import.meta.url)), '../../../..');
+
+const program = resolve(process.env['ROIS_BINARY_DIR'] ?? `${root}/build/release`, 'bin/rois-gateway');
+
+export class Gateway {
+  private constructor(
+    private readonly process: ChildProcess,
+    readonly url: string,
+  ) {}
+
+  /** Waits until it listens, on a free port of the loopback unless the arguments say another. */
+  static async start(...flags: string[]): Promise<Gateway> {
+    const listen = flags.includes('--listen') ? [] : ['--listen', '127.0.0.1:0'];
+    const child = spawn(program, [...listen, ...flags], { stdio: ['ignore', 'ignore', 'pipe'] });
+    let log = '';
+    const url = await new Promise<string>((found, failed) => {
+      child.on('error', failed);
+      child.on('exit', (code) => failed(new Error(`the gateway ended with ${code}: ${log}`)));
+      child.stderr!.setEncoding('utf8').on('data', (text: string) => {
+        if (log.length < 10_000) log += text;
+        const at = /listening on (\S+)\s/.exec(log);
+        if (at) found(at[1]!);
+      });
+    });
+    return new Gateway(child, url);
+  }
+
+  get port(): number {
+    return Number(new URL(this.url).port);
+  }
+
+  /** Ends it as an operator does; with SIGKILL, as a fault of the machine does. */
+  async stop(signal: 'SIGTERM' | 'SIGKILL' = 'SIGTERM'): Promise<void> {
+    if (this.process.exitCode !== null || this.process.signalCode !== null) return;
+    const ended = new Promise((resolve) => this.process.once('exit', resolve));
+    this.process.kill(signal);
+    await ended;
+  }
+}
+
+/** A port that was free a moment ago. */
+export async function free_port(): Promise<number> {
+  const server = createServer().listen(0, '127.0.0.1');
+  await new Promise((resolve) => server.once('listening', resolve));
+  const { port } = server.address() as { port: number };
+  await new Promise((resolve) => server.close(resolve));
+  return port;
+}

@@ -1,0 +1,36 @@
+// The modules of the client know only those below them.
+import assert from 'node:assert/strict';
+import { readdirSync, readFileSync } from 'node:fs';
+import { test } from 'node:test';
+
+import { root } from './gateway.js';
+
+const source = `${root}/web/client/src`;
+
+// From the bottom up; those of one line do not know each other.
+const layers = [
+  ['errors', 'xml', 'stream', 'listeners', 'socket', 'node_frames'],
+  ['browser_socket', 'node_socket', 'values'],
+  ['commands', 'conditions', 'profiles', 'messages'],
+  ['requests', 'execution'],
+  ['answers', 'subscriptions'],
+  ['link'],
+  ['client'],
+  ['components'],
+  ['index'],
+  ['browser', 'node'],
+];
+const libraries: Record<string, RegExp> = { node_frames: /^node:crypto$/, node_socket: /^node:(crypto|http|https|stream)$/ };
+
+test('every module is in a layer, and looks down', () => {
+  const modules = readdirSync(source).map((file) => file.replace(/\.ts$/, ''));
+  assert.deepEqual([...modules].sort(), layers.flat().sort());
+  for (const module of modules) {
+    const below = layers.slice(0, layers.findIndex((layer) => layer.includes(module))).flat();
+    for (const [, from] of readFileSync(`${source}/${module}.ts`, 'utf8').matchAll(/ from '([^']+)';/g)) {
+      const own = /^\.\/(.*)\.js$/.exec(from!)?.[1];
+      if (own === undefined) assert.match(from!, libraries[module] ?? /^$/, `${module} may not see ${from}`);
+      else assert.ok(below.includes(own), `${module} may not see ${own}`);
+    }
+  }
+});

@@ -1,0 +1,36 @@
+// The reception scenario in each language, played on the same simulated day: the histories are the same.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { test } from 'node:test';
+
+import { Gateway, root } from './gateway.js';
+import { output_of } from './program.js';
+
+const data = `${root}/tests/server/data`;
+const history = readFileSync(`${data}/three_visitors.txt`, 'utf8');
+
+const programs: [name: string, source: string, command: string[]][] = [
+  ['TypeScript', 'web/client/examples/reception.ts', [process.execPath, `${root}/web/client/build/examples/reception.js`]],
+  ['Python', 'docs/examples/reception.py', ['python3', `${root}/docs/examples/reception.py`]],
+  ['a shell with curl', 'docs/examples/reception.sh', ['sh', `${root}/docs/examples/reception.sh`]],
+];
+
+test('the reception has one history', { concurrency: true }, async (all) => {
+  await Promise.all(
+    programs.map(([name, , command]) =>
+      all.test(`in ${name}`, async () => {
+        const gateway = await Gateway.start('--floor-plan', `${data}/watchful_hall.xml`, '--scenario', `${data}/three_visitors.xml`, '--sim-speed', '20', '--seed', '7');
+        try {
+          assert.equal(await output_of([...command, '3'], gateway.url), history);
+        } finally {
+          await gateway.stop();
+        }
+      }),
+    ),
+  );
+});
+
+test('the reception is shorter than 100 lines', () => {
+  for (const [, source] of programs.filter(([name]) => name !== 'a shell with curl'))
+    assert.ok(readFileSync(`${root}/${source}`, 'utf8').split('\n').length - 1 < 100, source);
+});

@@ -1,0 +1,90 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { parse_xml, type Parameter, pose_of, pose_text, Results, results_of, Stream, value } from 'rois-client';
+
+const one = (name: string, code: string, ...values: string[]): Parameter => ({ name, data_type_ref: { code }, values });
+
+test('values are written as their types want', () => {
+  assert.deepEqual(value.int(-3.7).values, ['-3']);
+  assert.deepEqual(value.double(0.5).values, ['0.5']);
+  assert.deepEqual([NaN, Infinity, -Infinity].map((n) => value.double(n).values[0]), ['NaN', 'INF', '-INF']);
+  assert.deepEqual(value.bool(false).values, ['false']);
+  assert.deepEqual(value.date_time(new Date(0)).values, ['1970-01-01T00:00:00.000Z']);
+  assert.deepEqual(value.ints([1, -2]), { data_type_ref: { code: 'int[]' }, values: ['1 -2'] });
+  assert.deepEqual(value.bools([true, false]).values, ['true false']);
+  assert.deepEqual(value.strings([]), { data_type_ref: { code: 'string[]' }, values: [] });
+  assert.deepEqual(value.identifier({ code: 'wave', codebook_ref: 'urn:g' }), {
+    data_type_ref: { code: 'RoISIdentifier', codebook_ref: 'urn:g' },
+    values: ['wave'],
+  });
+});
+
+test('results are read as what they are', () => {
+  const results = new Results([
+    one('number', 'int', ' 3 '),
+    one('Names', 'string[]', 'a b', 'c'),
+    one('line', 'urn:x-rois:def:DataType:OMG::int[]', '1 2  3'),
+    one('is_final', 'bool', 'true'),
+    one('time', 'DateTime', '2026-11-20T12:00:00.123Z'),
+    one('position_data', 'string[]', '1, -2, 3.5', 'desk', '4,5'),
+    one('far', 'double', '-INF'),
+  ]);
+  assert.equal(results.number('number'), 3);
+  assert.deepEqual(results.texts('names'), ['a b', 'c']);
+  assert.deepEqual(results.numbers('line'), [1, 2, 3]);
+  assert.equal(results.bool('is_final'), true);
+  assert.equal(results.time('time')!.getTime(), Date.UTC(2026, 10, 20, 12, 0, 0, 123));
+  assert.deepEqual(results.poses('position_data'), [{ x: 1, y: -2, th: 3.5 }, { x: 4, y: 5, th: 0 }]);
+  assert.equal(results.number('far'), -Infinity);
+  assert.deepEqual([results.text('x'), results.number('x'), results.bool('x'), results.time('x')], [undefined, undefined, undefined, undefined]);
+  assert.equal(results.number('names'), undefined);
+});
+
+test('places are read and written', () => {
+  assert.deepEqual(pose_of(pose_text({ x: 1.5, y: -2, th: 90 })), { x: 1.5, y: -2, th: 90 });
+  for (const text of ['', 'desk', '1', '1, 2, 3, 4', '1, ,2', '1, x']) assert.equal(pose_of(text), undefined, text);
+});
+
+test('located entities are read with their certainty', () => {
+  const results = results_of(
+    parse_xml(
+      `<a><results><located of="p" ref="r" crs="c"><position>1 2 3</position><orientation>0 0 90</orientation><covariance>1 0 0 1</covariance></located>` +
+        `<located of="p" ref="s" crs="c"><position>1 2 3</position><reliability>0.5</reliability></located></results></a>`,
+    ),
+  );
+  assert.deepEqual(results.located, [
+    { of: 'p', ref: 'r', crs: 'c', position: [1, 2, 3], orientation: [0, 0, 90], covariance: [1, 0, 0, 1] },
+    { of: 'p', ref: 's', crs: 'c', position: [1, 2, 3], reliability: 0.5 },
+  ]);
+});
+
+test('a stream keeps its order, and drops the oldest when it is full', async () => {
+  let dropped = 0;
+  const stream = new Stream<number>(3, (count) => (dropped += count));
+  for (let n = 1; n <= 5; ++n) stream.push(n);
+  assert.equal(dropped, 2);
+  assert.equal(await stream.next(), 3);
+  stream.end();
+  stream.push(9);
+  const rest: number[] = [];
+  for await (const n of stream) rest.push(n);
+  assert.deepEqual(rest, [4, 5]);
+  assert.equal(await stream.next(), undefined);
+});
+
+test('a stream is waited for, but not longer than asked', async () => {
+  const stream = new Stream<number>(3, () => undefined);
+  assert.equal(await stream.next(1), undefined);
+  const [first, second] = [stream.next(), stream.next(10_000)];
+  stream.push(1);
+  stream.push(2);
+  assert.deepEqual(await Promise.all([first, second]), [1, 2]);
+  const waiting = stream.next();
+  stream.end(new Error('over'));
+  await assert.rejects(waiting, { message: 'over' });
+  await assert.rejects(stream.next(), { message: 'over' });
+  await assert.rejects(async () => {
+    for await (const _ of stream) assert.fail();
+  }, { message: 'over' });
+});
