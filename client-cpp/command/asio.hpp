@@ -1,0 +1,31 @@
+// Boost.Asio and Beast as they are used here, on one thread with one io_context.
+#pragma once
+
+#ifdef __SANITIZE_THREAD__
+#define BOOST_ASIO_DISABLE_FENCED_BLOCK  // the thread sanitizer does not understand fences
+#endif
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http.hpp>
+
+namespace rois::command {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+
+using Failure = boost::system::error_code;
+
+// g++ 12 miscompiles a co_await inside the condition of a loop or an if: its result gets a name first.
+inline auto into(Failure& failure) { return asio::redirect_error(asio::use_awaitable, failure); }
+
+}  // namespace rois::command

@@ -1,0 +1,98 @@
+// The commands that move something: bind, release, set, start, stop, execute.
+#include "command/arguments.hpp"
+#include "command/context.hpp"
+#include "command/request_file.hpp"
+#include "command/sequences.hpp"
+#include "command/terminal.hpp"
+
+namespace rois::command {
+
+namespace {
+
+Identifier ref_of(std::string const& code) { return {code, {}, {}, {}}; }
+
+// Hears until the time is over, or a signal or the end of the link comes; tells what happens to the link, and errors.
+void hold(Context& context, Until until) {
+    auto& session = context.session();
+    auto& printer = context.printer();
+    while (auto const heard = session.hear(until)) {
+        if (session.interrupted()) return;
+        if (auto const* const gap = std::get_if<Gap>(&*heard)) printer.gap(*gap);
+        if (auto const* const change = std::get_if<StateChange>(&*heard); change != nullptr && change->state != State::open)
+            printer.state(*change);
+        if (auto const* const news = std::get_if<News>(&*heard);
+            news != nullptr && std::holds_alternative<ReceiveError>(news->notification))
+            printer.notification(news->notification, news->sequence);
+    }
+    bool const over = session.interrupted() || (until && std::chrono::steady_clock::now() >= *until);
+    if (!over) throw Trouble{Exit::no_answer, "the connection has closed"};
+}
+
+void say_bound(Context& context, std::string const& ref) {
+    auto& printer = context.printer();
+    if (printer.form() == Form::human) printer.text("bound " + painted(ref, Colour::name, printer.coloured()) + "\n");
+}
+
+CommandUnitSequence one_command(std::string const& ref, std::string const& type, ParameterList arguments) {
+    CommandUnitSequence sequence;
+    sequence.command_unit_list.push_back({{}, CommandMessage{ref_of(ref), type, {}, std::move(arguments)}});
+    return sequence;
+}
+
+ParameterList arguments_of(Context& context, std::string const& ref, std::string const& type,
+                           std::vector<std::string> const& given) {
+    if (given.empty()) return {};
+    return read_arguments(*context.component(ref).profile, type, given);
+}
+
+}  // namespace
+
+void bind(Context& context) {
+    auto const& options = context.options();
+    bool const is_meant = !options.where.empty() || !options.condition_file.empty();
+    auto condition = context.condition();
+    for (auto const& ref : options.words) {
+        auto const reply = context.ok(Bind{ref_of(ref)});
+        if (options.form != Form::human) context.printer().reply(reply, "bind");
+        say_bound(context, ref);
+    }
+    if (is_meant) {
+        auto const reply = context.ok(BindAny{std::move(condition)});
+        if (options.form != Form::human) context.printer().reply(reply, "bind_any");
+        say_bound(context, reply.component_ref.code);
+    }
+    auto& session = context.session();
+    if (session.is_joined()) return;
+    auto const id = session.id().text;
+    context.printer().line("session " + id, "session", Json{{"session", id}});
+    hold(context, end_of(options));
+}
+
+void release(Context& context) {
+    for (auto const& ref : context.options().words) context.show(Release{ref_of(ref)});
+}
+
+void set(Context& context) {
+    auto const& options = context.options();
+    auto parameters = arguments_of(context, options.ref, "set_parameter", options.words);
+    context.ok(Bind{ref_of(options.ref)});
+    auto const reply = context.ok(SetParameter{ref_of(options.ref), std::move(parameters)});
+    wait_for(context, {{reply.command_id, "set_parameter " + options.ref}});
+}
+
+void start(Context& context) {
+    auto const& options = context.options();
+    run(context, one_command(options.ref, "start", arguments_of(context, options.ref, "start", options.words)));
+    if (options.span) hold(context, end_of(options));
+}
+
+void stop(Context& context) { run(context, one_command(context.options().ref, "stop", {})); }
+
+void execute(Context& context) {
+    auto const& words = context.options().words;
+    if (words.size() == 1) return run(context, read_sequence_file(context.schemas(), words[0], text_of_file(words[0])));
+    std::vector<std::string> const given{words.begin() + 2, words.end()};
+    run(context, one_command(words[0], words[1], arguments_of(context, words[0], words[1], given)));
+}
+
+}  // namespace rois::command

@@ -1,0 +1,113 @@
+#include "command/listening.hpp"
+
+#include <algorithm>
+
+#include "command/sequences.hpp"
+#include "types/listing.hpp"
+#include "types/texts.hpp"
+
+namespace rois::command {
+
+namespace {
+
+// All types of events that the components have, each once.
+std::vector<std::string> event_types_of(GetProfile::Reply const& reply) {
+    std::vector<std::string> types;
+    for (auto const& component : reply.components) {
+        if (!component.profile) continue;
+        for (auto const& message : component.profile->messages)
+            if (message.kind == MessageKind::event && std::ranges::find(types, message.name) == types.end())
+                types.push_back(message.name);
+    }
+    return types;
+}
+
+void check_known(std::vector<std::string> const& wanted, std::vector<std::string> const& known) {
+    for (auto const& type : wanted)
+        if (std::ranges::find(known, type) == known.end())
+            throw Trouble{Exit::unsupported, "no component has an event " + rois::quoted(type) + "; there are " + listed(known)};
+}
+
+void show(Printer& printer, Heard const& heard) {
+    if (auto const* const news = std::get_if<News>(&heard)) return printer.notification(news->notification, news->sequence);
+    if (auto const* const change = std::get_if<StateChange>(&heard)) return printer.state(*change);
+    printer.gap(std::get<Gap>(heard));
+}
+
+}  // namespace
+
+void start_components(Context& context) {
+    auto const& starts = context.options().starts;
+    if (starts.empty()) return;
+    CommandUnitSequence sequence;
+    for (auto const& ref : starts) {
+        Identifier const component{ref, {}, {}, {}};
+        context.ok(Bind{component});
+        sequence.command_unit_list.push_back({{}, CommandMessage{component, "start", fresh_command_id(), {}}});
+    }
+    context.ok(Execute{std::move(sequence)});
+}
+
+void subscribe_to(Context& context, std::vector<std::string> event_types, QueryExpression const& condition) {
+    auto const known = event_types_of(context.ok(GetProfile{}));
+    check_known(event_types, known);
+    bool const all = event_types.empty();
+    bool heard_any = false;
+    for (auto const& type : all ? known : event_types) {
+        // A condition may speak of what only some events have: those that cannot be meant are left out when nobody named them.
+        auto answer = context.session().request(Subscribe{type, condition, true});
+        auto const* const reply = std::get_if<Reply>(&answer);
+        auto const* const subscribed = reply != nullptr ? std::get_if<Subscribe::Reply>(reply) : nullptr;
+        bool const ok = subscribed != nullptr && subscribed->return_code == ReturnCode::ok;
+        heard_any = heard_any || ok;
+        if (!ok && !all) context.ok(Subscribe{type, condition, true});
+    }
+    if (!heard_any) throw Trouble{Exit::unsupported, "no event can meet the condition"};
+}
+
+void listen(Context& context, std::function<void(Heard const&)> const& told) {
+    auto& session = context.session();
+    auto const& options = context.options();
+    auto const until = end_of(options);
+    std::size_t events = 0;
+    while (!options.count || events < *options.count) {
+        auto const heard = session.hear(until);
+        if (session.interrupted()) return;
+        if (!heard && until && std::chrono::steady_clock::now() >= *until) return;
+        if (!heard) throw Trouble{Exit::no_answer, "the connection has closed"};
+        auto const* const news = std::get_if<News>(&*heard);
+        if (news != nullptr && std::holds_alternative<ReceiveEvent>(news->notification)) ++events;
+        told(*heard);
+    }
+}
+
+void subscribe(Context& context) {
+    auto const& options = context.options();
+    auto const reply = context.ok(Subscribe{options.name, context.condition(), true});
+    context.printer().reply(reply, "subscribe");
+    if (context.session().is_joined()) return;
+    listen(context, [&](Heard const& heard) {
+        auto const* const change = std::get_if<StateChange>(&heard);
+        bool const usual = change != nullptr && (change->state == State::open || change->state == State::connecting);
+        if (!usual) show(context.printer(), heard);
+    });
+}
+
+void watch(Context& context) {
+    auto const& options = context.options();
+    if (!context.session().is_joined() || !options.words.empty()) subscribe_to(context, options.words, context.condition());
+    start_components(context);
+    listen(context, [&](Heard const& heard) { show(context.printer(), heard); });
+}
+
+void record(Context& context) {
+    if (!context.options().listen.empty()) return record_others(context);
+    subscribe_to(context, context.options().words, {});
+    start_components(context);
+    listen(context, [&](Heard const& heard) {
+        context.recorded()->check();
+        show(context.printer(), heard);
+    });
+}
+
+}  // namespace rois::command

@@ -1,0 +1,70 @@
+// The `rois` command: speaks to an engine from the command line. docs/rois-command.md describes it.
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <map>
+#include <string_view>
+
+#include "command/context.hpp"
+#include "command/terminal.hpp"
+#include "xml/schemas.hpp"
+
+namespace rois::command {
+
+namespace {
+
+std::map<std::string_view, std::function<void(Context&)>> const& commands() {
+    static std::map<std::string_view, std::function<void(Context&)>> const all{
+        {"profile", profile},
+        {"search", search},
+        {"bind", bind},
+        {"release", release},
+        {"get", get},
+        {"set", set},
+        {"start", start},
+        {"stop", stop},
+        {"execute", execute},
+        {"query", query},
+        {"subscribe", subscribe},
+        {"watch", watch},
+        {"send", send},
+        {"record", record},
+        {"replay", replay},
+        {"scenario", scenario},
+        {"health", [](Context& context) { health(context.options(), context.printer()); }},
+    };
+    return all;
+}
+
+int tell(Exit exit, std::string_view what) {
+    if (!what.empty()) std::fprintf(stderr, "rois: %.*s\n", static_cast<int>(what.size()), what.data());
+    return static_cast<int>(exit);
+}
+
+int run(int argc, char const* const* argv) {
+    auto read = read_options(argc, argv);
+    if (auto const* const said = std::get_if<Said>(&read)) {
+        std::fputs(said->words.c_str(), stdout);
+        return 0;
+    }
+    Signals signals;
+    Context context{std::get<Options>(std::move(read)), signals};
+    commands().at(context.options().command)(context);
+    return 0;
+}
+
+}  // namespace
+
+}  // namespace rois::command
+
+int main(int argc, char** argv) {
+    using namespace rois::command;
+    try {
+        rois::xml::Platform const platform;
+        return run(argc, argv);
+    } catch (Trouble const& trouble) {
+        return tell(trouble.exit(), trouble.what());
+    } catch (std::exception const& error) {
+        return tell(Exit::error, error.what());
+    }
+}

@@ -1,0 +1,286 @@
+#include "command/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
+
+#include "command/exit.hpp"
+#include "rois/settings.hpp"
+
+namespace rois::command {
+
+namespace {
+
+constexpr auto what_it_is = "rois: speaks to a RoIS HRI engine from the command line (man rois)";
+
+constexpr auto footer =
+    "Examples:\n"
+    "  rois search type = Navigation and status = READY\n"
+    "  rois start speech_synthesis speech_text=Welcome.\n"
+    "  rois watch person_detected --start person_detection\n"
+    "  rois query robot_position --json\n\n"
+    "Exit codes: 0 OK, 1 ERROR, 2 wrong use, 3 BAD_PARAMETER, 4 UNSUPPORTED, 5 OUT_OF_RESOURCES, 6 TIMEOUT, 7 a command ended "
+    "with\n"
+    "ABORT, 8 no answer, 9 the document was refused, 130 interrupted";
+
+// What is read as a text and means something else.
+struct Raw {
+    double timeout = 10;
+    double span = 0;
+    std::size_t count = 0;
+    bool xml = false;
+    bool json = false;
+    bool no_wait = false;
+    std::vector<std::string> condition;  // words of a condition
+    bool version = false;
+};
+
+class Grammar {
+public:
+    Grammar(CLI::App& app, Options& options, Raw& raw) : app_{app}, options_{options}, raw_{raw} {
+        general();
+        for_asking();
+        for_commanding();
+        for_listening();
+        for_files();
+    }
+
+private:
+    void general() {
+        app_.set_help_flag("-h,--help", "say this");
+        app_.set_help_all_flag("--help-all", "say this of all commands");
+        app_.footer(footer);
+        app_.require_subcommand(0, 1);
+        app_.fallthrough();
+        app_.add_option("--url", options_.url, "where the engine is [http://127.0.0.1:8080] (ROIS_URL)")->option_text("URL");
+        app_.add_option("--token", options_.token, "sent as Authorization: Bearer (ROIS_TOKEN)")
+            ->envname("ROIS_TOKEN")
+            ->option_text("TOKEN");
+        app_.add_option("--ca-file", options_.ca_file, "certificates that are trusted, PEM (ROIS_CA_FILE)")
+            ->envname("ROIS_CA_FILE")
+            ->option_text("FILE");
+        app_.add_option("--session", options_.session, "act in this session, which rois bind holds (ROIS_SESSION)")
+            ->envname("ROIS_SESSION")
+            ->option_text("ID");
+        app_.add_flag("--http", options_.over_http, "requests and an event stream instead of a WebSocket");
+        app_.add_option("--timeout", raw_.timeout, "for an answer [10]")
+            ->option_text("SECONDS")
+            ->check(CLI::Range(0.01, 86'400.0));
+        auto* const xml = app_.add_flag("--xml", raw_.xml, "write XML documents");
+        app_.add_flag("--json", raw_.json, "write JSON, an object a line")->excludes(xml);
+        app_.add_option("--colour", options_.colour, "auto, always or never [auto]")
+            ->option_text("WHEN")
+            ->check(CLI::IsMember({"auto", "always", "never"}));
+        app_.add_option("--record", options_.record, "also write all that the session sees to a file, for rois replay")
+            ->option_text("FILE");
+        app_.add_flag("--version", raw_.version, "say the version");
+    }
+
+    CLI::App& command(std::string const& name, std::string const& what) {
+        auto& added = *app_.add_subcommand(name, what);
+        added.fallthrough();
+        added.callback([this, name] { options_.command = name; });
+        return added;
+    }
+
+    void conditioned(CLI::App& command) {
+        auto* const where =
+            command.add_option("-w,--where", options_.where, "a condition, such as \"number > 0\"")->option_text("CONDITION");
+        command.add_option("--condition", options_.condition_file, "a condition in XML; - is standard input")
+            ->option_text("FILE")
+            ->excludes(where);
+    }
+
+    void bounded(CLI::App& command, std::string const& what) {
+        command.add_option("--for", raw_.span, what)->option_text("SECONDS")->check(CLI::Range(0.0, 1e7));
+    }
+
+    void counted(CLI::App& command) {
+        command.add_option("--count", raw_.count, "end after so many events")
+            ->option_text("N")
+            ->check(CLI::Range(1, 1'000'000'000));
+    }
+
+    void starting(CLI::App& command) {
+        command.add_option("--start", options_.starts, "bind this component, and start it; may come again")->option_text("REF");
+    }
+
+    // The rest of the command line.
+    CLI::Option* words(CLI::App& command, std::string const& name, std::string const& what) {
+        return command.add_option(name, options_.words, what)->option_text(" ");
+    }
+    CLI::Option* ref(CLI::App& command) {
+        return command.add_option("REF", options_.ref, "a component")->required()->option_text(" ");
+    }
+
+    void for_asking() {
+        auto& profile = command("profile", "the engine and its components, or all that one component can do");
+        profile.add_option("REF", options_.ref, "a component")->option_text(" ");
+        conditioned(profile);
+        auto& search = command("search", "the components that meet a condition");
+        search.add_option("CONDITION", raw_.condition, "such as: type = Navigation and status = READY")->option_text(" ");
+        conditioned(search);
+        auto& query = command("query", "ask the engine or a component");
+        query.add_option("QUERY", options_.name, "a type of queries, such as robot_position")->required()->option_text(" ");
+        query.add_option("--of", options_.ref, "this component")->option_text("REF");
+        conditioned(query);
+        auto& get = command("get", "the parameters of a component; it need not be bound");
+        ref(get);
+        words(get, "NAME", "these parameters; all when left out");
+        command("health", "whether the engine is ready; 0 or 1, for docker and others");
+    }
+
+    void for_commanding() {
+        auto& bind = command("bind", "bind components, and hold them until interrupted");
+        words(bind, "REF", "components");
+        conditioned(bind);
+        bounded(bind, "hold them so long");
+        auto& release = command("release", "release components of the session that --session names");
+        words(release, "REF", "components")->required();
+        auto& set = command("set", "set parameters of a component");
+        ref(set);
+        words(set, "NAME=VALUE", "parameters; a name that comes again adds to a list")->required();
+        auto& start = command("start", "start a component, and wait until that has completed");
+        ref(start);
+        words(start, "NAME=VALUE", "arguments");
+        bounded(start, "keep it going so long after it has completed");
+        unwaited(start);
+        auto& stop = command("stop", "stop a component");
+        ref(stop);
+        auto& execute = command("execute", "run a command of a component, or the sequence in a file");
+        words(execute, "FILE|REF",
+              "a file with a CommandUnitSequence, - is standard input; or a component, a command, NAME=VALUE...")
+            ->required();
+        execute.add_flag("--results", options_.results, "show what each command resulted in");
+        unwaited(execute);
+    }
+
+    void unwaited(CLI::App& command) { command.add_flag("--no-wait", raw_.no_wait, "do not wait for the end; with --session"); }
+
+    void for_listening() {
+        auto& subscribe = command("subscribe", "subscribe to events of one type, and show them until interrupted");
+        subscribe.add_option("EVENT", options_.name, "a type of events, such as person_detected")->required()->option_text(" ");
+        conditioned(subscribe);
+        counted(subscribe);
+        bounded(subscribe, "so long");
+        auto& watch = command("watch", "show all that the engine tells: events, errors, ends of commands, and how the link is");
+        words(watch, "EVENT", "types of events; all when left out");
+        conditioned(watch);
+        starting(watch);
+        counted(watch);
+        bounded(watch, "so long");
+    }
+
+    void for_files() {
+        auto& send = command("send", "send any document, and show the answer");
+        send.add_option("FILE", options_.file, "- is standard input")->required()->option_text(" ");
+        auto& record = command("record", "write all that a session sees to a file: its own, or those of applications (--listen)");
+        record.add_option("FILE", options_.file, "the recording")->required()->option_text(" ");
+        words(record, "EVENT", "types of events; all when left out");
+        starting(record);
+        counted(record);
+        bounded(record, "so long");
+        listening(record, "take part for the engine there, and record what applications and engine say");
+        auto& replay = command("replay", "serve a recording as an engine");
+        replay.add_option("FILE", options_.file, "the recording")->required()->option_text(" ");
+        listening(replay, "where [127.0.0.1:8080]; port 0 takes any free one");
+        replay.add_option("--speed", options_.speed, "so many recorded seconds in a second [1]; 0: without any pause")
+            ->option_text("X")
+            ->check(CLI::Range(0.0, 1e6));
+        auto& scenario = command("scenario", "run a state machine");
+        scenario.add_option("FILE", options_.file, "a file as schemas/scenario.xsd has it")->required()->option_text(" ");
+        words(scenario, "NAME=VALUE", "what variables begin with");
+        scenario.add_flag("--check", options_.check, "only say whether the file is good");
+        scenario.add_flag("-q,--quiet", options_.quiet, "only what the scenario itself prints");
+    }
+
+    void listening(CLI::App& command, std::string const& what) {
+        command.add_option("--listen", options_.listen, what)->option_text("HOST:PORT");
+    }
+
+    CLI::App& app_;
+    Options& options_;
+    Raw& raw_;
+};
+
+std::chrono::milliseconds milliseconds_of(double seconds) { return std::chrono::milliseconds{std::llround(seconds * 1'000)}; }
+
+// Where a gateway in the same container is asked for its health: ROIS_URL, or the port of its own ROIS_LISTEN.
+std::string url_beside_gateway() {
+    auto const* const url = std::getenv("ROIS_URL");
+    auto const* const listen = std::getenv("ROIS_LISTEN");
+    if ((url != nullptr && *url != '\0') || listen == nullptr) return default_url();
+    std::string const address{listen};
+    auto const colon = address.rfind(':');
+    if (colon == std::string::npos) return default_url();
+    auto const host = address.substr(0, colon);
+    bool const everywhere = host == "0.0.0.0" || host == "[::]";
+    return "http://" + (everywhere ? "127.0.0.1" : host) + address.substr(colon);
+}
+
+std::string joined(std::vector<std::string> const& words) {
+    std::string text;
+    for (auto const& word : words) text += (text.empty() ? "" : " ") + word;
+    return text;
+}
+
+bool has(CLI::App const& app, std::string const& command, std::string const& option) {
+    auto const* const chosen = app.get_subcommand(command);
+    auto const* const known = chosen->get_option_no_throw(option);
+    return known != nullptr && known->count() > 0;
+}
+
+void check(Options const& options, Raw const& raw) {
+    if (!options.where.empty() && !raw.condition.empty()) throw Trouble{Exit::usage, "the condition is given twice"};
+    if (!options.condition_file.empty() && !raw.condition.empty()) throw Trouble{Exit::usage, "the condition is given twice"};
+    if (options.command == "release" && options.session.empty())
+        throw Trouble{Exit::usage, "release: which session? --session or ROIS_SESSION names it; rois bind says it"};
+    if (!options.wait && options.session.empty())
+        throw Trouble{Exit::usage, "--no-wait: without --session the command would end with the program"};
+    if (options.command == "bind" && options.words.empty() && options.where.empty() && options.condition_file.empty())
+        throw Trouble{Exit::usage, "bind: which components? Name them, or say --where CONDITION"};
+    bool const own = options.command == "scenario" || options.command == "record" || options.command == "replay" ||
+                     options.command == "health";
+    if (own && !options.session.empty() && options.command != "health" && options.command != "replay")
+        throw Trouble{Exit::usage, options.command + " has a session of its own: --session and ROIS_SESSION must not be set"};
+    if (options.command == "record" && !options.record.empty()) throw Trouble{Exit::usage, "record: the file is named twice"};
+    bool const others = options.command == "record" && !options.listen.empty();
+    if (others && (!options.words.empty() || !options.starts.empty() || options.span || options.count))
+        throw Trouble{Exit::usage, "record --listen: the applications say what is subscribed to, started and recorded"};
+    if (!options.record.empty() && (!options.session.empty() || options.command == "health" || options.command == "replay"))
+        throw Trouble{Exit::usage, "--record: there is no session of its own to record"};
+}
+
+}  // namespace
+
+std::variant<Options, Said> read_options(int argc, char const* const* argv) {
+    CLI::App app{what_it_is, "rois"};
+    Options options;
+    Raw raw;
+    Grammar const grammar{app, options, raw};
+    try {
+        app.parse(argc, argv);
+    } catch (CLI::CallForHelp const&) {
+        return Said{app.help()};
+    } catch (CLI::CallForAllHelp const&) {
+        return Said{app.help("", CLI::AppFormatMode::All)};
+    } catch (CLI::ParseError const& error) {
+        throw Trouble{Exit::usage, std::string{error.what()} + "; rois " +
+                                       (options.command.empty() ? "" : options.command + " ") + "--help tells more"};
+    }
+    if (raw.version) return Said{"rois " ROIS_VERSION "\n"};
+    if (options.command.empty()) throw Trouble{Exit::usage, "which command? rois --help tells what there is"};
+    if (options.url.empty()) options.url = options.command == "health" ? url_beside_gateway() : default_url();
+    options.deadline = milliseconds_of(raw.timeout);
+    if (raw.xml) options.form = Form::xml;
+    if (raw.json) options.form = Form::json;
+    options.wait = !raw.no_wait;
+    if (has(app, options.command, "--for")) options.span = milliseconds_of(raw.span);
+    if (has(app, options.command, "--count")) options.count = raw.count;
+    check(options, raw);
+    if (!raw.condition.empty()) options.where = joined(raw.condition);
+    if (options.command == "record") options.record = options.file;
+    return options;
+}
+
+}  // namespace rois::command

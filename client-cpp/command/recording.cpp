@@ -1,0 +1,75 @@
+#include "command/recording.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "command/exit.hpp"
+#include "command/json.hpp"
+
+namespace rois::command {
+
+namespace {
+
+constexpr auto format = "rois-recording-1";
+
+[[noreturn]] void complain(std::string const& file, std::size_t line, std::string const& reason) {
+    throw Trouble{Exit::usage, file + ":" + std::to_string(line) + ": " + reason};
+}
+
+RecordedDocument document_of(Json const& json) {
+    RecordedDocument document;
+    document.at = std::chrono::microseconds{static_cast<std::int64_t>(json.at("at").get<double>() * 1e6)};
+    auto const direction = json.at("direction").get<std::string>();
+    if (direction != "out" && direction != "in") throw std::out_of_range{"direction must be \"out\" or \"in\""};
+    document.direction = direction == "out" ? Direction::out : Direction::in;
+    if (json.contains("session")) document.session = json.at("session").get<std::string>();
+    document.text = json.at("document").get<std::string>();
+    return document;
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(std::string const& file, std::string_view url)
+    : file_{file}, begun_{std::chrono::steady_clock::now()}, out_{file, std::ios::binary | std::ios::trunc} {
+    Json const head{{"recording", format}, {"url", url}, {"begun", to_text(std::chrono::system_clock::now())}};
+    out_ << line_of(head) << std::flush;
+    check();
+}
+
+void RecordingWriter::add(Direction direction, std::string_view document, std::string_view session) {
+    std::lock_guard const lock{mutex_};
+    auto const at = std::chrono::duration<double>{std::chrono::steady_clock::now() - begun_}.count();
+    Json json{{"at", std::round(at * 1e6) / 1e6}, {"direction", direction == Direction::out ? "out" : "in"}};
+    if (!session.empty()) json["session"] = session;
+    json["document"] = document;
+    out_ << line_of(json) << std::flush;
+}
+
+void RecordingWriter::check() {
+    std::lock_guard const lock{mutex_};
+    if (!out_) throw Trouble{Exit::usage, file_ + " cannot be written"};
+}
+
+std::vector<RecordedDocument> read_recording(std::string const& file) {
+    std::ifstream in{file, std::ios::binary};
+    if (!in) throw Trouble{Exit::usage, file + " cannot be read"};
+    std::vector<RecordedDocument> documents;
+    std::string line;
+    for (std::size_t number = 1; std::getline(in, line); ++number) {
+        try {
+            auto const json = Json::parse(line);
+            if (number > 1) {
+                documents.push_back(document_of(json));
+            } else if (json.at("recording").get<std::string>() != format) {
+                complain(file, number, std::string{"this is no recording of the format "} + format);
+            }
+        } catch (std::exception const& error) {
+            if (dynamic_cast<Trouble const*>(&error) != nullptr) throw;
+            complain(file, number, number == 1 ? std::string{"this is no recording: "} + error.what() : error.what());
+        }
+    }
+    if (documents.empty()) complain(file, 1, "nothing is recorded");
+    return documents;
+}
+
+}  // namespace rois::command

@@ -1,0 +1,71 @@
+#include "command/relay.hpp"
+
+#include <boost/asio/post.hpp>
+#include <utility>
+
+#include "xml/codec.hpp"
+
+namespace rois::command {
+
+namespace {
+
+Observers observers(std::function<void(Notification)> told, std::shared_ptr<RecordingWriter> recorded, std::string session) {
+    Observers observers;
+    observers.notification = [told = std::move(told)](Notification const& notification, std::uint64_t) { told(notification); };
+    observers.tap = [recorded = std::move(recorded), session = std::move(session)](
+                        Direction direction, std::string_view document) { recorded->add(direction, document, session); };
+    return observers;
+}
+
+// The connection takes answers to its own requests by these ids; those of an application that is a C++ client as well are called
+// otherwise on the way.
+constexpr std::string_view own = "request_id=\"rois-cpp-";
+constexpr std::string_view relayed = "request_id=\"relayed-rois-cpp-";
+
+std::string renamed(std::string document, std::string_view from, std::string_view to) {
+    auto const at = document.find(from);
+    if (at != std::string::npos && at < document.find('>')) document.replace(at, from.size(), to);
+    return document;
+}
+
+std::string no_engine(std::variant<Request, Fault> const& read, NoAnswer const& none) {
+    auto const* const request = std::get_if<Request>(&read);
+    return xml::encode(Fault{FaultCode::shutting_down,
+                             "the engine does not answer: " + none.reason,
+                             {},
+                             request != nullptr ? request->request_id : ""});
+}
+
+}  // namespace
+
+// Read and written on the front's thread alone.
+struct Relay::Door {
+    HostedSession* session;
+};
+
+Relay::Relay(asio::io_context& io, HostedSession& session, Settings settings, std::shared_ptr<RecordingWriter> recorded,
+             std::string name)
+    : io_{io},
+      door_{std::make_shared<Door>(&session)},
+      connection_{std::move(settings), observers(
+                                           [&io, door = door_](Notification notification) {
+                                               asio::post(io, [door, notification = std::move(notification)] {
+                                                   if (door->session != nullptr) door->session->tell(notification);
+                                               });
+                                           },
+                                           std::move(recorded), std::move(name))} {}
+
+Relay::~Relay() { door_->session = nullptr; }
+
+void Relay::take(std::string const& document, std::variant<Request, Fault> const& read, std::function<void(std::string)> reply) {
+    auto const pass_on = [](Connection& connection, asio::io_context& io, std::string text, std::variant<Request, Fault> what,
+                            std::function<void(std::string)> answered) -> Task<> {
+        auto sent = co_await connection.send(std::move(text));
+        auto* const answer = std::get_if<std::string>(&sent);
+        auto said = answer != nullptr ? renamed(std::move(*answer), relayed, own) : no_engine(what, std::get<NoAnswer>(sent));
+        asio::post(io, [answered = std::move(answered), said = std::move(said)] { answered(said); });
+    };
+    connection_.spawn(pass_on(connection_, io_, renamed(document, own, relayed), read, std::move(reply)));
+}
+
+}  // namespace rois::command

@@ -1,0 +1,51 @@
+// rois send: any document, and what it is answered.
+#include <variant>
+
+#include "command/context.hpp"
+#include "command/pretty.hpp"
+#include "command/terminal.hpp"
+#include "types/texts.hpp"
+#include "xml/codec.hpp"
+#include "xml/decoding.hpp"
+
+namespace rois::command {
+
+namespace {
+
+// The text of the document that the engine judged, which begins where the file begins.
+void tell_fault(Context& context, Fault const& fault, std::string const& sent, std::string const& answer) {
+    auto& printer = context.printer();
+    if (printer.form() == Form::json) {
+        printer.text(line_of(to_json(fault)));
+    } else {
+        printer.text(pretty(answer));
+    }
+    std::string text = context.options().file + ":";
+    if (fault.place) text += std::to_string(fault.place->line) + ":" + std::to_string(fault.place->column) + ":";
+    text += " " + std::string{to_text(fault.code)} + ": " + harmless(fault.reason);
+    bool const coloured = context.options().colour == "always" || (context.options().colour == "auto" && shows_colours(2));
+    if (fault.place) text += "\n" + underlined(sent, *fault.place, coloured);
+    if (text.ends_with('\n')) text.pop_back();
+    throw Trouble{Exit::fault, text};
+}
+
+}  // namespace
+
+void send(Context& context) {
+    auto const sent = text_of_file(context.options().file);
+    auto const answer = context.session().send(sent);
+    auto& printer = context.printer();
+    auto const heard = xml::AnswerReader{}.read(answer);
+    if (heard && std::holds_alternative<Fault>(*heard)) tell_fault(context, std::get<Fault>(*heard), sent, answer);
+    auto const* const answered = heard ? std::get_if<xml::Answered>(&*heard) : nullptr;
+    if (printer.form() == Form::json && answered != nullptr) {
+        printer.text(line_of(to_json(answered->reply, xml::operation_names()[answered->reply.index()])));
+    } else {
+        printer.text(pretty(answer));
+    }
+    if (answered == nullptr) throw Trouble{Exit::no_answer, "the answer is no document of RoIS"};
+    auto const code = std::visit([](auto const& one) { return one.return_code; }, answered->reply);
+    if (code != ReturnCode::ok) throw Trouble{exit_of(code), ""};
+}
+
+}  // namespace rois::command

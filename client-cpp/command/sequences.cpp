@@ -1,0 +1,124 @@
+#include "command/sequences.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <random>
+#include <set>
+#include <variant>
+
+#include "command/terminal.hpp"
+
+namespace rois::command {
+
+namespace {
+
+void collect(std::vector<CommandUnit>& units, std::vector<CommandMessage*>& found) {
+    for (auto& unit : units) {
+        if (auto* const message = std::get_if<CommandMessage>(&unit.unit)) {
+            found.push_back(message);
+        } else if (auto* const concurrent = std::get_if<ConcurrentCommands>(&unit.unit)) {
+            for (auto& branch : concurrent->branches) collect(branch.command_list, found);
+        } else if (auto* const sequential = std::get_if<SequentialCommandUnit>(&unit.unit)) {
+            collect(sequential->command_unit_list, found);
+        } else if (auto* const parallel = std::get_if<ParallelCommandUnit>(&unit.unit)) {
+            collect(parallel->command_unit_list, found);
+        }
+    }
+}
+
+// Takes the ends of commands out of what is heard.
+class Waiting {
+public:
+    Waiting(Context& context, std::vector<Awaited> awaited) : context_{context}, awaited_{std::move(awaited)} {}
+
+    void wait() {
+        auto& session = context_.session();
+        while (!awaited_.empty()) {
+            auto const heard = session.hear();
+            if (session.interrupted()) throw Trouble{Exit::interrupted, ""};
+            if (!heard) throw Trouble{Exit::no_answer, "the connection has closed"};
+            take(*heard);
+        }
+        if (worst_) throw Trouble{exit_of(*worst_), ""};
+    }
+
+private:
+    void take(Heard const& heard) {
+        if (auto const* const news = std::get_if<News>(&heard)) {
+            if (auto const* const completed = std::get_if<Completed>(&news->notification)) end(*completed, *news);
+            if (std::holds_alternative<ReceiveError>(news->notification))
+                context_.printer().notification(news->notification, news->sequence);
+        } else if (auto const* const gap = std::get_if<Gap>(&heard); gap != nullptr && gap->why == Gap::Why::new_session) {
+            throw Trouble{Exit::aborted, "the session has ended, and its commands with it"};
+        }
+    }
+
+    void end(Completed const& completed, News const& news) {
+        auto const found = std::ranges::find(awaited_, completed.command_id, &Awaited::id);
+        if (found == awaited_.end()) return;
+        auto& printer = context_.printer();
+        if (printer.form() == Form::human) {
+            auto const colour = completed.status == CompletedStatus::ok ? Colour::good : Colour::bad;
+            printer.text(painted(found->label, Colour::none, false) + "  " +
+                         painted(to_text(completed.status), colour, printer.coloured()) + "\n");
+        } else {
+            printer.notification(news.notification, news.sequence);
+        }
+        if (completed.status != CompletedStatus::ok && !worst_) worst_ = completed.status;
+        awaited_.erase(found);
+    }
+
+    Context& context_;
+    std::vector<Awaited> awaited_;
+    std::optional<CompletedStatus> worst_;
+};
+
+}  // namespace
+
+std::vector<CommandMessage*> messages_of(CommandUnitSequence& sequence) {
+    std::vector<CommandMessage*> found;
+    collect(sequence.command_unit_list, found);
+    return found;
+}
+
+CommandId fresh_command_id() {
+    static auto const process = [] {
+        std::random_device chance;
+        char text[20];
+        std::snprintf(text, sizeof text, "rois-%08x", static_cast<unsigned>(chance()));
+        return std::string{text};
+    }();
+    static unsigned number = 0;
+    return CommandId{process + "-" + std::to_string(++number)};
+}
+
+void wait_for(Context& context, std::vector<Awaited> awaited) { Waiting{context, std::move(awaited)}.wait(); }
+
+void run(Context& context, CommandUnitSequence sequence) {
+    std::vector<Awaited> awaited;
+    std::set<std::string> bound;
+    for (auto* const message : messages_of(sequence)) {
+        if (message->command_id.text.empty()) message->command_id = fresh_command_id();
+        awaited.push_back({message->command_id, message->command_type + " " + message->component_ref.code});
+        if (bound.insert(message->component_ref.code).second) context.ok(Bind{message->component_ref});
+    }
+    auto const& options = context.options();
+    if (!options.wait) {
+        context.show(Execute{std::move(sequence)});
+        return;
+    }
+    context.ok(Execute{std::move(sequence)});
+    auto const wait = [&] { wait_for(context, awaited); };
+    if (!options.results) return wait();
+    std::optional<Trouble> trouble;
+    try {
+        wait();
+    } catch (Trouble const& error) {
+        if (error.exit() == Exit::interrupted || error.exit() == Exit::no_answer) throw;
+        trouble = error;
+    }
+    for (auto const& each : awaited) context.show(GetCommandResult{each.id, {}});
+    if (trouble) throw Trouble{*trouble};
+}
+
+}  // namespace rois::command

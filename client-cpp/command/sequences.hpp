@@ -1,0 +1,31 @@
+// Command sequences: what is in them, and waiting for their ends.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "command/context.hpp"
+#include "types/command_units.hpp"
+
+namespace rois::command {
+
+// All command messages, in document order, also those inside of other units.
+std::vector<CommandMessage*> messages_of(CommandUnitSequence&);
+
+// An id that no other command has.
+CommandId fresh_command_id();
+
+// Binds what the sequence needs, executes it and, with --wait, waits until all has completed, which is written as it happens.
+// Throws Trouble with the code of the first command that did not end with OK.
+void run(Context&, CommandUnitSequence);
+
+struct Awaited {
+    CommandId id;
+    std::string label;  // for people: "start navigation"
+};
+
+// Waits until all have completed. Throws as above.
+void wait_for(Context&, std::vector<Awaited>);
+
+}  // namespace rois::command

@@ -1,0 +1,77 @@
+#include "command/signals.hpp"
+
+#include <pthread.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <utility>
+
+#include "command/exit.hpp"
+
+namespace rois::command {
+
+namespace {
+
+sigset_t ends() {
+    sigset_t set;
+    sigemptyset(&set);
+    sigaddset(&set, SIGINT);
+    sigaddset(&set, SIGTERM);
+    sigaddset(&set, SIGUSR1);  // from the destructor
+    return set;
+}
+
+}  // namespace
+
+Signals::Signals() {
+    auto const set = ends();
+    pthread_sigmask(SIG_BLOCK, &set, nullptr);
+    signal(SIGPIPE, SIG_IGN);
+    thread_ = std::thread{[this] { wait(); }};
+}
+
+Signals::~Signals() {
+    {
+        std::lock_guard const lock{mutex_};
+        over_ = true;
+    }
+    pthread_kill(thread_.native_handle(), SIGUSR1);
+    thread_.join();
+}
+
+void Signals::on_first(std::function<void()> told) {
+    std::lock_guard const telling{telling_};
+    std::unique_lock lock{mutex_};
+    told_ = std::move(told);
+    if (!raised_ || !told_) return;
+    auto const now = told_;
+    lock.unlock();
+    now();
+}
+
+bool Signals::raised() const {
+    std::lock_guard const lock{mutex_};
+    return raised_;
+}
+
+void Signals::wait() {
+    auto const set = ends();
+    while (true) {
+        int number = 0;
+        sigwait(&set, &number);
+        {
+            std::lock_guard const lock{mutex_};
+            if (over_) return;
+            if (number == SIGUSR1) continue;
+            if (raised_ || !told_) _exit(static_cast<int>(Exit::interrupted));
+            raised_ = true;
+        }
+        std::lock_guard const telling{telling_};
+        std::unique_lock lock{mutex_};
+        auto const told = told_;
+        lock.unlock();
+        if (told) told();
+    }
+}
+
+}  // namespace rois::command

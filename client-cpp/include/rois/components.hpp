@@ -1,0 +1,389 @@
+// The 15 basic components (7.6, tables 34 to 46 and Move) and the two that stream (2.0), with the names of the specification and
+// with units in types. An event is made of what the component told; what it left out is as if it were zero or empty.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rois/component.hpp"
+#include "rois/units.hpp"
+
+namespace rois {
+
+using Milliseconds = std::chrono::milliseconds;
+
+// --- System Information (table 34) ---
+
+// Somebody or something, and where it is.
+struct Sighting {
+    Identifier ref{};
+    Pose pose{};
+};
+
+struct RobotPosition {
+    Utc timestamp{};
+    std::vector<Sighting> robots{};
+};
+
+struct EngineStatus {
+    ComponentStatus status = ComponentStatus::uninitialized;
+    std::optional<Utc> operable_time{};
+};
+
+class SystemInformation : public Component {
+public:
+    static constexpr std::string_view component_type = "SystemInformation";
+    explicit SystemInformation(Component component) : Component{std::move(component)} {}
+
+    Task<RobotPosition> robot_position() const;
+    Task<EngineStatus> engine_status() const;
+};
+
+// --- Detection of people, faces and sounds (tables 35, 38, 40) ---
+
+struct PersonDetected {
+    static constexpr std::string_view name = "person_detected";
+    static PersonDetected from(ReceiveEvent const&);
+    Utc timestamp{};
+    std::int32_t number = 0;
+};
+
+struct FaceDetected {
+    static constexpr std::string_view name = "face_detected";
+    static FaceDetected from(ReceiveEvent const&);
+    Utc timestamp{};
+    std::int32_t number = 0;
+};
+
+struct SoundDetected {
+    static constexpr std::string_view name = "sound_detected";
+    static SoundDetected from(ReceiveEvent const&);
+    Utc timestamp{};
+    std::int32_t number = 0;
+};
+
+class PersonDetection : public Component {
+public:
+    static constexpr std::string_view component_type = "PersonDetection";
+    explicit PersonDetection(Component component) : Component{std::move(component)} {}
+    auto person_detected(QueryExpression condition = {}) const { return events<PersonDetected>(std::move(condition)); }
+};
+
+class FaceDetection : public Component {
+public:
+    static constexpr std::string_view component_type = "FaceDetection";
+    explicit FaceDetection(Component component) : Component{std::move(component)} {}
+    auto face_detected(QueryExpression condition = {}) const { return events<FaceDetected>(std::move(condition)); }
+};
+
+class SoundDetection : public Component {
+public:
+    static constexpr std::string_view component_type = "SoundDetection";
+    explicit SoundDetection(Component component) : Component{std::move(component)} {}
+    auto sound_detected(QueryExpression condition = {}) const { return events<SoundDetected>(std::move(condition)); }
+};
+
+// --- Localization of people, faces and sounds (tables 36, 39, 41) ---
+
+struct PersonLocalized {
+    static constexpr std::string_view name = "person_localized";
+    static PersonLocalized from(ReceiveEvent const&);
+    Utc timestamp{};
+    std::vector<Sighting> people{};
+};
+
+struct FaceLocalized {
+    static constexpr std::string_view name = "face_localized";
+    static FaceLocalized from(ReceiveEvent const&);
+    Utc timestamp{};
+    std::vector<Sighting> faces{};
+};
+
+struct SoundLocalized {
+    static constexpr std::string_view name = "sound_localized";
+    static SoundLocalized from(ReceiveEvent const&);
+    Utc timestamp{};
+    std::vector<Sighting> sounds{};
+};
+
+// How far something must have moved to be told of again, and how long nothing is told after an event.
+struct LocalizationParameters {
+    std::optional<millimetres> detection_threshold{};
+    std::optional<Milliseconds> minimum_interval{};
+};
+
+class Localization : public Component {
+public:
+    explicit Localization(Component component) : Component{std::move(component)} {}
+    Task<CompletedStatus> set(LocalizationParameters) const;
+    Task<LocalizationParameters> parameters() const;
+};
+
+class PersonLocalization : public Localization {
+public:
+    static constexpr std::string_view component_type = "PersonLocalization";
+    using Localization::Localization;
+    auto person_localized(QueryExpression condition = {}) const { return events<PersonLocalized>(std::move(condition)); }
+};
+
+class FaceLocalization : public Localization {
+public:
+    static constexpr std::string_view component_type = "FaceLocalization";
+    using Localization::Localization;
+    auto face_localized(QueryExpression condition = {}) const { return events<FaceLocalized>(std::move(condition)); }
+};
+
+class SoundLocalization : public Localization {
+public:
+    static constexpr std::string_view component_type = "SoundLocalization";
+    using Localization::Localization;
+    auto sound_localized(QueryExpression condition = {}) const { return events<SoundLocalized>(std::move(condition)); }
+};
+
+// --- Person Identification (table 37) ---
+
+struct PersonIdentified {
+    static constexpr std::string_view name = "person_identified";
+    static PersonIdentified from(ReceiveEvent const&);
+    Utc timestamp{};
+    std::vector<Identifier> people{};
+};
+
+class PersonIdentification : public Component {
+public:
+    static constexpr std::string_view component_type = "PersonIdentification";
+    explicit PersonIdentification(Component component) : Component{std::move(component)} {}
+    auto person_identified(QueryExpression condition = {}) const { return events<PersonIdentified>(std::move(condition)); }
+};
+
+// --- Speech Recognition (table 42) ---
+
+struct SpeechRecognized {
+    static constexpr std::string_view name = "speech_recognized";
+    static SpeechRecognized from(ReceiveEvent const&);
+    Utc timestamp{};
+    std::vector<std::string> recognized_text{};  // the likeliest first
+};
+
+struct SpeechInputStarted {
+    static constexpr std::string_view name = "speech_input_started";
+    static SpeechInputStarted from(ReceiveEvent const&);
+    Utc timestamp{};
+};
+
+struct SpeechInputFinished {
+    static constexpr std::string_view name = "speech_input_finished";
+    static SpeechInputFinished from(ReceiveEvent const&);
+    Utc timestamp{};
+};
+
+struct SpeechRecognitionParameters {
+    std::vector<std::string> languages{};  // ISO 639-1; empty: not set
+    std::optional<std::string> grammar{};
+    std::optional<std::string> rule{};
+    std::vector<std::string> recognizable_languages{};  // read only
+};
+
+class SpeechRecognition : public Component {
+public:
+    static constexpr std::string_view component_type = "SpeechRecognition";
+    explicit SpeechRecognition(Component component) : Component{std::move(component)} {}
+    auto speech_recognized(QueryExpression condition = {}) const { return events<SpeechRecognized>(std::move(condition)); }
+    auto speech_input_started(QueryExpression condition = {}) const { return events<SpeechInputStarted>(std::move(condition)); }
+    auto speech_input_finished(QueryExpression condition = {}) const { return events<SpeechInputFinished>(std::move(condition)); }
+    Task<CompletedStatus> set(SpeechRecognitionParameters) const;
+    Task<SpeechRecognitionParameters> parameters() const;
+};
+
+// --- Gesture Recognition (table 43) ---
+
+struct GestureRecognized {
+    static constexpr std::string_view name = "gesture_recognized";
+    static GestureRecognized from(ReceiveEvent const&);
+    Utc timestamp{};
+    std::vector<Identifier> gestures{};  // the likeliest first
+};
+
+class GestureRecognition : public Component {
+public:
+    static constexpr std::string_view component_type = "GestureRecognition";
+    explicit GestureRecognition(Component component) : Component{std::move(component)} {}
+    auto gesture_recognized(QueryExpression condition = {}) const { return events<GestureRecognized>(std::move(condition)); }
+    Task<std::vector<Identifier>> recognizable_gestures() const;
+};
+
+// --- Speech Synthesis (table 44) ---
+
+struct Speech {
+    std::optional<std::string> speech_text{};  // plain; or as W3C SSML:
+    std::optional<std::string> SSML_text{};
+    std::optional<int> volume{};
+    std::optional<std::string> language{};  // ISO 639-1
+    std::optional<std::string> character{};
+    std::vector<std::string> synthesizable_languages{};   // read only
+    std::vector<std::string> synthesizable_characters{};  // read only
+};
+
+class SpeechSynthesis : public Component {
+public:
+    static constexpr std::string_view component_type = "SpeechSynthesis";
+    explicit SpeechSynthesis(Component component) : Component{std::move(component)} {}
+    // Until it was said.
+    Task<CompletedStatus> say(std::string speech_text) const;
+    Task<CompletedStatus> say(Speech) const;
+    Task<CompletedStatus> set(Speech) const;
+    Task<Speech> parameters() const;
+};
+
+// --- Reaction (table 45) ---
+
+class Reaction : public Component {
+public:
+    static constexpr std::string_view component_type = "Reaction";
+    explicit Reaction(Component component) : Component{std::move(component)} {}
+    // Until it was performed. The code is one of `available_reactions` (annex D: "9" is a bow).
+    Task<CompletedStatus> react(std::string reaction_ref) const;
+    Task<std::vector<Identifier>> available_reactions() const;
+};
+
+// --- Navigation (table 46) ---
+
+enum class RoutingPolicy : std::uint8_t { time, distance };
+
+struct ReachedTarget {
+    static constexpr std::string_view name = "reached_target";
+    static ReachedTarget from(ReceiveEvent const&);
+    std::string target{};  // as it was given: a pose as text, or a place's name
+    bool is_final_target = false;
+};
+
+// Where to go: a pose, or a place that the engine knows by name.
+struct Target {
+    Target(Pose const&);
+    Target(std::string place) : text{std::move(place)} {}
+    Target(char const* place) : text{place} {}
+    std::string text{};
+    std::string crs{};  // of a pose; the first target's counts for all
+};
+
+struct NavigationParameters {
+    std::vector<Target> target_position{};     // in order; empty: not set
+    std::optional<Milliseconds> time_limit{};  // 0: none
+    std::optional<RoutingPolicy> routing_policy{};
+};
+
+class Navigation : public Component {
+public:
+    static constexpr std::string_view component_type = "Navigation";
+    explicit Navigation(Component component) : Component{std::move(component)} {}
+    // Until it is there; TIMEOUT when the limit passed before.
+    Task<CompletedStatus> go_to(Target, std::optional<Milliseconds> time_limit = {}) const;
+    Task<CompletedStatus> go(NavigationParameters) const;
+    auto reached_target(QueryExpression condition = {}) const { return events<ReachedTarget>(std::move(condition)); }
+    Task<CompletedStatus> set(NavigationParameters) const;
+    Task<NavigationParameters> parameters() const;
+};
+
+// --- Follow (7.6.14) ---
+
+struct FollowParameters {
+    std::optional<Identifier> target_object_ref{};
+    std::optional<millimetres> distance{};     // how near the robot comes
+    std::optional<Milliseconds> time_limit{};  // 0: none
+};
+
+class Follow : public Component {
+public:
+    static constexpr std::string_view component_type = "Follow";
+    explicit Follow(Component component) : Component{std::move(component)} {}
+    // Until it is stopped (OK) or the limit has passed (TIMEOUT); `begin_following` only until it follows.
+    Task<CompletedStatus> follow(FollowParameters) const;
+    Task<Command> begin_following(FollowParameters) const;
+    Task<CompletedStatus> set(FollowParameters) const;
+    Task<FollowParameters> parameters() const;
+};
+
+// --- Move (7.6.15) ---
+
+// Straight on: how far, and in which direction from where the robot looks. Or around: the radius, and how far around.
+struct Line {
+    millimetres distance{};
+    degrees direction{};
+};
+struct Curve {
+    millimetres radius{};
+    degrees direction{};
+};
+
+struct MoveParameters {
+    std::optional<Line> line{};
+    std::optional<Curve> curve{};
+    std::optional<Milliseconds> time{};  // how long the motion takes
+};
+
+class Move : public Component {
+public:
+    static constexpr std::string_view component_type = "Move";
+    explicit Move(Component component) : Component{std::move(component)} {}
+    // Until it has moved.
+    Task<CompletedStatus> move(Line, std::optional<Milliseconds> time = {}) const;
+    Task<CompletedStatus> move(Curve, std::optional<Milliseconds> time = {}) const;
+    Task<CompletedStatus> set(MoveParameters) const;
+    Task<MoveParameters> parameters() const;
+};
+
+// --- Audio Streaming, Video Streaming (RoIS 2.0; docs/streaming.md) ---
+
+struct StreamOffer {
+    std::string stream_id{};
+    std::string encoding_parameters{};
+    std::string transport_parameters{};
+};
+
+struct StreamStatusNotified {
+    static constexpr std::string_view name = "notify_stream_status";
+    static StreamStatusNotified from(ReceiveEvent const&);
+    std::string stream_id{};
+    Utc timestamp{};
+    StreamStatus status = StreamStatus::not_running;
+};
+
+struct StreamParameters {
+    std::optional<std::string> encoding_parameters{};
+    std::optional<std::string> transport_parameters{};
+    std::string available_encodings{};   // read only
+    std::string available_transports{};  // read only
+};
+
+class Streaming : public Component {
+public:
+    explicit Streaming(Component component) : Component{std::move(component)} {}
+    // Throws Error when the command does not complete with OK.
+    Task<StreamOffer> connect_stream() const;
+    Task<CompletedStatus> disconnect_stream(std::string stream_id) const;
+    Task<CompletedStatus> suspend_stream(std::string stream_id) const;
+    Task<CompletedStatus> resume_stream(std::string stream_id) const;
+    Task<StreamStatus> get_stream_status() const;  // of the latest one
+    auto notify_stream_status(QueryExpression condition = {}) const { return events<StreamStatusNotified>(std::move(condition)); }
+    Task<CompletedStatus> set(StreamParameters) const;
+    Task<StreamParameters> parameters() const;
+};
+
+class AudioStreaming : public Streaming {
+public:
+    static constexpr std::string_view component_type = "AudioStreaming";
+    using Streaming::Streaming;
+};
+
+class VideoStreaming : public Streaming {
+public:
+    static constexpr std::string_view component_type = "VideoStreaming";
+    using Streaming::Streaming;
+};
+
+}  // namespace rois

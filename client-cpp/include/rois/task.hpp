@@ -1,0 +1,117 @@
+// Task: what an operation of the client gives: a coroutine that runs when it is awaited.
+#pragma once
+
+#include <coroutine>
+#include <exception>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+namespace rois {
+
+template <class T>
+class Task;
+
+namespace detail {
+
+// Who awaits a task goes on when the task is over.
+struct TaskPromiseBase {
+    struct Final {
+        bool await_ready() const noexcept { return false; }
+        template <class Promise>
+        std::coroutine_handle<> await_suspend(std::coroutine_handle<Promise> ended) const noexcept {
+            return ended.promise().continuation;
+        }
+        void await_resume() const noexcept {}
+    };
+
+    std::suspend_always initial_suspend() const noexcept { return {}; }
+    Final final_suspend() const noexcept { return {}; }
+
+    std::coroutine_handle<> continuation = std::noop_coroutine();
+};
+
+template <class T>
+struct TaskPromise : TaskPromiseBase {
+    Task<T> get_return_object();
+    void return_value(T value) { result.template emplace<1>(std::move(value)); }
+    void unhandled_exception() { result.template emplace<2>(std::current_exception()); }
+    T take() {
+        if (result.index() == 2) std::rethrow_exception(std::get<2>(result));
+        return std::move(std::get<1>(result));
+    }
+
+    std::variant<std::monostate, T, std::exception_ptr> result;
+};
+
+template <>
+struct TaskPromise<void> : TaskPromiseBase {
+    Task<void> get_return_object();
+    void return_void() const noexcept {}
+    void unhandled_exception() { problem = std::current_exception(); }
+    void take() const {
+        if (problem) std::rethrow_exception(problem);
+    }
+
+    std::exception_ptr problem;
+};
+
+}  // namespace detail
+
+// A coroutine that gives a T. It begins when it is awaited, once, and what it throws comes out there. Whoever awaits an operation
+// of a client goes on on the client's thread (connection.hpp). One that is never awaited does nothing.
+//
+// g++ 12 destroys twice what is made in braces inside a co_await (`co_await f({.text = "a"})`, an aggregate), and copies what is
+// awaited in place: give such a value a name first. It also drops what follows a co_await in the condition of a loop or an if.
+template <class T = void>
+class [[nodiscard]] Task {
+public:
+    using promise_type = detail::TaskPromise<T>;
+    using Handle = std::coroutine_handle<promise_type>;
+
+    explicit Task(Handle coroutine) : coroutine_{coroutine} {}
+    Task(Task&& other) noexcept : coroutine_{std::exchange(other.coroutine_, {})} {}
+    Task& operator=(Task&& other) noexcept {
+        std::swap(coroutine_, other.coroutine_);
+        return *this;
+    }
+    ~Task() {
+        if (coroutine_) coroutine_.destroy();
+    }
+
+    class Awaiter {
+    public:
+        explicit Awaiter(Handle coroutine) : coroutine_{coroutine} {}
+        bool await_ready() const noexcept { return false; }
+        Handle await_suspend(std::coroutine_handle<> continuation) const noexcept {
+            coroutine_.promise().continuation = continuation;
+            return coroutine_;
+        }
+        T await_resume() const { return coroutine_.promise().take(); }
+
+    private:
+        Handle coroutine_;
+    };
+
+    Awaiter operator co_await() const& noexcept { return Awaiter{coroutine_}; }
+    Awaiter operator co_await() const&& noexcept { return Awaiter{coroutine_}; }
+
+private:
+    Handle coroutine_;
+};
+
+namespace detail {
+
+template <class T>
+Task<T> TaskPromise<T>::get_return_object() {
+    return Task<T>{std::coroutine_handle<TaskPromise<T>>::from_promise(*this)};
+}
+
+inline Task<void> TaskPromise<void>::get_return_object() {
+    return Task<void>{std::coroutine_handle<TaskPromise<void>>::from_promise(*this)};
+}
+
+}  // namespace detail
+
+}  // namespace rois

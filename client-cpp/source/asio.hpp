@@ -1,0 +1,35 @@
+// The types of Boost.Asio that are used here, all with the concrete executor of the client's thread.
+// Comes before any other header of Boost.Asio.
+#pragma once
+
+// The thread sanitizer does not understand fences; those of Asio are not needed for what it hands over under its mutexes.
+#ifdef __SANITIZE_THREAD__
+#define BOOST_ASIO_DISABLE_FENCED_BLOCK
+#endif
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/basic_stream_socket.hpp>
+#include <boost/asio/basic_waitable_timer.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/redirect_error.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <chrono>
+
+namespace rois::client {
+
+namespace asio = boost::asio;
+
+using Executor = asio::io_context::executor_type;
+using Socket = asio::basic_stream_socket<asio::ip::tcp, Executor>;
+using Timer = asio::basic_waitable_timer<std::chrono::steady_clock, asio::wait_traits<std::chrono::steady_clock>, Executor>;
+using boost::system::error_code;
+
+// A coroutine of a link. g++ 12 miscompiles a co_await inside the condition of a loop or an if (it drops what follows): give its
+// result a name first.
+using Opening = asio::awaitable<void, Executor>;
+
+// Completion token: await it, and find the error in `error`.
+inline auto into(error_code& error) { return asio::redirect_error(asio::use_awaitable_t<Executor>{}, error); }
+
+}  // namespace rois::client

@@ -1,0 +1,53 @@
+// A connection below a link: TCP, or TLS on it. Comes with Beast: for the sources of links alone.
+#pragma once
+
+#include "asio.hpp"
+// Asio first.
+#include <boost/asio/connect.hpp>
+#include <boost/asio/ssl.hpp>
+#include <memory>
+#include <string>
+
+#include "rois/settings.hpp"
+#include "target.hpp"
+
+namespace rois::client {
+
+using TlsSocket = asio::ssl::stream<Socket>;
+
+template <class Stream>
+inline constexpr bool is_tls = std::is_same_v<Stream, TlsSocket>;
+
+// What TLS trusts: the system's certificates, and the file of the settings. Throws boost::system::system_error when that cannot
+// be read.
+inline std::unique_ptr<asio::ssl::context> trust(Settings const& settings) {
+    auto context = std::make_unique<asio::ssl::context>(asio::ssl::context::tls_client);
+    context->set_default_verify_paths();
+    if (!settings.ca_file.empty()) context->load_verify_file(settings.ca_file);
+    context->set_verify_mode(asio::ssl::verify_peer);
+    return context;
+}
+
+// Resolves, connects and, with TLS, checks who is there. `lowest` is the socket of `stream`.
+template <class Stream>
+asio::awaitable<std::string, Executor> connect(Stream& stream, Socket& lowest,
+                                               asio::ip::basic_resolver<asio::ip::tcp, Executor>& resolver,
+                                               Target const& target) {
+    error_code error;
+    auto const found = co_await resolver.async_resolve(target.host, target.port, into(error));
+    if (error) co_return "the name " + target.host + " cannot be resolved: " + error.message();
+    co_await asio::async_connect(lowest, found, into(error));
+    if (error) co_return "no connection to " + target.authority + ": " + error.message();
+    lowest.set_option(asio::ip::tcp::no_delay{true}, error);
+    if constexpr (is_tls<Stream>) {
+        stream.set_verify_callback(asio::ssl::host_name_verification{target.host}, error);
+        error_code no_address;
+        asio::ip::make_address(target.host, no_address);
+        if (no_address) SSL_set_tlsext_host_name(stream.native_handle(), target.host.c_str());
+        co_await stream.async_handshake(asio::ssl::stream_base::client, into(error));
+        if (error) co_return "no TLS with " + target.authority + ": " + error.message();
+    }
+    co_return std::string{};
+}
+
+}  // namespace rois::client

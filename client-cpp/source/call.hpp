@@ -1,0 +1,60 @@
+// One request on its way, and who waits for its answer.
+#pragma once
+
+#include <coroutine>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "loop.hpp"
+#include "rois/error.hpp"
+#include "xml/codec.hpp"
+
+namespace rois::client {
+
+// The link broke after the request was sent, and the same session has been resumed: whether it was done is not known.
+struct Interrupted {};
+
+// Lives on the client's thread. Awaited once.
+class Call {
+public:
+    enum class Kind : std::uint8_t {
+        again,  // sent again when the link breaks: doing it twice is as good as once
+        once,   // not sent again: who waits hears of it
+        raw,    // a document as it stands
+    };
+    using Outcome = std::variant<Reply, Fault, std::string, NoAnswer, Interrupted>;
+
+    Call(Kind how, std::string document, std::string request_id)
+        : kind{how}, text{std::move(document)}, id{std::move(request_id)} {}
+
+    Call(Call const&) = delete;
+    Call& operator=(Call const&) = delete;
+
+    void give(Outcome given) {
+        outcome_ = std::move(given);
+        if (auto const waiter = std::exchange(waiter_, {})) waiter.resume();
+    }
+
+    struct Awaiter {
+        Call* call;
+        bool await_ready() const { return call->outcome_.has_value(); }
+        void await_suspend(std::coroutine_handle<> waiter) const { call->waiter_ = waiter; }
+        Outcome await_resume() const { return std::move(*call->outcome_); }
+    };
+    Awaiter outcome() { return {this}; }
+
+    Kind const kind;
+    std::string const text;
+    std::string const id;  // empty for a raw one
+    bool sent = false;     // on this link
+    Loop::Ticket deadline = 0;
+
+private:
+    std::optional<Outcome> outcome_;
+    std::coroutine_handle<> waiter_;
+};
+
+}  // namespace rois::client

@@ -1,0 +1,156 @@
+// The inside of a connection: its thread, its session, what is on the way. Facades and coroutines keep it alive.
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "call.hpp"
+#include "link.hpp"
+#include "loop.hpp"
+#include "rois/connection.hpp"
+#include "stream.hpp"
+#include "subscriptions.hpp"
+
+namespace rois::detail {
+
+// Lives on the client's thread; what is called from others says so. Sources: core.cpp (beginning, end, calls), core_session.cpp
+// (link and session), core_notifications.cpp, core_operations.cpp (what operations mean to it).
+class Core final : public std::enable_shared_from_this<Core>, private client::Link::Listener {
+public:
+    Core(Settings, Observers);
+
+    // From any thread:
+    void start();
+    void close();    // begins to
+    void destroy();  // closes, waits for the end where it may; observers hear no more
+    State state() const { return state_; }
+    SessionId session() const;
+    client::Loop& loop() { return loop_; }
+    Settings const& settings() const { return settings_; }
+    CommandId fresh_command_id();
+
+    void spawn(Task<>);
+
+    // A coroutine goes on on the client's thread. Throws nothing; all others await it first.
+    auto here() { return loop_.here(); }
+
+    // Sends it, now or when there is a session, and gives what became of it.
+    Task<client::Call::Outcome> send(client::Call::Kind, std::string document, std::string request_id,
+                                     std::chrono::milliseconds deadline);
+    // An operation with all that it means to the connection.
+    Task<Answer> request(Operation, std::chrono::milliseconds deadline);
+
+    Task<std::shared_ptr<Stream>> subscribe(Subscribe);  // throws Error
+    void streams_changed();                              // from any thread: one may have lost its last handle
+
+    // Executes a sequence, whose commands get ids, and watches them: one for each, in document order. Throws Error, which says
+    // `what`.
+    Task<std::vector<std::shared_ptr<Watch>>> begin(CommandUnitSequence, std::string what);
+
+    // Raised when there is a session, and when the connection is closed.
+    client::Flag opened;
+    bool is_open() const { return phase_ == Phase::open; }
+    bool is_closed() const { return phase_ == Phase::closing || phase_ == Phase::closed; }
+    std::string const& last_reason() const { return last_reason_; }
+
+    // Waits so long, or until the connection closes.
+    Task<> pass(std::chrono::milliseconds);
+
+private:
+    enum class Phase : std::uint8_t { resting, connecting, attaching, restoring, open, closing, closed };
+
+    // --- core_session.cpp ---
+    void attempt();
+    void connected() override;
+    void attached() override;
+    void document(std::string_view) override;
+    void failed(std::string const& reason, client::Failure) override;
+    void give_up_link(std::string const& reason, client::Failure);
+    void open_session();
+    void take_opening(xml::Heard);
+    void session_gone();
+    void restore();
+    void take_restored(xml::Answered const&);
+    void take_restored(Fault const&);
+    void restored(std::string const& request_id, Outcome const&, Reply const*);
+    void become_open();
+    std::chrono::milliseconds pause();
+    void send_on_link(std::string const& document);
+
+    // --- core.cpp ---
+    void change(State, std::string reason = {});
+    void take_answer(std::string_view document, std::optional<xml::Heard>);
+    void settle(std::shared_ptr<client::Call> const&, client::Call::Outcome);
+    std::shared_ptr<client::Call> call_of(std::string const& request_id) const;
+    void flush();
+    enum class Farewell : std::uint8_t { due, said };  // the engine's session ends, too, or has ended
+    void begin_close(Farewell);
+    void finish();
+
+    // --- core_notifications.cpp ---
+    void take(xml::Told);
+    void tell_held();
+    void tell(xml::Told);
+    void tell_gap(Gap);
+    void complete(CommandId const&, CompletedStatus);
+
+    // --- core_operations.cpp ---
+    Task<Answer> plain(Operation, std::chrono::milliseconds deadline);
+    Task<Answer> execute(Execute, std::chrono::milliseconds deadline);
+    Task<Answer> bind_any(BindAny, std::chrono::milliseconds deadline);
+    Task<Answer> subscribe_by_request(Subscribe, std::chrono::milliseconds deadline);
+    Task<Answer> unsubscribe(Unsubscribe, std::chrono::milliseconds deadline);
+    Task<Answer> disconnect(std::chrono::milliseconds deadline);
+    Task<Answer> subscribe_at_engine(Subscribe, std::chrono::milliseconds deadline);
+    void end_subscribing();
+    Task<> unsubscribe_unheard(SubscribeId);
+    void note_bound(Identifier const&);
+    void note_released(Identifier const&);
+    void end_unheard();
+
+    Settings const settings_;
+    Observers const observers_;
+    client::Target const target_;
+    client::Loop loop_;
+    std::atomic<State> state_ = State::connecting;
+    std::atomic<bool> muted_ = false;  // observers hear no more
+    std::atomic<std::uint64_t> last_command_ = 0;
+
+    bool destroyed_ = false;
+
+    // The session.
+    Phase phase_ = Phase::resting;
+    std::shared_ptr<client::Link> link_;
+    mutable std::mutex session_mutex_;  // guards session_ for others; only this thread changes it
+    SessionId session_;
+    bool had_session_ = false;
+    std::uint64_t last_sequence_ = 0;
+    unsigned failures_ = 0;  // in a row
+    client::Loop::Ticket attempt_ = 0;
+    std::string last_reason_;
+    std::uint64_t dice_ = 0;
+    std::vector<Identifier> bound_;
+    client::Subscriptions subscriptions_;
+    std::map<std::string, std::string> restoring_;  // request ids, and what is made anew
+    std::optional<Gap> gap_;                        // to be told when all is restored
+
+    std::vector<std::weak_ptr<client::Flag>> sleeping_;
+
+    // What is on the way.
+    xml::AnswerReader reader_;
+    std::deque<std::shared_ptr<client::Call>> calls_;  // in the order in which they came
+    std::uint64_t last_request_ = 0;
+    std::map<CommandId, std::shared_ptr<Watch>> watches_;
+
+    // While it is not known yet which events are whose, notifications wait.
+    std::size_t subscribing_ = 0;
+    std::deque<xml::Told> held_;
+};
+
+}  // namespace rois::detail

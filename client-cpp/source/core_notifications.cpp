@@ -1,0 +1,54 @@
+// What the engine tells on its own: each once, in order, with the gaps between.
+#include <algorithm>
+
+#include "core.hpp"
+
+namespace rois::detail {
+
+// The link may break at any time: what was received counts as heard, even if it waits here.
+void Core::take(xml::Told told) {
+    if (told.sequence <= last_sequence_) return;
+    auto const missing = told.sequence - last_sequence_ - 1;
+    last_sequence_ = told.sequence;
+    if (auto* const lost = std::get_if<Lost>(&told.notification)) {
+        lost->count = std::max(lost->count, missing + 1);
+    } else if (missing > 0) {
+        held_.push_back({told.sequence - 1, Lost{missing}});
+    }
+    held_.push_back(std::move(told));
+    tell_held();
+}
+
+void Core::tell_held() {
+    while (subscribing_ == 0 && !held_.empty()) {
+        auto told = std::move(held_.front());
+        held_.pop_front();
+        tell(std::move(told));
+    }
+}
+
+void Core::tell(xml::Told told) {
+    client::Subscriptions::Hearing hearing;
+    auto* const event = std::get_if<ReceiveEvent>(&told.notification);
+    if (event != nullptr) hearing = subscriptions_.hearing(*event);
+    if (auto const* const lost = std::get_if<Lost>(&told.notification)) tell_gap({Gap::Why::dropped, lost->count, {}});
+    if (observers_.notification && !muted_) observers_.notification(told.notification, told.sequence);
+    for (auto const& [id, stream] : hearing) {
+        event->subscribe_id = id;
+        stream->take(*event);
+    }
+    if (auto const* const completed = std::get_if<Completed>(&told.notification))
+        complete(completed->command_id, completed->status);
+}
+
+void Core::tell_gap(Gap gap) {
+    for (auto const& stream : subscriptions_.streams()) stream->take_gap();
+    if (observers_.gap && !muted_) observers_.gap(gap);
+}
+
+void Core::complete(CommandId const& id, CompletedStatus status) {
+    auto const found = watches_.extract(id);
+    if (found) found.mapped()->complete(status);
+}
+
+}  // namespace rois::detail

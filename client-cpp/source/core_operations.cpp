@@ -1,0 +1,285 @@
+// What operations mean to the connection beside their answers: bindings and subscriptions to be made anew, commands that must not
+// run twice.
+#include <algorithm>
+
+#include "core.hpp"
+
+namespace rois::detail {
+
+using client::Call;
+using client::Interrupted;
+
+namespace {
+
+// Each command of a sequence, wherever it stands, in document order.
+void for_each_command(std::vector<CommandUnit>& units, auto const& function) {
+    for (auto& unit : units) {
+        if (auto* const command = std::get_if<CommandMessage>(&unit.unit)) function(*command);
+        if (auto* const inner = std::get_if<SequentialCommandUnit>(&unit.unit))
+            for_each_command(inner->command_unit_list, function);
+        if (auto* const inner = std::get_if<ParallelCommandUnit>(&unit.unit))
+            for_each_command(inner->command_unit_list, function);
+        if (auto* const inner = std::get_if<ConcurrentCommands>(&unit.unit)) {
+            for (auto& branch : inner->branches) for_each_command(branch.command_list, function);
+        }
+    }
+}
+
+template <class R>
+R const* good(Answer const& answer) {
+    auto const* const reply = std::get_if<Reply>(&answer);
+    auto const* const expected = reply != nullptr ? std::get_if<R>(reply) : nullptr;
+    return expected != nullptr && expected->return_code == ReturnCode::ok ? expected : nullptr;
+}
+
+Answer answer_of(Call::Outcome outcome) {
+    if (auto* const reply = std::get_if<Reply>(&outcome)) return std::move(*reply);
+    if (auto* const fault = std::get_if<Fault>(&outcome)) return std::move(*fault);
+    if (auto* const none = std::get_if<NoAnswer>(&outcome)) return std::move(*none);
+    return NoAnswer{NoAnswer::Why::link_lost, "the link broke before the answer came"};
+}
+
+class Remaining {
+public:
+    explicit Remaining(std::chrono::milliseconds whole) : end_{std::chrono::steady_clock::now() + whole} {}
+    std::chrono::milliseconds now() const {
+        auto const left = end_ - std::chrono::steady_clock::now();
+        return std::max(std::chrono::duration_cast<std::chrono::milliseconds>(left), std::chrono::milliseconds{0});
+    }
+
+private:
+    std::chrono::steady_clock::time_point end_;
+};
+
+}  // namespace
+
+Task<Answer> Core::request(Operation operation, std::chrono::milliseconds deadline) {
+    if (auto* const op = std::get_if<Execute>(&operation)) return execute(std::move(*op), deadline);
+    if (auto* const op = std::get_if<BindAny>(&operation)) return bind_any(std::move(*op), deadline);
+    if (auto* const op = std::get_if<Subscribe>(&operation)) return subscribe_by_request(std::move(*op), deadline);
+    if (auto* const op = std::get_if<Unsubscribe>(&operation)) return unsubscribe(std::move(*op), deadline);
+    if (std::holds_alternative<Disconnect>(operation)) return disconnect(deadline);
+    return plain(std::move(operation), deadline);
+}
+
+Task<Answer> Core::plain(Operation operation, std::chrono::milliseconds deadline) {
+    auto const self = shared_from_this();
+    co_await here();
+    if (std::holds_alternative<Resume>(operation))
+        co_return Fault{FaultCode::not_allowed, "the connection resumes its session by itself", {}, {}};
+    auto id = "rois-cpp-" + std::to_string(++last_request_);
+    Request request{std::move(operation), id};
+    auto text = xml::encode(request);
+    auto outcome = co_await send(Call::Kind::again, std::move(text), std::move(id), deadline);
+    auto answer = answer_of(std::move(outcome));
+    if (auto const* const op = std::get_if<Bind>(&request.operation); op != nullptr && good<Bind::Reply>(answer) != nullptr)
+        note_bound(op->component_ref);
+    if (auto const* const op = std::get_if<Release>(&request.operation); op != nullptr && good<Release::Reply>(answer) != nullptr)
+        note_released(op->component_ref);
+    co_return answer;
+}
+
+// --- Commands ---
+
+// They are watched before they are sent: over HTTP, `completed` may come before the answer.
+Task<std::vector<std::shared_ptr<Watch>>> Core::begin(CommandUnitSequence sequence, std::string what) {
+    auto const self = shared_from_this();
+    co_await here();
+    std::vector<std::shared_ptr<Watch>> watches;
+    for_each_command(sequence.command_unit_list, [&](CommandMessage& command) {
+        if (command.command_id.text.empty()) command.command_id = fresh_command_id();
+        watches.push_back(std::make_shared<Watch>(command.command_id));
+        watches_[command.command_id] = watches.back();
+    });
+    Execute operation{std::move(sequence)};
+    auto answer = co_await execute(std::move(operation), settings_.deadline);
+    auto const reply = reply_of<Execute>(std::move(answer));
+    if (reply.return_code != ReturnCode::ok) {
+        for (auto const& watch : watches) watches_.erase(watch->id);
+        throw Error{reply.return_code, what + ": " + reply.reason};
+    }
+    co_return watches;
+}
+
+// A sequence that may have arrived: the engine takes no id twice, so it may be sent again. When it is refused then, the first
+// command tells whether it is known from the first time.
+Task<Answer> Core::execute(Execute operation, std::chrono::milliseconds deadline) {
+    auto const self = shared_from_this();
+    co_await here();
+    Remaining const remaining{deadline};
+    CommandId first;
+    for_each_command(operation.command_unit_list.command_unit_list, [&](CommandMessage& command) {
+        if (command.command_id.text.empty()) command.command_id = fresh_command_id();
+        if (first.text.empty()) first = command.command_id;
+    });
+    Execute::Reply accepted;
+    accepted.command_unit_list = operation.command_unit_list;
+    Operation const whole{std::move(operation)};
+    bool doubtful = false;
+    for (;;) {
+        auto id = "rois-cpp-" + std::to_string(++last_request_);
+        auto text = xml::encode(Request{whole, id});
+        auto outcome = co_await send(Call::Kind::once, std::move(text), std::move(id), remaining.now());
+        if (std::holds_alternative<Interrupted>(outcome)) {
+            doubtful = true;
+            continue;
+        }
+        auto answer = answer_of(std::move(outcome));
+        bool const refused = std::holds_alternative<Reply>(answer) && good<Execute::Reply>(answer) == nullptr;
+        if (!doubtful || !refused || first.text.empty()) co_return answer;
+        Operation ask{GetCommandResult{first, {}}};
+        auto const known = co_await plain(std::move(ask), remaining.now());
+        if (good<GetCommandResult::Reply>(known) == nullptr) co_return answer;
+        Reply reply{accepted};
+        co_return reply;
+    }
+}
+
+// --- Bindings ---
+
+void Core::note_bound(Identifier const& ref) {
+    bool const known = std::ranges::any_of(bound_, [&](auto const& bound) { return bound.code == ref.code; });
+    if (!known) bound_.push_back(ref);
+}
+
+void Core::note_released(Identifier const& ref) {
+    std::erase_if(bound_, [&](auto const& bound) { return bound.code == ref.code; });
+}
+
+// One that may have been done has bound a component that is not known to be ours: parameters are told to its owner alone.
+Task<Answer> Core::bind_any(BindAny operation, std::chrono::milliseconds deadline) {
+    auto const self = shared_from_this();
+    co_await here();
+    Remaining const remaining{deadline};
+    for (;;) {
+        auto id = "rois-cpp-" + std::to_string(++last_request_);
+        auto text = xml::encode(Request{operation, id});
+        auto outcome = co_await send(Call::Kind::once, std::move(text), std::move(id), remaining.now());
+        if (!std::holds_alternative<Interrupted>(outcome)) {
+            auto answer = answer_of(std::move(outcome));
+            if (auto const* const reply = good<BindAny::Reply>(answer)) note_bound(reply->component_ref);
+            co_return answer;
+        }
+        Operation look{Search{operation.condition}};
+        auto const candidates = co_await plain(std::move(look), remaining.now());
+        auto const* const found = good<Search::Reply>(candidates);
+        if (found == nullptr) continue;
+        for (auto const& ref : found->component_ref_list) {
+            if (std::ranges::any_of(bound_, [&](auto const& bound) { return bound.code == ref.code; })) continue;
+            Operation ask{GetParameter{ref}};
+            auto const parameters = co_await plain(std::move(ask), remaining.now());
+            if (good<GetParameter::Reply>(parameters) == nullptr) continue;
+            note_bound(ref);
+            BindAny::Reply done;
+            done.component_ref = ref;
+            Reply reply{std::move(done)};
+            co_return reply;
+        }
+    }
+}
+
+// --- Subscriptions ---
+
+Task<Answer> Core::subscribe_at_engine(Subscribe operation, std::chrono::milliseconds deadline) {
+    auto const self = shared_from_this();
+    ++subscribing_;
+    Operation whole{std::move(operation)};
+    auto answer = co_await plain(std::move(whole), deadline);
+    co_return answer;
+}
+
+// `subscribing_` is counted down when it is noted whose events these are.
+Task<Answer> Core::subscribe_by_request(Subscribe operation, std::chrono::milliseconds deadline) {
+    auto const self = shared_from_this();
+    co_await here();
+    if (auto const* const known = subscriptions_.find(operation); known != nullptr && known->heard())
+        operation.inline_results = true;
+    auto answer = co_await subscribe_at_engine(operation, deadline);
+    if (auto const* const reply = good<Subscribe::Reply>(answer)) {
+        auto& subscription = subscriptions_.of(operation, reply->subscribe_id);
+        subscription.by_request = true;
+        Subscribe::Reply known = *reply;
+        known.subscribe_id = subscription.id;
+        answer = Reply{std::move(known)};
+    }
+    end_subscribing();
+    co_return answer;
+}
+
+Task<std::shared_ptr<Stream>> Core::subscribe(Subscribe operation) {
+    auto const self = shared_from_this();
+    co_await here();
+    operation.inline_results = true;
+    auto answer = co_await subscribe_at_engine(operation, settings_.deadline);
+    std::shared_ptr<Stream> stream;
+    if (auto const* const reply = good<Subscribe::Reply>(answer)) {
+        stream = std::make_shared<Stream>(settings_.most_waiting);
+        if (is_closed()) stream->end();
+        subscriptions_.of(operation, reply->subscribe_id).streams.push_back(stream);
+    }
+    end_subscribing();
+    if (!stream) {
+        auto const failed = reply_of<Subscribe>(std::move(answer));
+        throw Error{failed.return_code, "subscribe " + operation.event_type + ": " + failed.reason};
+    }
+    co_return stream;
+}
+
+// What waits is told from the loop, so that who has just subscribed goes on first.
+void Core::end_subscribing() {
+    if (--subscribing_ > 0) return;
+    loop_.post([self = shared_from_this()] {
+        self->tell_held();
+        self->end_unheard();
+    });
+}
+
+Task<Answer> Core::unsubscribe(Unsubscribe operation, std::chrono::milliseconds deadline) {
+    auto const self = shared_from_this();
+    co_await here();
+    auto const id = operation.subscribe_id;
+    if (auto* const known = subscriptions_.find(id)) {
+        known->by_request = false;
+        if (known->heard() || subscriptions_.shares_engine_id(*known)) {
+            if (!known->heard()) subscriptions_.forget(id);
+            Reply reply{Unsubscribe::Reply{}};
+            co_return reply;
+        }
+        operation.subscribe_id = known->engine_id;
+    }
+    Operation whole{std::move(operation)};
+    auto answer = co_await plain(std::move(whole), deadline);
+    auto const* const known = subscriptions_.find(id);
+    if (known != nullptr && !known->heard() && !known->by_request && good<Unsubscribe::Reply>(answer) != nullptr)
+        subscriptions_.forget(id);
+    co_return answer;
+}
+
+void Core::streams_changed() {
+    loop_.post([self = shared_from_this()] { self->end_unheard(); });
+}
+
+// Not while it is not known what a new subscription is to the engine.
+void Core::end_unheard() {
+    if (subscribing_ > 0 || is_closed()) return;
+    for (auto& id : subscriptions_.forget_unheard()) spawn(unsubscribe_unheard(std::move(id)));
+}
+
+Task<> Core::unsubscribe_unheard(SubscribeId id) {
+    auto const self = shared_from_this();
+    Operation operation{Unsubscribe{std::move(id)}};
+    co_await plain(std::move(operation), settings_.deadline);
+}
+
+// --- The end of the session ---
+
+Task<Answer> Core::disconnect(std::chrono::milliseconds deadline) {
+    auto const self = shared_from_this();
+    co_await here();
+    Operation whole{Disconnect{}};
+    auto answer = co_await plain(std::move(whole), deadline);
+    if (good<Disconnect::Reply>(answer) != nullptr) begin_close(Farewell::said);
+    co_return answer;
+}
+
+}  // namespace rois::detail

@@ -1,0 +1,260 @@
+// The link and the session: attempts, resuming, making anew what went with a session.
+#include <algorithm>
+
+#include "core.hpp"
+
+namespace rois::detail {
+
+using client::Failure;
+
+namespace {
+
+// The answer to `disconnect`, or what says that there is no session any more.
+bool is_farewell(xml::Heard const& heard) {
+    if (std::holds_alternative<Fault>(heard)) return std::get<Fault>(heard).code == FaultCode::no_session;
+    auto const* const answered = std::get_if<xml::Answered>(&heard);
+    return answered != nullptr && std::holds_alternative<Disconnect::Reply>(answered->reply);
+}
+
+// What another attempt will not change.
+bool is_lasting(FaultCode code) {
+    return code == FaultCode::unauthorized || code == FaultCode::not_allowed || code == FaultCode::not_found ||
+           code == FaultCode::method_not_allowed;
+}
+
+}  // namespace
+
+void Core::attempt() {
+    phase_ = Phase::connecting;
+    auto const make = settings_.way == Way::websocket ? client::websocket_link : client::http_link;
+    try {
+        link_ = make(loop_, target_, settings_, *this);
+    } catch (std::exception const& problem) {  // the file of trusted certificates
+        give_up_link(problem.what(), Failure::lasting);
+        return;
+    }
+    attempt_ = loop_.in(settings_.connect_deadline,
+                        [this] { give_up_link("no session with " + target_.authority + " in time", Failure::passing); });
+    link_->open();
+}
+
+void Core::connected() {
+    phase_ = Phase::attaching;
+    if (session_.text.empty()) {
+        open_session();
+    } else {
+        link_->attach(session_, last_sequence_);
+    }
+}
+
+void Core::open_session() { send_on_link(xml::encode(Request{Connect{}, "connect"})); }
+
+void Core::send_on_link(std::string const& document) {
+    if (observers_.tap && !muted_) observers_.tap(Direction::out, document);
+    if (link_) link_->send(document);
+}
+
+void Core::document(std::string_view text) {
+    auto const self = shared_from_this();
+    if (observers_.tap && !muted_) observers_.tap(Direction::in, text);
+    auto heard = reader_.read(text);
+    if (heard && std::holds_alternative<xml::Told>(*heard)) {
+        take(std::get<xml::Told>(*std::move(heard)));
+    } else if (phase_ == Phase::closing) {
+        if (heard && is_farewell(*heard)) finish();
+    } else if (phase_ == Phase::attaching && heard) {
+        take_opening(*std::move(heard));
+    } else if (phase_ == Phase::restoring && heard) {
+        if (auto const* const answered = std::get_if<xml::Answered>(&*heard)) take_restored(*answered);
+        if (auto const* const fault = std::get_if<Fault>(&*heard)) take_restored(*fault);
+    } else {
+        take_answer(text, std::move(heard));
+    }
+}
+
+// The answer to `connect` or `resume`.
+void Core::take_opening(xml::Heard heard) {
+    if (auto const* const fault = std::get_if<Fault>(&heard)) {
+        if (fault->code == FaultCode::no_session && !session_.text.empty()) {
+            session_gone();
+            return;
+        }
+        give_up_link("no session: " + fault->reason, is_lasting(fault->code) ? Failure::lasting : Failure::passing);
+        return;
+    }
+    auto const& reply = std::get<xml::Answered>(heard).reply;
+    if (auto const* const resumed = std::get_if<Resume::Reply>(&reply)) {
+        if (resumed->return_code == ReturnCode::ok) {
+            attached();
+        } else {
+            session_gone();
+        }
+        return;
+    }
+    auto const* const connected = std::get_if<Connect::Reply>(&reply);
+    if (connected == nullptr || connected->return_code != ReturnCode::ok) {
+        give_up_link("no session: the gateway does not answer to connect", Failure::passing);
+        return;
+    }
+    {
+        std::lock_guard const lock{session_mutex_};
+        session_ = connected->session;
+    }
+    last_sequence_ = 0;
+    if (settings_.way == Way::http) {
+        link_->attach(session_, 0);
+    } else {
+        attached();
+    }
+}
+
+// The engine knows the session no longer: the next one follows, on a new link.
+void Core::session_gone() {
+    {
+        std::lock_guard const lock{session_mutex_};
+        session_ = {};
+    }
+    give_up_link("the engine has ended the session", Failure::passing);
+}
+
+void Core::attached() {
+    if (gap_) {
+        restore();
+        return;
+    }
+    had_session_ = true;
+    become_open();
+}
+
+void Core::failed(std::string const& reason, Failure failure) { give_up_link(reason, failure); }
+
+void Core::give_up_link(std::string const& reason, Failure failure) {
+    auto const self = shared_from_this();
+    loop_.cancel(attempt_);
+    if (link_) link_->cut();
+    link_.reset();
+    if (phase_ == Phase::closing) {
+        finish();
+        return;
+    }
+    if (is_closed()) return;
+    bool const was_open = is_open();
+    if (phase_ == Phase::restoring) {
+        --subscribing_;
+        restoring_.clear();
+    }
+    phase_ = Phase::resting;
+    last_reason_ = reason;
+    // A session that is gone leaves a gap, which is told in the next one.
+    if (session_.text.empty() && had_session_ && !gap_) gap_ = Gap{Gap::Why::new_session, {}, {}};
+    if (was_open) change(State::lost, reason);
+    ++failures_;
+    if (failure == Failure::lasting || (settings_.attempts && failures_ >= *settings_.attempts && !was_open)) {
+        begin_close(Farewell::said);
+        return;
+    }
+    if (is_closed()) return;  // who was told has closed it
+    attempt_ = loop_.in(pause(), [this] { attempt(); });
+}
+
+// At once after a link that was good; then twice as long each time, cut by up to a half.
+std::chrono::milliseconds Core::pause() {
+    if (failures_ <= 1 && had_session_) return std::chrono::milliseconds{0};
+    auto longest = settings_.first_pause;
+    for (auto i = 1U; i < failures_ && longest < settings_.longest_pause; ++i) longest *= 2;
+    longest = std::min(longest, settings_.longest_pause);
+    dice_ = dice_ * 6'364'136'223'846'793'005U + 1'442'695'040'888'963'407U;
+    auto const cut = static_cast<std::int64_t>(dice_ >> 33U) % (longest.count() / 2 + 1);
+    return longest - std::chrono::milliseconds{cut};
+}
+
+// --- A new session in place of the one that is gone ---
+
+// Binds and subscribes anew. Events may come before it is known whose they are: they wait.
+void Core::restore() {
+    phase_ = Phase::restoring;
+    ++subscribing_;
+    std::vector<std::string> documents;
+    auto const add = [&](Operation operation, std::string what) {
+        auto id = "restore-" + std::to_string(++last_request_);
+        documents.push_back(xml::encode(Request{std::move(operation), id}));
+        restoring_.emplace(std::move(id), std::move(what));
+    };
+    for (auto const& ref : bound_) add(Bind{ref}, "bind " + ref.code);
+    for (auto const* const each : subscriptions_.all()) add(each->operation, "subscribe " + each->id.text);
+    for (auto const& document : documents) send_on_link(document);
+    if (restoring_.empty()) restored({}, {}, nullptr);
+}
+
+void Core::take_restored(xml::Answered const& answered) {
+    std::visit([&](auto const& reply) { restored(answered.request_id, reply, &answered.reply); }, answered.reply);
+}
+
+void Core::take_restored(Fault const& fault) {
+    if (fault.code == FaultCode::no_session) {
+        session_gone();
+        return;
+    }
+    restored(fault.request_id, {ReturnCode::error, fault.reason}, nullptr);
+}
+
+void Core::restored(std::string const& request_id, Outcome const& outcome, Reply const* reply) {
+    auto const found = restoring_.find(request_id);
+    if (found != restoring_.end()) {
+        constexpr std::string_view subscribe = "subscribe ";
+        auto const& what = found->second;
+        auto* const subscription =
+            what.starts_with(subscribe) ? subscriptions_.find(SubscribeId{what.substr(subscribe.size())}) : nullptr;
+        bool const good = outcome.return_code == ReturnCode::ok && reply != nullptr;
+        if (good && subscription != nullptr) {
+            if (auto const* const subscribed = std::get_if<Subscribe::Reply>(reply))
+                subscription->engine_id = subscribed->subscribe_id;
+        } else if (!good) {
+            auto const name = subscription != nullptr ? "subscribe " + subscription->operation.event_type : what;
+            if (subscription == nullptr) std::erase_if(bound_, [&](auto const& ref) { return "bind " + ref.code == what; });
+            gap_->not_restored.push_back(name + ": " + outcome.reason);
+        }
+        restoring_.erase(found);
+    }
+    if (!restoring_.empty()) return;
+    --subscribing_;
+    become_open();
+}
+
+// Who waits hears in this order: that there is a session, what was missed, then the answers and notifications to come.
+void Core::become_open() {
+    bool const same = !gap_ && state_ == State::lost;
+    loop_.cancel(attempt_);
+    failures_ = 0;
+    phase_ = Phase::open;
+    std::vector<std::shared_ptr<client::Call>> doubtful;
+    std::vector<std::shared_ptr<client::Call>> not_again;
+    for (auto const& call : calls_) {
+        if (!call->sent) continue;
+        call->sent = false;
+        if (call->kind == client::Call::Kind::once) doubtful.push_back(call);
+        if (call->kind == client::Call::Kind::raw) not_again.push_back(call);
+    }
+    for (auto const& call : doubtful) std::erase(calls_, call);
+    for (auto const& call : not_again) std::erase(calls_, call);
+    flush();
+    auto const gap = std::exchange(gap_, {});
+    change(same ? State::resumed : State::open);
+    if (gap) {
+        for (auto const& [id, watch] : std::exchange(watches_, {})) watch->complete(CompletedStatus::abort);
+        tell_gap(*gap);
+    }
+    auto const reason = std::exchange(last_reason_, {});
+    for (auto const& call : not_again) settle(call, NoAnswer{NoAnswer::Why::link_lost, reason});
+    for (auto const& call : doubtful) {
+        if (gap) {
+            settle(call, NoAnswer{NoAnswer::Why::session_lost, "the session ended before the answer came"});
+        } else {
+            settle(call, client::Interrupted{});
+        }
+    }
+    opened.raise();
+    tell_held();
+}
+
+}  // namespace rois::detail

@@ -1,0 +1,57 @@
+// One link to the gateway, from its first attempt to its end; a new one is made for each attempt.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "loop.hpp"
+#include "rois/settings.hpp"
+#include "target.hpp"
+#include "types/ids.hpp"
+
+namespace rois::client {
+
+// Whether it is worth another attempt.
+enum class Failure : std::uint8_t { passing, lasting };
+
+// Lives on the client's thread.
+class Link {
+public:
+    // Hears of a link until it has failed or was cut, never from inside a call of the link's functions.
+    class Listener {
+    public:
+        virtual void connected() = 0;
+        // The session's notifications come on this link from now on.
+        virtual void attached() = 0;
+        // An answer or a notification; valid during the call.
+        virtual void document(std::string_view) = 0;
+        virtual void failed(std::string const& reason, Failure) = 0;
+
+    protected:
+        ~Listener() = default;
+    };
+
+    Link() = default;
+    Link(Link const&) = delete;
+    Link& operator=(Link const&) = delete;
+    virtual ~Link() = default;
+
+    virtual void open() = 0;
+    virtual void send(std::string document) = 0;
+
+    // What brings a session's notifications, those after `last_sequence`, to this link. Over HTTP that is its event stream; who
+    // hears no_session instead hears it as a document. On a WebSocket it is the document `resume`, but for the session opened on
+    // it.
+    virtual void attach(SessionId const&, std::uint64_t last_sequence) = 0;
+
+    // Ends it without a word; nothing is heard of it from now on.
+    virtual void cut() = 0;
+};
+
+std::shared_ptr<Link> websocket_link(Loop&, Target const&, Settings const&, Link::Listener&);
+std::shared_ptr<Link> http_link(Loop&, Target const&, Settings const&, Link::Listener&);
+
+}  // namespace rois::client

@@ -1,0 +1,60 @@
+#include "loop.hpp"
+
+namespace rois::client {
+
+Loop::Loop() : work_{asio::make_work_guard(io_)}, timer_{io_} {}
+
+Loop::Ticket Loop::at(Steady time, std::function<void()> ring) {
+    auto const ticket = ++last_ticket_;
+    alarms_.emplace(std::pair{time, ticket}, std::move(ring));
+    times_.emplace(ticket, time);
+    arm();
+    return ticket;
+}
+
+void Loop::cancel(Ticket ticket) {
+    auto const found = times_.find(ticket);
+    if (found == times_.end()) return;
+    alarms_.erase({found->second, ticket});
+    times_.erase(found);
+}
+
+// The timer is set anew for what is earlier alone: most alarms are deadlines that are never reached.
+void Loop::arm() {
+    if (alarms_.empty() || alarms_.begin()->first.first >= armed_) return;
+    armed_ = alarms_.begin()->first.first;
+    timer_.expires_at(armed_);
+    timer_.async_wait([this](error_code error) {
+        if (error) return;
+        armed_ = Steady::max();
+        auto const now = std::chrono::steady_clock::now();
+        while (!alarms_.empty() && alarms_.begin()->first.first <= now) {
+            auto due = alarms_.extract(alarms_.begin());
+            times_.erase(due.key().second);
+            due.mapped()();
+        }
+        arm();
+    });
+}
+
+void Loop::start(std::shared_ptr<void> owner) {
+    thread_ = std::thread{[this, owner = std::move(owner)] { io_.run(); }};
+}
+
+void Loop::finish() {
+    alarms_.clear();
+    times_.clear();
+    timer_.cancel();
+    work_.reset();
+}
+
+void Loop::join() {
+    if (is_here()) {
+        detached_ = std::this_thread::get_id();
+        thread_.detach();
+    } else if (thread_.joinable()) {
+        thread_.join();
+    }
+}
+
+}  // namespace rois::client

@@ -1,0 +1,78 @@
+// The client's thread: what runs there, and when.
+#pragma once
+
+#include "asio.hpp"
+// Asio first.
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/post.hpp>
+#include <coroutine>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <thread>
+#include <utility>
+
+namespace rois::client {
+
+using Steady = std::chrono::steady_clock::time_point;
+
+class Loop {
+public:
+    Loop();
+    Loop(Loop const&) = delete;
+    Loop& operator=(Loop const&) = delete;
+
+    asio::io_context& io() { return io_; }
+    Executor executor() { return io_.get_executor(); }
+    bool is_here() const { return std::this_thread::get_id() == thread_.get_id() || std::this_thread::get_id() == detached_; }
+
+    // From any thread; it runs on the client's.
+    template <class Function>
+    void post(Function function) {
+        asio::post(io_, std::move(function));
+    }
+
+    // What follows runs on the client's thread, at once when it is there.
+    auto here() {
+        struct Awaiter {
+            Loop* loop;
+            bool await_ready() const { return loop->is_here(); }
+            void await_suspend(std::coroutine_handle<> waiter) const {
+                loop->post([waiter] { waiter.resume(); });
+            }
+            void await_resume() const {}
+        };
+        return Awaiter{this};
+    }
+
+    // Alarms, on the client's thread. A ticket is good once; one that has rung or is 0 may be cancelled all the same.
+    using Ticket = std::uint64_t;
+    Ticket at(Steady, std::function<void()>);
+    Ticket in(std::chrono::milliseconds time, std::function<void()> ring) {
+        return at(std::chrono::steady_clock::now() + time, std::move(ring));
+    }
+    void cancel(Ticket);
+
+    // Runs until `finish` was called and nothing is left. Keeps `owner` as long.
+    void start(std::shared_ptr<void> owner);
+    // On the client's thread: all alarms are forgotten, and the thread ends when nothing is left to do.
+    void finish();
+    // Waits for its end; on the client's thread itself, lets it end alone.
+    void join();
+
+private:
+    void arm();
+
+    asio::io_context io_{1};
+    asio::executor_work_guard<Executor> work_;
+    Timer timer_;
+    Steady armed_ = Steady::max();  // when the timer expires; alarms that were cancelled do not change it
+    std::map<std::pair<Steady, Ticket>, std::function<void()>> alarms_;
+    std::map<Ticket, Steady> times_;
+    Ticket last_ticket_ = 0;
+    std::thread thread_;
+    std::thread::id detached_{};
+};
+
+}  // namespace rois::client

@@ -1,0 +1,55 @@
+// Values out of results and parameters, by name; what is not there, or not of its type, is as if it were empty.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rois/components.hpp"
+#include "types/messages.hpp"
+
+namespace rois::client {
+
+class Reading {
+public:
+    explicit Reading(Results const& results) : parameters_{results.parameters} {}
+    explicit Reading(ParameterList const& parameters) : parameters_{parameters} {}
+
+    std::optional<std::string> text(std::string_view name) const;
+    std::vector<std::string> texts(std::string_view name) const;
+    std::optional<int> integer(std::string_view name) const;
+    std::vector<double> numbers(std::string_view name) const;  // of int[]: one text
+    bool truth(std::string_view name) const;
+    std::optional<Utc> time(std::string_view name) const;
+    std::optional<Milliseconds> milliseconds(std::string_view name) const;
+    std::optional<Identifier> identifier(std::string_view name) const;
+    std::vector<Identifier> identifiers(std::string_view name) const;
+    // Who or what, and where: two lists in the same order.
+    std::vector<Sighting> sightings(std::string_view refs, std::string_view positions) const;
+
+private:
+    ParameterList const& parameters_;
+};
+
+// The results of an event, which has them inline.
+Results const& results_of(ReceiveEvent const&);
+
+// Parameters that are set, one after the other.
+class Arguments {
+public:
+    Arguments& text(std::string_view name, std::optional<std::string> const&);
+    Arguments& texts(std::string_view name, std::vector<std::string> const&, std::string crs = {});
+    Arguments& integer(std::string_view name, std::optional<std::int64_t>);
+    Arguments& integers(std::string_view name, std::vector<std::int64_t> const&);
+    Arguments& milliseconds(std::string_view name, std::optional<Milliseconds>);
+    Arguments& identifier(std::string_view name, std::optional<Identifier> const&);
+
+    ParameterList list() { return std::move(list_); }
+
+private:
+    ParameterList list_;
+};
+
+}  // namespace rois::client

@@ -1,0 +1,169 @@
+// A WebSocket, over whatever carries its bytes. For websocket_link.cpp and websocket_link_tls.cpp.
+#pragma once
+
+#include "byte_stream.hpp"
+// Asio first.
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <boost/beast/websocket/ssl.hpp>
+#include <deque>
+#include <optional>
+
+#include "link.hpp"
+#include "types/messages.hpp"
+#include "xml/codec.hpp"
+
+namespace rois::client {
+
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+namespace websocket = boost::beast::websocket;
+
+std::shared_ptr<Link> websocket_link_tls(Loop&, Target const&, Settings const&, Link::Listener&);
+
+template <class Stream>
+class WebSocketLink : public Link, public std::enable_shared_from_this<WebSocketLink<Stream>> {
+public:
+    // `context` is for TLS alone.
+    WebSocketLink(Loop& loop, Target target, Settings const& settings, Listener& listener,
+                  std::unique_ptr<asio::ssl::context> context)
+        : target_{std::move(target)},
+          settings_{settings},
+          listener_{&listener},
+          context_{std::move(context)},
+          resolver_{loop.executor()},
+          stream_{made(loop, context_.get())} {}
+
+    void open() override {
+        asio::co_spawn(
+            beast::get_lowest_layer(stream_).get_executor(), [self = this->shared_from_this()] { return self->run(); },
+            asio::detached);
+    }
+
+    void send(std::string document) override {
+        outgoing_.push_back(std::move(document));
+        if (outgoing_.size() == 1) write();
+    }
+
+    void attach(SessionId const& session, std::uint64_t last_sequence) override {
+        send(xml::encode(Request{Resume{session, last_sequence}, "resume"}));
+    }
+
+    void cut() override {
+        listener_ = nullptr;
+        resolver_.cancel();
+        error_code ignored;
+        beast::get_lowest_layer(stream_).close(ignored);
+    }
+
+private:
+    using Full = websocket::stream<Stream, false>;
+
+    static Full made(Loop& loop, asio::ssl::context* context) {
+        if constexpr (is_tls<Stream>) {
+            return Full{loop.executor(), *context};
+        } else {
+            return Full{loop.executor()};
+        }
+    }
+
+    // A ping goes out when nothing was heard for half of the time that Beast calls idle.
+    void set_options() {
+        stream_.set_option(websocket::stream_base::timeout{.handshake_timeout = settings_.connect_deadline,
+                                                           .idle_timeout = 2 * settings_.ping_interval,
+                                                           .keep_alive_pings = true});
+        stream_.set_option(websocket::stream_base::decorator([this](websocket::request_type& request) {
+            request.set(http::field::sec_websocket_protocol, "rois.xml.v1");
+            if (!settings_.token.empty()) request.set(http::field::authorization, "Bearer " + settings_.token);
+        }));
+        stream_.read_message_max(settings_.longest_document);
+        stream_.auto_fragment(false);
+        stream_.text(true);
+    }
+
+    Opening run() {
+        auto problem = co_await connect(stream_.next_layer(), beast::get_lowest_layer(stream_), resolver_, target_);
+        if (!problem.empty()) {
+            fail(problem, Failure::passing);
+            co_return;
+        }
+        set_options();
+        websocket::response_type answer;
+        error_code error;
+        co_await stream_.async_handshake(answer, target_.authority, target_.path, into(error));
+        if (error) {
+            refuse(error, answer);
+            co_return;
+        }
+        if (listener_ == nullptr) co_return;
+        listener_->connected();
+        read();
+    }
+
+    void refuse(error_code error, websocket::response_type const& answer) {
+        if (error != websocket::error::upgrade_declined) {
+            fail("no WebSocket with " + target_.authority + ": " + error.message(), Failure::passing);
+            return;
+        }
+        auto const status = answer.result_int();
+        bool const lasting = status >= 400 && status < 500 && status != 429 && status != 408;
+        fail(target_.authority + " refuses a WebSocket: " + std::to_string(status) + " " + std::string{answer.reason()},
+             lasting ? Failure::lasting : Failure::passing);
+    }
+
+    void read() {
+        if (listener_ == nullptr) return;
+        stream_.async_read_some(incoming_, most_at_once,
+                                [self = this->shared_from_this()](error_code error, std::size_t) { self->was_read(error); });
+    }
+
+    void was_read(error_code error) {
+        if (error) {
+            auto const& closed = stream_.reason();
+            fail(error == websocket::error::closed ? "the gateway closed the link: " + std::string{closed.reason.c_str()}
+                                                   : "the link broke: " + error.message(),
+                 Failure::passing);
+            return;
+        }
+        if (stream_.is_message_done()) {
+            auto const data = incoming_.cdata();
+            if (listener_ != nullptr) listener_->document({static_cast<char const*>(data.data()), data.size()});
+            incoming_.consume(incoming_.size());
+        }
+        read();
+    }
+
+    void write() {
+        stream_.async_write(asio::buffer(outgoing_.front()), [self = this->shared_from_this()](error_code error, std::size_t) {
+            self->outgoing_.pop_front();
+            if (error) {
+                self->fail("the link broke: " + error.message(), Failure::passing);
+            } else if (!self->outgoing_.empty() && self->listener_ != nullptr) {
+                self->write();
+            }
+        });
+    }
+
+    void fail(std::string const& reason, Failure failure) {
+        auto* const listener = std::exchange(listener_, nullptr);
+        if (listener == nullptr) return;
+        cut();
+        listener->failed(reason, failure);
+    }
+
+    static constexpr std::size_t most_at_once = 64 * 1024;
+
+    Target target_;
+    Settings const& settings_;
+    Listener* listener_;  // null: nothing more is told
+    std::unique_ptr<asio::ssl::context> context_;
+    asio::ip::basic_resolver<asio::ip::tcp, Executor> resolver_;
+    Full stream_;
+    beast::flat_buffer incoming_;
+    std::deque<std::string> outgoing_;  // the first one is being written
+};
+
+}  // namespace rois::client

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""The reception scenario of the specification (figure 1): wait for a person, go there, find out who it is, tell the message that is there
+for this visitor or ask, bow, say goodbye, return to the start. The history goes to standard output, one line a visitor.
+
+    reception.py [VISITORS]     how many to receive before it ends, 1 when left out; ROIS_URL says where the gateway is
+"""
+import math, os, sys, time
+
+from rois import Engine
+
+MESSAGES = {
+    "tanaka": "Mr. Tanaka, your meeting is in room 3.",
+    "suzuki": "Ms. Suzuki, your taxi is waiting at the entrance.",
+    "somebody": "Welcome. How can I help you?",
+}
+visitors = int(sys.argv[1]) if len(sys.argv) > 1 else 1
+engine = Engine(os.environ.get("ROIS_URL", "http://127.0.0.1:8080"))
+
+
+def near(a, b, millimetres):
+    return a is not None and b is not None and math.dist(a[:2], b[:2]) <= millimetres
+
+
+def look():
+    """Looks around once: who is where."""
+    engine.run("person_localization")
+    seen = engine.event("person_localized", 3)
+    engine.run("person_localization", "stop")
+    places = zip(seen["person_ref"], seen["position_data"]) if seen else ()
+    return {person: [float(part) for part in place.split(",")] for person, place in places}
+
+
+def go_before(x, y, th):
+    """Goes to a metre before somebody, beside that when there is no way."""
+    for side in (th, th + 60, th - 60, th + 120, th - 120):
+        angle = math.radians(side)
+        place = f"{x + 1000 * math.cos(angle):.0f}, {y + 1000 * math.sin(angle):.0f}, {side + 180:.0f}"
+        if engine.run("navigation", target_position=["string[]", place], time_limit=["int", "90000"]) == "OK":
+            return True
+    return False
+
+
+def approach():
+    """Goes before the first one who stands and was not received: two looks a second apart find them at one place, and so does a third."""
+    before = look()
+    time.sleep(1)
+    for person, pose in look().items():
+        if person not in met and near(before.get(person), pose, 300):
+            return person if go_before(*pose) and near(pose, look().get(person), 600) else None
+    return None
+
+
+def say(text):
+    engine.run("speech_synthesis", speech_text=["string", text])
+
+
+def ask(question):
+    """Says it, and gives what somebody answers."""
+    engine.run("speech_recognition")
+    say(question)
+    heard = engine.event("speech_recognized", 10)
+    engine.run("speech_recognition", "stop")
+    if heard is not None:
+        say("I shall tell my colleagues at the desk.")
+    return heard and heard["recognized_text"][0]
+
+
+for component in ("person_detection", "person_localization", "person_identification", "speech_recognition", "speech_synthesis",
+                  "reaction", "navigation"):
+    engine.bind(component)
+for event_type in ("person_detected", "person_localized", "person_identified", "speech_recognized"):
+    engine.subscribe(event_type)
+start = engine.query("robot_position")["position_data"][0]
+met = set()  # the temporary names of those who were received, and their permanent ids
+received = 0
+while received < visitors:
+    engine.run("person_detection")
+    engine.event("person_detected", 30, lambda results: int(results["number"][0]) > 0)
+    engine.run("person_detection", "stop")
+    person = approach()
+    if person is None:
+        continue
+    engine.run("person_identification")
+    visitor = (engine.event("person_identified", 8) or {}).get("person_ref", ["somebody"])[0]
+    engine.run("person_identification", "stop")
+    met.add(person)
+    if visitor not in met:
+        message = MESSAGES.get(visitor, "Welcome. There is no message for you today.")
+        heard = ask(message) if visitor == "somebody" else say(message)
+        met.update({visitor} - {"somebody"})
+        engine.run("reaction", reaction_ref=["RoISIdentifier", "9"])
+        say("Goodbye.")
+        print(f'{visitor}: told "{message}"' + (f', heard "{heard}"' if heard else ""), flush=True)
+        received += 1
+    engine.run("navigation", target_position=["string[]", start])
+print(f"received {visitors} visitors")
+engine.request("disconnect")

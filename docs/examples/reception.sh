@@ -1,0 +1,294 @@
+#!/bin/sh
+# The reception scenario of the specification (figure 1), played with curl and a POSIX shell alone:
+# wait for a person, go there, find out who it is, tell the message that is there for this visitor or ask, bow, say goodbye,
+# return to the start.
+#
+# docs/examples/reception.sh -h says how it is used.
+set -eu
+
+use='use: reception.sh [VISITORS]     how many visitors to receive before it ends; 1 when left out
+ROIS_URL says where the gateway is; http://127.0.0.1:8080 when it is not set (what ./dev run starts).
+The history goes to standard output, one line a visitor; each step to standard error.'
+visitors=${1-1}
+case $visitors in
+    -h | --help) printf '%s\n' "$use"; exit 0 ;;
+    '' | 0* | *[!0-9]* | ???????*)
+        printf "reception.sh: VISITORS is a whole number, 1 to 999999, not '%s'\n" "$visitors" >&2
+        exit 2
+        ;;
+esac
+url=${ROIS_URL:-http://127.0.0.1:8080}
+url=${url%/}
+names='xmlns="urn:x-rois:psm:xml:message:1" xmlns:rois="http://www.omg.org/spec/RoIS/20240801" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"'
+session=
+answer=         # the last answer
+after=0         # the sequence number of the last notification that was looked at
+notification=   # the last notification that was waited for
+news=$(mktemp)  # notifications that were fetched and not looked at, one a line
+
+# What is there for whom: the permanent id of a visitor, and the message.
+message_for() {
+    case $1 in
+        tanaka) echo 'Mr. Tanaka, your meeting is in room 3.' ;;
+        suzuki) echo 'Ms. Suzuki, your taxi is waiting at the entrance.' ;;
+    esac
+}
+
+tell() { printf '%s  %s\n' "$(date +%H:%M:%S)" "$*" >&2; }
+
+# --- Speaking to the engine -----------------------------------------------------------------------------------------
+
+# request OPERATION [CHILDREN [ATTRIBUTES]]: sends one document; the answer is in $answer. Anything but OK ends the script.
+request() {
+    answer=$(printf '<%s %s %s>%s</%s>' "$1" "$names" "${3:-}" "${2:-}" "$1" |
+        curl -sS --data-binary @- -H 'Content-Type: application/xml' ${session:+-H "RoIS-Session: $session"} "$url/rois")
+    case $answer in
+        *return_code=\"OK\"*) ;;
+        *) tell "The engine refused $1: $answer"; exit 1 ;;
+    esac
+}
+
+# text_of ELEMENT DOCUMENT: the text of the first element of that name.
+text_of() { printf '%s' "$2" | sed -n "s/.*<$1>\([^<]*\)<\/$1>.*/\1/p"; }
+
+# values_of RESULT DOCUMENT: the values of the result of that name, one a line.
+values_of() {
+    printf '%s\n' "$2" | sed 's/<result /\
+&/g; s/<\/result>/&\
+/g' | sed -n "/^<result rois:name=\"$1\"/p" | sed 's/<rois:value>/\
+&/g' | sed -n 's/^<rois:value>\([^<]*\)<.*/\1/p'
+}
+
+ref() { printf '<component_ref rois:code="%s"/>' "$1"; }
+parameter() {
+    printf '<rois:parameter rois:name="%s"><rois:data_type_ref rois:code="%s"/><rois:value>%s</rois:value></rois:parameter>' "$1" "$2" "$3"
+}
+
+# command ID COMPONENT TYPE [PARAMETERS]: a command unit.
+command() {
+    printf '<rois:command_unit_list xsi:type="rois:CommandMessageType" rois:command_type="%s" rois:command_id="%s">' "$3" "$1"
+    printf '<rois:component_ref rois:code="%s"/>%s</rois:command_unit_list>' "$2" "${4:+<rois:arguments>$4</rois:arguments>}"
+}
+
+execute() { request execute "<rois:CommandUnitSequence>$1</rois:CommandUnitSequence>"; }
+
+# --- Hearing from the engine ----------------------------------------------------------------------------------------
+
+# fetch SECONDS: adds the notifications that are there, or come within that time, to the news.
+fetch() {
+    curl -sS -H "RoIS-Session: $session" "$url/rois/notifications?after=$after&wait=$1" | tr '\n' ' ' |
+        sed 's/<receive_event /\
+&/g; s/<receive_error /\
+&/g; s/<completed /\
+&/g; s/<lost /\
+&/g; s/<profile_changed /\
+&/g' | sed -n '/^<[a-z_]* sequence=/p' >"$news"
+}
+
+# next_notification SECONDS: takes the next one into $notification; fails when none comes within that time.
+next_notification() {
+    [ -s "$news" ] || fetch "$(($1 < 30 ? $1 : 30))"
+    [ -s "$news" ] || return 1
+    notification=$(sed -n 1p "$news")
+    sed 1d "$news" >"$news.rest"
+    mv "$news.rest" "$news"
+    after=$(printf '%s' "$notification" | sed 's/^[^"]*"\([0-9]*\)".*/\1/')
+}
+
+# wait_for PATTERN SECONDS: takes notifications until one matches the shell pattern; fails when none does within that time.
+wait_for() {
+    end=$(($(date +%s) + $2))
+    while left=$((end - $(date +%s))) && [ "$left" -gt 0 ]; do
+        next_notification "$left" || continue
+        # shellcheck disable=SC2254  # the pattern is meant as one
+        case $notification in $1) return 0 ;; esac
+    done
+    return 1
+}
+
+# run COMPONENT TYPE [PARAMETERS]: executes one command and waits until it has completed; its status is in $status.
+commands=0
+run() {
+    commands=$((commands + 1))
+    execute "$(command "step-$commands" "$1" "$2" "${3:-}")"
+    wait_for "*<command_id>step-$commands</command_id>*" 120 || { tell "$1 $2 did not complete within two minutes"; exit 1; }
+    status=$(text_of status "$notification")
+}
+
+say() {
+    tell "Robot: \"$1\""
+    run speech_synthesis start "$(parameter speech_text string "$1")"
+}
+
+go_to() { run navigation start "$(parameter target_position 'string[]' "$1")$(parameter time_limit int 90000)"; }
+
+# --- The states of figure 1 -----------------------------------------------------------------------------------------
+
+wait_for_a_person() {
+    tell 'Waiting for somebody to come.'
+    run person_detection start
+    until wait_for '*<event_type>person_detected</event_type>*' 30 && [ "$(values_of number "$notification")" -gt 0 ]; do :; done
+    tell "There is somebody: $(values_of number "$notification") person(s)."
+    run person_detection stop
+}
+
+# Looks around once: who is where in $seen, one a line: "person-1 9500, 7500, -160".
+look() {
+    seen=
+    run person_localization start
+    if wait_for '*<event_type>person_localized</event_type>*<rois:value>*' 3; then
+        line=0
+        for one in $(values_of person_ref "$notification"); do
+            line=$((line + 1))
+            seen="$seen$one $(values_of position_data "$notification" | sed -n "${line}p")
+"
+        done
+    fi
+    run person_localization stop
+}
+
+# position_of PERSON SEEN: nothing when they were not seen.
+position_of() { printf '%s' "$2" | sed -n "s/^$1 //p"; }
+
+# near POSITION POSITION MM: whether the two are no farther apart.
+near() { awk -v a="$1" -v b="$2" -v most="$3" 'BEGIN { split(a, p, ","); split(b, q, ",")
+    exit ((p[1] - q[1]) ^ 2 + (p[2] - q[2]) ^ 2 > most ^ 2) }'; }
+
+# find_standing [PERSON]: that person, or somebody who was not received yet, in $person and $position as soon as they stand: two
+# looks a second apart find them at one place. Fails when nobody does for some time, or the person is out of sight.
+find_standing() {
+    looks=0
+    look
+    while [ "$looks" -lt 30 ]; do
+        looks=$((looks + 1))
+        before=$seen
+        sleep 1
+        look
+        for one in ${1:-$(printf '%s' "$seen" | sed 's/ .*//')}; do
+            case $known_persons in *" $one "*) continue ;; esac
+            was=$(position_of "$one" "$before")
+            is=$(position_of "$one" "$seen")
+            [ -z "${1:-}" ] || [ -n "$was$is" ] || return 1
+            if [ -n "$was" ] && [ -n "$is" ] && near "$was" "$is" 300; then
+                person=$one
+                position=$is
+                return 0
+            fi
+        done
+    done
+    return 1
+}
+
+# Goes to a metre before the position, beside that when there is no way.
+go_before() {
+    for angle in 0 60 -60 120 -120; do
+        go_to "$(printf '%s' "$1" | awk -F, -v turn="$angle" '{ a = ($3 + turn) * 3.14159265 / 180
+            printf "%.0f, %.0f, %.0f", $1 + 1000 * cos(a), $2 + 1000 * sin(a), $3 + turn + 180 }')"
+        [ "$status" = OK ] && return 0
+    done
+    return 1
+}
+
+# Goes to somebody who stands, and on to where they are then, five times at most; fails when nobody new is reached.
+go_there() {
+    find_standing || { tell 'Nobody new stands anywhere.'; return 1; }
+    tell "$person is at $position (mm, mm, degree); going there."
+    for try in 1 2 3 4 5; do
+        aim=$position
+        go_before "$aim" || { tell "No way leads to $person ($status)."; return 1; }
+        look
+        is=$(position_of "$person" "$seen")
+        [ -n "$is" ] && near "$aim" "$is" 600 && { tell "Arrived at $person."; return 0; }
+        find_standing "$person" || { tell "$person is out of sight."; return 1; }
+        [ "$try" -eq 5 ] || tell "$person is at $position now; going on."
+    done
+    tell "$person does not stay."
+    return 1
+}
+
+# The permanent id of the visitor in $visitor, or nothing.
+identify() {
+    visitor=
+    run person_identification start
+    if wait_for '*<event_type>person_identified</event_type>*<rois:value>*' 8; then
+        visitor=$(values_of person_ref "$notification" | sed -n 1p)
+    fi
+    run person_identification stop
+}
+
+guide() {
+    heard=
+    if [ -z "$visitor" ]; then
+        tell 'Nobody that is known.'
+        message='Welcome. How can I help you?'
+        run speech_recognition start
+        say "$message"
+        if wait_for '*<event_type>speech_recognized</event_type>*' 10; then
+            heard=$(values_of recognized_text "$notification" | sed -n 1p)
+            tell "Visitor: \"$heard\""
+            say 'I shall tell my colleagues at the desk.'
+        else
+            tell 'No answer.'
+        fi
+        run speech_recognition stop
+        return
+    fi
+    tell "This is $visitor."
+    message=$(message_for "$visitor")
+    message=${message:-Welcome. There is no message for you today.}
+    say "$message"
+}
+
+receive() {
+    wait_for_a_person
+    go_there || return 1
+    known_persons="$known_persons$person "
+    identify
+    case $known_visitors in *" ${visitor:-nobody} "*)
+        tell "This is $visitor, who was received already."
+        go_back
+        return 1
+        ;;
+    esac
+    known_visitors="$known_visitors$visitor "
+    guide
+    tell 'The robot bows.'
+    run reaction start "$(parameter reaction_ref RoISIdentifier 9)"
+    say 'Goodbye.'
+    printf '%s: told "%s"%s\n' "${visitor:-somebody}" "$message" "${heard:+, heard \"$heard\"}"
+    go_back
+}
+
+go_back() {
+    tell 'Going back to the start.'
+    go_to "$start"
+    [ "$status" = OK ] || tell "The way back ended with $status."
+}
+
+leave() {
+    [ -z "$session" ] || curl -sS -o /dev/null --data-binary "<disconnect $names/>" -H 'Content-Type: application/xml' \
+        -H "RoIS-Session: $session" "$url/rois" || true
+    rm -f "$news" "$news.rest"
+}
+trap leave EXIT
+trap 'exit 130' INT TERM
+
+request connect
+session=$(text_of session "$answer")
+for component in person_detection person_localization person_identification speech_recognition speech_synthesis reaction navigation; do
+    request bind "$(ref $component)"
+done
+for event in person_detected person_localized person_identified speech_recognized reached_target; do
+    request subscribe "<event_type>$event</event_type>" 'inline_results="true"'
+done
+request query '<query_type>robot_position</query_type>'
+start=$(values_of position_data "$answer" | sed -n 1p)
+tell "Connected to $url; the robot stands at $start."
+
+received=0
+known_persons=' '   # the temporary names of those who were received, good while the robot does not lose sight of them
+known_visitors=' '  # their permanent ids
+while [ "$received" -lt "$visitors" ]; do
+    if receive; then received=$((received + 1)); fi
+done
+echo "received $received visitors"

@@ -1,0 +1,103 @@
+"""A client of a RoIS gateway over HTTP, with Python's standard library alone; docs/clients.md says how one is written."""
+import http.client
+import itertools
+import math
+import sys
+import time
+import urllib.error
+import urllib.request
+from xml.etree import ElementTree
+from xml.sax.saxutils import escape
+
+M, R = "{urn:x-rois:psm:xml:message:1}", "{http://www.omg.org/spec/RoIS/20240801}"
+NAMES = f'xmlns="{M[1:-1]}" xmlns:rois="{R[1:-1]}" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"'
+
+
+class Refused(Exception):
+    """The engine answered with another return code than OK, or with a fault."""
+
+
+class Engine:
+    """A session. What gets lost on the way is asked for again; commands have names, so that none is executed twice."""
+
+    def __init__(self, url):
+        self.url = url.rstrip("/")
+        self.session = ""
+        self.after = 0  # the sequence of the last notification that came
+        self.lost = 0  # how many the engine has dropped
+        self.news = []  # notifications that came and were not looked at
+        self.names = (f"step-{n}" for n in itertools.count(1))
+        self.session = self.request("connect").findtext(M + "session")
+
+    def request(self, operation, content="", attributes=""):
+        """The answer's document; Refused when it is not OK."""
+        answer = self._fetch("/rois", f"<{operation} {NAMES} {attributes}>{content}</{operation}>".encode())
+        if answer.get("return_code") != "OK":
+            raise Refused(f"{operation}: {answer.get('return_code')}: {answer.findtext(M + 'reason')}")
+        return answer
+
+    def bind(self, component):
+        self.request("bind", f'<component_ref rois:code="{component}"/>')
+
+    def subscribe(self, event_type):
+        self.request("subscribe", f"<event_type>{event_type}</event_type>", 'inline_results="true"')
+
+    def query(self, query_type):
+        return results_of(self.request("query", f"<query_type>{query_type}</query_type>"))
+
+    def run(self, component, command="start", **arguments):
+        """Executes one command, waits for its end, and says how that was. An argument is a list: its type and its texts."""
+        name, given = next(self.names), ""
+        for argument, (kind, *texts) in arguments.items():
+            values = "".join(f"<rois:value>{escape(text)}</rois:value>" for text in texts)
+            given += f'<rois:parameter rois:name="{argument}"><rois:data_type_ref rois:code="{kind}"/>{values}</rois:parameter>'
+        unit = (f'<rois:command_unit_list xsi:type="rois:CommandMessageType" rois:command_type="{command}" rois:command_id="{name}">'
+                f'<rois:component_ref rois:code="{component}"/>{given and f"<rois:arguments>{given}</rois:arguments>"}'
+                f'</rois:command_unit_list>')
+        try:
+            self.request("execute", f"<rois:CommandUnitSequence>{unit}</rois:CommandUnitSequence>")
+        except Refused as refused:  # perhaps because an earlier try was accepted, and its answer got lost
+            try:
+                self.request("get_command_result", f"<command_id>{name}</command_id>")
+            except Refused:
+                raise refused from None
+        return self.next(lambda one: one.findtext(M + "command_id") == name, math.inf).findtext(M + "status")
+
+    def event(self, event_type, seconds, wanted=lambda results: True):
+        """The results of the next event of this type that `wanted` says yes to; None when none comes within the time."""
+        one = self.next(lambda one: one.findtext(M + "event_type") == event_type and wanted(results_of(one)), seconds)
+        return None if one is None else results_of(one)
+
+    def next(self, wanted, seconds):
+        """The next notification that `wanted` says yes to; None when none comes within the time. Others are dropped."""
+        end = time.monotonic() + seconds
+        while True:
+            while self.news:
+                one = self.news.pop(0)
+                self.after = int(one.get("sequence"))
+                if one.tag == M + "lost":
+                    self.lost += int(one.get("count"))
+                if wanted(one):
+                    return one
+            left = end - time.monotonic()
+            if left <= 0:
+                return None
+            wait = math.ceil(min(30, left))
+            self.news = list(self._fetch(f"/rois/notifications?after={self.after}&wait={wait}", patience=wait + 10))
+
+    def _fetch(self, path, body=None, patience=10):
+        headers = {"Content-Type": "application/xml", "RoIS-Session": self.session}
+        for pause in itertools.chain((0.01, 0.1), itertools.repeat(1)):
+            try:
+                with urllib.request.urlopen(urllib.request.Request(self.url + path, body, headers), timeout=patience) as answer:
+                    return ElementTree.fromstring(answer.read())
+            except urllib.error.HTTPError as fault:
+                raise Refused(fault.read().decode()) from None
+            except (OSError, http.client.HTTPException, ElementTree.ParseError) as trouble:  # the last: cut off in its head
+                print(f"asking again after {trouble!r}", file=sys.stderr)
+                time.sleep(pause)
+
+
+def results_of(document):
+    """The results in an answer or an event: a list of texts for each name."""
+    return {one.get(R + "name"): [value.text or "" for value in one.iter(R + "value")] for one in document.iter(M + "result")}

@@ -1,0 +1,220 @@
+// Links that break, in every way: the session goes on, nothing is done twice, and what is missed is told.
+#include "client/http_client.hpp"
+#include "client_cpp/rig.hpp"
+
+namespace rois::test {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+class TheLink : public BothWays {
+protected:
+    // A gateway of its own for tests in which sessions end on their own.
+    static GatewayProcess forgetful() {
+        return GatewayProcess{{"--listen", "127.0.0.1:0", "--session-timeout", "0.1", "--resume-window", "0"}};
+    }
+};
+ROIS_BOTH_WAYS(TheLink);
+
+// What a sequence number each, without one missing, says of all that was heard.
+void expect_all_once(History const& history) {
+    std::uint64_t last = 0;
+    for (auto const& [sequence, told] : history.notifications()) {
+        auto const* const lost = std::get_if<Lost>(&told);
+        EXPECT_EQ(sequence, last + (lost != nullptr ? lost->count : 1));
+        last = sequence;
+    }
+}
+
+TEST_P(TheLink, ResumesItsSession) {
+    Proxy proxy{shared_gateway().port()};
+    History history;
+    Blocking robot{settings(proxy.url()), history.observers()};
+    auto const detection = robot.bind<PersonDetection>("person_detection");
+    auto const session = robot.client().session();
+    proxy.cut();
+    history.await_states({"connecting", "open", "lost", "resumed"});
+    EXPECT_EQ(robot.client().session(), session);
+    EXPECT_EQ(robot(detection.start()), CompletedStatus::ok) << "it is still bound";
+    EXPECT_THAT(history.gaps(), IsEmpty());
+    robot(detection.release());
+}
+
+TEST_P(TheLink, NoticesThatNobodyIsThere) {
+    Proxy proxy{shared_gateway().port()};
+    auto impatient = settings(proxy.url());
+    impatient.ping_interval = 50ms;
+    impatient.stream_silence = 100ms;
+    History history;
+    Blocking robot{impatient, history.observers()};
+    robot.open();
+    proxy.half_open();
+    EXPECT_EQ(robot.call(Search{}).return_code, ReturnCode::ok) << "on the next link";
+    EXPECT_THAT(history.states(), Contains("lost"));
+    EXPECT_THAT(history.states(), Contains("resumed"));
+}
+
+TEST_P(TheLink, TakesBytesAsTheyCome) {
+    Proxy proxy{shared_gateway().port()};
+    proxy.drip(7, 0ms);
+    History history;
+    Blocking robot{settings(proxy.url()), history.observers()};
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(robot.call(Search{type == "Navigation"}).component_ref_list.size(), 1U);
+    proxy.delay(30ms);
+    auto const begun = std::chrono::steady_clock::now();
+    EXPECT_EQ(robot.call(Search{}).return_code, ReturnCode::ok);
+    EXPECT_GE(std::chrono::steady_clock::now() - begun, 60ms) << "there and back";
+    EXPECT_THAT(history.states(), ElementsAre("connecting", "open"));
+}
+
+TEST_P(TheLink, RunsNoSequenceTwice) {
+    Proxy proxy{shared_gateway().port()};
+    History history;
+    Blocking robot{settings(proxy.url()), history.observers()};
+    auto const synthesis = robot.bind<SpeechSynthesis>("speech_synthesis");
+    auto const setting = [&] { return robot(synthesis.set({.speech_text = "Hello."})); };
+    for (int i = 0; i < 3; ++i) {
+        proxy.cut_before("<execute_response");
+        EXPECT_EQ(setting(), CompletedStatus::ok);
+    }
+    EXPECT_EQ(proxy.cuts(), 3U);
+    EXPECT_EQ(setting(), CompletedStatus::ok);
+    auto const completions = history.completions();
+    EXPECT_THAT(completions, SizeIs(4));
+    for (auto const& [id, count] : completions) EXPECT_EQ(count, 1) << id;
+    expect_all_once(history);
+    robot(synthesis.release());
+}
+
+TEST_P(TheLink, TellsARefusalAfterABreakAsARefusal) {
+    Proxy proxy{shared_gateway().port()};
+    Blocking robot{settings(proxy.url())};
+    auto const synthesis = robot.client().component("speech_synthesis");  // not bound
+    robot.open();
+    proxy.cut_before("<execute_response");
+    try {
+        robot(synthesis.start());
+        ADD_FAILURE() << "it was accepted";
+    } catch (Error const& refused) {
+        EXPECT_EQ(refused.code(), ReturnCode::error);
+        EXPECT_THAT(refused.what(), HasSubstr("speech_synthesis"));
+    }
+}
+
+TEST_P(TheLink, BindsNoSecondOneWhenItsAnswerWasLost) {
+    Proxy proxy{shared_gateway().port()};
+    Blocking robot{settings(proxy.url())};
+    robot.open();
+    auto const detection = conditions::component_ref.like("*_detection");
+    auto const first = robot.bind_any(detection);
+    proxy.cut_before("<bind_any_response");
+    auto const second = robot.bind_any(detection);
+    EXPECT_NE(first.ref().code, second.ref().code);
+    Blocking other{settings()};
+    auto const third = other.bind_any(detection);
+    EXPECT_THAT(third.ref().code, testing::AllOf(testing::Ne(first.ref().code), testing::Ne(second.ref().code)));
+    robot(first.release());
+    robot(second.release());
+    other(third.release());
+}
+
+TEST_P(TheLink, SendsNoDocumentAsItStandsTwice) {
+    Proxy proxy{shared_gateway().port()};
+    Blocking robot{settings(proxy.url())};
+    robot.open();
+    proxy.cut_before("<search_response");
+    auto const answer = robot(robot.client().send("<search xmlns='urn:x-rois:psm:xml:message:1'/>"));
+    ASSERT_TRUE(std::holds_alternative<NoAnswer>(answer));
+    EXPECT_EQ(std::get<NoAnswer>(answer).why, NoAnswer::Why::link_lost);
+}
+
+TEST_P(TheLink, MakesAnewWhatWentWithItsSession) {
+    auto const gateway = forgetful();
+    Proxy proxy{gateway.port()};
+    History history;
+    Blocking robot{settings(proxy.url()), history.observers()};
+    auto const detection = robot.bind<PersonDetection>("person_detection");
+    auto const follow = robot.bind<Follow>("follow");
+    auto detected = robot(detection.person_detected(result("number") >= 0));
+    auto again = robot(detection.person_detected(result("number") >= 0));  // the same subscription
+    auto const following =
+        robot(follow.begin_following({.target_object_ref = Identifier{"nobody", {}, {}, {}}, .distance = 500_mm}));
+    auto const session = robot.client().session();
+
+    proxy.refuse(true);
+    proxy.cut();
+    Blocking other{settings(gateway.url())};  // the binding is free when the session is gone
+    Component const its_detection = other.client().component("person_detection");
+    while (other.call(Bind{its_detection.ref()}).return_code != ReturnCode::ok) other(other.client().sleep(10ms));
+    other(its_detection.release());
+    proxy.refuse(false);
+    history.await_states({"connecting", "open", "lost", "open"});
+    EXPECT_NE(robot.client().session(), session);
+    EXPECT_EQ(robot(following.completed()), CompletedStatus::abort);
+    history.await_gap();
+    ASSERT_THAT(history.gaps(), SizeIs(1));
+    EXPECT_EQ(history.gaps().front().why, Gap::Why::new_session);
+    EXPECT_THAT(history.gaps().front().not_restored, IsEmpty());
+
+    EXPECT_EQ(robot(detection.start()), CompletedStatus::ok) << "bound again";
+    EXPECT_TRUE(robot(detected.next(5s)));
+    EXPECT_TRUE(robot(again.next(5s)));
+    EXPECT_EQ(detected.gaps(), 1U);
+    auto events = 0;
+    for (auto const& [sequence, told] : history.notifications()) events += std::holds_alternative<ReceiveEvent>(told) ? 1 : 0;
+    EXPECT_EQ(events, 1) << "subscribed once";
+}
+
+TEST_P(TheLink, TellsWhatItCannotMakeAnew) {
+    auto const gateway = forgetful();
+    Proxy proxy{gateway.port()};
+    History history;
+    Blocking robot{settings(proxy.url()), history.observers()};
+    auto const reaction = robot.bind<Reaction>("reaction");
+    proxy.refuse(true);
+    proxy.cut();
+    Blocking other{settings(gateway.url())};
+    while (other.call(Bind{reaction.ref()}).return_code != ReturnCode::ok) other(other.client().sleep(10ms));
+    proxy.refuse(false);
+    history.await_gap();
+    EXPECT_THAT(history.gaps().front().not_restored, ElementsAre(HasSubstr("bind reaction: ")));
+}
+
+TEST_P(TheLink, TellsWhatTheEngineDropped) {
+    GatewayProcess const gateway{{"--listen", "127.0.0.1:0", "--max-waiting-notifications", "16"}};
+    Proxy proxy{gateway.port()};
+    History history;
+    Blocking robot{settings(proxy.url()), history.observers()};
+    auto const detection = robot.bind<PersonDetection>("person_detection");
+    std::vector<Events<PersonDetected>> many;
+    for (int i = 0; i < 40; ++i) many.push_back(robot(detection.person_detected(result("number") >= -i)));
+    proxy.refuse(true);
+    proxy.cut();
+    // Over another link of the same session, the component is told to detect while nobody hears.
+    history.await_states({"connecting", "open", "lost"});
+    Blocking witness{quick(gateway.url())};
+    auto witnessed = witness.events<PersonDetected>();
+    auto const detect = R"(<execute xmlns="urn:x-rois:psm:xml:message:1" xmlns:rois="http://www.omg.org/spec/RoIS/20240801"
+        xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"><rois:CommandUnitSequence><rois:command_unit_list
+        xsi:type="rois:CommandMessageType" rois:command_type="start" rois:command_id="aside"><rois:component_ref
+        rois:code="person_detection"/></rois:command_unit_list></rois:CommandUnitSequence></execute>)";
+    client::HttpClient http{gateway.address()};
+    http.session = robot.client().session().text;
+    ASSERT_EQ(http.post(detect).return_code(), "OK");
+    ASSERT_TRUE(witness(witnessed.next(5s)));
+    http.session.clear();
+    proxy.refuse(false);
+    history.await_gap();
+    EXPECT_EQ(history.gaps().front().why, Gap::Why::dropped);
+    EXPECT_GT(history.gaps().front().count.value_or(0), 0U);
+    expect_all_once(history);
+    EXPECT_TRUE(robot(many.back().next(5s)));
+    EXPECT_EQ(many.back().gaps(), 1U);
+}
+
+}  // namespace
+}  // namespace rois::test

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# The client library as others get it: installs it, builds a program outside the tree with CMake and with pkg-config, and runs both against
+# the gateway.
+set -euo pipefail
+
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+build=${ROIS_BINARY_DIR:?}
+work=$(mktemp -d)
+gateway=
+trap 'test -z "$gateway" || kill "$gateway"; rm -rf "$work"' EXIT
+prefix="$work/some where"  # blanks in names do no harm
+
+cmake --install "$build" --component client --prefix "$prefix" >"$work/install.log"
+for header in "$prefix"/include/*; do
+    test "$(basename "$header")" = rois || { echo "installed.sh: $header is outside of rois/"; exit 1; }
+done
+
+sanitize=$(sed -n 's/^ROIS_SANITIZE:STRING=//p' "$build/CMakeCache.txt")
+flags="-Wall -Wextra -Wpedantic -Werror ${sanitize:+-fsanitize=$sanitize -Wno-maybe-uninitialized}"
+cmake -S "$here/outside" -B "$work/cmake" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_FLAGS="$flags" >"$work/configure.log"
+cmake --build "$work/cmake" >"$work/build.log" || { cat "$work/build.log"; exit 1; }
+
+export PKG_CONFIG_PATH
+PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name rois.pc)")
+# shellcheck disable=SC2086  # flags are words
+eval "g++ -std=c++20 $flags '$here/outside/outside.cpp' -o '$work/by-pkg-config' $(pkg-config --cflags --libs rois)"
+
+"$build/bin/rois-gateway" --listen 127.0.0.1:0 2>"$work/gateway.log" &
+gateway=$!
+until url=$(grep -o 'http://127.0.0.1:[0-9]*' "$work/gateway.log"); do kill -0 "$gateway"; sleep 0.05; done
+for program in "$work/cmake/outside" "$work/by-pkg-config"; do
+    said=$(ROIS_URL=$url "$program")
+    test "$said" = navigation || { echo "installed.sh: $program said '$said'"; exit 1; }
+done

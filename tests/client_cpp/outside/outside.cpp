@@ -1,0 +1,8 @@
+// What somebody writes who has installed the library: says which components of a type there are.
+#include <iostream>
+#include <rois/blocking.hpp>
+
+int main() {
+    rois::Blocking robot;
+    for (auto const& ref : robot.search(rois::conditions::type == "Navigation")) std::cout << ref.code << '\n';
+}

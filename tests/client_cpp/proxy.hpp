@@ -1,0 +1,91 @@
+// Stands between a client and a gateway and does to the bytes what networks do.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <list>
+#include <mutex>
+#include <optional>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace rois::test {
+
+// Listens on a free port of the loopback until it ends. Functions may be called from any thread.
+class Proxy {
+public:
+    explicit Proxy(std::uint16_t gateway);
+    ~Proxy();
+    Proxy(Proxy const&) = delete;
+    Proxy& operator=(Proxy const&) = delete;
+
+    std::uint16_t port() const { return port_; }
+    std::string url() const { return "http://127.0.0.1:" + std::to_string(port_); }
+
+    // Cuts all connections now.
+    void cut();
+    // Cuts all connections after a random number of bytes, up to `longest`; again and again, `times` in all.
+    void cut_at_random(std::uint32_t seed, std::size_t longest, std::size_t times);
+    // The next time that the gateway says this, its words are lost and all connections are cut.
+    void cut_before(std::string text);
+    // What is sent either way is lost, without any other sign; connections to come are as good as new.
+    void half_open();
+    // Whether connections to come are cut at once.
+    void refuse(bool);
+    // Bytes are passed on so much later; or in pieces of so many, each so much later.
+    void delay(std::chrono::milliseconds);
+    void drip(std::size_t bytes, std::chrono::milliseconds each);
+
+    std::size_t connections() const { return accepted_; }  // so far
+    std::size_t cuts() const { return cuts_; }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    struct Direction {
+        std::string waiting;
+        Clock::time_point due;
+    };
+    struct Pair {
+        int client = -1;
+        int gateway = -1;
+        bool swallows = false;
+        Direction to_gateway;
+        Direction to_client;
+    };
+
+    void run();
+    void accept();
+    bool pass(Pair&, int from, Direction&);
+    void send_due(Pair&);
+    int wait_time() const;
+    void cut_all();
+    bool tears(std::size_t bytes);
+    void wake() const;
+
+    std::uint16_t gateway_;
+    std::uint16_t port_ = 0;
+    int listener_ = -1;
+    int wake_ = -1;
+    std::atomic<bool> ending_ = false;
+    std::atomic<std::size_t> accepted_ = 0;
+    std::atomic<std::size_t> cuts_ = 0;
+
+    std::mutex mutex_;  // guards what follows
+    std::list<Pair> pairs_;
+    bool refuses_ = false;
+    std::string before_;
+    std::chrono::milliseconds delay_{0};
+    std::size_t drip_ = 0;
+    std::minstd_rand dice_;
+    std::size_t longest_ = 0;
+    std::size_t left_ = 0;   // bytes until the next cut
+    std::size_t times_ = 0;  // cuts to come
+
+    std::thread thread_;
+};
+
+}  // namespace rois::test

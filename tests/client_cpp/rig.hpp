@@ -1,0 +1,104 @@
+// What the tests of the client library have in common: a gateway, a proxy before it, and observers that remember.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "client_cpp/proxy.hpp"
+#include "rois/blocking.hpp"
+#include "rois/client.hpp"
+#include "server/gateway_process.hpp"
+
+namespace rois::test {
+
+using namespace std::chrono_literals;
+using namespace rois::conditions;
+
+// Settings that do not make a test wait.
+inline Settings quick(std::string url, Way way = Way::websocket) {
+    Settings settings;
+    settings.url = std::move(url);
+    settings.way = way;
+    settings.first_pause = 5ms;
+    settings.longest_pause = 50ms;
+    return settings;
+}
+
+// Remembers what observers are told. Must outlive the connection.
+class History {
+public:
+    Observers observers() {
+        Observers all;
+        all.state = [this](StateChange const& change) { note([&] { states_.emplace_back(to_text(change.state)); }); };
+        all.gap = [this](Gap const& gap) { note([&] { gaps_.push_back(gap); }); };
+        all.notification = [this](Notification const& told, std::uint64_t sequence) {
+            note([&] { notifications_.emplace_back(sequence, told); });
+        };
+        return all;
+    }
+
+    // Waits until it is so, or fails.
+    void await(std::function<bool()> const& reached, std::chrono::seconds within = 20s) {
+        std::unique_lock lock{mutex_};
+        EXPECT_TRUE(news_.wait_for(lock, within, reached))
+            << "it did not come to that; states: " << testing::PrintToString(states_);
+    }
+    void await_state(std::string const& state) {
+        await([&] { return !states_.empty() && states_.back() == state; });
+    }
+    void await_gap() {
+        await([&] { return !gaps_.empty(); });
+    }
+    void await_states(std::vector<std::string> const& states) {
+        await([&] { return states_ == states; });
+    }
+
+    std::vector<std::string> states() const { return locked(states_); }
+    std::vector<Gap> gaps() const { return locked(gaps_); }
+    std::vector<std::pair<std::uint64_t, Notification>> notifications() const { return locked(notifications_); }
+
+    // How often each command is told to have completed.
+    std::map<std::string, int> completions() const {
+        std::map<std::string, int> count;
+        for (auto const& [sequence, told] : notifications())
+            if (auto const* const completed = std::get_if<Completed>(&told)) ++count[completed->command_id.text];
+        return count;
+    }
+
+private:
+    template <class Function>
+    void note(Function function) {
+        std::lock_guard const lock{mutex_};
+        function();
+        news_.notify_all();
+    }
+    template <class T>
+    T locked(T const& value) const {
+        std::lock_guard const lock{mutex_};
+        return value;
+    }
+
+    mutable std::mutex mutex_;
+    std::condition_variable news_;
+    std::vector<std::string> states_;
+    std::vector<Gap> gaps_;
+    std::vector<std::pair<std::uint64_t, Notification>> notifications_;
+};
+
+// For tests that say the same over both ways.
+class BothWays : public testing::TestWithParam<Way> {
+public:
+    Settings settings(std::string url = shared_gateway().url()) const { return quick(std::move(url), GetParam()); }
+};
+
+inline std::string name_of(testing::TestParamInfo<Way> const& info) { return info.param == Way::http ? "Http" : "WebSocket"; }
+
+#define ROIS_BOTH_WAYS(Suite) INSTANTIATE_TEST_SUITE_P(Over, Suite, testing::Values(Way::websocket, Way::http), name_of)
+
+}  // namespace rois::test

@@ -1,0 +1,94 @@
+// A hundred cuts at random during ten thousand events and five hundred commands: nothing is missed without a word, nothing comes
+// twice.
+#include <map>
+#include <set>
+
+#include "client_cpp/rig.hpp"
+
+namespace rois::test {
+namespace {
+
+constexpr int commands = 500;
+constexpr int subscriptions = 20;
+constexpr std::size_t cuts = 100;
+
+class TheStorm : public BothWays {};
+ROIS_BOTH_WAYS(TheStorm);
+
+// What was heard: of each subscription the events, by their ids; and each command's ends.
+struct Heard {
+    std::map<std::string, int> events;  // "subscribe_id event_id"
+    std::map<std::string, int> completions;
+    std::uint64_t last = 0;
+    std::uint64_t unreported = 0;
+    std::uint64_t twice = 0;
+    std::uint64_t lost = 0;
+
+    void take(Notification const& told, std::uint64_t sequence) {
+        auto const step = sequence - last;
+        if (sequence <= last) ++twice;
+        last = std::max(last, sequence);
+        if (auto const* const gap = std::get_if<Lost>(&told)) {
+            lost += gap->count;
+            unreported += step - gap->count;
+            return;
+        }
+        unreported += step - 1;
+        if (auto const* const event = std::get_if<ReceiveEvent>(&told))
+            ++events[event->subscribe_id.text + " " + event->event_id.text];
+        if (auto const* const completed = std::get_if<Completed>(&told)) ++completions[completed->command_id.text];
+    }
+};
+
+// One command after the other; each detection begins with an event, which every subscription hears.
+Task<int> detect(Client& robot, std::vector<EventStream>& streams) {
+    auto const detection = co_await robot.bind<PersonDetection>("person_detection");
+    for (int i = 0; i < subscriptions; ++i) {
+        auto condition = result("number") > -1 - i;
+        auto stream = co_await detection.subscribe("person_detected", std::move(condition));
+        streams.push_back(std::move(stream));
+    }
+    int good = 0;
+    for (int i = 0; i < commands; ++i) {
+        auto const status = co_await detection.start();
+        if (status == CompletedStatus::ok) ++good;
+        for (auto& stream : streams) {
+            auto const event = co_await stream.next_event(10s);
+            if (!event) co_return good;
+        }
+    }
+    co_return good;
+}
+
+TEST_P(TheStorm, MissesNothingAndRepeatsNothing) {
+    GatewayProcess const gateway{{"--sim-speed", "20"}};
+    Proxy proxy{gateway.port()};
+    Heard heard;
+    std::uint64_t gaps = 0;
+    Observers observers;
+    observers.notification = [&](Notification const& told, std::uint64_t sequence) { heard.take(told, sequence); };
+    observers.gap = [&](Gap const&) { ++gaps; };
+    std::vector<EventStream> streams;
+    {
+        auto patient = settings(proxy.url());
+        patient.deadline = 30s;
+        Client robot{patient, observers};
+        EXPECT_FALSE(robot.wait(robot.opened()));
+        proxy.cut_at_random(7, 60'000, cuts);
+        EXPECT_EQ(robot.wait(detect(robot, streams)), commands);
+        EXPECT_EQ(robot.wait(robot.call(Search{})).return_code, ReturnCode::ok);
+        streams.clear();
+    }
+    EXPECT_GE(proxy.cuts(), cuts);
+    EXPECT_EQ(gaps, 0U);
+    EXPECT_EQ(heard.unreported, 0U);
+    EXPECT_EQ(heard.twice, 0U);
+    EXPECT_EQ(heard.lost, 0U);
+    EXPECT_EQ(heard.completions.size(), static_cast<std::size_t>(commands));
+    for (auto const& [id, count] : heard.completions) EXPECT_EQ(count, 1) << id;
+    EXPECT_GE(heard.events.size(), static_cast<std::size_t>(commands) * subscriptions);
+    for (auto const& [id, count] : heard.events) EXPECT_EQ(count, 1) << id;
+}
+
+}  // namespace
+}  // namespace rois::test

@@ -1,0 +1,59 @@
+// wss and https, before which a proxy ends TLS.
+#include "client_cpp/rig.hpp"
+#include "client_cpp/tls_proxy.hpp"
+
+namespace rois::test {
+namespace {
+
+using testing::HasSubstr;
+
+class Tls : public BothWays {
+protected:
+    static std::string url(TlsProxy const& proxy, std::string const& host) {
+        return (GetParam() == Way::http ? "https://" : "wss://") + host + ":" + std::to_string(proxy.port());
+    }
+    static std::string why_not(Settings settings) {
+        settings.attempts = 1;
+        Blocking robot{std::move(settings)};
+        try {
+            robot.open();
+        } catch (Error const& error) {
+            return error.what();
+        }
+        return "it is open";
+    }
+};
+ROIS_BOTH_WAYS(Tls);
+
+TEST_P(Tls, SpeaksWithWhomItTrusts) {
+    TlsProxy const proxy{shared_gateway().port()};
+    for (auto const* host : {"127.0.0.1", "localhost"}) {
+        auto trusting = settings(url(proxy, host));
+        trusting.ca_file = proxy.certificate();
+        Blocking robot{trusting};
+        auto const detection = robot.bind<SoundDetection>("sound_detection");
+        auto detected = robot(detection.sound_detected());
+        EXPECT_EQ(robot(detection.start()), CompletedStatus::ok);
+        EXPECT_TRUE(robot(detected.next(5s))) << host;
+    }
+}
+
+TEST_P(Tls, SpeaksWithNobodyElse) {
+    TlsProxy const proxy{shared_gateway().port()};
+    EXPECT_THAT(why_not(settings(url(proxy, "127.0.0.1"))), HasSubstr("certificate verify failed")) << "signed by nobody known";
+    auto other_name = settings(url(proxy, "127.0.0.2"));
+    other_name.ca_file = proxy.certificate();
+    auto const reason = why_not(other_name);
+    EXPECT_THAT(reason, testing::AnyOf(HasSubstr("certificate verify failed"), HasSubstr("no connection")));
+    auto no_file = settings(url(proxy, "localhost"));
+    no_file.ca_file = "/nowhere.pem";
+    EXPECT_THAT(why_not(no_file), HasSubstr("No such file"));
+}
+
+TEST_P(Tls, FindsThatNobodySpeaksTls) {
+    auto url = "https://127.0.0.1:" + std::to_string(shared_gateway().port());
+    EXPECT_THAT(why_not(settings(url)), HasSubstr("no TLS"));
+}
+
+}  // namespace
+}  // namespace rois::test

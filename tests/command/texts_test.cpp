@@ -1,0 +1,147 @@
+// What is shown, and how arguments are read.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "command/arguments.hpp"
+#include "command/exit.hpp"
+#include "command/pretty.hpp"
+#include "command/terminal.hpp"
+#include "command/variables.hpp"
+
+namespace rois::command {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(ATable, AlignsWhatIsReadAndEndsWithNoBlanks) {
+    Table table;
+    table.add({{"a"}, {"x"}, {}});
+    table.add({{"größer"}, {""}, {"z"}});
+    EXPECT_EQ(table.text(false, "  "), "  a       x\n  größer     z\n");
+}
+
+TEST(ATable, PaintsNothingButTexts) {
+    Table table;
+    table.add({{"a", Colour::good}, {"b"}});
+    EXPECT_EQ(table.text(true), "\x1b[32ma\x1b[0m  b\n");
+}
+
+TEST(WhatComesFromOutside, DoesNotSteerTheTerminal) {
+    EXPECT_EQ(harmless("a\x1b[31m\x07\nb\x7f\xc2\x9b"), "a?[31m? b??");
+    EXPECT_EQ(harmless("größer, 日本"), "größer, 日本");
+}
+
+TEST(ADocument, IsIndented) {
+    EXPECT_EQ(pretty("<?xml version='1.0'?><a b='1'><c>text</c><d><e/></d></a>"),
+              "<a b=\"1\">\n  <c>text</c>\n  <d>\n    <e />\n  </d>\n</a>\n");
+    EXPECT_EQ(pretty("no XML"), "no XML");
+}
+
+TEST(APlace, IsUnderlinedToTheEndOfItsTag) {
+    EXPECT_EQ(underlined("<a>\r\n  <b c='1'/><d/>\r\n</a>", {2, 3}, false), "2 |   <b c='1'/><d/>\n  |   ^~~~~~~~~~\n");
+    EXPECT_EQ(underlined("<größe x='1'>", {1, 8}, false), "1 | <größe x='1'>\n  |        ^~~~~~\n") << "characters, not bytes";
+    EXPECT_EQ(underlined("<a>", {2, 1}, false), "");
+    EXPECT_EQ(underlined("<a>", {1, 9}, false), "");
+}
+
+TEST(APlace, IsCutOutOfALongLine) {
+    auto const text = std::string(500, 'x') + "<bad/>" + std::string(500, 'y');
+    auto const shown = underlined(text, {1, 501}, false);
+    EXPECT_EQ(shown, "1 | ..." + std::string(60, 'x') + "<bad/>" + std::string(54, 'y') + "...\n  |    " + std::string(60, ' ') +
+                         "^~~~~~\n");
+}
+
+ComponentProfile profile() {
+    auto const parameter = [](std::string name, std::string type) {
+        return ParameterProfile{std::move(name), {std::move(type), {}, {}, {}}, {}, {}};
+    };
+    ComponentProfile profile;
+    profile.object.name = "thing";
+    profile.messages.push_back({MessageKind::command, "start", {}, {parameter("loud", "bool")}, {}});
+    profile.parameters = {parameter("places", "string[]"), parameter("levels", "int[]"), parameter("volume", "int")};
+    return profile;
+}
+
+TEST(Arguments, HaveTheTypesOfTheProfile) {
+    auto const read =
+        read_arguments(profile(), "start", {"volume=3", "places=desk", "Places=1, 2, 3", "levels=1", "levels=2", "loud=true"});
+    ASSERT_EQ(read.size(), 4u);
+    EXPECT_EQ(read[0].data_type_ref.code, "int");
+    EXPECT_THAT(read[1].values, ElementsAre("desk", "1, 2, 3"));
+    EXPECT_THAT(read[2].values, ElementsAre("1 2"));
+    EXPECT_EQ(read[3].name, "loud");
+    EXPECT_TRUE(read_arguments(profile(), "start", {"places="})[0].values.empty());
+}
+
+void expect_refused(std::vector<std::string> const& given, std::string const& says) {
+    try {
+        read_arguments(profile(), "start", given);
+        ADD_FAILURE() << given.front() << " was taken";
+    } catch (Trouble const& trouble) {
+        EXPECT_EQ(trouble.exit(), Exit::usage);
+        EXPECT_THAT(trouble.what(), HasSubstr(says));
+    }
+}
+
+TEST(Arguments, AreRefusedWithTheReason) {
+    expect_refused({"volume"}, "'volume' is no NAME=VALUE");
+    expect_refused({"=3"}, "is no NAME=VALUE");
+    expect_refused({"pitch=3"}, "thing has no argument 'pitch'; it has loud, places, levels, volume");
+    expect_refused({"volume=loud"}, "volume: ");
+    expect_refused({"volume=1", "volume=2"}, "volume: ");
+    expect_refused({"levels=1 x"}, "levels: ");
+}
+
+// --- Variables of scenarios ---
+
+struct AScenario : testing::Test {
+    bool take(std::vector<Step> const& steps) { return variables.take(steps, &results, printed); }
+
+    Results results{{texts("ref", {"p1", "p2"}), texts("at", {"0, 0, 0", "1000, 0, 180"})}, {}};
+    Variables variables{{{"list", ""}, {"one", "1"}, {"x", ""}, {"y", ""}}};
+    std::vector<std::string> printed;
+};
+
+TEST_F(AScenario, FillsInWhatVariablesHold) {
+    take({AddValue{"list", "a"}, AddValue{"list", "b"}, Print{"{list} and {one}, not {"}});
+    EXPECT_THAT(printed, ElementsAre("a, b and 1, not {"));
+}
+
+TEST_F(AScenario, TakesTheFirstResultThatIsNotInAList) {
+    EXPECT_TRUE(take({TakeResult{"x", "ref", {}, {}, {}}, AddValue{"list", "{x}"}}));
+    EXPECT_TRUE(take({TakeResult{"x", "ref", "list", {}, {}}, TakeResult{"y", "at", {}, "ref", "{x}"}, Print{"{x} {y}"},
+                      AddValue{"list", "{x}"}}));
+    EXPECT_FALSE(take({TakeResult{"x", "ref", "list", {}, {}}}));
+    EXPECT_FALSE(take({TakeResult{"x", "nothing", {}, {}, {}}}));
+    EXPECT_THAT(printed, ElementsAre("p2 1000, 0, 180"));
+}
+
+TEST_F(AScenario, ChangesNothingWhenAStepDoesNotHold) {
+    EXPECT_FALSE(take({SetVariable{"x", "new"}, Print{"new"}, When{"one", When::Relation::is, "2"}}));
+    EXPECT_TRUE(printed.empty());
+    EXPECT_TRUE(take({When{"x", When::Relation::empty, {}}}));
+}
+
+TEST_F(AScenario, Compares) {
+    using enum When::Relation;
+    take({AddValue{"list", "a"}, AddValue{"list", "1"}, SetVariable{"x", "0, 0, 0"}});
+    EXPECT_TRUE(take({When{"one", is, "{one}"}}));
+    EXPECT_FALSE(take({When{"one", is_not, "1"}}));
+    EXPECT_TRUE(take({When{"one", in, "list"}}));
+    EXPECT_FALSE(take({When{"one", not_in, "list"}}));
+    EXPECT_FALSE(take({When{"y", in, "list"}})) << "nothing is in no list";
+    EXPECT_TRUE(take({When{"y", not_in, "list"}}));
+    EXPECT_TRUE(take({When{"one", not_empty, {}}}));
+    EXPECT_TRUE(take({When{"x", near, "300, 400, 0", 500}}));
+    EXPECT_FALSE(take({When{"x", near, "300, 401, 0", 500}}));
+    EXPECT_THROW(take({When{"x", near, "here", 500}}), Trouble);
+}
+
+TEST_F(AScenario, CountsAndFindsThePlaceBeforeSomebody) {
+    take({CountUp{"y"}, CountUp{"y"}, PlaceBefore{"x", "1000, 2000, 90", 500, 0}, Print{"{y}: {x}"}});
+    EXPECT_THAT(printed, ElementsAre(HasSubstr("2: 1000, 2500, ")));
+}
+
+}  // namespace
+}  // namespace rois::command
