@@ -133,12 +133,14 @@ def call_of_xmlrpc():
 
 
 def call_of_gsoap():
-    """The comparable call for rois-gsoap, of 600 bytes."""
+    """The query for rois-gsoap, of 600 bytes: the same type and condition, in gSOAP's envelope."""
+    equal = "<PropertyIsEqualTo><ValueReference>component_ref</ValueReference><Literal>{}</Literal></PropertyIsEqualTo>"
     return _padded(
         '<?xml version="1.0" encoding="UTF-8"?>\n'
         '<SOAP-ENV:Envelope xmlns:SOAP-ENV="http://schemas.xmlsoap.org/soap/envelope/" xmlns:hall="urn:x-rois:bench:hall">'
-        "<SOAP-ENV:Body><hall:query><query-type>engine_status</query-type><component-ref>system_information</component-ref>"
-        "<engine>{}</engine><range>2.5</range></hall:query></SOAP-ENV:Body></SOAP-ENV:Envelope>"
+        "<SOAP-ENV:Body><hall:query><query_type>engine_status</query_type><condition><Filter><Or>"
+        f"{equal.format('system_information')}{equal}"
+        "</Or></Filter></condition></hall:query></SOAP-ENV:Body></SOAP-ENV:Envelope>"
     )
 
 

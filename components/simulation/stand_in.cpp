@@ -32,6 +32,12 @@ public:
         return {defaults_of(message->results)};
     }
 
+    // As any query; what set_parameter sets, too, is the engine's to tell.
+    ParameterList readable_parameters() const override {
+        auto const* message = find_message(whole_, MessageKind::query, "get_parameter");
+        return message == nullptr ? ParameterList{} : defaults_of(message->results).parameters;
+    }
+
 private:
     void begin() override {}
     void sense(Instant) override {}

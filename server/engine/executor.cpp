@@ -46,7 +46,7 @@ Executor::SharedCommand Executor::make(Session& session, CommandMessage const& m
     command->session = &session;
     command->component = component;
     command->arguments = normalized(profiles, message.arguments);
-    if (&profiles != &component->settable()) command->arguments = with_defaults(profiles, command->arguments);
+    if (!stores_arguments(message.command_type)) command->arguments = with_defaults(profiles, command->arguments);
     live_.emplace(last_handle_, command);
     session.commands.emplace(command->id, command);
     return command;
@@ -133,8 +133,9 @@ void Executor::run_start(SharedCommand const& command, Instant now) {
     component.activity = RegisteredComponent::Activity::running;
     component.start = command;
     await_start(command, now);
-    auto const changed = component.in_own_frame(component.parameters);
-    auto const& parameters = changed ? *changed : component.parameters;
+    auto const arguments = component.for_start(component.parameters, command->arguments);
+    auto const changed = component.in_own_frame(arguments);
+    auto const& parameters = changed ? *changed : arguments;
     if (component.call([&](Component& c) { c.start(command->handle, parameters, now); }) == Called::ok) return;
     component.activity = RegisteredComponent::Activity::idle;
     component.start = nullptr;

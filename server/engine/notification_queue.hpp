@@ -5,8 +5,10 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "types/ids.hpp"
 #include "types/messages.hpp"
 
 namespace rois {
@@ -41,7 +43,10 @@ struct Numbered {
 // what it has done; readers and holders come from any thread, and wait for nothing but each other: not for the engine's turn.
 class NotificationQueue {
 public:
-    NotificationQueue(std::size_t max_waiting, std::size_t max_sent) : max_waiting_{max_waiting}, max_sent_{max_sent} {}
+    NotificationQueue(SessionId session, std::size_t max_waiting, std::size_t max_sent)
+        : session_{std::move(session)}, max_waiting_{max_waiting}, max_sent_{max_sent} {}
+
+    SessionId const& session() const { return session_; }
 
     enum class Pushed : std::uint8_t { ok, overflow };
 
@@ -85,6 +90,7 @@ private:
     std::vector<Numbered>::const_iterator first_after(std::uint64_t sequence) const;
     void mark_sent(std::uint64_t until);
 
+    SessionId session_;
     std::size_t max_waiting_;
     std::size_t max_sent_;
     mutable std::mutex mutex_;  // guards what follows; what only the engine changes it may read without

@@ -90,6 +90,9 @@ ParameterList normalized(std::vector<ParameterProfile> const& profiles, Paramete
         auto const* profile = profile_for(profiles, parameter.name);
         parameter.name = profile->name;
         parameter.data_type_ref.code = profile->data_type_ref.code;
+        auto const type = DataType::of(profile->data_type_ref);
+        if (type.base != BaseType::date_time) continue;
+        for (auto& value : parameter.values) value = as_told(type, value);
     }
     return known;
 }

@@ -34,7 +34,7 @@ private:
     std::vector<DataType> types_;
 };
 
-// The same parameters under the profiles' names and type codes; `list` was checked.
+// The same parameters under the profiles' names and type codes, times in UTC; `list` was checked.
 ParameterList normalized(std::vector<ParameterProfile> const&, ParameterList const& list);
 
 // Why a command cannot do with these arguments: one that has no default value is not there. Nothing when it can.

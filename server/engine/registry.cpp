@@ -30,15 +30,46 @@ std::vector<ParameterProfile> settable_of(ComponentProfile const& profile) {
     return settable;
 }
 
-// Published profiles name the parameters only; the two messages that every component with parameters has go without saying.
+// `list`, and what `others` has beside.
+std::vector<ParameterProfile> with_others(std::vector<ParameterProfile> list, std::vector<ParameterProfile> const& others) {
+    for (auto const& other : others)
+        if (find_parameter(list, other.name) == nullptr) list.push_back(other);
+    return list;
+}
+
+// Published profiles name the parameters only; the two messages that every component with parameters has go without saying, and
+// so does what one of them leaves out.
 void add_parameter_messages(ComponentProfile& profile, std::vector<ParameterProfile> const& settable) {
     if (settable.empty()) return;
-    if (find_message(profile, MessageKind::command, "set_parameter") == nullptr)
-        profile.messages.push_back(
-            {.kind = MessageKind::command, .name = "set_parameter", .results = {}, .arguments = settable, .timeout = {}});
-    if (find_message(profile, MessageKind::query, "get_parameter") == nullptr)
-        profile.messages.push_back(
-            {.kind = MessageKind::query, .name = "get_parameter", .results = settable, .arguments = {}, .timeout = {}});
+    auto const message = [&](MessageKind kind, std::string_view name) -> MessageProfile& {
+        auto const there = std::ranges::find_if(
+            profile.messages, [&](MessageProfile const& each) { return each.kind == kind && each.name == name; });
+        if (there != profile.messages.end()) return *there;
+        return profile.messages.emplace_back(
+            MessageProfile{.kind = kind, .name = std::string{name}, .results = {}, .arguments = {}, .timeout = {}});
+    };
+    auto& set = message(MessageKind::command, "set_parameter");
+    set.arguments = with_others(std::move(set.arguments), settable);
+    auto& get = message(MessageKind::query, "get_parameter");
+    get.results = with_others(std::move(get.results), settable);
+}
+
+// What the profile's own `start` takes beside the parameters that are stored: what these are not, or not of that type.
+std::vector<ParameterProfile> start_arguments_of(ComponentProfile const& profile, std::vector<ParameterProfile> const& settable) {
+    std::vector<ParameterProfile> arguments;
+    auto const* message = find_message(profile, MessageKind::command, "start");
+    if (message == nullptr) return arguments;
+    for (auto const& argument : message->arguments) {
+        auto const* stored = find_parameter(settable, argument.name);
+        if (stored == nullptr || !(DataType::of(stored->data_type_ref) == DataType::of(argument.data_type_ref)))
+            arguments.push_back(argument);
+    }
+    return arguments;
+}
+
+std::vector<ParameterProfile> results_of_get_parameter(ComponentProfile const& profile) {
+    auto const* message = find_message(profile, MessageKind::query, "get_parameter");
+    return message == nullptr ? std::vector<ParameterProfile>{} : message->results;
 }
 
 }  // namespace
@@ -47,6 +78,9 @@ RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, C
                                          Agenda& agenda, Frames const& frames)
     : component_{std::move(component)}, settable_{settable_of(profile)}, agenda_{agenda}, frames_{frames} {
     add_parameter_messages(profile, settable_);
+    start_arguments_ = start_arguments_of(profile, settable_);
+    startable_ = with_others(start_arguments_, settable_);
+    readable_ = with_others(settable_, results_of_get_parameter(profile));
     auto const& description = component_->description();
     ref_ = description.ref;
     crs_ = description.crs;
@@ -115,17 +149,22 @@ std::vector<Results> RegisteredComponent::answer(std::string_view query_type, In
 std::optional<ParameterList> RegisteredComponent::all_parameters() const {
     Results readable;
     if (call([&](Component& c) { readable.parameters = c.readable_parameters(); }, Report::once) == Called::failed) return {};
+    std::erase_if(readable.parameters, [&](Parameter const& each) {
+        auto const* const known = profile_for(readable_, each.name);
+        return known == nullptr || find(parameters, known->name) != nullptr;
+    });
+    if (auto const problem = why_not(readable_, readable.parameters)) {
+        report_failure("wrong parameters: " + *problem, Report::once);
+        return {};
+    }
+    readable.parameters = normalized(readable_, readable.parameters);
     frames_.change_to_own(readable);
     auto all = std::move(readable.parameters);
     all.insert(all.end(), parameters.begin(), parameters.end());
     return all;
 }
 
-bool RegisteredComponent::has_parameter(std::string_view name) const {
-    if (profile_for(settable_, name) != nullptr) return true;
-    auto const* message = find_message(profile(), MessageKind::query, "get_parameter");
-    return message != nullptr && find_parameter(message->results, name) != nullptr;
-}
+bool RegisteredComponent::has_parameter(std::string_view name) const { return profile_for(readable_, name) != nullptr; }
 
 bool RegisteredComponent::tells(std::string_view name) const {
     return std::ranges::any_of(profile().messages, [&](MessageProfile const& message) {
@@ -177,9 +216,30 @@ std::optional<ParameterList> RegisteredComponent::in_own_frame(ParameterList con
 }
 
 std::optional<ParameterList> RegisteredComponent::merged(ParameterList stored, ParameterList const& arrived) const {
+    if (start_arguments_.empty()) return reconciled(std::move(stored), arrived);
+    auto kept = arrived;
+    std::erase_if(kept, [&](Parameter const& each) { return find_parameter(start_arguments_, each.name) != nullptr; });
+    return reconciled(std::move(stored), kept);
+}
+
+std::optional<ParameterList> RegisteredComponent::reconciled(ParameterList stored, ParameterList const& arrived) const {
     merge(stored, arrived, settable_);
     if (call([&](Component& c) { c.reconcile(stored, arrived); }) == Called::failed) return {};
     return stored;
+}
+
+std::optional<std::string> RegisteredComponent::why_no_start(ParameterList const& normalized) const {
+    return why_incomplete(start_arguments_, normalized);
+}
+
+ParameterList RegisteredComponent::for_start(ParameterList stored, ParameterList const& arrived) const {
+    if (start_arguments_.empty()) return stored;
+    auto own = arrived;
+    std::erase_if(own, [&](Parameter const& each) { return find_parameter(start_arguments_, each.name) == nullptr; });
+    own = with_defaults(start_arguments_, own);
+    std::erase_if(stored, [&](Parameter const& each) { return find(own, each.name) != nullptr; });
+    own.insert(own.end(), stored.begin(), stored.end());
+    return own;
 }
 
 void RegisteredComponent::started(CommandHandle command) { agenda_.add(CommandStarted{command}); }

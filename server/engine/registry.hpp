@@ -55,9 +55,18 @@ public:
     // Decision 7: as `asker` sees it.
     ComponentStatus status_for(Session const* asker) const;
 
-    // What a component of this type may be told by set_parameter, and what get_parameter answers; nothing when it failed.
+    // What a component of this type may be told by set_parameter.
     std::vector<ParameterProfile> const& settable() const { return settable_; }
+    // What get_parameter answers: what is stored, and of what nobody has set what the component reads. Nothing when it failed, or
+    // reads what is not of the profile's type; what the profile has not is not told.
     std::optional<ParameterList> all_parameters() const;
+
+    // What `start` takes: those, and the arguments of the profile's own `start`, which are not stored.
+    std::vector<ParameterProfile> const& startable() const { return startable_; }
+    // Why the component cannot start with what arrived: an argument that has no default value is not there.
+    std::optional<std::string> why_no_start(ParameterList const& normalized) const;
+    // What is stored, and what `start` was given beside it or has by default.
+    ParameterList for_start(ParameterList stored, ParameterList const& arrived) const;
 
     // What conditions ask: whether it has such a parameter, be it only to be read, or an event or a query with such a result; and
     // where it is, nothing also when it failed.
@@ -71,7 +80,7 @@ public:
     // The parameters with positions in the component's own frame; nothing when it takes them as they are.
     std::optional<ParameterList> in_own_frame(ParameterList const&) const;
 
-    // `stored` with what arrived, as the component reconciles the two; nothing when it failed.
+    // `stored` with what arrived to be stored, as the component reconciles the two; nothing when it failed.
     std::optional<ParameterList> merged(ParameterList stored, ParameterList const& arrived) const;
 
     Session* bound_to = nullptr;
@@ -97,6 +106,7 @@ private:
     void report(ErrorType, std::string text, Report) const;
     // Nothing when it failed, because what it told cannot be told in the engine's frame.
     std::optional<Results> told(Results, std::string_view message, Report) const;
+    std::optional<ParameterList> reconciled(ParameterList stored, ParameterList const& arrived) const;
     bool is_position(std::string_view parameter) const;
 
     std::unique_ptr<Component> component_;
@@ -105,7 +115,10 @@ private:
     Identifier ref_;
     ComponentEntry entry_;
     std::vector<ParameterProfile> settable_;
-    std::vector<TypedProfiles> results_;  // of the profile's messages, in their order
+    std::vector<ParameterProfile> start_arguments_;  // of the profile's own `start`, beside them
+    std::vector<ParameterProfile> startable_;        // both
+    std::vector<ParameterProfile> readable_;         // by get_parameter
+    std::vector<TypedProfiles> results_;             // of the profile's messages, in their order
     Agenda& agenda_;
     Frames const& frames_;
     std::string crs_;

@@ -32,8 +32,11 @@ Objection failed(RegisteredComponent const& component) {
 std::vector<ParameterProfile> const* arguments_of(RegisteredComponent const& component, std::string_view command_type) {
     auto const* message = find_message(component.profile(), MessageKind::command, command_type);
     if (message == nullptr) return nullptr;
-    return command_type == "start" || command_type == "set_parameter" ? &component.settable() : &message->arguments;
+    if (command_type == "set_parameter") return &component.settable();
+    return command_type == "start" ? &component.startable() : &message->arguments;
 }
+
+bool stores_arguments(std::string_view command_type) { return command_type == "start" || command_type == "set_parameter"; }
 
 std::optional<Objection> SequenceCheck::objection(CommandUnitSequence const& sequence) {
     return in_list(sequence.command_unit_list, "", "command_unit_list");
@@ -93,11 +96,14 @@ std::optional<Objection> SequenceCheck::values(CommandMessage const& message, Re
     if (auto problem = why_not(*profiles, message.arguments)) return bad_parameter(std::move(*problem));
     auto parameters = normalized(*profiles, message.arguments);
     if (auto problem = component.why_no_frame(parameters)) return bad_parameter(std::move(*problem));
-    if (profiles == &component.settable()) {
+    if (stores_arguments(message.command_type)) {
+        bool const starts = message.command_type == "start";
+        if (auto problem = starts ? component.why_no_start(parameters) : std::nullopt) return bad_parameter(std::move(*problem));
         auto const stored = stored_.try_emplace(&component, component.parameters).first;
         auto merged = component.merged(stored->second, parameters);
         if (!merged) return failed(component);
-        parameters = stored->second = std::move(*merged);
+        stored->second = std::move(*merged);
+        parameters = starts ? component.for_start(stored->second, parameters) : stored->second;
     } else {
         if (auto problem = why_incomplete(*profiles, parameters)) return bad_parameter(std::move(*problem));
         parameters = with_defaults(*profiles, parameters);

@@ -51,6 +51,9 @@ private:
 // Which parameters a command of this type may carry; null when the component has no such command.
 std::vector<ParameterProfile> const* arguments_of(RegisteredComponent const&, std::string_view command_type);
 
+// Whether what it carries is stored (decision 8); other commands carry arguments, which have default values.
+bool stores_arguments(std::string_view command_type);
+
 // The longest delay_time, in milliseconds: a day.
 inline constexpr std::int64_t max_delay_time = 86'400'000;
 

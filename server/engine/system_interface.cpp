@@ -12,7 +12,7 @@ std::variant<Reply, Refusal> Engine::Core::connect(SessionId const& id, Instant 
     auto session = std::make_unique<Session>();
     session->id.text = fresh_secret_();
     session->notifications =
-        std::make_shared<NotificationQueue>(settings_.max_waiting_notifications, settings_.max_sent_notifications);
+        std::make_shared<NotificationQueue>(session->id, settings_.max_waiting_notifications, settings_.max_sent_notifications);
     session->quiet_until = now.steady;
     auto& opened = *sessions_.emplace(session->id, std::move(session)).first->second;
     await_end_of_window(opened);

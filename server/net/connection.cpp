@@ -20,7 +20,7 @@ Fault too_slow() { return {FaultCode::too_slow, "the request did not arrive in t
 
 Connection::Connection(Loop& loop, Socket socket)
     : loop_{loop},
-      wire_{std::move(socket), loop.shared().settings.write_timeout, loop.shared().telemetry},
+      wire_{std::move(socket), loop.poller(), loop.shared().settings.write_timeout, loop.shared().telemetry},
       counted_{std::in_place, loop.shared().telemetry, Telemetry::Kind::http} {
     loop.shared().telemetry.accepted();
 }
@@ -124,7 +124,12 @@ Task<Connection::Then> Connection::receive() {
     if (idle_) request_due_ = Steady::max();
     if (!idle_ && request_due_ == Steady::max()) request_due_ = now() + settings.request_timeout;
     auto const expected = has_head_ ? head_.content_length - wire_.received().size() : 0;
-    auto const outcome = co_await wire_.receive(idle_ ? now() + settings.idle_timeout : request_due_, expected);
+    auto const until = idle_ ? now() + settings.idle_timeout : request_due_;
+    auto outcome = wire_.receive_now(until, expected);
+    while (!outcome) {
+        co_await wire_.readable();
+        outcome = wire_.receive_now(until, expected);
+    }
     bool const silent = std::exchange(idle_, false);
     if (outcome == Wire::Outcome::closed || (outcome == Wire::Outcome::late && silent)) co_return Then::end;
     if (outcome == Wire::Outcome::late) co_return refuse(too_slow());

@@ -21,11 +21,6 @@ Fault fault_of(Refusal refusal) {
     return no_such_session();
 }
 
-std::variant<Reply, Fault> fault_or_reply(std::variant<Reply, Refusal> handled) {
-    if (auto const* refusal = std::get_if<Refusal>(&handled)) return fault_of(*refusal);
-    return std::get<Reply>(std::move(handled));
-}
-
 // What an operation that went well changes for the connection that asked for it.
 void take_turn(Answer& answer, Operation const& operation, Reply const& reply) {
     if (auto const* connected = std::get_if<Connect::Reply>(&reply)) {
@@ -42,13 +37,12 @@ void take_turn(Answer& answer, Operation const& operation, Reply const& reply) {
 
 }  // namespace
 
-Hold::Hold(Gateway& gateway, SessionId session, std::shared_ptr<NotificationQueue> queue, NotificationQueue::Hold place)
-    : gateway_{&gateway}, session_{std::move(session)}, queue_{std::move(queue)}, place_{place} {}
+Hold::Hold(Gateway& gateway, std::shared_ptr<NotificationQueue> queue)
+    : gateway_{&gateway}, queue_{std::move(queue)}, place_{queue_->hold()} {}
 
 Hold& Hold::operator=(Hold&& other) noexcept {
     release();
     gateway_ = std::exchange(other.gateway_, nullptr);
-    session_ = std::move(other.session_);
     queue_ = std::move(other.queue_);
     place_ = other.place_;
     return *this;
@@ -59,17 +53,16 @@ void Hold::release() {
     if (!gateway) return;
     if (!queue_->release(place_)) return;
     std::lock_guard const lock{gateway->mutex_};
-    gateway->readers_.notify(session_);
+    gateway->readers_.notify(queue_->session());
 }
 
-Reading::Reading(Gateway& gateway, SessionId session, Link link, std::uint64_t after, Reader& reader,
-                 std::shared_ptr<NotificationQueue> queue)
-    : gateway_{gateway}, session_{std::move(session)}, link_{link}, after_{after}, reader_{reader}, queue_{std::move(queue)} {}
+Reading::Reading(Gateway& gateway, Link link, std::uint64_t after, Reader& reader, std::shared_ptr<NotificationQueue> queue)
+    : gateway_{gateway}, link_{link}, after_{after}, reader_{reader}, queue_{std::move(queue)} {}
 
 Reading::~Reading() {
     std::lock_guard const lock{gateway_.mutex_};
-    gateway_.readers_.leave(session_, reader_);
-    gateway_.engine_.link_closed(session_, link_, present());
+    gateway_.readers_.leave(session(), reader_);
+    gateway_.engine_.link_closed(session(), link_, present());
 }
 
 Reading::Taken Reading::take(std::size_t most) {
@@ -93,7 +86,8 @@ void NotificationDocument::append_to(std::string& out) const {
     out.append(before_).append(digits_.data(), digits_size_).append(after_);
 }
 
-Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std::string_view text, Via via) {
+Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std::string_view text, Via via,
+                       Reading const* reading) {
     auto const begun = present();
     Answer answer;
     auto const refuse = [&](Fault fault, std::string const& request_id) {
@@ -113,8 +107,9 @@ Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std
         return answer;
     }
 
-    auto const said = perform(session, request.operation, via, begun, answer.hold);
-    if (auto const* fault = std::get_if<Fault>(&said)) return refuse(*fault, request.request_id), std::move(answer);
+    auto const said = perform(session, request.operation, via, reading, begun, answer.hold);
+    if (auto const* refusal = std::get_if<Refusal>(&said))
+        return refuse(fault_of(*refusal), request.request_id), std::move(answer);
     auto const& reply = std::get<Reply>(said);
     answer.document = xml::encode(reply, request.request_id);
     auto const code = std::visit([](Outcome const& outcome) { return outcome.return_code; }, reply);
@@ -123,16 +118,17 @@ Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std
     return answer;
 }
 
-std::variant<Reply, Fault> Gateway::perform(SessionId const& session, Operation const& operation, Via via, Instant now,
-                                            Hold& hold) {
+std::variant<Reply, Refusal> Gateway::perform(SessionId const& session, Operation const& operation, Via via,
+                                              Reading const* reading, Instant now, Hold& hold) {
     std::lock_guard const lock{mutex_};
-    auto const queue = engine_.notifications(session);
+    auto queue = reading != nullptr ? reading->queue_ : engine_.notifications(session);
+    bool const known = queue != nullptr;
     // The readers of a session that disconnects hear the last of it before the answer (decision 3): then nothing is held.
-    if (queue && !std::holds_alternative<Disconnect>(operation)) hold = Hold{*this, session, queue, queue->hold()};
+    if (known && !std::holds_alternative<Disconnect>(operation)) hold = Hold{*this, std::move(queue)};
     if (via == Via::http) engine_.heard_from(session, now);
     auto handled = engine_.handle(session, operation, now);
-    if (via == Via::http && !queue) heard_from_opened(handled, now);
-    return fault_or_reply(std::move(handled));
+    if (via == Via::http && !known) heard_from_opened(handled, now);
+    return handled;
 }
 
 // A session that was opened over HTTP has been heard from (decision 2).
@@ -148,7 +144,7 @@ std::unique_ptr<Reading> Gateway::read(SessionId const& session, Link link, std:
     if (!queue || queue->closed()) return {};
     engine_.link_opened(session);
     readers_.join(session, link, reader);
-    return std::make_unique<Reading>(*this, session, link, after, reader, std::move(queue));
+    return std::make_unique<Reading>(*this, link, after, reader, std::move(queue));
 }
 
 void Gateway::tick() {

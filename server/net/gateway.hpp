@@ -33,11 +33,10 @@ public:
 
 private:
     friend class Gateway;
-    Hold(Gateway&, SessionId, std::shared_ptr<NotificationQueue>, NotificationQueue::Hold);
+    Hold(Gateway&, std::shared_ptr<NotificationQueue>);
     void release();
 
     Gateway* gateway_ = nullptr;  // null: holds nothing
-    SessionId session_;
     std::shared_ptr<NotificationQueue> queue_;
     NotificationQueue::Hold place_ = 0;
 };
@@ -45,7 +44,7 @@ private:
 // One reader's place in a session's notifications, and its link to the session. The gateway and the reader must outlive it.
 class Reading {
 public:
-    Reading(Gateway&, SessionId, Link, std::uint64_t after, Reader&, std::shared_ptr<NotificationQueue>);
+    Reading(Gateway&, Link, std::uint64_t after, Reader&, std::shared_ptr<NotificationQueue>);
     ~Reading();
     Reading(Reading const&) = delete;
     Reading& operator=(Reading const&) = delete;
@@ -58,11 +57,12 @@ public:
     // The next ones, at most `most`; the place moves behind them. The engine is not locked for it.
     Taken take(std::size_t most);
 
-    SessionId const& session() const { return session_; }
+    SessionId const& session() const { return queue_->session(); }
 
 private:
+    friend class Gateway;
+
     Gateway& gateway_;
-    SessionId session_;
     Link link_;
     std::uint64_t after_;
     Reader& reader_;
@@ -106,8 +106,9 @@ public:
     Gateway(Engine& engine, Readers& readers, Telemetry& telemetry) : engine_{engine}, readers_{readers}, telemetry_{telemetry} {}
 
     // Reads the request's text, performs the operation for the session (an empty id: for nobody yet) and encodes the answer.
-    // Only the operation itself is done with the engine locked.
-    Answer answer(xml::RequestReader&, SessionId const&, std::string_view text, Via);
+    // Only the operation itself is done with the engine locked. `reading`: of the session, if there is one, which spares a
+    // search.
+    Answer answer(xml::RequestReader&, SessionId const&, std::string_view text, Via, Reading const* reading = nullptr);
 
     // Null when there is no such session.
     std::unique_ptr<Reading> read(SessionId const&, Link, std::uint64_t after, Reader&);
@@ -131,7 +132,7 @@ private:
     friend class Hold;
     friend class Reading;
 
-    std::variant<Reply, Fault> perform(SessionId const&, Operation const&, Via, Instant now, Hold&);
+    std::variant<Reply, Refusal> perform(SessionId const&, Operation const&, Via, Reading const*, Instant now, Hold&);
     void heard_from_opened(std::variant<Reply, Refusal> const&, Instant now);
 
     Engine& engine_;

@@ -29,8 +29,8 @@ void Loop::run() {
 }
 
 void Loop::serve(Socket socket) {
-    // Given away whole: a connection ends on its own thread.
-    asio::post(io_, [this, connection = std::make_shared<Connection>(*this, std::move(socket))] {
+    asio::post(io_, [this, socket = std::move(socket)]() mutable {
+        auto const connection = std::make_shared<Connection>(*this, std::move(socket));
         asio::co_spawn(io_, connection->run(), [connection](std::exception_ptr const& broken) {
             if (!broken) return;
             try {

@@ -7,6 +7,7 @@
 #include "net/asio.hpp"
 #include "net/documents.hpp"
 #include "net/gateway.hpp"
+#include "net/poller.hpp"
 #include "net/settings.hpp"
 #include "net/telemetry.hpp"
 #include "net/wakes.hpp"
@@ -44,6 +45,7 @@ public:
     xml::RequestReader& reader() { return reader_; }
     Executor executor() { return io_.get_executor(); }
     Wakes& wakes() { return wakes_; }
+    Poller& poller() { return poller_; }
 
 private:
     friend class Connection;
@@ -56,6 +58,7 @@ private:
     Steady last_moment_ = Steady::max();  // set by shut_down: at that time whoever is still there is cut
     asio::io_context io_{1};
     Wakes wakes_{io_.get_executor()};
+    Poller poller_{io_.get_executor()};
 };
 
 }  // namespace rois::net

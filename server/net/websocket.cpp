@@ -36,14 +36,17 @@ WebSocket::WebSocket(std::shared_ptr<Wire> wire, Gateway& gateway, Telemetry& te
       heard_{now()} {}
 
 Task<> WebSocket::run() {
-    auto outcome = Wire::Outcome::done;
+    std::optional outcome = Wire::Outcome::done;
     while (outcome == Wire::Outcome::done && !broken_) {
-        if (!ending_) co_await take_frames();
+        while (!take_frames()) co_await pause();
         flush();
         if (ending_) wire_->use(wire_->received().size());
-        outcome = co_await wire_->receive(Steady::max());
-        heard_ = now();
-        pinged_ = false;
+        outcome = wire_->receive_now(Steady::max());
+        while (!outcome) {
+            co_await wire_->readable();
+            outcome = wire_->receive_now(Steady::max());
+        }
+        heard_something_ = true;
     }
     broken_ = true;
     wire_->cut();
@@ -51,46 +54,61 @@ Task<> WebSocket::run() {
     while (writing_) co_await something_written();
 }
 
-// Takes all whole frames that have arrived.
-Task<> WebSocket::take_frames() {
-    bool incomplete = false;
-    while (!incomplete && !ending_ && !broken_) {
+// Takes the whole frames that have arrived. False: some may be left, to be taken after a pause.
+bool WebSocket::take_frames() {
+    while (!ending_ && !broken_) {
+        if (farewell_ || full()) return false;
         std::size_t used = 0;
         auto const heard = messages_.next(wire_->received(), used);
-        if (auto const* message = std::get_if<MessageReader::Text>(&heard)) {
-            co_await take_text(message->text);
-        } else {
-            std::visit(Overloaded{[&](MessageReader::Incomplete) { incomplete = true; },
-                                  [&](MessageReader::Ping ping) { pong_ = std::string{ping.payload}; },
-                                  [&](MessageReader::Closed closed) {
-                                      close({closed.code, ""});
-                                  },
-                                  [&](MessageReader::Violation wrong) {
-                                      close({wrong.code, wrong.reason});
-                                  },
-                                  [](auto) {}},
-                       heard);
-        }
+        bool const incomplete = std::holds_alternative<MessageReader::Incomplete>(heard);
+        if (!incomplete) take(heard);
         wire_->use(used);
+        if (incomplete) break;
     }
-    note_message(now());
+    note_message();
+    return true;
 }
 
-// Answers one request. The text lies in the wire's input, which stays as it is meanwhile.
-Task<> WebSocket::take_text(std::string_view text) {
-    auto answer = gateway_.answer(reader_, session_, text, Via::websocket);
-    if (answer.turn == Answer::Turn::disconnected) {
-        while (gather_notifications(answers_)) {
-        }
-        reading_.reset();
-        flush();
-        co_await others_heard(gateway_, session_, wakes());
-    }
+void WebSocket::take(MessageReader::Heard const& heard) {
+    std::visit(Overloaded{[&](MessageReader::Text message) {
+                              auto answer = gateway_.answer(reader_, session_, message.text, Via::websocket, reading_.get());
+                              if (answer.turn == Answer::Turn::disconnected) {
+                                  farewell_ = std::make_unique<Answer>(std::move(answer));
+                              } else {
+                                  say(answer);
+                              }
+                          },
+                          [&](MessageReader::Ping ping) { pong_ = std::string{ping.payload}; },
+                          [&](MessageReader::Closed closed) {
+                              close({closed.code, ""});
+                          },
+                          [&](MessageReader::Violation wrong) {
+                              close({wrong.code, wrong.reason});
+                          },
+                          [](auto) {}},
+               heard);
+}
+
+void WebSocket::say(Answer const& answer) {
     append_frame(answers_, Opcode::text, answer.document);
     ++answers_waiting_;
     join(answer);
     if (answer.fault == FaultCode::too_many) close({CloseCode::policy_violation, "too many sessions"});
-    co_await wait_for_room();
+}
+
+// Until the next frame may be taken.
+Task<> WebSocket::pause() {
+    if (farewell_) co_await say_farewell();
+    if (full()) co_await wait_for_room();
+}
+
+Task<> WebSocket::say_farewell() {
+    while (gather_notifications(answers_)) {
+    }
+    reading_.reset();
+    flush();
+    co_await others_heard(gateway_, session_, wakes());
+    say(*std::exchange(farewell_, nullptr));
 }
 
 // Follows the answer to the session that it opened, took over or left.
@@ -107,9 +125,9 @@ void WebSocket::join(Answer const& answer) {
 
 // Reading stops while as many answers wait as may be in flight.
 Task<> WebSocket::wait_for_room() {
-    if (answers_waiting_ < settings_.max_requests_in_flight) co_return;
     flush();
-    while (answers_waiting_ + answers_in_out_ >= settings_.max_requests_in_flight && !broken_) co_await something_written();
+    auto const is_full = [this] { return answers_waiting_ + answers_in_out_ >= settings_.max_requests_in_flight; };
+    while (is_full() && !broken_ && !close_gathered_) co_await something_written();
 }
 
 Task<> WebSocket::something_written() {
@@ -118,11 +136,11 @@ Task<> WebSocket::something_written() {
     room_.reset();
 }
 
-void WebSocket::note_message(Steady at) {
+void WebSocket::note_message() {
     if (wire_->received().empty() && !messages_.in_message()) {
         message_due_ = Steady::max();
     } else if (message_due_ == Steady::max()) {
-        message_due_ = at + settings_.request_timeout;
+        message_due_ = now() + settings_.request_timeout;
     }
 }
 
@@ -136,6 +154,10 @@ void WebSocket::close(Ending ending) {
 void WebSocket::taken_over() { close({CloseCode::policy_violation, "the session goes on elsewhere"}); }
 
 void WebSocket::sweep(Steady at) {
+    if (std::exchange(heard_something_, false)) {
+        heard_ = at;
+        pinged_ = false;
+    }
     if (at >= close_due_ || at >= heard_ + 2 * settings_.ping_interval) {
         wire_->cut();
         return;
@@ -156,39 +178,38 @@ void WebSocket::shut_down() {
 void WebSocket::flush() {
     thread_local std::string near;
     while (!writing_ && !broken_) {
-        std::swap(out_, near);
-        bool const something = gather();
-        auto const sent = something ? wire_->send_now(out_) : 0;
-        if (sent < out_.size()) {
-            out_.erase(0, sent);
+        near.clear();
+        bool const more = gather(near);
+        if (near.empty()) return;
+        auto const sent = wire_->send_now(near);
+        if (sent < near.size()) {
+            out_.assign(near, sent);
             writing_ = true;
             asio::co_spawn(
                 wire_->executor(), [self = std::static_pointer_cast<WebSocket>(shared_from_this())] { return self->drain(); },
                 asio::detached);
             return;
         }
-        out_.clear();
-        std::swap(out_, near);
-        if (!something) return;
         written();
+        if (!more) return;
     }
 }
 
-// Moves what waits into out_; false when nothing does.
-bool WebSocket::gather() {
+// Appends what waits, as much as goes out at once; true when there is more.
+bool WebSocket::gather(std::string& out) {
     if (close_gathered_) return false;
-    out_.assign(answers_);
+    out.append(answers_);
     answers_.clear();
     answers_in_out_ = std::exchange(answers_waiting_, 0);
-    if (pong_) append_frame(out_, Opcode::pong, *std::exchange(pong_, {}));
-    if (std::exchange(ping_due_, false)) append_frame(out_, Opcode::ping, "");
-    bool const more = (!ending_ || ending_->code == CloseCode::going_away) && gather_notifications(out_);
+    if (pong_) append_frame(out, Opcode::pong, *std::exchange(pong_, {}));
+    if (std::exchange(ping_due_, false)) append_frame(out, Opcode::ping, "");
+    bool const more = (!ending_ || ending_->code == CloseCode::going_away) && gather_notifications(out);
     if (ending_ && !more) {
-        append_close(out_, ending_->code, ending_->reason);
+        append_close(out, ending_->code, ending_->reason);
         close_gathered_ = true;
     }
-    if (out_.empty() && session_over_) reading_.reset();  // it had nothing left to say
-    return !out_.empty();
+    if (out.empty() && session_over_) reading_.reset();  // it had nothing left to say
+    return more;
 }
 
 // Appends some of the session's notifications; true when there are more. The link ends with the session's last.

@@ -37,16 +37,20 @@ private:
     void woken() override { flush(); }
     void taken_over() override;
 
-    Task<> take_frames();
-    Task<> take_text(std::string_view);
+    bool take_frames();
+    void take(MessageReader::Heard const&);
+    void say(Answer const&);
+    void join(Answer const&);
+    bool full() const { return answers_waiting_ >= settings_.max_requests_in_flight; }
+    Task<> pause();
+    Task<> say_farewell();
     Task<> wait_for_room();
     Task<> something_written();
-    void join(Answer const&);
-    void note_message(Steady now);
+    void note_message();
     void close(Ending);
 
     void flush();
-    bool gather();
+    bool gather(std::string& out);
     bool gather_notifications(std::string& out);
     void written();
     Task<> drain();
@@ -62,9 +66,10 @@ private:
     std::unique_ptr<Reading> reading_;  // of the session, until its last notification was written
     bool session_over_ = false;         // reading_ has given its last
 
-    std::string answers_;  // frames that wait for the next write
+    std::unique_ptr<Answer> farewell_;  // to a disconnect: waits for the session's last notifications to be heard
+    std::string answers_;               // frames that wait for the next write
     std::size_t answers_waiting_ = 0;
-    std::string out_;  // what is being written; empty while everything is taken at once
+    std::string out_;  // what `drain` writes; empty while everything is taken at once
     std::size_t answers_in_out_ = 0;
     std::optional<std::string> pong_;
     bool ping_due_ = false;
@@ -74,6 +79,7 @@ private:
     std::optional<Ending> ending_;  // decided: the close frame goes out behind what was said before
     bool close_gathered_ = false;   // it is in out_; nothing follows
     Steady close_due_ = Steady::max();
+    bool heard_something_ = false;        // from the peer, since the last sweep
     Steady heard_;                        // from the peer, last
     bool pinged_ = false;                 // since then
     Steady message_due_ = Steady::max();  // when what has begun to arrive must be whole

@@ -1,11 +1,14 @@
 #include "net/websocket_frames.hpp"
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 
 namespace rois::net {
 
 namespace {
+
+constexpr std::uint64_t high_bits = 0x8080808080808080;  // of eight bytes
 
 // The size of the UTF-8 sequence at the front of `s`, or 0 when it is none (RFC 3629).
 std::size_t sequence_size(std::string_view s) {
@@ -29,7 +32,7 @@ bool begins_with_eight_of_ascii(std::string_view text) {
     std::uint64_t word = 0;
     if (text.size() < sizeof word) return false;
     text.copy(reinterpret_cast<char*>(&word), sizeof word);
-    return (word & 0x8080808080808080u) == 0;
+    return (word & high_bits) == 0;
 }
 
 void append_head(std::string& out, Opcode opcode, std::size_t size) {
@@ -51,18 +54,27 @@ bool may_be_sent(unsigned code) {
     return (code >= 1000 && code <= 1003) || (code >= 1007 && code <= 1014) || (code >= 3000 && code <= 4999);
 }
 
-void unmask(std::span<char> payload, char const* mask) {
+// Says whether what comes out is ASCII.
+bool unmask(std::span<char> payload, char const* mask) {
     std::uint32_t four = 0;
     std::memcpy(&four, mask, sizeof four);
     std::uint64_t const key = std::uint64_t{four} << 32 | four;
-    std::uint64_t eight = 0;
+    std::array<std::uint64_t, 4> words{}, seen{};  // so that the compiler takes sixteen bytes together
     std::size_t i = 0;
-    for (; i + sizeof eight <= payload.size(); i += sizeof eight) {
+    for (; i + sizeof words <= payload.size(); i += sizeof words) {
+        std::memcpy(words.data(), payload.data() + i, sizeof words);
+        for (auto& word : words) word ^= key;
+        for (std::size_t w = 0; w < words.size(); ++w) seen[w] |= words[w];
+        std::memcpy(payload.data() + i, words.data(), sizeof words);
+    }
+    auto all = seen[0] | seen[1] | seen[2] | seen[3];
+    for (std::uint64_t eight = 0; i + sizeof eight <= payload.size(); i += sizeof eight) {
         std::memcpy(&eight, payload.data() + i, sizeof eight);
-        eight ^= key;
+        all |= eight ^= key;
         std::memcpy(payload.data() + i, &eight, sizeof eight);
     }
-    for (; i < payload.size(); ++i) payload[i] = static_cast<char>(payload[i] ^ mask[i & 3]);
+    for (; i < payload.size(); ++i) all |= static_cast<unsigned char>(payload[i] = static_cast<char>(payload[i] ^ mask[i & 3]));
+    return (all & high_bits) == 0;
 }
 
 constexpr MessageReader::Violation protocol_error(std::string_view reason) { return {CloseCode::protocol_error, reason}; }
@@ -150,9 +162,9 @@ MessageReader::Heard MessageReader::next(std::span<char> bytes, std::size_t& use
     if (bytes.size() - head.size < head.payload) return Incomplete{};
     used = head.size + head.payload;
     auto const payload = bytes.subspan(head.size, head.payload);
-    unmask(payload, bytes.data() + head.size - 4);
+    bool const ascii = unmask(payload, bytes.data() + head.size - 4);
     std::string_view const text{payload.data(), payload.size()};
-    return head.is_control() ? take_control(head, text) : take_part(head, text);
+    return head.is_control() ? take_control(head, text) : take_part(head, text, ascii);
 }
 
 MessageReader::Heard MessageReader::take_control(Head const& head, std::string_view payload) const {
@@ -166,7 +178,7 @@ MessageReader::Heard MessageReader::take_control(Head const& head, std::string_v
     return Closed{static_cast<CloseCode>(code)};
 }
 
-MessageReader::Heard MessageReader::take_part(Head const& head, std::string_view payload) {
+MessageReader::Heard MessageReader::take_part(Head const& head, std::string_view payload, bool ascii) {
     if (!head.last) {
         ++fragments_;
         parts_.append(payload);
@@ -178,8 +190,9 @@ MessageReader::Heard MessageReader::take_part(Head const& head, std::string_view
         parts_.clear();
         whole_.append(payload);
         payload = whole_;
+        ascii = false;
     }
-    if (!is_utf8(payload)) return Violation{CloseCode::invalid_payload, "not UTF-8"};
+    if (!ascii && !is_utf8(payload)) return Violation{CloseCode::invalid_payload, "not UTF-8"};
     return Text{payload};
 }
 

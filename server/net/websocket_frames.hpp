@@ -65,7 +65,7 @@ private:
     std::variant<Incomplete, Head, Violation> read_head(std::span<char> bytes) const;
     Heard refuse(Head const&) const;
     Heard take_control(Head const&, std::string_view payload) const;
-    Heard take_part(Head const&, std::string_view payload);
+    Heard take_part(Head const&, std::string_view payload, bool ascii);
 
     std::size_t max_message_;
     std::size_t max_fragments_;

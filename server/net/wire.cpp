@@ -1,10 +1,12 @@
 #include "net/wire.hpp"
 
 #include <spdlog/spdlog.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <boost/asio/write.hpp>
+#include <boost/asio/post.hpp>
+#include <cerrno>
 #include <utility>
 
 namespace rois::net {
@@ -18,11 +20,47 @@ constexpr std::size_t most_promised = 16 * 1024;  // memory for what a peer says
 
 }  // namespace
 
-Wire::Wire(Socket socket, std::chrono::milliseconds write_timeout, Telemetry& telemetry)
-    : socket_{std::move(socket)}, write_timeout_{write_timeout}, telemetry_{telemetry} {
+Wire::Wire(Socket socket, Poller& poller, std::chrono::milliseconds write_timeout, Telemetry& telemetry)
+    : executor_{socket.get_executor()}, poller_{poller}, write_timeout_{write_timeout}, telemetry_{telemetry} {
     boost::system::error_code ignored;
-    socket_.non_blocking(true, ignored);
-    socket_.set_option(asio::ip::tcp::no_delay{true}, ignored);
+    socket.non_blocking(true, ignored);
+    socket.set_option(asio::ip::tcp::no_delay{true}, ignored);
+    socket_ = socket.release(ignored);
+    if (socket_ >= 0 && !poller_.add(socket_, *this)) cut();
+}
+
+Task<> Wire::until_resumed(Waiter& waiter) {
+    Token token;
+    return asio::async_initiate<Token, void()>([&waiter]<class H>(H&& handler) { waiter.emplace(std::forward<H>(handler)); },
+                                               token);
+}
+
+void Wire::resume(Waiter& waiter) {
+    if (!waiter) return;
+    auto handler = std::move(*waiter);
+    waiter.reset();
+    std::move(handler)();
+}
+
+// By the loop: who calls this may be on its way through something that the waiter would change.
+void Wire::resume_later(Waiter& waiter) {
+    if (!waiter) return;
+    auto handler = std::move(*waiter);
+    waiter.reset();
+    asio::post(executor_, std::move(handler));
+}
+
+void Wire::changed(std::uint32_t events) {
+    ended_ = ended_ || (events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR)) != 0;
+    readable_ = readable_ || ended_ || (events & EPOLLIN) != 0;
+    if (readable_ && !reader_) look_whether_gone();
+    // Whoever is resumed may end the connection, and this with it: only one is.
+    if (readable_ && reader_) {
+        resume_later(writer_);
+        resume(reader_);
+    } else {
+        resume(writer_);
+    }
 }
 
 void Wire::use(std::size_t bytes) {
@@ -32,69 +70,100 @@ void Wire::use(std::size_t bytes) {
     used_ = 0;
 }
 
-// Asio 1.26 tries to read before it waits, in vain nearly always: a request costs two reads. Its other ways to wait cost as much.
 // The buffer of a connection that waits for its next request is small, since there may be many of them.
-Task<Wire::Outcome> Wire::receive(Steady until, std::size_t expected) {
-    input_.erase(0, std::exchange(used_, 0));
-    auto const before = input_.size();
-    if (before == 0 && input_.capacity() > largest_kept) std::string{}.swap(input_);
-    input_.resize(before + std::clamp(std::max(before, std::min(expected, most_promised)), smallest_read, largest_read));
+std::optional<Wire::Outcome> Wire::receive_now(Steady until, std::size_t expected) {
     input_due_ = until;
-    boost::system::error_code error;
-    auto const size = co_await socket_.async_read_some(asio::buffer(input_.data() + before, input_.size() - before), into(error));
-    input_due_ = Steady::max();
-    input_.resize(before + size);
-    if (!error) co_return Outcome::done;
-    co_return std::exchange(input_late_, false) ? Outcome::late : Outcome::closed;
+    if (readable_ && !received_ && socket_ >= 0 && !input_late_) {
+        input_.erase(0, std::exchange(used_, 0));
+        auto const before = input_.size();
+        input_.resize(before + std::clamp(std::max(before, std::min(expected, most_promised)), smallest_read, largest_read));
+        auto const size = read_some(std::span{input_}.subspan(before));
+        input_.resize(before + size.value_or(0));
+        received_ = size.has_value();
+        if (size) input_due_ = Steady::max();
+        if (size) return *size > 0 ? Outcome::done : Outcome::closed;
+    }
+    if (input_late_ || socket_ < 0) {
+        input_due_ = Steady::max();
+        return std::exchange(input_late_, false) ? Outcome::late : Outcome::closed;
+    }
+    if (input_.empty() && input_.capacity() > largest_kept) std::string{}.swap(input_);
+    return std::nullopt;
+}
+
+Task<> Wire::readable() {
+    received_ = false;
+    if (!readable_) return until_resumed(reader_);
+    return asio::post(executor_, Token{});
+}
+
+// Nothing when there is nothing to read yet; 0 at the end. Less than there is room for is all that there was.
+std::optional<std::size_t> Wire::read_some(std::span<char> room) {
+    auto size = ::recv(socket_, room.data(), room.size(), 0);
+    while (size < 0 && errno == EINTR) size = ::recv(socket_, room.data(), room.size(), 0);
+    bool const nothing = size < 0 && errno == EAGAIN;
+    readable_ = ended_ || size == static_cast<ssize_t>(room.size());
+    if (nothing) return std::nullopt;
+    return static_cast<std::size_t>(std::max<ssize_t>(size, 0));
 }
 
 void Wire::stop_waiting() { input_due_ = Steady::min(); }
 
 std::size_t Wire::send_now(std::string_view text) {
-    boost::system::error_code error;
     std::size_t sent = 0;
-    while (sent < text.size() && !error) sent += socket_.write_some(asio::buffer(text.data() + sent, text.size() - sent), error);
+    while (sent < text.size() && socket_ >= 0) {
+        auto const size = ::send(socket_, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
+        if (size < 0 && errno == EINTR) continue;
+        if (size < 0) {
+            failed_ = errno != EAGAIN;
+            break;
+        }
+        sent += static_cast<std::size_t>(size);
+    }
     return sent;
 }
 
 Task<Wire::Outcome> Wire::send(std::string_view text) {
-    auto const sent = send_now(text);
-    if (sent == text.size()) co_return Outcome::done;
+    text.remove_prefix(send_now(text));
+    if (text.empty()) co_return Outcome::done;
     output_due_ = std::chrono::steady_clock::now() + write_timeout_;
-    boost::system::error_code error;
-    co_await asio::async_write(socket_, asio::buffer(text.data() + sent, text.size() - sent), into(error));
+    while (!text.empty() && !failed_ && socket_ >= 0) {
+        co_await until_resumed(writer_);
+        text.remove_prefix(send_now(text));
+    }
     output_due_ = Steady::max();
-    co_return error ? Outcome::closed : Outcome::done;
+    co_return text.empty() ? Outcome::done : Outcome::closed;
 }
 
 Wire::Watch Wire::watch(std::function<void()> gone) {
-    auto watching = std::make_shared<bool>(true);
-    socket_.async_wait(Socket::wait_read, [this, watching, gone = std::move(gone)](boost::system::error_code error) {
-        if (error || !*watching) return;
-        char byte = 0;
-        auto const size = socket_.receive(asio::buffer(&byte, 1), Socket::message_peek, error);
-        if (error || size == 0) gone();
-    });
-    return {*this, std::move(watching)};
+    watching_ = std::move(gone);
+    if (readable_) look_whether_gone();
+    return Watch{*this};
 }
 
-Wire::Watch::~Watch() {
-    boost::system::error_code ignored;
-    *watching_ = false;
-    wire_.socket_.cancel(ignored);
+void Wire::look_whether_gone() {
+    if (!watching_ || socket_ < 0) return;
+    char byte = 0;
+    auto const size = ::recv(socket_, &byte, 1, MSG_PEEK);
+    if (size < 0 && (errno == EAGAIN || errno == EINTR)) {
+        readable_ = ended_;
+        return;
+    }
+    auto const gone = std::exchange(watching_, nullptr);
+    if (size <= 0) gone();
 }
 
 void Wire::finish() {
-    boost::system::error_code ignored;
-    socket_.shutdown(Socket::shutdown_send, ignored);
+    if (socket_ >= 0) ::shutdown(socket_, SHUT_WR);
 }
 
 Task<> Wire::linger(Steady until) {
     finish();
     while (true) {
         use(input_.size() - used_);
-        auto const outcome = co_await receive(until);
-        if (outcome != Outcome::done) co_return;
+        auto const outcome = receive_now(until);
+        if (!outcome) co_await readable();
+        if (outcome && outcome != Outcome::done) co_return;
     }
 }
 
@@ -105,16 +174,18 @@ void Wire::sweep(Steady now) {
         telemetry_.cut();
         cut();
     } else if (now >= input_due_) {
-        boost::system::error_code ignored;
         input_due_ = Steady::max();
         input_late_ = true;
-        socket_.cancel(ignored);
+        resume_later(reader_);
     }
 }
 
 void Wire::cut() {
-    boost::system::error_code ignored;
-    socket_.close(ignored);
+    if (socket_ < 0) return;
+    poller_.remove(socket_, *this);
+    ::close(std::exchange(socket_, -1));
+    resume_later(reader_);
+    resume_later(writer_);
 }
 
 }  // namespace rois::net

@@ -3,21 +3,27 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "net/asio.hpp"
+#include "net/poller.hpp"
 #include "net/telemetry.hpp"
 #include "types/instant.hpp"
 
 namespace rois::net {
 
-class Wire {
+class Wire final : private Poller::Watcher {
 public:
-    Wire(Socket socket, std::chrono::milliseconds write_timeout, Telemetry& telemetry);
+    // The poller is that of the socket's loop, and outlives the wire.
+    Wire(Socket, Poller&, std::chrono::milliseconds write_timeout, Telemetry&);
+    ~Wire() { cut(); }
+    Wire(Wire const&) = delete;
+    Wire& operator=(Wire const&) = delete;
 
-    Executor executor() { return socket_.get_executor(); }
+    Executor const& executor() const { return executor_; }
 
     // What was received and not yet used. Good until the next receive.
     std::span<char> received() { return {input_.data() + used_, input_.size() - used_}; }
@@ -26,8 +32,11 @@ public:
 
     enum class Outcome : std::uint8_t { done, closed, late };
 
-    // Waits for at least one more byte; `expected` says how many are on their way, when that is known.
-    Task<Outcome> receive(Steady until, std::size_t expected = 0);
+    // Receives what is there; `expected` says how many bytes are on their way, when that is known. Nothing: await `readable`,
+    // then ask again. Between two of these it receives once: then it is the turn of the loop's other connections, however much is
+    // there.
+    std::optional<Outcome> receive_now(Steady until, std::size_t expected = 0);
+    Task<> readable();
     // Ends a receive that waits: it is late now.
     void stop_waiting();
 
@@ -50,7 +59,20 @@ public:
     void cut();
 
 private:
-    Socket socket_;
+    // A coroutine that waits.
+    using Token = asio::use_awaitable_t<Executor>;
+    using Waiter = std::optional<asio::async_result<Token, void()>::handler_type>;
+    static Task<> until_resumed(Waiter&);
+    static void resume(Waiter&);
+    void resume_later(Waiter&);
+
+    void changed(std::uint32_t events) override;
+    std::optional<std::size_t> read_some(std::span<char>);
+    void look_whether_gone();
+
+    Executor executor_;
+    Poller& poller_;
+    int socket_;  // -1: cut
     std::chrono::milliseconds write_timeout_;
     Telemetry& telemetry_;
     std::string input_;
@@ -58,19 +80,25 @@ private:
     Steady input_due_ = Steady::max();
     Steady output_due_ = Steady::max();
     bool input_late_ = false;
+    bool readable_ = false;  // nobody has yet read until there was nothing more
+    bool received_ = false;  // since `readable` was awaited
+    bool ended_ = false;     // the peer has said its last: always readable
+    bool failed_ = false;    // nothing can be written any more
+    Waiter reader_;
+    Waiter writer_;
+    std::function<void()> watching_;  // what to call; empty: nobody watches
 };
 
 // Watches as long as it lives.
 class Wire::Watch {
 public:
-    Watch(Wire& wire, std::shared_ptr<bool> watching) : wire_{wire}, watching_{std::move(watching)} {}
-    ~Watch();
+    explicit Watch(Wire& wire) : wire_{wire} {}
+    ~Watch() { wire_.watching_ = nullptr; }
     Watch(Watch const&) = delete;
     Watch& operator=(Watch const&) = delete;
 
 private:
     Wire& wire_;
-    std::shared_ptr<bool> watching_;  // shared with the handler that waits
 };
 
 }  // namespace rois::net

@@ -1,5 +1,6 @@
 #include "types/codes.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -12,6 +13,13 @@ namespace {
 template <std::size_t N, class Code>
 std::string_view name_in(std::array<std::string_view, N> const& names, Code code) {
     return names.at(static_cast<std::size_t>(code));
+}
+
+template <class Code, std::size_t N>
+std::optional<Code> code_in(std::array<std::string_view, N> const& names, std::string_view text) {
+    auto const found = std::ranges::find(names, text);
+    if (found == names.end()) return std::nullopt;
+    return static_cast<Code>(found - names.begin());
 }
 
 constexpr std::array<std::string_view, 6> return_codes{"OK",     "ERROR", "BAD_PARAMETER", "UNSUPPORTED", "OUT_OF_RESOURCES",
@@ -35,5 +43,30 @@ std::string_view to_text(ErrorType type) { return name_in(error_types, type); }
 std::string_view to_text(ComponentStatus status) { return name_in(component_statuses, status); }
 std::string_view to_text(StreamStatus status) { return name_in(stream_statuses, status); }
 std::string_view to_text(FaultCode code) { return name_in(fault_codes, code); }
+
+template <>
+std::optional<ReturnCode> to_code(std::string_view text) {
+    return code_in<ReturnCode>(return_codes, text);
+}
+template <>
+std::optional<CompletedStatus> to_code(std::string_view text) {
+    return code_in<CompletedStatus>(completed_statuses, text);
+}
+template <>
+std::optional<ErrorType> to_code(std::string_view text) {
+    return code_in<ErrorType>(error_types, text);
+}
+template <>
+std::optional<ComponentStatus> to_code(std::string_view text) {
+    return code_in<ComponentStatus>(component_statuses, text);
+}
+template <>
+std::optional<StreamStatus> to_code(std::string_view text) {
+    return code_in<StreamStatus>(stream_statuses, text);
+}
+template <>
+std::optional<FaultCode> to_code(std::string_view text) {
+    return code_in<FaultCode>(fault_codes, text);
+}
 
 }  // namespace rois

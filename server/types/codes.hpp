@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace rois {
@@ -33,5 +34,9 @@ std::string_view to_text(CompletedStatus);
 std::string_view to_text(ErrorType);
 std::string_view to_text(ComponentStatus);
 std::string_view to_text(StreamStatus);
+
+// And back; nothing when none has this text. For those above, and for the codes of faults (messages.hpp).
+template <class Code>
+std::optional<Code> to_code(std::string_view text);
 
 }  // namespace rois

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "types/instant.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -146,7 +147,9 @@ bool is_zone(std::string_view text) { return text == "Z" || is_offset(text); }
 // "2026-11-20T12:00:00.123Z", with Z or an offset.
 bool is_date_time(std::string_view text) {
     text = trimmed(text);
-    return take_date(text) && take_shape(text, "T") && take_time(text) && is_zone(text);
+    auto rest = text;
+    if (!take_date(rest) || !take_shape(rest, "T") || !take_time(rest) || !is_zone(rest)) return false;
+    return rest == "Z" || in_utc(text).ends_with('Z');  // its year in UTC has four digits, too
 }
 
 // Both may leave their zone out.
@@ -274,13 +277,17 @@ std::optional<std::string> why_not(DataType const& type, std::span<std::string c
     return {};
 }
 
+std::string as_told(DataType const& type, std::string_view text) {
+    return type.base == BaseType::date_time ? in_utc(text) : std::string{text};
+}
+
 std::vector<std::string> default_values(Identifier const& data_type_ref, std::string_view text) {
     auto const type = DataType::of(data_type_ref);
-    if (!type.list || is_packed(type.base)) return {std::string{text}};
+    if (!type.list || is_packed(type.base)) return {as_told(type, text)};
     std::vector<std::string> values;
     for (std::string_view rest = trimmed(text); !rest.empty();) {
         auto const item = rest.substr(0, rest.find_first_of(" \t\r\n"));
-        values.emplace_back(item);
+        values.push_back(as_told(type, item));
         rest = trimmed(rest.substr(item.size()));
     }
     return values;

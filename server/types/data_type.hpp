@@ -52,7 +52,11 @@ std::string to_text(DataType const&);
 // Why these texts are not of the type (wrong count, not a number, ...), or nothing when they are. A type `other` takes any text.
 std::optional<std::string> why_not(DataType const&, std::span<std::string const> values);
 
-// The values that a default of a profile stands for: one text, but for lists of texts an item each, separated by white space.
+// A text of this type, or of its items, in the form in which it is told: times are UTC (decision 28), all else is as it is.
+std::string as_told(DataType const&, std::string_view text);
+
+// The values that a default of a profile stands for, as they are told: one text, but for lists of texts an item each, separated
+// by white space.
 std::vector<std::string> default_values(Identifier const& data_type_ref, std::string_view text);
 
 }  // namespace rois

@@ -1,5 +1,6 @@
 #include "types/instant.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 #include "types/texts.hpp"
@@ -79,6 +80,12 @@ std::optional<sys_days> day_of(int year, int month, int day) {
     return date.ok() ? std::optional{sys_days{date}} : std::nullopt;
 }
 
+// Writes the number over zeros, its last digit at `last`.
+template <class Number>
+void put(std::string& text, std::size_t last, Number number) {
+    for (auto rest = static_cast<unsigned>(number); rest > 0; rest /= 10) text[last--] = static_cast<char>('0' + rest % 10);
+}
+
 std::optional<Period> whole_days(year_month_day const& first, year_month_day const& next) {
     if (!first.ok()) return {};
     return Period{moment(sys_days{first}, nanoseconds{0}), moment(sys_days{next}, nanoseconds{0})};
@@ -120,22 +127,41 @@ std::optional<Period> to_period(std::string_view text) {
     return whole_days(year_month_day{*date}, year_month_day{*date + std::chrono::days{1}});
 }
 
+std::string in_utc(std::string_view text) {
+    constexpr std::size_t date_and_time = 19;  // "2026-11-20T12:00:00"
+    auto const written = trimmed(text);
+    if (!to_utc(written) || written.ends_with('Z')) return std::string{to_utc(written) ? written : text};
+    auto const end_of_second = std::min(written.find_first_of("+-", date_and_time), written.size());
+    Taker clock{written}, zone{written.substr(end_of_second)};
+    auto const year = clock.number(4), month = clock.part('-', 12), day = clock.part('-', 31);
+    clock.sign_is('T');
+    auto const hour = clock.number(2), minute = clock.part(':', 59);
+    auto const then = *day_of(*year, *month, *day) + hours{*hour} + minutes{*minute} - *zone.offset();
+    year_month_day const date{floor<days>(then)};
+    if (static_cast<int>(date.year()) < 1 || static_cast<int>(date.year()) > 9'999) return std::string{text};
+    hh_mm_ss const shown{then - floor<days>(then)};
+    std::string utc = "0000-00-00T00:00";
+    put(utc, 3, static_cast<int>(date.year()));
+    put(utc, 6, static_cast<unsigned>(date.month()));
+    put(utc, 9, static_cast<unsigned>(date.day()));
+    put(utc, 12, shown.hours().count());
+    put(utc, 15, shown.minutes().count());
+    return utc.append(written.substr(utc.size(), end_of_second - utc.size())).append("Z");
+}
+
 // Of a clock that counts nanoseconds, whose years have four digits.
 std::string to_text(Utc time) {
     auto const day = floor<days>(time);
     year_month_day const date{day};
     hh_mm_ss const clock{floor<milliseconds>(time - day)};
     std::string text = "0000-00-00T00:00:00.000Z";
-    auto const put = [&text](std::size_t last, auto number) {
-        for (auto rest = static_cast<unsigned>(number); rest > 0; rest /= 10) text[last--] = static_cast<char>('0' + rest % 10);
-    };
-    put(3, static_cast<int>(date.year()));
-    put(6, static_cast<unsigned>(date.month()));
-    put(9, static_cast<unsigned>(date.day()));
-    put(12, clock.hours().count());
-    put(15, clock.minutes().count());
-    put(18, clock.seconds().count());
-    put(22, clock.subseconds().count());
+    put(text, 3, static_cast<int>(date.year()));
+    put(text, 6, static_cast<unsigned>(date.month()));
+    put(text, 9, static_cast<unsigned>(date.day()));
+    put(text, 12, clock.hours().count());
+    put(text, 15, clock.minutes().count());
+    put(text, 18, clock.seconds().count());
+    put(text, 22, clock.subseconds().count());
     return text;
 }
 

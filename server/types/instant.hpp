@@ -29,6 +29,10 @@ std::string to_text(Utc);
 // the nearest that it can. Nothing when it is no such text.
 std::optional<Utc> to_utc(std::string_view);
 
+// The same moment with Z instead of an offset, every digit of the second kept: "2026-11-20T11:00:00.5Z" of
+// "2026-11-20T12:00:00.5+01:00". A text that is not as `to_utc` reads it, or whose year in UTC has not four digits, as it is.
+std::string in_utc(std::string_view);
+
 // The time from `begin` to `end`; a moment when they are the same.
 struct Period {
     Utc begin;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
+#include "types/data_type.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -22,16 +24,48 @@ bool same_name(std::string_view a, std::string_view b) {
     return equal_ignoring_case(without_underscores(a), without_underscores(b));
 }
 
+// Of a profile that is not whole yet: what it says of a parameter, to be read or to be set, or null.
+ParameterProfile const* said_of(ComponentProfile const& profile, std::string_view name) {
+    if (auto const* found = find_parameter(profile.parameters, name)) return found;
+    if (auto const* message = find_message(profile, MessageKind::command, "set_parameter"))
+        if (auto const* found = find_parameter(message->arguments, name)) return found;
+    auto const* message = find_message(profile, MessageKind::query, "get_parameter");
+    return message == nullptr ? nullptr : find_parameter(message->results, name);
+}
+
+bool same_type(ParameterProfile const& a, ParameterProfile const& b) {
+    return DataType::of(a.data_type_ref) == DataType::of(b.data_type_ref);
+}
+
+// What was said first of a parameter counts, in whatever message it is.
+void agree(std::vector<ParameterProfile>& added, ComponentProfile const& first) {
+    for (auto& parameter : added) {
+        auto const* const said = said_of(first, parameter.name);
+        if (said == nullptr) continue;
+        if (said->default_value || !same_type(parameter, *said)) parameter.default_value = said->default_value;
+        parameter.data_type_ref = said->data_type_ref;
+    }
+}
+
+MessageProfile agreeing(MessageProfile message, ComponentProfile const& first) {
+    if (message.kind == MessageKind::command && message.name == "set_parameter") agree(message.arguments, first);
+    if (message.kind == MessageKind::query && message.name == "get_parameter") agree(message.results, first);
+    return message;
+}
+
 // Adds what `part` and its own parts have, each name once; `path` are the profiles that are being added.
 void add_all(ComponentProfile& whole, ComponentProfile const& part, std::vector<ComponentProfile> const& known,
              std::vector<ComponentProfile const*>& path) {
     if (std::ranges::find(path, &part) != path.end())
         throw std::runtime_error("the component profile " + quoted(part.object.identifier, 200) + " includes itself");
     path.push_back(&part);
+    auto const before = whole;
     for (auto const& message : part.messages)
-        if (find_message(whole, message.kind, message.name) == nullptr) whole.messages.push_back(message);
-    for (auto const& parameter : part.parameters)
-        if (find_parameter(whole.parameters, parameter.name) == nullptr) whole.parameters.push_back(parameter);
+        if (find_message(whole, message.kind, message.name) == nullptr) whole.messages.push_back(agreeing(message, before));
+    auto parameters = part.parameters;
+    agree(parameters, before);
+    for (auto& parameter : parameters)
+        if (find_parameter(whole.parameters, parameter.name) == nullptr) whole.parameters.push_back(std::move(parameter));
     for (auto const& urn : part.sub_components) {
         auto const meant = find_parts(known, part, urn);
         if (meant.empty()) throw std::runtime_error("no component profile " + quoted(urn, 200) + " is known");

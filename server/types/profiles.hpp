@@ -64,7 +64,8 @@ struct EngineProfile {
     std::vector<ParameterProfile> parameters;
 };
 
-// The profile with the messages and parameters of all its sub components, its own first; a name is there once.
+// The profile with the messages and parameters of all its sub components, its own first; a name is there once. What is said
+// first of a parameter, its type and its default value, counts in all messages: those that are included say the same.
 // `known` are the profiles among which sub components are looked up (see below).
 // Throws std::runtime_error naming the URN when one is unknown or includes itself.
 ComponentProfile flattened(ComponentProfile const&, std::vector<ComponentProfile> const& known);

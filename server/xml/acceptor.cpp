@@ -14,8 +14,6 @@ namespace rois::xml {
 
 namespace {
 
-constexpr bool is_white_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-
 // What ends a run of plain text, in content or in an attribute, or needs a second look.
 constexpr auto ends_text = [] {
     std::array<bool, 256> table{};
@@ -38,7 +36,7 @@ bool is_reserved(std::string_view prefix) {
 }  // namespace
 
 Acceptor::Acceptor(std::shared_ptr<Schemas const> schemas, DocumentLimits limits)
-    : schemas_{std::move(schemas)}, tables_{schemas_->grammars().tables()}, limits_{limits} {}
+    : schemas_{std::move(schemas)}, tables_{schemas_->grammars().tables()}, limits_{limits}, known_(tables_.states() + 1) {}
 
 bool Acceptor::accepts(std::string_view document) {
     text_ = document;
@@ -48,7 +46,9 @@ bool Acceptor::accepts(std::string_view document) {
     bindings_.clear();
     ids_.clear();
     tree_.clear();
+    scope_ = 0;
     as_written_ = document.find('\r') == document.npos;
+    plain_text_ = document.find('&') == document.npos && document.find(']') == document.npos;
     if (first_bad_character(document) || !prologue() || !start_tag()) return false;
     while (!open_.empty()) {
         if (!content()) return false;
@@ -64,8 +64,10 @@ bool Acceptor::prologue() {
                                                            R"(<?xml version='1.0' encoding='utf-8'?>)",
                                                            R"(<?xml version="1.0"?>)",
                                                            R"(<?xml version='1.0'?>)"};
-    auto const* const declaration = std::ranges::find_if(declarations, [this](auto each) { return at(each); });
-    if (declaration != declarations.end()) at_ += declaration->size();
+    if (at("<?")) {
+        auto const* const declaration = std::ranges::find_if(declarations, [this](auto each) { return at(each); });
+        if (declaration != declarations.end()) at_ += declaration->size();
+    }
     return between_elements() && peek() == '<';
 }
 
@@ -75,12 +77,6 @@ bool Acceptor::between_elements() {
         if (!at("<!--")) return true;
         if (!comment()) return false;
     }
-}
-
-bool Acceptor::skip_white_space() {
-    auto end = at_;
-    while (end < text_.size() && is_white_space(text_[end])) ++end;
-    return std::exchange(at_, end) < end;
 }
 
 void Acceptor::skip_until(std::array<bool, 256> const& ends) {
@@ -120,6 +116,10 @@ bool Acceptor::comment() {
 
 // Up to the next markup.
 bool Acceptor::text() {
+    if (plain_text_) {
+        at_ = std::min(text_.find('<', at_), text_.size());
+        return at_ < text_.size();
+    }
     for (;;) {
         skip_until(ends_text);
         switch (peek()) {
@@ -191,12 +191,19 @@ PlainName Acceptor::take_name() {
 }
 
 bool Acceptor::start_tag() {
+    auto& known = known_tag();
+    bool const is_known = !known.text.empty() && at(known.text) && take(known);
+    return is_known || new_start_tag(known);
+}
+
+bool Acceptor::new_start_tag(KnownTag& known) {
     auto const begin = at_;
     auto const outer_bindings = bindings_.size();
     ++at_;
     if (++elements_ > limits_.elements || open_.size() == limits_.depth) return false;
     auto const name = take_name();
     if (name.none() || !attributes(outer_bindings) || !resolve_attributes()) return false;
+    if (bindings_.size() > outer_bindings) scope_ = 0;
     auto const name_space = name_space_of(name.prefix());
     auto const* const declaration = declaration_of({name_space, tables_.name(name.local())});
     std::string_view xsi_type;
@@ -208,6 +215,7 @@ bool Acceptor::start_tag() {
     open_.emplace_back(name.whole(), declaration, type, begin, outer_bindings, 0);
     if (peek() == '>') {
         ++at_;
+        if (attributes_.empty()) remember(known, name, name_space, *declaration, begin, outer_bindings);
         return true;
     }
     if (!at("/>")) return false;
@@ -231,7 +239,7 @@ bool Acceptor::close() {
     auto const& element = open_.back();
     auto const& states = element.type->states;
     if (!states.empty() && !states[element.state].final) return false;
-    bindings_.resize(element.bindings);
+    if (bindings_.size() > element.bindings) bindings_.resize(element.bindings);
     open_.pop_back();
     tree_.close();
     return true;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "xml/codec.hpp"
+#include "xml/known_tag.hpp"
 #include "xml/message_tree.hpp"
 #include "xml/plain_name.hpp"
 #include "xml/schemas.hpp"
@@ -62,6 +63,8 @@ private:
     bool reference();
     bool character_reference();
     bool start_tag();
+    bool take(KnownTag&);
+    bool new_start_tag(KnownTag&);
     bool attributes(std::size_t outer_bindings);
     bool attribute(std::size_t outer_bindings);
     bool attribute_value(std::string_view& value);
@@ -73,6 +76,13 @@ private:
     bool end_tag();
     bool close();
 
+    // Of what stands next.
+    KnownTag& known_tag();
+    void remember(KnownTag&, PlainName const&, Interned::Id name_space, ElementDeclaration const&, std::size_t begin,
+                  std::size_t outer_bindings);
+    bool bind_again(KnownTag const&, char const* tag);
+    bool take_text_element(KnownTag const&);
+
     PlainName take_name();
     ElementDeclaration const* declaration_of(Name);  // null: left to xerces-c; steps on in the open element's content
     // The declared one, or its xsi:type's, whose name is told then; null: left to xerces-c.
@@ -83,7 +93,12 @@ private:
     bool at(std::string_view wanted) const {
         return text_.size() - at_ >= wanted.size() && std::memcmp(text_.data() + at_, wanted.data(), wanted.size()) == 0;
     }
-    bool skip_white_space();  // whether there was any
+    bool skip_white_space() {  // whether there was any
+        auto const begin = at_;
+        while (at_ < text_.size() && is_white_space(text_[at_])) ++at_;
+        return at_ > begin;
+    }
+    static constexpr bool is_white_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
     void skip_until(std::array<bool, 256> const& ends);
 
     std::shared_ptr<Schemas const> schemas_;
@@ -95,11 +110,17 @@ private:
     std::size_t at_ = 0;
     std::size_t elements_ = 0;
     bool as_written_ = true;
+    bool plain_text_ = true;   // there is no `&` and no `]` anywhere
+    std::uint64_t scope_ = 0;  // what prefixes mean: the same number, the same meanings; 0: nobody knows
     std::vector<Open> open_;
     std::vector<Binding> bindings_;
     std::vector<Attribute> attributes_;  // of one start tag
     std::vector<std::string_view> ids_;
     MessageTree tree_;
+
+    // Of all documents so far: the root's, and one for each state of the tables by its number.
+    std::vector<KnownTag> known_;
+    std::uint64_t scopes_ = 0;  // that were numbered
 };
 
 }  // namespace rois::xml

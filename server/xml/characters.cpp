@@ -1,5 +1,6 @@
 #include "xml/characters.hpp"
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 
@@ -12,16 +13,14 @@ constexpr std::string_view not_a_character = "a character that XML cannot carry"
 
 constexpr std::size_t block = 32;
 
-// Whether the bytes of a block are ASCII from the space on; eight bytes are looked at together.
+// Whether the bytes of a block are ASCII from the space on; written so that the compiler looks at sixteen together.
 bool all_printed(char const* bytes) {
     constexpr std::uint64_t spaces = 0x2020202020202020, high_bits = 0x8080808080808080;
-    std::uint64_t other = 0;
-    for (std::size_t i = 0; i < block; i += sizeof other) {
-        std::uint64_t eight = 0;
-        std::memcpy(&eight, bytes + i, sizeof eight);
-        other |= eight | (eight - spaces);  // below a space it borrows from the high bit
-    }
-    return (other & high_bits) == 0;
+    std::array<std::uint64_t, block / sizeof spaces> words{}, other{};
+    std::memcpy(words.data(), bytes, block);
+    for (std::size_t i = 0; i < words.size(); ++i)
+        other[i] = words[i] | (words[i] - spaces);  // below one it borrows the high bit
+    return ((other[0] | other[1] | other[2] | other[3]) & high_bits) == 0;
 }
 
 // Whether the bytes of a block are ASCII that XML may carry. Without branches: the compiler looks at many bytes at once.
@@ -66,6 +65,9 @@ bool is_character(char32_t code) {
 
 std::optional<BadCharacter> first_bad_character(std::string_view text) {
     for (std::size_t i = 0; i < text.size();) {
+        // The last block may begin before what is left: what it has of before was good.
+        bool const last = i + block > text.size() && text.size() >= block;
+        if (last && all_plain(text.data() + text.size() - block)) return std::nullopt;
         if (i + block <= text.size() && all_plain(text.data() + i)) {
             i += block;
             continue;

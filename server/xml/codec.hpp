@@ -66,4 +66,37 @@ std::string notifications_end();
 std::string encode(EngineProfile const&, std::string_view gml_id);
 std::string encode(ComponentProfile const&, std::string_view gml_id);
 
+// --- The same from the other side, for clients ---
+
+// A request's document. Throws std::invalid_argument for a condition that XML cannot say: one that was not understood, or a group
+// of components inside other predicates.
+std::string encode(Request const&);
+
+struct Answered {
+    Reply reply;
+    std::string request_id;
+};
+struct Told {
+    std::uint64_t sequence = 0;
+    Notification notification;
+};
+using Heard = std::variant<Answered, Fault, Told>;
+
+// Reads what an engine says. An engine is not asked to be valid: what is there is read, and what is more is passed over. Keeps
+// its memory; for one thread.
+class AnswerReader {
+public:
+    AnswerReader();
+    ~AnswerReader();
+    AnswerReader(AnswerReader&&) noexcept;
+
+    // Nothing when the document is no XML, none of these, or lacks what it must have (a return code, a sequence, ...). Never
+    // throws for anything that the document says.
+    std::optional<Heard> read(std::string_view document);
+
+private:
+    class Kept;
+    std::unique_ptr<Kept> kept_;
+};
+
 }  // namespace rois::xml

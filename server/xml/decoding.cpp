@@ -106,10 +106,10 @@ Identifier decode_identifier(Node node) {
             node.attribute_text("version")};
 }
 
-ParameterList decode_parameters(Node list) {
+ParameterList decode_parameters(Node list, std::string_view element) {
     ParameterList parameters;
     for (auto const node : list.children()) {
-        if (node.name() != "parameter") continue;
+        if (node.name() != element) continue;
         auto& parameter = parameters.emplace_back();
         parameter.name = node.attribute_text("name");
         for (auto const part : node.children()) {

@@ -1,4 +1,4 @@
-// From trees of valid messages to messages.
+// From trees of messages to messages.
 #pragma once
 
 #include <optional>
@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "types/messages.hpp"
+#include "xml/codec.hpp"
 #include "xml/message_tree.hpp"
 
 namespace rois::xml {
@@ -16,10 +17,15 @@ std::span<std::string_view const> operation_names();
 // Nothing when the root is no request.
 std::optional<Request> decode(MessageTree const&);
 
+// What an engine says, of which nothing is known: nothing when it is none of these, or lacks what it must have. The profiles of
+// get_profile's reply are left out.
+std::optional<Heard> decode_heard(MessageTree const&);
+
 // Parts of messages. Of none: empty ones; no condition restricts nothing.
 Identifier decode_identifier(MessageTree::Node);
-ParameterList decode_parameters(MessageTree::Node list);
+ParameterList decode_parameters(MessageTree::Node list, std::string_view element = "parameter");
 CommandUnitSequence decode_sequence(MessageTree::Node command_unit_sequence);
+Results decode_results(MessageTree::Node results);
 QueryExpression decode_condition(MessageTree::Node condition);
 
 // "true" and "1", with white space around them.

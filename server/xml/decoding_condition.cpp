@@ -1,4 +1,5 @@
 #include <array>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -94,8 +95,10 @@ Condition decode_resource_id(Node node) {
 Condition decode_predicate(Node node);
 
 std::vector<Condition> decode_predicates(Node parent) {
+    auto const children = parent.children();
     std::vector<Condition> conditions;
-    for (auto const each : parent.children()) conditions.push_back(decode_predicate(each));
+    conditions.reserve(static_cast<std::size_t>(std::ranges::distance(children)));
+    for (auto const each : children) conditions.push_back(decode_predicate(each));
     return conditions;
 }
 

@@ -7,23 +7,13 @@
 
 #include "types/texts.hpp"
 #include "xml/decoding.hpp"
+#include "xml/numbers.hpp"
 
 namespace rois::xml {
 
 namespace {
 
 using Node = MessageTree::Node;
-
-// The numbers of a list that is valid: separated by white space.
-std::vector<double> numbers_in(std::string_view text) {
-    std::vector<double> numbers;
-    for (text = trimmed(text); !text.empty();) {
-        auto const item = text.substr(0, text.find_first_of(" \t\r\n"));
-        numbers.push_back(to_double(item).value_or(std::nan("")));
-        text = trimmed(text.substr(item.size()));
-    }
-    return numbers;
-}
 
 // "mm mm" for "mm": whether every word of a text is that one.
 bool all_words_are(std::string_view text, std::string_view word) {
@@ -61,7 +51,7 @@ Expression decode_corners(Frame frame, MessageTree::Children corners) {
         auto const crs = frame.crs;
         frame.read(corner);
         if (!crs.empty() && frame.crs != crs) return {not_understood("corners in two frames")};
-        points.push_back(numbers_in(corner.text()));
+        points.push_back(decode_numbers(corner.text()));
     }
     if (frame.problem) return {*frame.problem};
     auto const dimensions = points.front().size();

@@ -13,16 +13,6 @@ void write_parameter(Writer& out, std::string_view element, Parameter const& par
     out.end();
 }
 
-template <class Numbers>
-std::string numbers_text(Numbers const& numbers) {
-    std::string text;
-    for (auto const number : numbers) {
-        if (!text.empty()) text += ' ';
-        text += number_text(number);
-    }
-    return text;
-}
-
 void write_certainty(Writer&, std::monostate) {}
 
 void write_certainty(Writer& out, Located::Reliability const& reliability) {
@@ -108,11 +98,24 @@ void write_unit(Writer& out, std::string_view element, CommandUnit const& unit) 
 
 }  // namespace
 
-void declare_rois(Writer& out) { out.attribute("xmlns:rois", rois_namespace); }
+void declare_rois(Writer& out) { out.constant("xmlns:rois", rois_namespace); }
 
-void declare_xsi(Writer& out) { out.attribute("xmlns:xsi", xsi_namespace); }
+void declare_xsi(Writer& out) { out.constant("xmlns:xsi", xsi_namespace); }
 
-void declare_gml(Writer& out) { out.attribute("xmlns:gml", gml_namespace); }
+void declare_gml(Writer& out) { out.constant("xmlns:gml", gml_namespace); }
+
+void declare_fes(Writer& out) { out.constant("xmlns:fes", fes_namespace); }
+
+void declare_unr(Writer& out) { out.constant("xmlns:unr", unr_namespace); }
+
+std::string numbers_text(std::span<double const> numbers) {
+    std::string text;
+    for (auto const number : numbers) {
+        if (!text.empty()) text += ' ';
+        text += number_text(number);
+    }
+    return text;
+}
 
 void write_identifier(Writer& out, std::string_view element, Identifier const& id) {
     out.start(element).attribute_unless_empty("rois:authority", id.authority).attribute("rois:code", id.code);

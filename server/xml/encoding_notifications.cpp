@@ -46,11 +46,11 @@ std::string_view notification_head(Notification const& notification) {
 std::string notification_tail(Notification const& notification) {
     auto const head = notification_head(notification);
     auto const root = head.substr(1, head.find(' ') - 1);
-    std::string text;
-    Writer out{text};
-    out.start(root).attribute("xmlns", message_namespace);
+    Writer out;
+    out.start(root).constant("xmlns", message_namespace);
     std::visit([&](auto const& each) { write(out, each); }, notification);
     out.end();
+    auto text = std::move(out).written();
     text.erase(0, root.size());
     text.front() = '"';
     return text;

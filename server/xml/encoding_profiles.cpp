@@ -1,5 +1,7 @@
 #include <charconv>
+#include <xercesc/util/XMLChar.hpp>
 
+#include "types/texts.hpp"
 #include "xml/codec.hpp"
 #include "xml/encoding.hpp"
 #include "xml/names.hpp"
@@ -14,7 +16,7 @@ void write_object(Writer& out, IdentifiedObject const& object, std::string_view 
     out.attribute("gml:id", gml_id);
     if (!object.meta_data.empty())
         out.start("gml:metaDataProperty")
-            .attribute("xmlns:xlink", xlink_namespace)
+            .constant("xmlns:xlink", xlink_namespace)
             .attribute("xlink:href", object.meta_data)
             .end();
     if (!object.description.empty()) out.element("gml:description", object.description);
@@ -70,30 +72,51 @@ void write_content(Writer& out, EngineProfile const& profile, std::string_view g
 
 template <class Profile>
 std::string document_of(Profile const& profile, std::string_view gml_id) {
-    std::string text{declaration};
-    Writer out{text};
+    Writer out;
     write_profile(out, profile, gml_id);
-    return text += '\n';
+    return std::string{declaration}.append(std::move(out).written()) + '\n';
 }
 
-bool is_name_character(char c, bool first) {
-    bool const letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-    return letter || (!first && ((c >= '0' && c <= '9') || c == '-' || c == '.'));
+constexpr std::string_view digits = "0123456789ABCDEF";
+
+// "_x3A": what is so in a name already must not be taken for what is written for another character.
+bool looks_escaped(std::string_view text) {
+    return text.starts_with("_x") && text.size() >= 4 && digits.find(text[2]) != digits.npos &&
+           digits.find(text[3]) != digits.npos;
+}
+
+bool is_name_character(char32_t c, bool first) {
+    if (c > 0xFFFF) return false;
+    auto const unit = static_cast<XMLCh>(c);
+    return first ? xercesc::XMLChar1_0::isFirstNCNameChar(unit) : xercesc::XMLChar1_0::isNCNameChar(unit);
 }
 
 }  // namespace
 
+bool is_nc_name(std::string_view text) {
+    if (text.empty()) return false;
+    for (bool first = true; !text.empty(); first = false) {
+        auto const character = take_character(text);
+        if (!character || !is_name_character(*character, first)) return false;
+    }
+    return true;
+}
+
 std::string nc_name(std::string_view text) {
     std::string name;
-    for (char const c : text) {
-        if (is_name_character(c, name.empty())) {
-            name += c;
+    while (!text.empty()) {
+        auto const rest = text;
+        auto const character = *take_character(text);
+        auto const bytes = rest.substr(0, rest.size() - text.size());
+        if (is_name_character(character, name.empty()) && !looks_escaped(rest)) {
+            name += bytes;
             continue;
         }
-        constexpr std::string_view digits = "0123456789ABCDEF";
-        auto const byte = static_cast<unsigned char>(c);
-        ((name += "_x") += digits[byte >> 4]) += digits[byte & 15];
-        name += '_';
+        for (char const c : bytes) {
+            auto const byte = static_cast<unsigned char>(c);
+            ((name += "_x") += digits[byte >> 4]) += digits[byte & 15];
+            name += '_';
+        }
     }
     return name.empty() ? "_" : name;
 }

@@ -77,10 +77,10 @@ void write(Writer& out, Subscribe::Reply const& reply) { out.element("subscribe_
 template <class R>
 void write_answer(Writer& out, R const& reply, std::string_view request_id) {
     bool const good = reply.return_code == ReturnCode::ok;
-    out.start(root_of(reply)).attribute("xmlns", message_namespace);
+    out.start(root_of(reply)).constant("xmlns", message_namespace);
     if (good && HasRois<R>) declare_rois(out);
     if (good && std::is_same_v<R, Execute::Reply>) declare_xsi(out);
-    out.attribute("return_code", to_text(reply.return_code)).attribute_unless_empty("request_id", request_id);
+    out.constant("return_code", to_text(reply.return_code)).attribute_unless_empty("request_id", request_id);
     if (good) {
         write(out, reply);
     } else {
@@ -92,21 +92,17 @@ void write_answer(Writer& out, R const& reply, std::string_view request_id) {
 }  // namespace
 
 std::string encode(Reply const& reply, std::string_view request_id) {
-    constexpr std::size_t usual_length = 1000;
-    std::string text;
-    text.reserve(usual_length);
-    Writer out{text};
+    Writer out;
     std::visit([&](auto const& each) { write_answer(out, each, request_id); }, reply);
-    return text;
+    return std::move(out).written();
 }
 
 std::string encode(Fault const& fault) {
-    std::string text;
-    Writer out{text};
-    out.start("fault").attribute("xmlns", message_namespace).attribute("code", to_text(fault.code));
+    Writer out;
+    out.start("fault").constant("xmlns", message_namespace).attribute("code", to_text(fault.code));
     if (fault.place) out.attribute("line", fault.place->line).attribute("column", fault.place->column);
     out.attribute_unless_empty("request_id", fault.request_id).element("reason", fault.reason).end();
-    return text;
+    return std::move(out).written();
 }
 
 }  // namespace rois::xml

@@ -336,8 +336,6 @@ Walk::Found Walk::value(pugi::xml_node node, xercesc::DatatypeValidator& type) {
 
 }  // namespace
 
-std::size_t offset_of(pugi::xml_node element) { return static_cast<std::size_t>(element.offset_debug()) - 1; }
-
 std::optional<Explanation> explain(Schemas const& schemas, pugi::xml_node root, std::span<std::string_view const> roots) {
     return Walk{schemas}.root(root, roots);
 }

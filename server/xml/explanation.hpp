@@ -17,9 +17,6 @@ struct Explanation {
     std::size_t offset = 0;  // of the `<` of the start tag that it is about
 };
 
-// The offset of an element's `<` in the bytes that it was parsed from.
-std::size_t offset_of(pugi::xml_node element);
-
 // The first thing in the document's order that the schemas do not allow. `roots` are the elements of messages that may be the
 // root; none: any that the schemas have. Nothing when no such thing is found.
 std::optional<Explanation> explain(Schemas const&, pugi::xml_node root, std::span<std::string_view const> roots);

@@ -32,7 +32,7 @@ void MessageTree::open(std::string_view name, std::string_view type) {
     auto const index = static_cast<Index>(elements_.size());
     if (index > 0) {
         auto& parent = elements_[innermost_];
-        if (is_white_space(parent.text)) parent.text = {};
+        if (!parent.text.empty() && is_white_space(parent.text)) parent.text = {};
         if (parent.first_child == 0) {
             parent.first_child = index;
         } else {

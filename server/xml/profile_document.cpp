@@ -1,17 +1,14 @@
 #include "xml/profile_document.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <sstream>
 #include <utility>
 
-#include "types/data_type.hpp"
-#include "types/texts.hpp"
 #include "xml/checked_reader.hpp"
-#include "xml/decoding.hpp"
 #include "xml/explanation.hpp"
 #include "xml/grammars.hpp"
 #include "xml/place.hpp"
+#include "xml/profile_decoder.hpp"
 #include "xml/profile_repair.hpp"
 #include "xml/tree.hpp"
 
@@ -19,171 +16,9 @@ namespace rois::xml {
 
 namespace {
 
-std::string at(std::string const& name, Place place) {
-    return name + ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
-}
-
 BadDocument refusal(std::string const& name, Fault const& fault) {
     return BadDocument{at(name, fault.place.value_or(Place{})) + ": " + fault.reason};
 }
-
-std::string text_of_child(pugi::xml_node element, std::string_view name) {
-    return std::string{trimmed(text_of(child(element, name)))};
-}
-
-Identifier identifier(pugi::xml_node node) {
-    return {attribute_text(node, "code"), attribute_text(node, "authority"), attribute_text(node, "codebook_ref"),
-            attribute_text(node, "version")};
-}
-
-// Reads profiles out of a valid tree, and says where it cannot.
-class ProfileDecoder {
-public:
-    ProfileDecoder(std::string const& name, std::string_view text) : name_{name}, text_{text} {}
-
-    ProfileDocument decode(pugi::xml_node root) {
-        if (local_name(root) == "HRIEngineProfile") {
-            document_.profile = engine(root);
-        } else if (local_name(root) == "HRIComponentProfile") {
-            document_.profile = component(root);
-        } else {
-            throw complain(root, "the root element is " + quoted(local_name(root)) +
-                                     ": expected 'HRIComponentProfile' or 'HRIEngineProfile'");
-        }
-        return std::move(document_);
-    }
-
-private:
-    std::string place(pugi::xml_node element) const { return at(name_, place_of(text_, offset_of(element))); }
-
-    // Empty when there is none.
-    std::string place_of_child(pugi::xml_node element, std::string_view name) const {
-        auto const found = child(element, name);
-        return found ? place(found) : std::string{};
-    }
-
-    BadDocument complain(pugi::xml_node element, std::string const& reason) const {
-        return BadDocument{place(element) + ": " + reason};
-    }
-
-    static IdentifiedObject object(pugi::xml_node root) {
-        auto const meta_data = child(root, "metaDataProperty");
-        return {.identifier = text_of_child(root, "identifier"),
-                .code_space = attribute_text(child(root, "identifier"), "codeSpace"),
-                .name = text_of_child(root, "name"),
-                .description = text_of_child(root, "description"),
-                .meta_data = std::string{trimmed(attribute_text(meta_data, "href"))}};
-    }
-
-    ComponentProfile component(pugi::xml_node root) {
-        ComponentProfile profile{object(root), {}, {}, parameters(root, "ParameterProfile")};
-        if (profile.object.identifier.empty()) throw complain(root, "the identifier is empty: expected a URN");
-        document_.adapter_place = place_of_child(root, "metaDataProperty");
-        document_.identifier_place = place_of_child(root, "identifier");
-        document_.name_place = place_of_child(root, "name");
-        for (auto const element : root.children()) {
-            if (local_name(element) == "SubComponentProfile") {
-                profile.sub_components.emplace_back(trimmed(text_of(element)));
-                document_.sub_component_places.push_back(place(element));
-            } else if (local_name(element) == "MessageProfile") {
-                auto read = message(element);
-                if (find_message(profile, read.kind, read.name) != nullptr)
-                    throw complain(element, "there is a second message " + quoted(read.name) + " of this kind");
-                profile.messages.push_back(std::move(read));
-            }
-        }
-        return profile;
-    }
-
-    EngineProfile engine(pugi::xml_node root) {
-        EngineProfile profile{object(root), {}, {}, parameters(root, "ParameterProfile")};
-        for (auto const element : root.children()) {
-            if (local_name(element) == "SubProfile") profile.sub_profiles.push_back(engine(element));
-            if (local_name(element) != "HRIComponent") continue;
-            auto const text = text_of(element);
-            if (auto const component = trimmed(text); !component.empty()) profile.components.emplace_back(component);
-        }
-        return profile;
-    }
-
-    std::vector<ParameterProfile> parameters(pugi::xml_node parent, std::string_view name) {
-        std::vector<ParameterProfile> list;
-        for (auto const element : parent.children()) {
-            if (local_name(element) != name) continue;
-            auto read = parameter(element);
-            if (find_parameter(list, read.name) != nullptr)
-                throw complain(element, "the name " + quoted(read.name) + " is there twice");
-            list.push_back(std::move(read));
-        }
-        return list;
-    }
-
-    ParameterProfile parameter(pugi::xml_node element) {
-        ParameterProfile read{.name = std::string{trimmed(attribute_text(element, "name"))},
-                              .data_type_ref = identifier(child(element, "data_type_ref")),
-                              .default_value = {},
-                              .description = attribute_text(element, "description")};
-        if (read.name.empty()) throw complain(element, "the name is empty");
-        if (trimmed(read.data_type_ref.code).empty())
-            throw complain(element, "the data type of " + quoted(read.name) + " is empty");
-        if (!is_known(DataType::of(read.data_type_ref)))
-            document_.warnings.push_back(place(child(element, "data_type_ref")) + ": the data type " +
-                                         quoted(trimmed(read.data_type_ref.code)) + " of " + quoted(read.name) +
-                                         " is not known: its values are not checked");
-        if (auto const written = attribute(element, "default_value")) set_default(element, read, written.value());
-        return read;
-    }
-
-    // Published profiles write an empty default where there is none.
-    void set_default(pugi::xml_node element, ParameterProfile& parameter, std::string text) {
-        auto const problem = why_not(DataType::of(parameter.data_type_ref), default_values(parameter.data_type_ref, text));
-        if (!problem) {
-            parameter.default_value = std::move(text);
-        } else if (trimmed(text).empty()) {
-            document_.warnings.push_back(place(element) + ": the default value of " + quoted(parameter.name) +
-                                         " is empty: taken for none");
-        } else {
-            throw complain(element, "the default value of " + quoted(parameter.name) + ": " + *problem);
-        }
-    }
-
-    MessageProfile message(pugi::xml_node element) {
-        MessageProfile read{.kind = kind_of(element),
-                            .name = std::string{trimmed(attribute_text(element, "name"))},
-                            .results = parameters(element, "Results"),
-                            .arguments = parameters(element, "Arguments"),
-                            .timeout = timeout(element)};
-        if (read.name.empty()) throw complain(element, "the name of a message is empty");
-        return read;
-    }
-
-    MessageKind kind_of(pugi::xml_node message) const {
-        auto const type = xsi_type(message);
-        auto const name = type ? type->local_name : std::string_view{};
-        if (name == "CommandMessageProfileType") return MessageKind::command;
-        if (name == "QueryMessageProfileType") return MessageKind::query;
-        if (name == "EventMessageProfileType") return MessageKind::event;
-        throw complain(message,
-                       "a message needs an xsi:type: expected one of CommandMessageProfileType, QueryMessageProfileType, "
-                       "EventMessageProfileType");
-    }
-
-    // A timeout is the number of milliseconds within which a command must have started (decision 16).
-    std::optional<std::chrono::milliseconds> timeout(pugi::xml_node message) const {
-        auto const written = attribute(message, "timeout");
-        if (!written) return std::nullopt;
-        auto const milliseconds = decode_integer(written.value());
-        constexpr std::int64_t longest = 1'000LL * 60 * 60 * 24 * 365;
-        if (milliseconds < 0 || milliseconds > longest)
-            throw complain(message, "the timeout is " + quoted(written.value()) + ": expected milliseconds from 0 to " +
-                                        std::to_string(longest));
-        return std::chrono::milliseconds{milliseconds};
-    }
-
-    std::string const& name_;
-    std::string_view text_;
-    ProfileDocument document_;
-};
 
 // A document that is not valid as it stands, with what could be understood put right.
 class RepairedTree {
@@ -225,10 +60,10 @@ ProfileDocument read_profile_document(std::shared_ptr<Schemas const> const& sche
                                       std::string const& text) {
     CheckedReader reader{schemas, {}};
     auto const fault = reader.read(text);
-    if (!fault) return ProfileDecoder{name, text}.decode(reader.root());
+    if (!fault) return decode_profile(reader.root(), name, text);
     if (fault->code != FaultCode::invalid) throw refusal(name, *fault);
     RepairedTree const repaired{schemas, name, text, *fault};
-    auto document = ProfileDecoder{name, text}.decode(repaired.root());
+    auto document = decode_profile(repaired.root(), name, text);
     auto warnings = repaired.warnings(name, text);
     document.warnings.insert(document.warnings.begin(), warnings.begin(), warnings.end());
     return document;

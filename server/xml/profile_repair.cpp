@@ -160,7 +160,7 @@ private:
             id = profile.append_attribute(gml_id.c_str());
             id.set_value("profile");
         }
-        auto fit = nc_name(trimmed(id.value()));
+        auto fit = is_nc_name(trimmed(id.value())) ? std::string{trimmed(id.value())} : nc_name(trimmed(id.value()));
         if (fit != trimmed(id.value()))
             note(profile, "the 'gml:id' " + quoted(id.value()) + " is no name as XML has them: read as " + quoted(fit));
         while (!ids_.insert(fit).second) fit += '_';

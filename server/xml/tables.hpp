@@ -36,6 +36,7 @@ struct ContentState {
     };
     std::vector<Transition> transitions;  // one for a name
     bool final = false;
+    std::uint32_t number = 0;  // among all states of all types: from 1 on
 };
 
 struct AttributeUse {
@@ -80,12 +81,16 @@ public:
 
     Name xsi_type() const { return xsi_type_; }
 
+    // The highest number of a content state.
+    std::uint32_t states() const { return states_; }
+
 private:
     friend class TablesBuilder;
 
     Interned names_;
     Interned::Id last_name_space_ = Interned::empty;  // those that may be declared come before all other names
     Name xsi_type_;
+    std::uint32_t states_ = 0;
     std::deque<ValueType> values_;
     std::deque<ElementType> types_;
     std::deque<ElementDeclaration> declarations_;

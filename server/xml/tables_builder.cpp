@@ -75,6 +75,9 @@ void TablesBuilder::build(xercesc::XMLGrammarPool& locked) {
         limit_length(*made, *element);
         add_substitutes(*made, *element);
     }
+    for (auto& each : tables_.types_) {
+        for (auto& state : each.states) state.number = ++tables_.states_;
+    }
 }
 
 Name TablesBuilder::name(XMLCh const* name_space, XMLCh const* local) {

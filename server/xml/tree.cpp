@@ -56,6 +56,8 @@ std::string_view namespace_of(pugi::xml_node node, std::string_view prefix) {
     return {};
 }
 
+std::size_t offset_of(pugi::xml_node element) { return static_cast<std::size_t>(element.offset_debug()) - 1; }
+
 bool is_of_xsi(pugi::xml_node node, pugi::xml_attribute attribute) {
     auto const prefix = prefix_of(attribute.name());
     bool const perhaps =

@@ -1,6 +1,7 @@
 // A thin cursor over pugixml's tree. Names are local names wherever the schemas leave no doubt about the namespace.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <pugixml.hpp>
 #include <string>
@@ -25,6 +26,9 @@ std::string text_of(pugi::xml_node);
 
 // The namespace to which a prefix is bound here; "" when it is not.
 std::string_view namespace_of(pugi::xml_node, std::string_view prefix);
+
+// The offset of an element's `<` in the bytes that it was parsed from.
+std::size_t offset_of(pugi::xml_node element);
 
 struct TypeName {
     std::string_view name_space;

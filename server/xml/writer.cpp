@@ -4,12 +4,15 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "xml/characters.hpp"
 
 namespace rois::xml {
 
 namespace {
+
+using namespace std::string_view_literals;
 
 constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD, for what XML cannot carry
 
@@ -48,46 +51,58 @@ constexpr Table plain(Place place) {
 constexpr Table plain_in_text = plain(Place::text);
 constexpr Table plain_in_attributes = plain(Place::attribute);
 
-void append_escaped(std::string& out, std::string_view clean, Place place) {
-    std::size_t done = 0;
-    for (std::size_t i = 0; i < clean.size(); ++i) {
-        auto const form = escaped(clean[i], place);
-        if (form.empty()) continue;
-        out.append(clean.substr(done, i - done)).append(form);
-        done = i + 1;
-    }
-    out.append(clean.substr(done));
-}
-
-void append(std::string& out, std::string_view value, Place place) {
-    auto const& is_plain = place == Place::text ? plain_in_text : plain_in_attributes;
-    auto const unusual = std::ranges::find_if_not(value, [&](char c) { return is_plain[static_cast<unsigned char>(c)]; });
-    auto const length = static_cast<std::size_t>(unusual - value.begin());
-    out.append(value.substr(0, length));
-    value.remove_prefix(length);
-    if (value.empty()) return;
-    while (auto const bad = first_bad_character(value)) {
-        append_escaped(out, value.substr(0, bad->offset), place);
-        out += replacement;
-        value.remove_prefix(bad->offset + bad->length);
-    }
-    append_escaped(out, value, place);
+bool is_plain(std::string_view value, Place place) {
+    auto const& table = place == Place::text ? plain_in_text : plain_in_attributes;
+    return std::ranges::all_of(value, [&](char c) { return table[static_cast<unsigned char>(c)]; });
 }
 
 }  // namespace
 
+void Writer::grow(std::size_t wanted) { text_.resize(std::max(length_ + wanted, text_.size() * 2)); }
+
+// One piece after the other, with one look at the room that is left.
+template <class... Pieces>
+void Writer::append(Pieces const&... pieces) {
+    auto const wanted = (std::string_view{pieces}.size() + ...);
+    if (text_.size() - length_ < wanted) grow(wanted);
+    auto* to = text_.data() + length_;
+    ((to += std::string_view{pieces}.copy(to, pieces.size())), ...);
+    length_ += wanted;
+}
+
+void Writer::append_unusual(std::string_view value, bool in_attribute) {
+    auto const place = in_attribute ? Place::attribute : Place::text;
+    while (!value.empty()) {
+        auto const bad = first_bad_character(value);
+        auto const clean = value.substr(0, bad ? bad->offset : value.size());
+        value.remove_prefix(bad ? bad->offset + bad->length : value.size());
+        std::size_t done = 0;
+        for (std::size_t i = 0; i < clean.size(); ++i) {
+            auto const form = escaped(clean[i], place);
+            if (form.empty()) continue;
+            append(clean.substr(done, i - done), form);
+            done = i + 1;
+        }
+        append(clean.substr(done), bad ? replacement : ""sv);
+    }
+}
+
 Writer& Writer::start(std::string_view element) {
-    close_start_tag();
-    (out_ += '<') += element;
+    append(std::exchange(in_start_tag_, true) ? "><"sv : "<"sv, element);
     open_.push_back(element);
-    in_start_tag_ = true;
+    return *this;
+}
+
+Writer& Writer::constant(std::string_view name, std::string_view value) {
+    append(" "sv, name, R"(=")"sv, value, R"(")"sv);
     return *this;
 }
 
 Writer& Writer::attribute(std::string_view name, std::string_view value) {
-    ((out_ += ' ') += name) += "=\"";
-    append(out_, value, Place::attribute);
-    out_ += '"';
+    if (is_plain(value, Place::attribute)) return constant(name, value);
+    append(" "sv, name, R"(=")"sv);
+    append_unusual(value, true);
+    append(R"(")"sv);
     return *this;
 }
 
@@ -101,25 +116,24 @@ Writer& Writer::attribute_unless_empty(std::string_view name, std::string_view v
 
 Writer& Writer::text(std::string_view value) {
     if (value.empty()) return *this;
-    close_start_tag();
-    append(out_, value, Place::text);
+    auto const end_of_tag = std::exchange(in_start_tag_, false) ? ">"sv : ""sv;
+    if (is_plain(value, Place::text)) {
+        append(end_of_tag, value);
+    } else {
+        append(end_of_tag);
+        append_unusual(value, false);
+    }
     return *this;
 }
 
 Writer& Writer::end() {
-    if (in_start_tag_) {
-        out_ += "/>";
-        in_start_tag_ = false;
+    if (std::exchange(in_start_tag_, false)) {
+        append("/>"sv);
     } else {
-        ((out_ += "</") += open_.back()) += '>';
+        append("</"sv, open_.back(), ">"sv);
     }
     open_.pop_back();
     return *this;
-}
-
-void Writer::close_start_tag() {
-    if (in_start_tag_) out_ += '>';
-    in_start_tag_ = false;
 }
 
 std::string number_text(double number) {

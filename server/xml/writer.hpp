@@ -1,32 +1,47 @@
-// Appends XML to a text. What is written is well-formed whatever the values are.
+// Writes a document. What is written is well-formed whatever the values are.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace rois::xml {
 
 class Writer {
 public:
-    explicit Writer(std::string& out) : out_{out} {}
+    Writer() : text_(usual_length, '\0') { open_.reserve(usual_depth); }
 
     // Names are literals of ours: they are not checked, and must outlive the element.
     Writer& start(std::string_view element);
     Writer& attribute(std::string_view name, std::string_view value);
     Writer& attribute(std::string_view name, std::uint64_t value);
     Writer& attribute_unless_empty(std::string_view name, std::string_view value);
+    // A literal of ours, as the names are.
+    Writer& constant(std::string_view name, std::string_view value);
     Writer& text(std::string_view);
     Writer& end();
 
     // An element with nothing but text.
     Writer& element(std::string_view name, std::string_view text) { return start(name).text(text).end(); }
 
-private:
-    void close_start_tag();
+    // What was written, whose elements have all ended.
+    std::string written() && {
+        text_.resize(length_);
+        return std::move(text_);
+    }
 
-    std::string& out_;
+private:
+    static constexpr std::size_t usual_length = 1000, usual_depth = 8;
+
+    template <class... Pieces>
+    void append(Pieces const&...);
+    void append_unusual(std::string_view value, bool in_attribute);
+    void grow(std::size_t wanted);
+
+    std::string text_;  // as much as there is room for
+    std::size_t length_ = 0;
     std::vector<std::string_view> open_;
     bool in_start_tag_ = false;
 };

@@ -10,6 +10,7 @@
 #include <cctype>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <pugixml.hpp>
 #include <regex>
@@ -20,6 +21,7 @@
 #include "broken/breaking.hpp"
 #include "broken/rules.hpp"
 #include "server/gateway_process.hpp"
+#include "server/profile_folder.hpp"
 
 namespace rois::broken {
 namespace {
@@ -55,6 +57,11 @@ std::set<std::string> broken_in(std::string const& report) {
     return names;
 }
 
+void replace_all(std::string& text, std::string_view part, std::string_view by) {
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + by.size()))
+        text.replace(at, part.size(), by);
+}
+
 struct EmptyHall : GatewayProcess {
     explicit EmptyHall(std::vector<std::string> const& settings = {}) : GatewayProcess{with_usual(settings)} {}
 
@@ -69,6 +76,8 @@ private:
 };
 
 std::string url(std::uint16_t port) { return "http://127.0.0.1:" + std::to_string(port); }
+
+std::string const common = "<rois:SubComponentProfile>urn:x-rois:def:component:OMG::RoISCommon</rois:SubComponentProfile>";
 
 TEST(Conformance, OfOurGatewayIsWhole) {
     EmptyHall gateway;
@@ -97,6 +106,118 @@ TEST(Conformance, OfOurGatewayIsWholeWhenItHasTwoRobots) {
     EXPECT_THAT(judged.text, testing::HasSubstr("  holds      events_of_an_action_come_before_its_end over HTTP "));
 }
 
+TEST(Conformance, OfOurGatewayIsWholeWithComponentsOfItsUser) {
+    test::ProfileFolder const folder;
+    auto const put = [&](std::string const& name, std::string const& adapter, std::string const& inside) {
+        auto const asked_for = R"(<gml:metaDataProperty xlink:href="urn:x-rois:def:adapter:simulation::)" + adapter + R"("/>)";
+        folder.put(name + ".xml", test::profile_document("urn:x:" + name, inside, asked_for));
+    };
+    put("lists", "stand_in",
+        common + R"(<rois:ParameterProfile rois:name="v" rois:default_value="1 2">)"
+                 R"(<rois:data_type_ref rois:code="Set&lt;Integer>"/></rois:ParameterProfile>)");
+    put("named", "stand_in", "<gml:name>ランプ</gml:name>" + common);
+    put("plain", "speech_synthesis", common);
+    EmptyHall gateway{{"--profiles", folder.name()}};
+    auto const judged = judge(url(gateway.port()) + " --over http");
+    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+}
+
+std::string typed(std::string const& element, std::string const& name, std::string const& type, std::string const& more = "") {
+    return "<rois:" + element + " rois:name=\"" + name + "\" " + more + "><rois:data_type_ref rois:code=\"" + type +
+           "\"/></rois:" + element + ">";
+}
+
+std::string message(std::string const& kind, std::string const& name, std::string const& inside) {
+    return "<rois:MessageProfile xsi:type=\"rois:" + kind + "MessageProfileType\" rois:name=\"" + name + "\">" + inside +
+           "</rois:MessageProfile>";
+}
+
+std::string with_default(std::string const& value) { return "rois:default_value=\"" + value + "\""; }
+
+// A user's component with this name, which may be anything.
+struct Strange {
+    std::string urn, name, inside;
+    std::string adapter = "stand_in";
+};
+
+Judged judge_with(std::vector<Strange> const& components) {
+    test::ProfileFolder const folder;
+    int files = 0;
+    for (auto const& [urn, name, inside, adapter] : components)
+        folder.put(std::to_string(++files) + ".xml",
+                   test::profile_document(
+                       urn, (name.empty() ? "" : "<gml:name>" + name + "</gml:name>") + common + inside,
+                       R"(<gml:metaDataProperty xlink:href="urn:x-rois:def:adapter:simulation::)" + adapter + R"("/>)"));
+    EmptyHall gateway{{"--profiles", folder.name()}};
+    auto judged = judge(url(gateway.port()) + " --over http");
+    EXPECT_THAT(judged.text, testing::HasSubstr(", " + std::to_string(17 + components.size()) + " components\n"));
+    return judged;
+}
+
+TEST(Conformance, OfOurGatewayIsWholeWhateverItsComponentsAreCalled) {
+    auto const judged =
+        judge_with({{"urn:x:a&amp;b", "amp", ""},
+                    {"urn:x:quoted", "a&quot;b'c&lt;d", ""},
+                    {"urn:x:face", "😀", ""},
+                    {"urn:x:star", "*·", ""},
+                    {"urn:x:escaped_face", "_xF0__x9F__x98__x80_", ""},
+                    {"urn:x:events", "", message("Event", "a&amp;b", typed("Results", "n", "int"))},
+                    {"urn:x:queries", "", message("Query", "a&lt;b", typed("Results", "n", "int", with_default("1")))},
+                    {"urn:x:lines", "", typed("ParameterProfile", "text", "string", with_default("one&#13;&#10;two"))},
+                    {"urn:x:names", "", typed("ParameterProfile", "te&#10;xt", "string", with_default(" one "))}});
+    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+}
+
+TEST(Conformance, OfOurGatewayIsWholeWhateverItsComponentsTell) {
+    auto const judged = judge_with(
+        {{"urn:x:forms", "",
+          typed("ParameterProfile", "i", "int", with_default("&#10; 000000000060 ")) +
+              typed("ParameterProfile", "b", "bool", with_default(" true ")) +
+              typed("ParameterProfile", "d", "double", with_default(" 1e3 ")) +
+              typed("ParameterProfile", "s", "Component_Status", with_default(" READY ")) +
+              typed("ParameterProfile", "t", "DateTime", with_default("2026-11-20T12:00:00+01:00")) +
+              typed("ParameterProfile", "l", "DateTime[]", with_default("2026-11-20T12:00:00+01:00 2026-11-20T12:00:00Z"))},
+         {"urn:x:shines", "",
+          "<rois:SubComponentProfile>urn:x-rois:def:component:OMG::SpeechSynthesis</rois:SubComponentProfile>" +
+              message("Command", "set_parameter", typed("Arguments", "brightness", "int", with_default("1")))},
+         {"urn:x:silent", "", message("Query", "ping", "")},
+         {"urn:x:shy", "", message("Query", "peep", typed("Results", "n", "int"))},
+         {"urn:x:reads", "", message("Query", "get_parameter", typed("Results", "n", "int", with_default("7")))},
+         {"urn:x:asks", "",
+          message("Command", "start", typed("Arguments", "must", "int")) +
+              message("Command", "stop", typed("Arguments", "how", "int"))},
+         {"urn:x:voice", "", typed("ParameterProfile", "synthesizable_languages", "string[]", with_default("ja")),
+          "speech_synthesis"},
+         {"urn:x:wrong", "", message("Query", "get_parameter", typed("Results", "synthesizable_languages", "int")),
+          "speech_synthesis"}});
+    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+}
+
+// Ids are what the gateway calls things: with what must be escaped in XML, too.
+Breaking gives_other_ids() {
+    static std::string const strange = "&amp;&lt;";
+    static std::array<std::string, 4> const ids{"s-", "e-", "x-", "c-"};
+    auto const renamed = [](std::string document) {
+        for (auto const& id : ids)
+            for (std::string const before : {">", "\""}) replace_all(document, before + id, before + strange + id);
+        return document;
+    };
+    return {.request =
+                [](std::string request) {
+                    for (auto const& id : ids) replace_all(request, strange + id, id);
+                    return request;
+                },
+            .answer = [=](std::string const&, std::string const& answer, Link&) -> Documents { return {renamed(answer)}; },
+            .notification = [=](std::string const& notification) -> Documents { return {renamed(notification)}; }};
+}
+
+TEST(Conformance, OfAGatewayWithOtherIdsIsWhole) {
+    EmptyHall gateway;
+    Proxy const proxy{gateway.port(), gives_other_ids};
+    auto const judged = judge(url(proxy.port()) + " --over websocket");
+    EXPECT_EQ(judged.exit_code, 0) << judged.text;
+}
+
 TEST(Conformance, OfAGatewayInUseFindsNothingElse) {
     EmptyHall gateway;
     auto const again = [&] { return judge(url(gateway.port()) + " --over websocket"); };
@@ -110,6 +231,7 @@ TEST(Conformance, NeedsAGateway) {
     EXPECT_EQ(judge("").exit_code, 2);
     EXPECT_EQ(judge("http://127.0.0.1:1").exit_code, 2);
     EXPECT_EQ(judge("ftp://127.0.0.1").exit_code, 2);
+    EXPECT_THAT(judge("HTTP://127.0.0.1:1").text, testing::HasSubstr("the gateway does not answer"));
     EXPECT_EQ(judge("http://127.0.0.1:1 --patience soon").exit_code, 2);
     EXPECT_EQ(judge("--help").exit_code, 0);
 }
@@ -130,11 +252,6 @@ TEST(Conformance, OfAProxyThatBreaksNothingIsWhole) {
     Proxy const proxy{gateway.port(), [] { return Breaking{}; }};
     auto const judged = judge(url(proxy.port()));
     EXPECT_EQ(judged.exit_code, 0) << judged.text;
-}
-
-void replace_all(std::string& text, std::string_view part, std::string_view by) {
-    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + by.size()))
-        text.replace(at, part.size(), by);
 }
 
 // The same document with other prefixes: names within namespaces are what counts.
@@ -197,6 +314,44 @@ TEST(Conformance, OfAGatewayThatWritesOtherHttpIsWhole) {
     Proxy const proxy{gateway.port(), writes_other_http};
     auto const judged = judge(url(proxy.port()) + " --over http");
     EXPECT_EQ(judged.exit_code, 0) << judged.text;
+}
+
+TEST(Conformance, OfAGatewayThatSpeaksRubbishIsReportedInXml) {
+    EmptyHall gateway;
+    Proxy const proxy{gateway.port(), []() -> Breaking {
+                          return {.http_reply = [](Message const&, Message& reply) {
+                              replace_all(reply.body, "unknown component", "\x01nknown \xFFomponent");
+                              replace_all(reply.body, "<gml:name>", "<gml:name>\x1B[31m\f\n  holds   \xC2\x9B");
+                          }};
+                      }};
+    auto const file = testing::TempDir() + "rois-rubbish-" + std::to_string(getpid()) + ".xml";
+    auto const judged = judge(url(proxy.port()) + " --over http --only bind_of_an_unknown --report " + file);
+    EXPECT_EQ(judged.exit_code, 1) << judged.text;
+    for (auto const* const bad : {"\x01", "\xFF", "\x1B", "\f", "\n  holds   \uFFFD", "\xC2\x9B"})
+        EXPECT_THAT(judged.text, testing::Not(testing::HasSubstr(bad)));
+    std::ostringstream text;
+    text << std::ifstream{file}.rdbuf();
+    EXPECT_THAT(text.str(), testing::HasSubstr("<failure"));
+    EXPECT_THAT(text.str(), testing::Not(testing::AnyOf(testing::HasSubstr("&#"), testing::HasSubstr("\xFF"))));
+    std::filesystem::remove(file);
+}
+
+TEST(Conformance, OfAGatewayThatOpensNoSessionIsReportedInXml) {
+    EmptyHall gateway;
+    Proxy const proxy{gateway.port(), []() -> Breaking {
+                          return {.http_reply = [](Message const&, Message& reply) {
+                              replace_all(reply.body, "return_code=\"OK\"", "return_code=\"\x1B[31m\fNO\"");
+                          }};
+                      }};
+    auto const file = testing::TempDir() + "rois-no-session-" + std::to_string(getpid()) + ".xml";
+    auto const judged = judge(url(proxy.port()) + " --report " + file);
+    EXPECT_EQ(judged.exit_code, 2) << judged.text;
+    EXPECT_THAT(judged.text, testing::Not(testing::AnyOf(testing::HasSubstr("\x1B"), testing::HasSubstr("\f"))));
+    pugi::xml_document report;
+    ASSERT_TRUE(report.load_file(file.c_str())) << file;
+    EXPECT_THAT(report.select_node("//testcase/error").node().attribute("message").value(),
+                testing::HasSubstr("it opens no session"));
+    std::filesystem::remove(file);
 }
 
 // Whatever is free again, another application takes it at once.

@@ -109,10 +109,12 @@ void Application::leave() {
     if (connected_) disconnect();
 }
 
-Document Application::ask(std::string const& operation, std::string const& children, std::string const& attributes) {
+Document Application::ask(std::string const& operation, Xml const& children, Attributes const& attributes) {
     auto const request_id = "request-" + std::to_string(++requests_);
+    auto with_id = attributes;
+    with_id.emplace_back("request_id", request_id);
     std::vector<std::string> news;
-    Document const answer{wire_->ask(request(operation, children, attributes + " request_id=\"" + request_id + "\""), news)};
+    Document const answer{wire_->ask(request(operation, children, with_id), news)};
     take(news);
     check_answer(answer, operation, request_id);
     return answer;
@@ -144,28 +146,28 @@ Document Application::set_parameter(std::string const& ref, std::vector<Argument
     return ask("set_parameter", component_ref(ref) + parameters(arguments));
 }
 
-Document Application::execute(std::string const& units) { return ask("execute", sequence(units)); }
+Document Application::execute(Xml const& units) { return ask("execute", sequence(units)); }
 
-Document Application::get_command_result(std::string const& id, std::string const& condition) {
-    return ask("get_command_result", "<command_id>" + id + "</command_id>" + condition);
+Document Application::get_command_result(std::string const& id, Xml const& condition) {
+    return ask("get_command_result", text_element("command_id", id) + condition);
 }
 
-Document Application::query(std::string const& type, std::string const& condition) {
-    return ask("query", "<query_type>" + type + "</query_type>" + condition);
+Document Application::query(std::string const& type, Xml const& condition) {
+    return ask("query", text_element("query_type", type) + condition);
 }
 
-Document Application::subscribe(std::string const& event, std::string const& condition, bool inline_results) {
-    return ask("subscribe", "<event_type>" + event + "</event_type>" + condition,
-               inline_results ? "inline_results=\"true\"" : "");
+Document Application::subscribe(std::string const& event, Xml const& condition, bool inline_results) {
+    return ask("subscribe", text_element("event_type", event) + condition,
+               inline_results ? Attributes{{"inline_results", "true"}} : Attributes{});
 }
 
-Document Application::unsubscribe(std::string const& id) { return ask("unsubscribe", "<subscribe_id>" + id + "</subscribe_id>"); }
+Document Application::unsubscribe(std::string const& id) { return ask("unsubscribe", text_element("subscribe_id", id)); }
 
-Document Application::get_event_detail(std::string const& id, std::string const& condition) {
-    return ask("get_event_detail", "<event_id>" + id + "</event_id>" + condition);
+Document Application::get_event_detail(std::string const& id, Xml const& condition) {
+    return ask("get_event_detail", text_element("event_id", id) + condition);
 }
 
-std::vector<std::string> Application::search(std::string const& condition) {
+std::vector<std::string> Application::search(Xml const& condition) {
     auto const answer = ask("search", condition);
     if (answer.return_code() != "OK") return {""};
     std::vector<std::string> refs;

@@ -42,7 +42,7 @@ public:
     Application& operator=(Application const&) = delete;
 
     // An operation and its children.
-    Document ask(std::string const& operation, std::string const& children = "", std::string const& attributes = "");
+    Document ask(std::string const& operation, Xml const& children = {}, Attributes const& attributes = {});
 
     Document connect();
     Document disconnect();
@@ -50,14 +50,14 @@ public:
     Document release(std::string const& ref);
     Document get_parameter(std::string const& ref);
     Document set_parameter(std::string const& ref, std::vector<Argument> const& arguments);
-    Document execute(std::string const& units);
+    Document execute(Xml const& units);
     Document execute(Command const& command) { return execute(unit(command)); }
-    Document get_command_result(std::string const& id, std::string const& condition = "");
-    Document query(std::string const& type, std::string const& condition = "");
-    Document subscribe(std::string const& event, std::string const& condition = "", bool inline_results = false);
+    Document get_command_result(std::string const& id, Xml const& condition = {});
+    Document query(std::string const& type, Xml const& condition = {});
+    Document subscribe(std::string const& event, Xml const& condition = {}, bool inline_results = false);
     Document unsubscribe(std::string const& id);
-    Document get_event_detail(std::string const& id, std::string const& condition = "");
-    std::vector<std::string> search(std::string const& condition = "");  // refs; "" for a refusal
+    Document get_event_detail(std::string const& id, Xml const& condition = {});
+    std::vector<std::string> search(Xml const& condition = {});  // refs; "" for a refusal
 
     // The next notification.
     Document hear();

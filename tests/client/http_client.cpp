@@ -64,16 +64,32 @@ std::string HttpReply::header(std::string const& name) const {
     return found == headers.end() ? "" : found->second;
 }
 
-std::string request(std::string const& operation, std::string const& children, std::string const& attributes) {
-    return "<" + operation + " xmlns=\"urn:x-rois:psm:xml:message:1\" xmlns:rois=\"http://www.omg.org/spec/RoIS/20240801\" " +
-           attributes + ">" + children + "</" + operation + ">";
+std::string path_segment(std::string_view name) {
+    constexpr std::string_view digits = "0123456789ABCDEF", unreserved = "-._~";
+    std::string segment;
+    for (char const c : name) {
+        auto const byte = static_cast<unsigned char>(c);
+        if (byte < 0x80 && (std::isalnum(byte) || unreserved.find(c) != unreserved.npos)) {
+            segment += c;
+        } else {
+            ((segment += '%') += digits[byte >> 4]) += digits[byte & 15];
+        }
+    }
+    return segment;
 }
 
-std::string component_ref(std::string const& code) { return "<component_ref rois:code=\"" + code + "\"/>"; }
+std::string request(std::string const& operation, Xml const& children, Attributes const& attributes) {
+    Attributes all{{"xmlns", "urn:x-rois:psm:xml:message:1"}, {"xmlns:rois", "http://www.omg.org/spec/RoIS/20240801"}};
+    all.insert(all.end(), attributes.begin(), attributes.end());
+    return element(operation, all, children).text();
+}
 
-std::string parameters(std::string const& name, int value) {
-    return "<parameters><parameter rois:name=\"" + name + "\"><rois:data_type_ref rois:code=\"int\"/><rois:value>" +
-           std::to_string(value) + "</rois:value></parameter></parameters>";
+Xml component_ref(std::string const& code) { return element("component_ref", {{"rois:code", code}}); }
+
+Xml parameters(std::string const& name, int value) {
+    return element("parameters", element("parameter", {{"rois:name", name}},
+                                         element("rois:data_type_ref", {{"rois:code", "int"}}) +
+                                             text_element("rois:value", std::to_string(value))));
 }
 
 HttpClient::~HttpClient() {
@@ -165,7 +181,7 @@ HttpReply HttpClient::post(std::string const& body, Headers const& headers) {
                "\r\n\r\n" + body);
 }
 
-HttpReply HttpClient::call(std::string const& operation, std::string const& children, std::string const& attributes) {
+HttpReply HttpClient::call(std::string const& operation, Xml const& children, Attributes const& attributes) {
     auto const reply = post(request(operation, children, attributes));
     if (operation == "connect" && reply.return_code() == "OK") session = reply.text("session");
     return reply;

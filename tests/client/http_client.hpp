@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "client/line.hpp"
+#include "client/xml.hpp"
 
 namespace rois::client {
 
@@ -33,11 +34,14 @@ public:
     HttpReply(HttpReply const& other) : status{other.status}, headers{other.headers}, body{other.body} {}
 };
 
+// A name as a part of a path has it (RFC 3986, 2.1).
+std::string path_segment(std::string_view name);
+
 // "<bind xmlns=... >children</bind>"
-std::string request(std::string const& operation, std::string const& children = "", std::string const& attributes = "");
-std::string component_ref(std::string const& code);
+std::string request(std::string const& operation, Xml const& children = {}, Attributes const& attributes = {});
+Xml component_ref(std::string const& code);
 // `<parameters>` for set_parameter: one whole number.
-std::string parameters(std::string const& name, int value);
+Xml parameters(std::string const& name, int value);
 
 // Disconnects its session in the end, so that others find the components free.
 class HttpClient {
@@ -58,7 +62,7 @@ public:
     HttpReply post(std::string const& body, Headers const& = {{"Content-Type", "application/xml"}});
 
     // An operation in the session that `connect` opened here.
-    HttpReply call(std::string const& operation, std::string const& children = "", std::string const& attributes = "");
+    HttpReply call(std::string const& operation, Xml const& children = {}, Attributes const& attributes = {});
     // The notifications after this one, or none after `wait` seconds, for which its line waits longer than that.
     HttpReply notifications(unsigned after, unsigned wait = 10);
 

@@ -10,34 +10,30 @@ namespace rois::client {
 
 namespace {
 
-std::string element(std::string const& name, std::string const& content) {
-    return "<" + name + ">" + content + "</" + name + ">";
-}
+Xml reference(std::string const& path) { return text_element("fes:ValueReference", path); }
 
-std::string reference(std::string const& path) { return element("fes:ValueReference", path); }
+Xml literal(std::string const& text) { return text_element("fes:Literal", text); }
 
-std::string literal(std::string const& text) { return element("fes:Literal", text); }
-
-std::string typed(std::string const& type, std::string const& content) {
-    return "<rois:command_unit_list xsi:type=\"rois:" + type + "\">" + content + "</rois:command_unit_list>";
+Xml typed(std::string const& type, Xml const& content) {
+    return element("rois:command_unit_list", {{"xsi:type", "rois:" + type}}, content);
 }
 
 // The type ParameterType under one of its names.
-std::string parameter(std::string const& element, Argument const& argument) {
-    std::string texts;
-    for (auto const& value : argument.values) texts += "<rois:value>" + value + "</rois:value>";
-    return "<" + element + " rois:name=\"" + argument.name + "\"><rois:data_type_ref rois:code=\"" + argument.type + "\"/>" +
-           texts + "</" + element + ">";
+Xml parameter(std::string_view name, Argument const& argument) {
+    auto content = element("rois:data_type_ref", {{"rois:code", argument.type}});
+    for (auto const& value : argument.values) content += text_element("rois:value", value);
+    return element(name, {{"rois:name", argument.name}}, content);
 }
 
-std::string message(std::string const& element, Command const& command) {
-    auto const delay = command.delay ? " rois:delay_time=\"" + std::to_string(*command.delay) + "\"" : "";
-    std::string arguments;
+Xml message(std::string_view name, Command const& command) {
+    Attributes attributes{
+        {"xsi:type", "rois:CommandMessageType"}, {"rois:command_type", command.type}, {"rois:command_id", command.id}};
+    if (command.delay) attributes.emplace_back("rois:delay_time", std::to_string(*command.delay));
+    auto content = element("rois:component_ref", {{"rois:code", command.component}});
+    Xml arguments;
     for (auto const& argument : command.arguments) arguments += parameter("rois:parameter", argument);
-    if (!arguments.empty()) arguments = "<rois:arguments>" + arguments + "</rois:arguments>";
-    return "<rois:" + element + " xsi:type=\"rois:CommandMessageType\" rois:command_type=\"" + command.type +
-           "\" rois:command_id=\"" + command.id + "\"" + delay + "><rois:component_ref rois:code=\"" + command.component +
-           "\"/>" + arguments + "</rois:" + element + ">";
+    if (!arguments.empty()) content += element("rois:arguments", arguments);
+    return element(name, attributes, content);
 }
 
 void collect_ids(pugi::xml_node node, std::vector<std::string>& ids) {
@@ -49,7 +45,8 @@ void collect_ids(pugi::xml_node node, std::vector<std::string>& ids) {
 
 Document::Document(std::string const& text)
     : text_{std::make_shared<std::string const>(text)}, document_{std::make_shared<pugi::xml_document>()} {
-    if (!document_->load_buffer(text.data(), text.size())) throw std::runtime_error{"no XML document: " + text};
+    if (!document_->load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_ws_pcdata_single))
+        throw std::runtime_error{"no XML document: " + text};
     give_known_prefixes(*document_);
 }
 
@@ -76,79 +73,73 @@ std::string Document::whole() const {
     return text.str();
 }
 
-std::string equal(std::string const& path, std::string const& text) {
+Xml equal(std::string const& path, std::string const& text) {
     return element("fes:PropertyIsEqualTo", reference(path) + literal(text));
 }
 
-std::string literal_first(std::string const& text, std::string const& path) {
+Xml literal_first(std::string const& text, std::string const& path) {
     return element("fes:PropertyIsEqualTo", literal(text) + reference(path));
 }
 
-std::string both(std::string const& one, std::string const& other) { return element("fes:And", one + other); }
+Xml both(Xml const& one, Xml const& other) { return element("fes:And", one + other); }
 
-std::string either(std::string const& one, std::string const& other) { return element("fes:Or", one + other); }
+Xml either(Xml const& one, Xml const& other) { return element("fes:Or", one + other); }
 
-std::string like(std::string const& path, std::string const& pattern) {
-    return "<fes:PropertyIsLike wildCard=\"*\" singleChar=\"?\" escapeChar=\"!\">" + reference(path) + literal(pattern) +
-           "</fes:PropertyIsLike>";
+Xml like(std::string const& path, std::string const& pattern) {
+    return element("fes:PropertyIsLike", {{"wildCard", "*"}, {"singleChar", "?"}, {"escapeChar", "!"}},
+                   reference(path) + literal(pattern));
 }
 
-std::string compared(std::string const& comparison, std::string const& path, std::string const& text) {
+Xml compared(std::string const& comparison, std::string const& path, std::string const& text) {
     return element("fes:PropertyIs" + comparison, reference(path) + literal(text));
 }
 
-std::string is_null(std::string const& path) { return element("fes:PropertyIsNull", reference(path)); }
+Xml between(std::string const& path, std::string const& lower, std::string const& upper) {
+    return element("fes:PropertyIsBetween",
+                   reference(path) + element("fes:LowerBoundary", literal(lower)) + element("fes:UpperBoundary", literal(upper)));
+}
 
-std::string contrary(std::string const& filter) { return element("fes:Not", filter); }
+Xml is_null(std::string const& path) { return element("fes:PropertyIsNull", reference(path)); }
 
-std::string related(std::string const& relation, std::string const& path, std::string const& other) {
+Xml contrary(Xml const& filter) { return element("fes:Not", filter); }
+
+Xml related(std::string const& relation, std::string const& path, Xml const& other) {
     return element("fes:" + relation, reference(path) + other);
 }
 
-std::string box(std::string const& lower, std::string const& upper, std::string const& frame) {
-    auto const name = frame.empty() ? "" : " srsName=\"" + frame + "\"";
-    return "<gml:Envelope xmlns:gml=\"http://www.opengis.net/gml/3.2\"" + name + ">" + element("gml:lowerCorner", lower) +
-           element("gml:upperCorner", upper) + "</gml:Envelope>";
+Xml box(std::string const& lower, std::string const& upper, std::string const& frame) {
+    Attributes attributes{{"xmlns:gml", "http://www.opengis.net/gml/3.2"}};
+    if (!frame.empty()) attributes.emplace_back("srsName", frame);
+    return element("gml:Envelope", attributes, text_element("gml:lowerCorner", lower) + text_element("gml:upperCorner", upper));
 }
 
-std::string place(std::string const& name) { return literal(name); }
+Xml place(std::string const& name) { return literal(name); }
 
-std::string distance(std::string const& millimetres) { return "<fes:Distance uom=\"mm\">" + millimetres + "</fes:Distance>"; }
-
-std::string touching(std::string const& path) { return related("Touches", path, place("desk")); }
-
-std::string nearest(std::string const& name) {
-    return "<fes:SortBy><fes:SortProperty><fes:Function name=\"distance\">" + reference("location") + place(name) +
-           "</fes:Function></fes:SortProperty></fes:SortBy>";
+Xml distance(std::string const& length, std::string const& unit) {
+    return element("fes:Distance", {{"uom", unit}}, characters(length));
 }
 
-std::string sorted_by(std::string const& path, std::string const& order) {
-    return "<fes:SortBy><fes:SortProperty>" + reference(path) + element("fes:SortOrder", order) +
-           "</fes:SortProperty></fes:SortBy>";
+Xml touching(std::string const& path) { return related("Touches", path, place("desk")); }
+
+Xml nearest(std::string const& name) {
+    auto const far = element("fes:Function", {{"name", "distance"}}, reference("location") + place(name));
+    return element("fes:SortBy", element("fes:SortProperty", far));
 }
 
-std::string ordered(std::string const& filter, std::string const& sort_by) {
-    auto const whole = filter.empty() ? "" : element("fes:Filter", filter);
-    return "<condition xmlns:fes=\"http://www.opengis.net/fes/2.0\">" + whole + sort_by + "</condition>";
+Xml sorted_by(std::string const& path, std::string const& order) {
+    return element("fes:SortBy", element("fes:SortProperty", reference(path) + text_element("fes:SortOrder", order)));
 }
 
-std::string where(std::string const& filter) { return ordered(filter, ""); }
+Xml ordered(Xml const& filter, Xml const& sort_by) {
+    auto const whole = filter.empty() ? Xml{} : element("fes:Filter", filter);
+    return element("condition", {{"xmlns:fes", "http://www.opengis.net/fes/2.0"}}, whole + sort_by);
+}
 
-std::vector<std::string> escaped(std::vector<std::string> texts) {
-    for (auto& text : texts) {
-        std::string written;
-        for (char const c : text) {
-            if (c == '&') {
-                written += "&amp;";
-            } else if (c == '<') {
-                written += "&lt;";
-            } else {
-                written += c;
-            }
-        }
-        text = std::move(written);
-    }
-    return texts;
+Xml where(Xml const& filter) { return ordered(filter, {}); }
+
+Xml of_type(std::string const& type) {
+    return element("condition", element("unr:SearchCondition", {{"xmlns:unr", "http://www.irc.atr.jp/std/unr/0.1"}},
+                                        element("unr:ComponentCondition", {{"type", type}})));
 }
 
 Argument speech_text(std::string const& text) { return {"speech_text", "string", {text}}; }
@@ -157,33 +148,32 @@ Argument target_position(std::vector<std::string> const& positions) { return {"t
 
 Argument time_limit(std::string const& milliseconds) { return {"time_limit", "int", {milliseconds}}; }
 
-std::string parameters(std::vector<Argument> const& arguments) {
-    std::string list;
+Xml parameters(std::vector<Argument> const& arguments) {
+    Xml list;
     for (auto const& argument : arguments) list += parameter("parameter", argument);
     return element("parameters", list);
 }
 
-std::string unit(Command const& command) { return message("command_unit_list", command); }
+Xml unit(Command const& command) { return message("rois:command_unit_list", command); }
 
-std::string pause(int delay) { return "<rois:command_unit_list rois:delay_time=\"" + std::to_string(delay) + "\"/>"; }
+Xml pause(int delay) { return element("rois:command_unit_list", {{"rois:delay_time", std::to_string(delay)}}); }
 
-std::string branch(std::vector<Command> const& commands) {
-    std::string list;
+Xml branch(std::vector<Command> const& commands) {
+    Xml list;
     for (auto const& command : commands) list += command_list(command);
     return element("rois:branch_list", list);
 }
 
-std::string command_list(Command const& command) { return message("command_list", command); }
+Xml command_list(Command const& command) { return message("rois:command_list", command); }
 
-std::string concurrent(std::string const& branches) { return typed("ConcurrentCommandsType", branches); }
+Xml concurrent(Xml const& branches) { return typed("ConcurrentCommandsType", branches); }
 
-std::string one_after_another(std::string const& units) { return typed("SequentialCommandUnitType", units); }
+Xml one_after_another(Xml const& units) { return typed("SequentialCommandUnitType", units); }
 
-std::string side_by_side(std::string const& units) { return typed("ParallelCommandUnitType", units); }
+Xml side_by_side(Xml const& units) { return typed("ParallelCommandUnitType", units); }
 
-std::string sequence(std::string const& units) {
-    return "<rois:CommandUnitSequence xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\">" + units +
-           "</rois:CommandUnitSequence>";
+Xml sequence(Xml const& units) {
+    return element("rois:CommandUnitSequence", {{"xmlns:xsi", "http://www.w3.org/2001/XMLSchema-instance"}}, units);
 }
 
 std::vector<std::string> command_ids(Document const& answer) {

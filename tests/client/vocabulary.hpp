@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "client/xml.hpp"
+
 namespace rois::client {
 
 using Values = std::map<std::string, std::vector<std::string>>;  // of results or parameters, by name
@@ -39,37 +41,40 @@ private:
 
 // --- Conditions ---
 
-std::string equal(std::string const& reference, std::string const& literal);
-std::string literal_first(std::string const& literal, std::string const& reference);
-std::string both(std::string const& one, std::string const& other);
-std::string either(std::string const& one, std::string const& other);
-std::string like(std::string const& reference, std::string const& pattern);  // "*" and "?"; "!" before them as they are
-std::string compared(std::string const& comparison, std::string const& reference, std::string const& literal);  // PropertyIs...
-std::string is_null(std::string const& reference);
-std::string contrary(std::string const& filter);
-std::string related(std::string const& relation, std::string const& reference, std::string const& other);  // Within, During, ...
-std::string box(std::string const& lower, std::string const& upper, std::string const& frame = "");
-std::string place(std::string const& name);
-std::string distance(std::string const& millimetres);
-std::string touching(std::string const& reference);  // nothing that a gateway understands
-std::string nearest(std::string const& place);       // `<fes:SortBy>`, by the component's distance to it
-std::string sorted_by(std::string const& reference, std::string const& order);
-std::string ordered(std::string const& filter, std::string const& sort_by);  // `<condition>`; the filter may be empty
-std::string where(std::string const& filter);                                // `<condition>`
+Xml equal(std::string const& reference, std::string const& literal);
+Xml literal_first(std::string const& literal, std::string const& reference);
+Xml both(Xml const& one, Xml const& other);
+Xml either(Xml const& one, Xml const& other);
+Xml like(std::string const& reference, std::string const& pattern);  // "*" and "?"; "!" before them as they are
+Xml compared(std::string const& comparison, std::string const& reference, std::string const& literal);  // PropertyIs...
+Xml between(std::string const& reference, std::string const& lower, std::string const& upper);
+Xml is_null(std::string const& reference);
+Xml contrary(Xml const& filter);
+Xml related(std::string const& relation, std::string const& reference, Xml const& other);  // Within, During, ...
+Xml box(std::string const& lower, std::string const& upper, std::string const& frame = "");
+Xml place(std::string const& name);
+Xml distance(std::string const& length, std::string const& unit = "mm");
+Xml touching(std::string const& reference);  // nothing that a gateway understands
+Xml nearest(std::string const& place);       // `<fes:SortBy>`, by the component's distance to it
+Xml sorted_by(std::string const& reference, std::string const& order);
+Xml ordered(Xml const& filter, Xml const& sort_by);  // `<condition>`; the filter may be empty
+Xml where(Xml const& filter);                        // `<condition>`
+
+// `<condition>` with the published examples' wrapper, of one component of this type.
+Xml of_type(std::string const& type);
 
 // --- Parameters and commands ---
 
 struct Argument {
     std::string name;
     std::string type;
-    std::vector<std::string> values;  // as XML has them: what was read from a document must be escaped
+    std::vector<std::string> values;
 };
 
-std::vector<std::string> escaped(std::vector<std::string> texts);
 Argument speech_text(std::string const& text);
 Argument target_position(std::vector<std::string> const& positions);
 Argument time_limit(std::string const& milliseconds);
-std::string parameters(std::vector<Argument> const&);  // what set_parameter takes
+Xml parameters(std::vector<Argument> const&);  // what set_parameter takes
 
 struct Command {
     std::string component;
@@ -79,14 +84,14 @@ struct Command {
     std::optional<int> delay{};  // ms
 };
 
-std::string unit(Command const&);                              // of a sequence
-std::string pause(int delay);                                  // a unit that only delays
-std::string branch(std::vector<Command> const&);               // one after the other
-std::string command_list(Command const&);                      // a branch of the flat form
-std::string concurrent(std::string const& branches);           // the published parallel unit, of branches in either form
-std::string one_after_another(std::string const& units);       // the seed's sequential unit
-std::string side_by_side(std::string const& units);            // the seed's parallel unit
-std::string sequence(std::string const& units);                // what execute takes
+Xml unit(Command const&);                                      // of a sequence
+Xml pause(int delay);                                          // a unit that only delays
+Xml branch(std::vector<Command> const&);                       // one after the other
+Xml command_list(Command const&);                              // a branch of the flat form
+Xml concurrent(Xml const& branches);                           // the published parallel unit, of branches in either form
+Xml one_after_another(Xml const& units);                       // the seed's sequential unit
+Xml side_by_side(Xml const& units);                            // the seed's parallel unit
+Xml sequence(Xml const& units);                                // what execute takes
 std::vector<std::string> command_ids(Document const& answer);  // of an answer of execute, in document order
 
 }  // namespace rois::client

@@ -45,7 +45,7 @@ void WebSocketClient::send_raw(unsigned first_byte, std::string_view payload) {
     line().send(frame);
 }
 
-void WebSocketClient::ask(std::string const& operation, std::string const& children, std::string const& attributes) {
+void WebSocketClient::ask(std::string const& operation, Xml const& children, Attributes const& attributes) {
     send(request(operation, children, attributes));
 }
 
@@ -71,7 +71,7 @@ pugi::xml_node WebSocketClient::next_document() {
     return document_.document_element();
 }
 
-pugi::xml_node WebSocketClient::call(std::string const& operation, std::string const& children, std::string const& attributes) {
+pugi::xml_node WebSocketClient::call(std::string const& operation, Xml const& children, Attributes const& attributes) {
     ask(operation, children, attributes);
     auto const answer = next_document();
     if (operation == "connect") http_.session = answer.child("session").text().get();

@@ -35,13 +35,13 @@ public:
     // A whole masked frame. `first_byte` overrides FIN, RSV and opcode.
     void send(std::string_view payload, Kind = Kind::text);
     void send_raw(unsigned first_byte, std::string_view payload);
-    void ask(std::string const& operation, std::string const& children = "", std::string const& attributes = "");
+    void ask(std::string const& operation, Xml const& children = {}, Attributes const& attributes = {});
 
     Frame next();
     // The next text frame's root element; pings are passed over.
     pugi::xml_node next_document();
     // Asks, and gives what comes next.
-    pugi::xml_node call(std::string const& operation, std::string const& children = "", std::string const& attributes = "");
+    pugi::xml_node call(std::string const& operation, Xml const& children = {}, Attributes const& attributes = {});
     // The code with which the server closes, and ends the connection; other frames are passed over.
     int closes();
 

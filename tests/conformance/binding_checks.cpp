@@ -51,7 +51,7 @@ void references_mean_what_they_say(Stage& stage) {
     auto const& component = *stage.two_common().first;
     Guest guest{stage};
     guest.take(component);
-    auto const finds = [&](std::string const& filter) {
+    auto const finds = [&](client::Xml const& filter) {
         auto const found = guest.search(where(filter));
         return std::ranges::find(found, component.ref) != found.end();
     };

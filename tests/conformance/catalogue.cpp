@@ -4,6 +4,7 @@
 #include <cctype>
 #include <map>
 #include <regex>
+#include <sstream>
 #include <string_view>
 
 namespace rois::conformance {
@@ -27,6 +28,22 @@ std::vector<TypedName> typed_names(pugi::xml_node parent, char const* child) {
     return names;
 }
 
+// A common command that the profile has anew, and that cannot be given without knowing what it means.
+bool needs_arguments(Message const& command) {
+    static std::vector<std::string> const common{"start", "stop", "suspend", "resume"};
+    return std::ranges::find(common, command.name) != common.end() &&
+           std::ranges::any_of(command.arguments, [](TypedName const& argument) { return !argument.default_value; });
+}
+
+// The byte that "_x3A_" at the beginning of a text stands for; nothing when it stands for itself.
+std::optional<char> escaped_byte(std::string_view text) {
+    static constexpr std::string_view digits = "0123456789ABCDEF";
+    if (text.size() < 5 || !text.starts_with("_x") || text[4] != '_') return {};
+    auto const high = digits.find(text[2]), low = digits.find(text[3]);
+    if (high == digits.npos || low == digits.npos) return {};
+    return static_cast<char>(high << 4 | low);
+}
+
 void read_profile(Component& component, pugi::xml_node profile) {
     for (auto const message : profile.children("rois:MessageProfile")) {
         Message const read{message.attribute("rois:name").value(), typed_names(message, "rois:Results"),
@@ -39,7 +56,7 @@ void read_profile(Component& component, pugi::xml_node profile) {
     component.parameters = typed_names(profile, "rois:ParameterProfile");
     for (auto const sub : profile.children("rois:SubComponentProfile")) {
         if (!lower(sub.text().get()).ends_with("::roiscommon")) continue;
-        component.is_common = true;
+        component.is_common = std::ranges::none_of(component.commands, needs_arguments);
         if (!component.query("component_status"))
             component.queries.push_back({"component_status", {{"status", "Component_Status", {}}}, {}});
     }
@@ -64,22 +81,39 @@ ReadType read_type(std::string const& type) {
     return {found == shorter.end() ? item : found->second, is_list};
 }
 
-bool is_item(std::string const& type, std::string const& text) {
+// Without the white space around it, which counts for texts only (XML Schema, part 2: whiteSpace).
+std::string_view collapsed(std::string_view text) {
+    constexpr std::string_view space = " \t\r\n";
+    auto const begin = text.find_first_not_of(space);
+    return begin == text.npos ? std::string_view{} : text.substr(begin, text.find_last_not_of(space) + 1 - begin);
+}
+
+// A sign and any number of digits, in the range of the type.
+bool is_whole_number(std::string_view text) {
+    constexpr std::size_t most = 10;  // digits of 32 bits
+    bool const negative = text.starts_with('-');
+    if (!text.empty() && (negative || text.front() == '+')) text.remove_prefix(1);
+    if (text.empty() || text.find_first_not_of("0123456789") != text.npos) return false;
+    text.remove_prefix(std::min(text.find_first_not_of('0'), text.size()));
+    if (text.size() > most) return false;
+    auto const number = text.empty() ? 0 : std::stoll(std::string{text});
+    return number <= 2'147'483'647LL + (negative ? 1 : 0);
+}
+
+bool is_item(std::string const& type, std::string const& written) {
+    if (type == "roisidentifier") return !collapsed(written).empty();
     constexpr std::size_t longest = 100;  // of a number or a time; regular expressions recurse
-    if (text.size() > longest) return type == "string" || type == "roisidentifier";
-    static std::regex const whole_number{"[+-]?[0-9]{1,10}"};
-    static std::regex const number{"[+-]?([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][+-]?[0-9]+)?|[+-]?INF|NaN"};
-    static std::regex const truth{"true|false|0|1"};
-    static std::regex const time{"[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}([.][0-9]+)?Z"};
-    static std::regex const status{"UNINITIALIZED|READY|BUSY|WARNING|ERROR"};
-    static std::regex const stream_status{"STREAMING_(NOT_RUNNING|NOT_CONNECTED|RUNNING|SUSPENDED|RESUMED)"};
-    if (type == "int") return std::regex_match(text, whole_number);
-    if (type == "double") return std::regex_match(text, number);
-    if (type == "bool") return std::regex_match(text, truth);
-    if (type == "datetime") return std::regex_match(text, time);
-    if (type == "component_status") return std::regex_match(text, status);
-    if (type == "stream_status") return std::regex_match(text, stream_status);
-    return type != "roisidentifier" || !text.empty();
+    std::string const text{collapsed(written)};
+    if (type == "int") return is_whole_number(text);
+    static std::map<std::string, std::regex> const forms{
+        {"double", std::regex{"[+-]?([0-9]+([.][0-9]*)?|[.][0-9]+)([eE][+-]?[0-9]+)?|[+-]?INF|NaN"}},
+        {"bool", std::regex{"true|false|0|1"}},
+        {"datetime", std::regex{"[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}([.][0-9]+)?Z"}},
+        {"component_status", std::regex{"UNINITIALIZED|READY|BUSY|WARNING|ERROR"}},
+        {"stream_status", std::regex{"STREAMING_(NOT_RUNNING|NOT_CONNECTED|RUNNING|SUSPENDED|RESUMED)"}}};
+    auto const form = forms.find(type);
+    if (form == forms.end()) return true;
+    return text.size() > longest ? type == "double" : std::regex_match(text, form->second);
 }
 
 }  // namespace
@@ -111,6 +145,22 @@ std::string Component::detection() const {
     return kind.substr(0, kind.find("detection")) + "_detected";
 }
 
+std::string named_by(std::string_view gml_id) {
+    std::string name;
+    while (!gml_id.empty()) {
+        auto const byte = escaped_byte(gml_id);
+        name += byte.value_or(gml_id.front());
+        gml_id.remove_prefix(byte ? 5 : 1);
+    }
+    return name;
+}
+
+pugi::xml_node profile_of(pugi::xml_node answer, std::string const& ref) {
+    for (auto const profile : answer.children("rois:HRIComponentProfile"))
+        if (named_by(profile.attribute("gml:id").value()) == "profile." + ref) return profile;
+    return {};
+}
+
 Catalogue Catalogue::read(client::Document const& answer) {
     Catalogue catalogue;
     auto const root = answer.root();
@@ -120,8 +170,7 @@ Catalogue Catalogue::read(client::Document const& answer) {
         component.ref = node.attribute("ref").value();
         component.type = node.attribute("type").value();
         component.engine = node.attribute("engine").value();
-        auto const id = "profile." + component.ref;
-        read_profile(component, root.find_child_by_attribute("rois:HRIComponentProfile", "gml:id", id.c_str()));
+        read_profile(component, profile_of(root, component.ref));
         catalogue.components.push_back(std::move(component));
     }
     std::ranges::sort(catalogue.components, {}, &Component::ref);
@@ -133,15 +182,20 @@ Component const* Catalogue::find(std::string const& ref) const {
     return found == components.end() ? nullptr : &*found;
 }
 
+bool is_list_of_texts(std::string const& type) {
+    auto const [item, is_list] = read_type(type);
+    return is_list && item != "int" && item != "double" && item != "bool";
+}
+
 bool is_of_type(std::string const& type, std::vector<std::string> const& values) {
     auto const [item, is_list] = read_type(type);
     if (!is_list) return values.size() == 1 && is_item(item, values.front());
-    if (item != "int" && item != "double" && item != "bool")
+    if (is_list_of_texts(type))
         return std::ranges::all_of(values, [&item = item](auto const& value) { return is_item(item, value); });
     for (auto const& value : values) {
-        static std::regex const space{"\\s+"};
-        for (std::sregex_token_iterator word{value.begin(), value.end(), space, -1}, end; word != end; ++word)
-            if (word->length() > 0 && !is_item(item, *word)) return false;
+        std::istringstream words{value};
+        for (std::string word; words >> word;)
+            if (!is_item(item, word)) return false;
     }
     return true;
 }

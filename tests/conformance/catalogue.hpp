@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "client/vocabulary.hpp"
@@ -27,7 +28,7 @@ struct Component {
     std::string engine;
     std::vector<Message> commands, queries, events;
     std::vector<TypedName> parameters;
-    bool is_common = false;  // start, stop, suspend, resume and component_status (table 32)
+    bool is_common = false;  // start, stop, suspend and resume without arguments, and component_status (table 32)
 
     // What it is of the basic components: the end of its URN in lower case, "persondetection"; empty for others.
     std::string basic() const;
@@ -49,7 +50,16 @@ struct Catalogue {
     Component const* find(std::string const& ref) const;
 };
 
-// `text` is a value of this type (decision 26).
+// What a gml:id names: "_x3A_" in it stands for a byte (UTF-8) of a character that no name of XML has.
+std::string named_by(std::string_view gml_id);
+
+// The profile of the component `ref` in an answer of get_profile; null when there is none.
+pugi::xml_node profile_of(pugi::xml_node answer, std::string const& ref);
+
+// These are values of this type, in any form that XML Schema has for it (decision 26); a time is in UTC (decision 28).
 bool is_of_type(std::string const& type, std::vector<std::string> const& values);
+
+// Whether each of its items is a value of its own; numbers and bools stand in one.
+bool is_list_of_texts(std::string const& type);
 
 }  // namespace rois::conformance

@@ -38,7 +38,7 @@ void every_command_of_a_sequence_completes_once(Stage& stage) {
     auto const& component = *stage.two_common().first;
     Guest guest{stage};
     guest.take(component);
-    std::string units;
+    client::Xml units;
     for (int i = 0; i < 10; ++i) units += unit(command(component, "stop"));
     auto const ids = client::command_ids(ok(guest.execute(units)));
     require(ids.size() == 10, "ten commands should have ten ids, and have " + list(ids));

@@ -106,7 +106,7 @@ void parameters_set_and_read(Guest& guest, Component const& component) {
     std::vector<Argument> same_again;
     for (auto const& parameter : component.parameters)
         if (auto const found = values.find(parameter.name); found != values.end() && !found->second.empty())
-            same_again.push_back({parameter.name, parameter.type, client::escaped(found->second)});
+            same_again.push_back({parameter.name, parameter.type, found->second});
     same("set_parameter of what was read of " + component.ref, "OK",
          guest.status_of(ok(guest.set_parameter(component.ref, same_again)).text("command_id")));
     require(ok(guest.get_parameter(component.ref)).values("parameters") == values,

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <charconv>
 #include <sstream>
+#include <string_view>
+#include <vector>
 
 #include "conformance/stage.hpp"
 
@@ -18,7 +20,7 @@ using client::where;
 
 using Refs = std::vector<std::string>;
 
-Refs found(Guest& guest, std::string const& condition) {
+Refs found(Guest& guest, client::Xml const& condition) {
     auto refs = guest.search(condition);
     std::ranges::sort(refs);
     return refs;
@@ -76,12 +78,12 @@ void case_counts_unless_it_is_said_not_to(Stage& stage) {
     if (other == ref) throw NotPlayed{ref + " has no small letters"};
     auto const same_name = refs_of(stage, [&](Component const& component) { return component.ref == other; });
     auto const same_letters = refs_of(stage, [&](Component const& component) { return upper(component.ref) == other; });
-    auto filter = equal("component_ref", other);
+    auto const filter = equal("component_ref", other);
     same_refs("component_ref = " + other, same_name, found(guest, where(filter)));
-    filter.insert(filter.find('>'), " matchCase=\"true\"");
-    same_refs("component_ref = " + other + " with matchCase=\"true\"", same_name, found(guest, where(filter)));
-    filter.replace(filter.find("true"), 4, "false");
-    same_refs("component_ref = " + other + " with matchCase=\"false\"", same_letters, found(guest, where(filter)));
+    same_refs("component_ref = " + other + " with matchCase=\"true\"", same_name,
+              found(guest, where(filter.with("matchCase", "true"))));
+    same_refs("component_ref = " + other + " with matchCase=\"false\"", same_letters,
+              found(guest, where(filter.with("matchCase", "false"))));
 }
 
 // A parameter is null for whoever does not have it, and not for one that has just been given a value.
@@ -105,24 +107,51 @@ void what_has_no_value_is_null(Stage& stage) {
             dial.parameter + " of " + dial.component->ref + " has been set, and is null");
 }
 
+// Each character's bytes.
+std::vector<std::string_view> characters_of(std::string_view text) {
+    std::vector<std::string_view> characters;
+    for (std::size_t begin = 0; begin < text.size();) {
+        auto end = begin + 1;
+        while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) ++end;
+        characters.push_back(text.substr(begin, end - begin));
+        begin = end;
+    }
+    return characters;
+}
+
+// A part of a pattern that stands for itself.
+std::string as_letters(std::string_view text) {
+    std::string pattern;
+    for (char const c : text) {
+        if (c == '*' || c == '?' || c == '!') pattern += '!';
+        pattern += c;
+    }
+    return pattern;
+}
+
 void like_has_wildcards(Stage& stage) {
     Guest guest{stage};
     auto const& ref = stage.two_common().first->ref;
-    auto const tail = ref.substr(1), head = ref.substr(0, ref.size() - 1);
+    auto const first_size = characters_of(ref).front().size(), last_size = characters_of(ref).back().size();
+    auto const tail = ref.substr(first_size), head = ref.substr(0, ref.size() - last_size);
     auto const ends = refs_of(stage, [&](Component const& component) { return component.ref.ends_with(tail); });
     auto const begins = refs_of(stage, [&](Component const& component) { return component.ref.starts_with(head); });
-    auto const one_before = refs_of(
-        stage, [&](Component const& component) { return component.ref.size() == ref.size() && component.ref.ends_with(tail); });
-    same_refs("component_ref like *" + tail, ends, found(guest, where(client::like("component_ref", "*" + tail))));
-    same_refs("component_ref like " + head + "*", begins, found(guest, where(client::like("component_ref", head + "*"))));
-    same_refs("component_ref like ?" + tail, one_before, found(guest, where(client::like("component_ref", "?" + tail))));
-    same_refs("component_ref like !*" + tail, {}, found(guest, where(client::like("component_ref", "!*" + tail))));
+    auto const one_before = refs_of(stage, [&](Component const& component) {
+        bool const as_long = characters_of(component.ref).size() == characters_of(ref).size();
+        return as_long && component.ref.ends_with(tail);
+    });
+    auto const like = [&](std::string const& pattern) { return found(guest, where(client::like("component_ref", pattern))); };
+    same_refs("component_ref like *" + tail, ends, like("*" + as_letters(tail)));
+    same_refs("component_ref like " + head + "*", begins, like(as_letters(head) + "*"));
+    same_refs("component_ref like ?" + tail, one_before, like("?" + as_letters(tail)));
+    auto const starred = refs_of(stage, [&](Component const& component) { return component.ref == "*" + tail; });
+    same_refs("component_ref like !*" + tail, starred, like("!*" + as_letters(tail)));
 }
 
 void identifiers_choose_resources(Stage& stage) {
     Guest guest{stage};
     auto const& ref = stage.two_common().first->ref;
-    same_refs("ResourceId", {ref}, found(guest, where("<fes:ResourceId rid=\"" + ref + "\"/>")));
+    same_refs("ResourceId", {ref}, found(guest, where(client::element("fes:ResourceId", {{"rid", ref}}))));
 }
 
 void what_is_found_can_be_sorted(Stage& stage) {
@@ -142,11 +171,7 @@ void the_published_wrapper_is_read(Stage& stage) {
     Guest guest{stage};
     auto const& one = *stage.two_common().first;
     auto const due = refs_of(stage, [&](Component const& component) { return component.type == one.type; });
-    same_refs("unr:SearchCondition of the type " + one.type, due,
-              found(guest,
-                    "<condition><unr:SearchCondition xmlns:unr=\"http://www.irc.atr.jp/std/unr/0.1\">"
-                    "<unr:ComponentCondition type=\"" +
-                        one.type + "\"/></unr:SearchCondition></condition>"));
+    same_refs("unr:SearchCondition of the type " + one.type, due, found(guest, client::of_type(one.type)));
 }
 
 void what_is_not_understood_is_named(Stage& stage) {
@@ -154,9 +179,8 @@ void what_is_not_understood_is_named(Stage& stage) {
     auto const box = client::box("0 0", "1 1");
     refused(guest.ask("search", where(equal("colour", "red"))), "BAD_PARAMETER", "colour");
     refused(guest.ask("search", where(client::touching("location"))), "BAD_PARAMETER", "Touches");
-    refused(
-        guest.ask("search", where(client::related("DWithin", "location", box + "<fes:Distance uom=\"parsec\">1</fes:Distance>"))),
-        "BAD_PARAMETER", "parsec");
+    refused(guest.ask("search", where(client::related("DWithin", "location", box + client::distance("1", "parsec")))),
+            "BAD_PARAMETER", "parsec");
     refused(guest.ask("search", where(client::related("Within", "location", client::box("0 0", "1 1", "urn:nowhere")))),
             "BAD_PARAMETER", "urn:nowhere");
 }
@@ -178,28 +202,24 @@ public:
         timestamp = value_of(results, "timestamp");
     }
 
-    void holds(std::string const& filter) { expect(filter, true); }
-    void does_not_hold(std::string const& filter) { expect(filter, false); }
+    void holds(client::Xml const& filter) { expect(filter, true); }
+    void does_not_hold(client::Xml const& filter) { expect(filter, false); }
 
     int number = 0;
     std::string timestamp;
 
 private:
-    void expect(std::string const& filter, bool due) {
+    void expect(client::Xml const& filter, bool due) {
         bool const told = !ok(owner_.get_event_detail(id_, where(filter))).values().empty();
         require(told == due, "of a detection with the number " + std::to_string(number) + " at " + timestamp + ", this should " +
-                                 (due ? "" : "not ") + "hold: " + filter);
+                                 (due ? "" : "not ") + "hold: " + filter.text());
     }
 
     Guest owner_;
     std::string id_;
 };
 
-std::string number_between(int low, int high) {
-    return "<fes:PropertyIsBetween><fes:ValueReference>number</fes:ValueReference><fes:LowerBoundary><fes:Literal>" +
-           std::to_string(low) + "</fes:Literal></fes:LowerBoundary><fes:UpperBoundary><fes:Literal>" + std::to_string(high) +
-           "</fes:Literal></fes:UpperBoundary></fes:PropertyIsBetween>";
-}
+client::Xml number_between(int low, int high) { return client::between("number", std::to_string(low), std::to_string(high)); }
 
 void numbers_are_compared_as_numbers(Stage& stage) {
     Detection detection{stage};
@@ -220,18 +240,17 @@ void numbers_are_compared_as_numbers(Stage& stage) {
     detection.holds(contrary(client::is_null("number")));
 }
 
-std::string instant(std::string const& time) {
-    return "<gml:TimeInstant gml:id=\"t\"><gml:timePosition>" + time + "</gml:timePosition></gml:TimeInstant>";
+client::Xml instant(std::string const& time) {
+    return client::element("gml:TimeInstant", {{"gml:id", "t"}}, client::text_element("gml:timePosition", time));
 }
 
-std::string period(std::string const& begin, std::string const& end) {
-    return "<gml:TimePeriod gml:id=\"p\"><gml:beginPosition>" + begin + "</gml:beginPosition><gml:endPosition>" + end +
-           "</gml:endPosition></gml:TimePeriod>";
+client::Xml period(std::string const& begin, std::string const& end) {
+    return client::element("gml:TimePeriod", {{"gml:id", "p"}},
+                           client::text_element("gml:beginPosition", begin) + client::text_element("gml:endPosition", end));
 }
 
-std::string timed(std::string const& relation, std::string const& time) {
-    auto filter = client::related(relation, "timestamp", time);
-    return filter.insert(filter.find('>'), " xmlns:gml=\"http://www.opengis.net/gml/3.2\"");
+client::Xml timed(std::string const& relation, client::Xml const& time) {
+    return client::related(relation, "timestamp", time).with("xmlns:gml", "http://www.opengis.net/gml/3.2");
 }
 
 void times_are_compared_as_times(Stage& stage) {
@@ -252,13 +271,13 @@ struct Surroundings {
     Component const* system;
     double x, y;
 
-    std::string box_at(double dx) const {
+    client::Xml box_at(double dx) const {
         return client::box(std::to_string(x + dx - 5'000) + " " + std::to_string(y - 5'000),
                            std::to_string(x + dx + 5'000) + " " + std::to_string(y + 5'000));
     }
-    std::string point_at(double dx) const {
-        return "<gml:Point xmlns:gml=\"http://www.opengis.net/gml/3.2\"><gml:pos>" + std::to_string(x + dx) + " " +
-               std::to_string(y) + "</gml:pos></gml:Point>";
+    client::Xml point_at(double dx) const {
+        return client::element("gml:Point", {{"xmlns:gml", "http://www.opengis.net/gml/3.2"}},
+                               client::text_element("gml:pos", std::to_string(x + dx) + " " + std::to_string(y)));
     }
 };
 
@@ -276,11 +295,12 @@ Surroundings surroundings(Stage& stage, Guest& guest) {
 void space_chooses_components(Stage& stage) {
     Guest guest{stage};
     auto const here = surroundings(stage, guest);
-    auto const chooses = [&](std::string const& relation, std::string const& other, bool due) {
+    auto const chooses = [&](std::string const& relation, client::Xml const& other, bool due) {
         auto const filter = client::related(relation, "location", other);
         auto const refs = found(guest, where(filter));
-        require((std::ranges::find(refs, here.system->ref) != refs.end()) == due,
-                here.system->ref + " should " + (due ? "" : "not ") + "be found by " + filter + ", found is " + list(refs));
+        require(
+            (std::ranges::find(refs, here.system->ref) != refs.end()) == due,
+            here.system->ref + " should " + (due ? "" : "not ") + "be found by " + filter.text() + ", found is " + list(refs));
     };
     constexpr double far = 1e6;
     for (auto const* const relation : {"Within", "BBOX", "Intersects"}) {
@@ -291,7 +311,7 @@ void space_chooses_components(Stage& stage) {
     chooses("Disjoint", here.box_at(far), true);
     chooses("DWithin", here.point_at(0) + client::distance("5000"), true);
     chooses("DWithin", here.point_at(far) + client::distance("5000"), false);
-    chooses("DWithin", here.point_at(far) + "<fes:Distance uom=\"km\">1.1</fes:Distance>", true);
+    chooses("DWithin", here.point_at(far) + client::distance("1.1", "km"), true);
     chooses("Beyond", here.point_at(0) + client::distance("5000"), false);
     chooses("Beyond", here.point_at(far) + client::distance("5000"), true);
 }

@@ -15,7 +15,7 @@ public:
     explicit Watch(Stage& stage) : detector{stage.detector()}, owner{stage} { owner.take(detector); }
 
     std::string type() const { return detector.detection(); }
-    Document subscribe(Guest& guest, std::string const& condition = "", bool inline_results = false) const {
+    Document subscribe(Guest& guest, client::Xml const& condition = {}, bool inline_results = false) const {
         return ok(guest.subscribe(type(), condition.empty() ? only(detector) : condition, inline_results));
     }
     void detect() { owner.require_success(owner.order(command(detector, "start")), detector); }
@@ -127,8 +127,8 @@ void the_same_subscription_again_changes_nothing(Stage& stage) {
 void inline_results_are_taken_back(Stage& stage) {
     Watch watch{stage};
     watch.subscribe(watch.owner, "", true);
-    ok(watch.owner.ask("subscribe", "<event_type>" + watch.type() + "</event_type>" + only(watch.detector),
-                       "inline_results=\"false\""));
+    ok(watch.owner.ask("subscribe", client::text_element("event_type", watch.type()) + only(watch.detector),
+                       {{"inline_results", "false"}}));
     watch.detect();
     auto const event = watch.owner.hear_event(watch.type());
     require(!event.root().child("results"), "the last time, results were not asked for: " + event.whole());

@@ -9,12 +9,14 @@
 
 #include "client/line.hpp"
 #include "conformance/play.hpp"
+#include "types/texts.hpp"
 #include "xml/schemas.hpp"
 
 namespace {
 
 using rois::conformance::Order;
 using rois::conformance::Outcome;
+using rois::conformance::readable;
 
 constexpr int all_hold = 0, a_rule_is_broken = 1, no_answer = 2;
 
@@ -48,7 +50,8 @@ unsigned whole_number(std::string_view name, std::string_view text, unsigned mos
 void read_url(Order& order, std::string_view url) {
     constexpr std::string_view scheme = "http://";
     order.url = url;
-    if (!url.starts_with(scheme)) throw BadUsage{"the URL must begin with http://, and is " + order.url};
+    if (!rois::equal_ignoring_case(url.substr(0, scheme.size()), scheme))
+        throw BadUsage{"the URL must begin with http://, and is " + order.url};
     url.remove_prefix(scheme.size());
     if (url.ends_with('/')) url.remove_suffix(1);
     order.address.authority = url;
@@ -100,18 +103,30 @@ std::optional<CommandLine> read_command_line(std::span<char* const> arguments) {
     return line;
 }
 
+// Nothing when no file is asked for.
+template <class Write>
+void write_file(std::string const& name, Write const& write) {
+    if (name.empty()) return;
+    std::ofstream file{name};
+    write(file);
+    if (!file.flush()) throw std::runtime_error{"the report cannot be written to " + name};
+}
+
 int play(CommandLine const& line) {
     if (!is_any_asked_for(line.order)) throw std::runtime_error{"no check has \"" + line.order.only + "\" in its name (--only)"};
     // Told before anything is played; what an older report says is left until then.
     if (!line.report.empty() && !std::ofstream{line.report, std::ios::app})
         throw std::runtime_error{"the report cannot be written to " + line.report};
-    auto const report = rois::conformance::play(line.order);
-    write_text(std::cout, report);
-    if (!line.report.empty()) {
-        std::ofstream file{line.report};
-        write_junit(file, report);
-        if (!file.flush()) throw std::runtime_error{"the report cannot be written to " + line.report};
+    rois::conformance::Report report;
+    try {
+        report = rois::conformance::play(line.order);
+    } catch (std::exception const& reason) {  // LineEnded, or a document that is none
+        auto const why = std::string{"the gateway does not answer: "} + reason.what();
+        write_file(line.report, [&](std::ostream& file) { rois::conformance::write_junit_error(file, line.order.url, why); });
+        throw std::runtime_error{why};
     }
+    write_text(std::cout, report);
+    write_file(line.report, [&](std::ostream& file) { write_junit(file, report); });
     return report.count(Outcome::broken) == 0 ? all_hold : a_rule_is_broken;
 }
 
@@ -125,11 +140,9 @@ int main(int count, char** arguments) {
         std::cout << usage;
         return all_hold;
     } catch (BadUsage const& bad) {
-        std::cerr << "rois-conformance: " << bad.what() << "\n\n" << usage;
-    } catch (rois::client::LineEnded const& ended) {
-        std::cerr << "rois-conformance: the gateway does not answer: " << ended.what() << "\n";
+        std::cerr << "rois-conformance: " << readable(bad.what()) << "\n\n" << usage;
     } catch (std::exception const& reason) {
-        std::cerr << "rois-conformance: " << reason.what() << "\n";
+        std::cerr << "rois-conformance: " << readable(reason.what()) << "\n";
     }
     return no_answer;
 }

@@ -1,6 +1,8 @@
 // Profiles (7.4.1.1, figure 6; 7.5, tables 24 to 30) and errors (7.4.1.2, figure 7).
 #include <algorithm>
+#include <iterator>
 #include <set>
+#include <sstream>
 
 #include "conformance/stage.hpp"
 
@@ -30,7 +32,7 @@ std::vector<std::string> profiles_in(Document const& answer) {
     static std::string const begin = "profile.";
     std::vector<std::string> refs;
     for (auto const profile : answer.root().children("rois:HRIComponentProfile")) {
-        std::string const id = profile.attribute("gml:id").value();
+        auto const id = named_by(profile.attribute("gml:id").value());
         refs.push_back(id.starts_with(begin) ? id.substr(begin.size()) : id);
     }
     std::ranges::sort(refs);
@@ -63,9 +65,8 @@ void each_component_has_a_profile(Stage& stage) {
     auto const answer = ok(guest.ask("get_profile"));
     for (auto const component : answer.root().child("components").children("component")) {
         std::string const ref = component.attribute("ref").value();
-        auto const id = "profile." + ref;
-        auto const profile = answer.root().find_child_by_attribute("rois:HRIComponentProfile", "gml:id", id.c_str());
-        require(static_cast<bool>(profile), "there is no HRIComponentProfile with the gml:id " + id);
+        auto const profile = profile_of(answer.root(), ref);
+        require(static_cast<bool>(profile), "there is no HRIComponentProfile with the gml:id profile." + ref);
         same("the type of " + ref, component.attribute("type").value(), profile.child("gml:identifier").text().get());
     }
 }
@@ -114,13 +115,12 @@ void profiles_are_served_as_documents(Stage& stage) {
     Guest guest{stage};
     auto const told = ok(guest.ask("get_profile"));
     for (auto const& ref : refs_of(stage.catalogue())) {
-        auto const path = "/rois/profile/" + ref;
+        auto const path = "/rois/profile/" + client::path_segment(ref);
         auto const reply = client.get(path);
         require(reply.status == 200, path + " answers with " + std::to_string(reply.status));
         stage.traffic().validate(reply.body);
-        same("the gml:id at " + path, "profile." + ref, reply.root().attribute("gml:id").value());
-        auto const profile =
-            told.root().find_child_by_attribute("rois:HRIComponentProfile", "gml:id", ("profile." + ref).c_str());
+        same("the gml:id at " + path, "profile." + ref, named_by(reply.root().attribute("gml:id").value()));
+        auto const profile = profile_of(told.root(), ref);
         same("what is at " + path, list(contents_of(profile)), list(contents_of(reply.root())));
     }
     same("the fault at a component that is not there", "not_found", client.get("/rois/profile/nobody").fault());
@@ -129,7 +129,7 @@ void profiles_are_served_as_documents(Stage& stage) {
 void documents_are_told_apart_by_etag(Stage& stage) {
     client::HttpClient client{stage.address()};
     std::vector<std::string> paths{"/rois/profile"};
-    for (auto const& ref : refs_of(stage.catalogue())) paths.push_back("/rois/profile/" + ref);
+    for (auto const& ref : refs_of(stage.catalogue())) paths.push_back("/rois/profile/" + client::path_segment(ref));
     for (auto const& path : paths) {
         auto const etag = client.get(path).header("ETag");
         require(!etag.empty(), path + " has no ETag");
@@ -154,11 +154,18 @@ void profiles_name_data_types(Stage& stage) {
     }
 }
 
+// Of a list of texts, those between the white space.
+std::vector<std::string> default_values(TypedName const& one) {
+    if (!is_list_of_texts(one.type)) return {*one.default_value};
+    std::istringstream words{*one.default_value};
+    return {std::istream_iterator<std::string>{words}, {}};
+}
+
 void default_values_are_of_their_types(Stage& stage) {
     for (auto const& component : stage.catalogue().components) {
         auto const typed = [&](std::vector<TypedName> const& names) {
             for (auto const& one : names)
-                if (one.default_value && !is_of_type(one.type, {*one.default_value}))
+                if (one.default_value && !is_of_type(one.type, default_values(one)))
                     throw Broken{"the default value of " + one.name + " of " + component.ref + " is \"" + *one.default_value +
                                  "\", its type is " + one.type};
         };

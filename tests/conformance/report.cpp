@@ -3,14 +3,42 @@
 #include <algorithm>
 #include <pugixml.hpp>
 
+#include "types/texts.hpp"
+#include "xml/characters.hpp"
+
 namespace rois::conformance {
 
 namespace {
 
 constexpr std::size_t longest_text = 1'000;  // of a line; a whole profile says no more
 
+constexpr std::string_view replacement = "\uFFFD";
+
+// Characters of XML, on one line and without those that move a terminal's cursor.
+void append_shown(std::string& clean, std::string_view text) {
+    while (!text.empty()) {
+        auto const rest = text;
+        auto const character = *take_character(text);
+        if (character == U'\n' || character == U'\r' || character == U'\t') {
+            clean += ' ';
+        } else if (character >= 0x7F && character <= 0x9F) {
+            clean += replacement;
+        } else {
+            clean.append(rest.substr(0, rest.size() - text.size()));
+        }
+    }
+}
+
 std::string shortened(std::string const& text) {
     return text.size() <= longest_text ? text : text.substr(0, longest_text) + " ...";
+}
+
+// The only way into the text: a line of its own for each thing that is said, whatever a gateway has put into it.
+void write_line(std::ostream& out, std::string const& line) { out << readable(line) << "\n"; }
+
+// The only way into the document.
+void add_attribute(pugi::xml_node element, char const* name, std::string const& text) {
+    element.append_attribute(name) = readable(text).c_str();
 }
 
 char const* word(Outcome outcome) {
@@ -37,12 +65,12 @@ std::size_t count_in(Chapter const& chapter, Outcome outcome) {
 
 void add_case(pugi::xml_node suite, Chapter const& chapter, Finding const& finding) {
     auto test = suite.append_child("testcase");
-    test.append_attribute("name") = titled(finding).c_str();
-    test.append_attribute("classname") = (chapter.title + " (" + finding.proves + ")").c_str();
+    add_attribute(test, "name", titled(finding));
+    add_attribute(test, "classname", chapter.title + " (" + finding.proves + ")");
     test.append_attribute("time") = finding.seconds;
     if (finding.outcome == Outcome::holds) return;
-    auto why = test.append_child(finding.outcome == Outcome::broken ? "failure" : "skipped");
-    why.append_attribute("message") = shortened(finding.text).c_str();
+    add_attribute(test.append_child(finding.outcome == Outcome::broken ? "failure" : "skipped"), "message",
+                  shortened(finding.text));
 }
 
 }  // namespace
@@ -53,32 +81,59 @@ std::size_t Report::count(Outcome outcome) const {
     return all;
 }
 
+std::string readable(std::string_view text) {
+    std::string clean;
+    while (auto const bad = xml::first_bad_character(text)) {
+        append_shown(clean, text.substr(0, bad->offset));
+        clean += replacement;
+        text.remove_prefix(bad->offset + bad->length);
+    }
+    append_shown(clean, text);
+    return clean;
+}
+
 void write_text(std::ostream& out, Report const& report) {
-    out << report.gateway << "\n";
+    write_line(out, report.gateway);
     for (auto const& chapter : report.chapters) {
-        out << "\n" << chapter.title << "\n";
+        out << "\n";
+        write_line(out, chapter.title);
         for (auto const& finding : chapter.findings) {
-            out << "  " << word(finding.outcome) << titled(finding) << " (" << finding.proves << ")\n";
-            if (finding.outcome != Outcome::holds) out << "             " << shortened(finding.text) << "\n";
+            write_line(out, "  " + std::string{word(finding.outcome)} + titled(finding) + " (" + finding.proves + ")");
+            if (finding.outcome != Outcome::holds) write_line(out, "             " + shortened(finding.text));
         }
     }
-    out << "\n"
-        << number(report.count(Outcome::holds), "check") << " held, " << report.count(Outcome::broken) << " found a broken rule, "
-        << report.count(Outcome::not_played) << " could not be played.\n";
+    out << "\n";
+    write_line(out, number(report.count(Outcome::holds), "check") + " held, " + std::to_string(report.count(Outcome::broken)) +
+                        " found a broken rule, " + std::to_string(report.count(Outcome::not_played)) + " could not be played.");
 }
 
 void write_junit(std::ostream& out, Report const& report) {
     pugi::xml_document document;
     auto suites = document.append_child("testsuites");
-    suites.append_attribute("name") = report.gateway.c_str();
+    add_attribute(suites, "name", report.gateway);
     for (auto const& chapter : report.chapters) {
         auto suite = suites.append_child("testsuite");
-        suite.append_attribute("name") = chapter.title.c_str();
+        add_attribute(suite, "name", chapter.title);
         suite.append_attribute("tests") = chapter.findings.size();
         suite.append_attribute("failures") = count_in(chapter, Outcome::broken);
         suite.append_attribute("skipped") = count_in(chapter, Outcome::not_played);
         for (auto const& finding : chapter.findings) add_case(suite, chapter, finding);
     }
+    document.save(out, "  ");
+}
+
+void write_junit_error(std::ostream& out, std::string const& gateway, std::string const& why) {
+    pugi::xml_document document;
+    auto suites = document.append_child("testsuites");
+    add_attribute(suites, "name", gateway);
+    auto suite = suites.append_child("testsuite");
+    add_attribute(suite, "name", "rois-conformance");
+    suite.append_attribute("tests") = 1;
+    suite.append_attribute("errors") = 1;
+    auto test = suite.append_child("testcase");
+    add_attribute(test, "name", "the_gateway_can_be_judged");
+    add_attribute(test, "classname", "rois-conformance");
+    add_attribute(test.append_child("error"), "message", shortened(why));
     document.save(out, "  ");
 }
 

@@ -3,6 +3,7 @@
 
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rois::conformance {
@@ -31,7 +32,13 @@ struct Report {
     std::size_t count(Outcome) const;
 };
 
+// All that is written is readable, whatever a gateway has answered.
 void write_text(std::ostream&, Report const&);
 void write_junit(std::ostream&, Report const&);
+// The report of a gateway that could not be judged.
+void write_junit_error(std::ostream&, std::string const& gateway, std::string const& why);
+
+// On one line, with U+FFFD for what is no text: bytes that are not UTF-8, control characters.
+std::string readable(std::string_view);
 
 }  // namespace rois::conformance

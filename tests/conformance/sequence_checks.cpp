@@ -33,7 +33,7 @@ public:
     Command failing(std::size_t number) const { return command(*pair_.first, "resume", names[number]); }
 
     // Plays the units until this command completes, and requires this history: "0 OK", "2 ABORT".
-    void play(std::string const& units, std::size_t last, std::vector<std::string> const& expected) {
+    void play(client::Xml const& units, std::size_t last, std::vector<std::string> const& expected) {
         ok(guest.execute(units));
         guest.status_of(names[last]);
         std::vector<std::string> heard;

@@ -6,7 +6,7 @@ namespace rois::conformance {
 
 namespace {
 
-using Operations = std::vector<std::pair<std::string, std::string>>;
+using Operations = std::vector<std::pair<std::string, client::Xml>>;
 
 // Each operation that needs a session, with children that are valid.
 Operations operations_in_a_session(Stage const& stage) {
@@ -136,10 +136,13 @@ void connect_with_an_unknown_session_opens_a_new_one(Stage& stage) {
     same("the header RoIS-Session", client.session, reply.header("RoIS-Session"));
 }
 
+// What `resume` asks for: all of this session.
+client::Attributes resuming(std::string const& session) { return {{"session", session}, {"last_sequence", "0"}}; }
+
 void resume_is_for_websockets(Stage& stage) {
     client::HttpClient client{stage.address()};
     client.call("connect");
-    auto const reply = client.call("resume", "", "session=\"" + client.session + "\" last_sequence=\"0\"");
+    auto const reply = client.call("resume", {}, resuming(client.session));
     same("the fault", "not_allowed", reply.fault());
 }
 
@@ -151,7 +154,7 @@ void a_session_can_be_resumed(Stage& stage) {
     auto const session = first.session();
     auto const bound =
         std::string{first.call("bind", client::component_ref(dial.component->ref)).attribute("return_code").value()};
-    auto const resume = [&] { return second.call("resume", "", "session=\"" + session + "\" last_sequence=\"0\""); };
+    auto const resume = [&] { return second.call("resume", {}, resuming(session)); };
     if (bound != "OK") throw NotPlayed{"another application uses " + dial.component->ref};
     auto const set = client::component_ref(dial.component->ref) + client::parameters({});
     first.call("set_parameter", set);
@@ -168,7 +171,7 @@ void a_session_can_be_resumed(Stage& stage) {
 
 void an_unknown_session_cannot_be_resumed(Stage& stage) {
     client::WebSocketClient client{stage.address()};
-    auto const answer = client.call("resume", "", "session=\"nobody\" last_sequence=\"0\"");
+    auto const answer = client.call("resume", {}, resuming("nobody"));
     same("the fault", "no_session", answer.attribute("code").value());
 }
 

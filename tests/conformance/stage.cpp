@@ -109,7 +109,7 @@ Keeping::~Keeping() {
             auto const before = before_.find(name);
             auto const after = now.find(name);
             if (before == before_.end() || (after != now.end() && after->second == before->second)) continue;
-            guest_.set_parameter(component_.ref, {{name, type, client::escaped(before->second)}});
+            guest_.set_parameter(component_.ref, {{name, type, before->second}});
         }
     } catch (std::exception const&) {
         // The gateway does not answer any more, which the check has said.
@@ -216,7 +216,7 @@ void Guest::check_event(Document const& event) {
 void Guest::ask_for_details() {
     if (!is_connected()) return;
     for (auto const& id : std::exchange(errors_, {})) {
-        auto const answer = ask("get_error_detail", "<error_id>" + id + "</error_id>");
+        auto const answer = ask("get_error_detail", client::text_element("error_id", id));
         auto const details = answer.values();
         stage_.traffic().see("errors_have_details",
                              answer.return_code() == "OK" && details.contains("component_ref") && details.contains("time") &&
@@ -241,11 +241,10 @@ Command long_speech(Component const& speaker, std::string const& id) {
     std::string words, pauses;
     for (int i = 0; i < 200; ++i) {
         words += "This is a long speech. ";
-        pauses += "This is it. &lt;break time=\"60s\"/&gt;";
+        pauses += "This is it. <break time=\"60s\"/>";
     }
     if (!reads_ssml) return {.component = speaker.ref, .id = id, .arguments = {client::speech_text(words)}};
-    auto const ssml =
-        "&lt;speak version=\"1.0\" xmlns=\"http://www.w3.org/2001/10/synthesis\" xml:lang=\"en\"&gt;" + pauses + "&lt;/speak&gt;";
+    auto const ssml = R"(<speak version="1.0" xmlns="http://www.w3.org/2001/10/synthesis" xml:lang="en">)" + pauses + "</speak>";
     return {.component = speaker.ref, .id = id, .arguments = {{"SSML_text", "string", {ssml}}}};
 }
 
@@ -257,7 +256,7 @@ Command command(Component const& component, std::string const& type, std::string
     return {.component = component.ref, .type = type, .id = id, .delay = delay};
 }
 
-std::string only(Component const& component) { return client::where(client::equal("component_ref", component.ref)); }
+client::Xml only(Component const& component) { return client::where(client::equal("component_ref", component.ref)); }
 
 std::string unique_name() {
     static unsigned names = 0;

@@ -128,7 +128,7 @@ Argument turned(Dial const&, int value);
 Command long_speech(Component const& speaker, std::string const& id);
 Command short_speech(Component const& speaker, std::string const& id);
 Command command(Component const&, std::string const& type, std::string const& id = "", std::optional<int> delay = {});
-std::string only(Component const&);  // a condition
+client::Xml only(Component const&);  // a condition
 std::string unique_name();           // an id that no other application gives
 
 }  // namespace rois::conformance

@@ -28,17 +28,15 @@ public:
     }
 
     Document execute(std::string const& type, std::string const& id) {
-        return owner.execute(
-            {.component = streamer.ref, .type = type, .arguments = {{"stream_id", "string", client::escaped({id})}}});
+        return owner.execute({.component = streamer.ref, .type = type, .arguments = {{"stream_id", "string", {id}}}});
     }
     void order(std::string const& type) {
         same("the status of " + type, "OK",
              owner.status_of(first("a command in the answer", client::command_ids(ok(execute(type, stream))))));
     }
     Document asked() {
-        return owner.query("get_stream_status",
-                           client::where(client::both(client::equal("component_ref", streamer.ref),
-                                                      client::equal("stream_id", first("a text", client::escaped({stream}))))));
+        return owner.query("get_stream_status", client::where(client::both(client::equal("component_ref", streamer.ref),
+                                                                           client::equal("stream_id", stream))));
     }
     std::string status() { return one(ok(asked()).values(), "status"); }
 

@@ -39,7 +39,7 @@ void requests_are_answered_in_order(Stage& stage) {
     WebSocketClient client{stage.address()};
     client.call("connect");
     constexpr int count = 10;
-    for (int i = 0; i < count; ++i) client.ask("search", "", "request_id=\"" + std::to_string(i) + "\"");
+    for (int i = 0; i < count; ++i) client.ask("search", "", {{"request_id", std::to_string(i)}});
     for (int i = 0; i < count; ++i) same("request_id", std::to_string(i), attribute(client.next_document(), "request_id"));
 }
 
@@ -74,7 +74,7 @@ void closes_with(WebSocketClient& client, int code) {
 void resume_closes_the_older_one(Stage& stage) {
     WebSocketClient older{stage.address()}, newer{stage.address()};
     older.call("connect");
-    auto const answer = newer.call("resume", "", "session=\"" + older.session() + "\" last_sequence=\"0\"");
+    auto const answer = newer.call("resume", {}, {{"session", older.session()}, {"last_sequence", "0"}});
     same("the answer of resume", "OK", attribute(answer, "return_code"));
     closes_with(older, 1008);
     same("the answer of search", "OK", attribute(newer.call("search"), "return_code"));

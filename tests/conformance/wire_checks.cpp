@@ -43,7 +43,7 @@ void what_is_not_valid_is_refused_with_its_place(Stage& stage) {
     invalid(client::request("connect", "<nonsense/>"));
     invalid(client::request("bind", "<component_ref/>"));
     invalid(client::request("bind"));
-    invalid(client::request("connect", "", "colour=\"red\""));
+    invalid(client::request("connect", {}, {{"colour", "red"}}));
 }
 
 void a_fault_says_where(Stage& stage) {
@@ -144,7 +144,7 @@ void documents_are_application_xml(Stage& stage) {
     is_xml("a list of notifications", client.notifications(0, 0));
     is_xml("the engine's profile", client.get("/rois/profile"));
     for (auto const& component : stage.catalogue().components)
-        is_xml("the profile of " + component.ref, client.get("/rois/profile/" + component.ref));
+        is_xml("the profile of " + component.ref, client.get("/rois/profile/" + client::path_segment(component.ref)));
 }
 
 void every_operation_is_answered_with_200(Stage& stage) {

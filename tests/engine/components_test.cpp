@@ -75,6 +75,65 @@ TEST(UserDefined, CommandsGetTheDefaultsOfTheirProfile) {
     EXPECT_EQ(in_words(desk.get_parameter("blinker").parameters), "colours=red|green");
 }
 
+TEST(UserDefined, StartTakesTheArgumentsOfItsProfile) {
+    auto lamp = blinking_lamp();
+    ParameterProfile const times{.name = "times",
+                                 .data_type_ref = {.code = "int", .authority = {}, .codebook_ref = {}, .version = {}},
+                                 .default_value = {},
+                                 .description = {}};
+    auto slowly = times;
+    slowly.name = "slowly";
+    slowly.default_value = "1";
+    lamp.profile.messages.push_back(
+        {.kind = MessageKind::command, .name = "start", .results = {}, .arguments = {times, slowly}, .timeout = {}});
+    World world{lamp};
+    auto desk = world.connect();
+    desk.bind("blinker");
+    EXPECT_THAT(desk.execute(start("blinker")).reason, HasSubstr("the argument 'times' is missing"));
+    EXPECT_THAT(desk.execute(start("blinker", {text("times", "often")})).reason, HasSubstr("its type is int"));
+    EXPECT_THAT(desk.execute(start("blinker", {integer("speed", 3)})).reason,
+                HasSubstr("unknown parameter 'speed'; known are times, slowly, colours"));
+    EXPECT_EQ(desk.execute(start("blinker", {integer("times", 3), value("colours", "string[]", {"blue"})})).return_code,
+              ReturnCode::ok);
+    EXPECT_EQ(in_words(world["blinker"].started_with), "times=3 slowly=1 colours=blue");
+    EXPECT_EQ(in_words(desk.get_parameter("blinker").parameters), "colours=blue") << "what is no parameter is not stored";
+    EXPECT_EQ(desk.set_parameter("blinker", {integer("times", 3)}).return_code, ReturnCode::bad_parameter);
+}
+
+TEST(UserDefined, TellsWhatItReadsAsItsProfileHasIt) {
+    auto const with = [](std::string name, std::string type, std::optional<std::string> default_value) {
+        auto part = named("speech", speech);
+        part.profile.messages = {
+            {.kind = MessageKind::query,
+             .name = "get_parameter",
+             .results = {{.name = "mood",
+                          .data_type_ref = {.code = "string[]", .authority = {}, .codebook_ref = {}, .version = {}},
+                          .default_value = {},
+                          .description = {}}},
+             .arguments = {},
+             .timeout = {}}};
+        part.profile.parameters = {
+            {.name = std::move(name),
+             .data_type_ref = {.code = std::move(type), .authority = {}, .codebook_ref = {}, .version = {}},
+             .default_value = std::move(default_value),
+             .description = {}}};
+        return part;
+    };
+    {
+        World world{with("Synthesizable_Languages", "string[]", {})};
+        auto desk = world.connect();
+        desk.bind("speech");
+        EXPECT_EQ(in_words(desk.get_parameter("speech").parameters), "Synthesizable_Languages=en|ja");
+        desk.set_parameter("speech", {value("synthesizable_languages", "string[]", {"de"})});
+        EXPECT_EQ(in_words(desk.get_parameter("speech").parameters), "Synthesizable_Languages=de") << "what was set, and once";
+    }
+    World world{with("synthesizable_languages", "int", {})};
+    auto desk = world.connect();
+    desk.bind("speech");
+    EXPECT_EQ(desk.get_parameter("speech").return_code, ReturnCode::error);
+    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR speech"));
+}
+
 TEST(UserDefined, EventsAndResultsAreHeldAgainstTheirProfile) {
     World world{blinking_lamp()};
     auto desk = world.connect();

@@ -228,6 +228,11 @@ TEST_F(Errors, InReadingParametersAreTheAnswer) {
     EXPECT_THAT(desk.heard(), Contains("1 COMPONENT_INTERNAL_ERROR navigation"));
 }
 
+TEST_F(Errors, AParameterThatTheProfileDoesNotKnowIsNotTold) {
+    robot.throws_in = {"more than is known"};
+    EXPECT_EQ(in_words(desk.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time");
+}
+
 TEST_F(Errors, InTheLastWordOfAStopLeaveItAnAbort) {
     robot.throws_in = {"status_when_stopped"};
     desk.execute(go("go"));

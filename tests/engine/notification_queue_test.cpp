@@ -14,7 +14,7 @@ namespace {
 
 // A queue of at most four that wait and three that were sent; events are "e", commands "c", as in "2 e" or "5 lost 3".
 struct Queue : testing::Test {
-    explicit Queue(std::size_t max_sent = 3) : queue{4, max_sent} {}
+    explicit Queue(std::size_t max_sent = 3) : queue{SessionId{"session"}, 4, max_sent} {}
 
     NotificationQueue queue;
 
@@ -242,7 +242,7 @@ TEST_F(Queue, SaysWhetherAHoldHasHiddenSomething) {
 // The engine does not wait for readers, nor they for the engine.
 TEST(QueueOnTwoThreads, IsReadWhileItIsFilled) {
     constexpr std::uint64_t count = 20'000;
-    NotificationQueue queue{count, 10};
+    NotificationQueue queue{SessionId{"session"}, count, 10};
     std::jthread const engine{[&] {
         auto const same = std::make_shared<OutgoingNotification const>(Completed{});
         for (std::uint64_t i = 0; i < count; ++i) queue.push(same);

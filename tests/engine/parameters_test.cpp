@@ -69,6 +69,11 @@ TEST_F(Lamp, TakesEveryType) {
     EXPECT_EQ(set(value("shade", "shade", {"anything"})), "OK");
 }
 
+TEST_F(Lamp, TellsTimesInUtc) {
+    EXPECT_EQ(set(value("since", "DateTime", {" 2026-11-20T12:00:00.5+01:00"})), "OK");
+    EXPECT_EQ(stored(), "since=2026-11-20T11:00:00.5Z counts=1 2 labels=red|green");
+}
+
 TEST_F(Lamp, RefusesTextsThatAreNotOfTheType) {
     EXPECT_EQ(set(value("count", "int", {"many"})), "parameter 'count': 'many' is not of the type int");
     EXPECT_EQ(set(value("count", "int", {"2147483648"})), "parameter 'count': '2147483648' is not of the type int");

@@ -65,7 +65,10 @@ ComponentProfile navigation_profile() {
 }
 
 ComponentProfile speech_profile() {
-    return profile("SpeechSynthesis", {command("start", {}, {}, std::chrono::seconds{2})},
+    return profile("SpeechSynthesis",
+                   {command("start", {}, {}, std::chrono::seconds{2}),
+                    query("get_parameter", {parameter("synthesizable_languages", "string[]"), parameter("volume", "int"),
+                                            parameter("language", "string")})},
                    {parameter("speech_text", "string"), parameter("SSML_text", "string"), parameter("volume", "int", "50"),
                     parameter("language", "string", "en")});
 }
@@ -230,6 +233,7 @@ std::optional<Located> ScriptedComponent::location() const {
 
 ParameterList ScriptedComponent::readable_parameters() const {
     called("readable_parameters");
+    if (throws_in.contains("more than is known")) return {texts("mood", {"good"})};
     if (part_.ref != speech.ref) return {};
     return {texts("synthesizable_languages", {"en", "ja"})};
 }

@@ -15,9 +15,12 @@ constexpr std::ptrdiff_t longest_file = 500;  // lines
 constexpr auto dependencies = "docs/dependencies.md";
 
 bool is_document(std::string_view file) {
-    if (file == "README.md" || file == "ARCHITECTURE.md" || file == "CONTRIBUTING.md") return true;
+    if (file == "ARCHITECTURE.md" || file == "CONTRIBUTING.md") return true;
+    if (file == "README.md" || (file.starts_with("web/") && file.ends_with("/README.md"))) return true;
     return file.starts_with("docs/") && file.ends_with(".md") && file.find('/', 5) == file.npos;
 }
+
+bool is_source(std::string_view file) { return is_cpp(file) || file.ends_with(".ts") || file.ends_with(".py"); }
 
 bool exists(Tree const& tree, std::string path) {
     while (path.ends_with('/')) path.pop_back();
@@ -50,13 +53,32 @@ void judge_name(Tree const& tree, std::string const& where, std::string const& n
         complaints.push_back(where + dependencies + " does not name `" + name + "`");
 }
 
+// The packages of a package.json's devDependencies, and of dependencies if there are any.
+void judge_manifest(Tree const& tree, std::string const& file, std::string const& text, Complaints& complaints) {
+    static std::regex const list(R"re(^\s*"(dev|peer|optional)?[dD]ependencies"\s*:.*)re");
+    static std::regex const entry(R"re(^\s*"([^"]+)"\s*:\s*"[^"]*",?\s*)re");
+    bool inside = false;
+    for_each_line(text, [&](std::string const& line, std::size_t number) {
+        std::smatch match;
+        if (inside && std::regex_match(line, match, entry)) judge_name(tree, at(file, number), match[1], complaints);
+        inside = std::regex_match(line, list) || (inside && line.find('}') == line.npos);
+    });
+}
+
+// Where packages come from is npm's default, or what whoever installs them has configured.
+void judge_lock(std::string const& file, std::string const& text, Complaints& complaints) {
+    for_each_line(text, [&](std::string const& line, std::size_t number) {
+        if (line.find("\"resolved\": \"http") != line.npos) complaints.push_back(at(file, number) + "a lock file names no host");
+    });
+}
+
 }  // namespace
 
 Complaints against_short_files(Tree const& tree) {
     Complaints complaints;
     for (auto const& [file, text] : tree) {
         auto const lines = std::ranges::count(text, '\n');
-        if (is_cpp(file) && lines > longest_file)
+        if (is_source(file) && lines > longest_file)
             complaints.push_back(at(file, longest_file + 1) + "has " + std::to_string(lines) + " lines, more than " +
                                  std::to_string(longest_file));
     }
@@ -79,17 +101,28 @@ Complaints against_links(Tree const& tree) {
     return complaints;
 }
 
+namespace {
+
+// Those that the project installs itself, whose tests look for them.
+bool is_our_package(Tree const& tree, std::string const& name) {
+    return std::ranges::any_of(tree, [&](auto const& file) { return file.first.ends_with("/" + name + "Config.cmake.in"); });
+}
+
+}  // namespace
+
 Complaints against_named_dependencies(Tree const& tree) {
     static std::regex const found_by_cmake(R"re(^\s*find_package\(\s*([^\s)]+).*)re");
     static std::regex const installed_by_dev(R"re(^(?:build|test|check|bench)\s+([a-z0-9][a-z0-9.+-]+)\s+\S.*)re");
     Complaints complaints;
     for (auto const& [file, text] : tree) {
+        if (file.ends_with("/package.json")) judge_manifest(tree, file, text, complaints);
+        if (file.ends_with("/package-lock.json")) judge_lock(file, text, complaints);
         bool const by_cmake = file == "CMakeLists.txt" || file.ends_with("/CMakeLists.txt") || file.ends_with(".cmake");
         if (!by_cmake && file != "dev") continue;
         for_each_line(text, [&](std::string const& line, std::size_t number) {
             std::smatch match;
-            if (std::regex_match(line, match, by_cmake ? found_by_cmake : installed_by_dev))
-                judge_name(tree, at(file, number), match[1], complaints);
+            if (!std::regex_match(line, match, by_cmake ? found_by_cmake : installed_by_dev)) return;
+            if (!by_cmake || !is_our_package(tree, match[1])) judge_name(tree, at(file, number), match[1], complaints);
         });
     }
     return complaints;

@@ -37,6 +37,7 @@ TEST_F(House, IsReadWhole) {
 
 TEST_F(House, KeepsItsLayers) { EXPECT_EQ(list(against_layers(tree)), ""); }
 TEST_F(House, ReadsNoClockBelowTheNetwork) { EXPECT_EQ(list(against_passed_in_time(tree)), ""); }
+TEST_F(House, NamesWhatItAwaitsWith) { EXPECT_EQ(list(against_braces_in_awaits(tree)), ""); }
 TEST_F(House, HasShortFiles) { EXPECT_EQ(list(against_short_files(tree)), ""); }
 TEST_F(House, HasLinksThatLeadSomewhere) { EXPECT_EQ(list(against_links(tree)), ""); }
 TEST_F(House, ProvesWhatItClaims) { EXPECT_EQ(list(against_proof(tree)), ""); }

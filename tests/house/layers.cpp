@@ -23,6 +23,7 @@ Headers const eigen{"Eigen/"};
 Headers const cli11{"CLI/"};
 Headers const json{"nlohmann/"};
 Headers const jpeg{"jpeglib.h"};
+Headers const rois{"rois/"};
 Headers const posix{"arpa/",     "errno.h", "fcntl.h",  "netdb.h", "netinet/", "poll.h",
                     "pthread.h", "sched.h", "signal.h", "sys/",    "time.h",   "unistd.h"};
 
@@ -54,9 +55,21 @@ std::vector<Layer> const layers{
      {"simulation/", "engine/", "types/", "media/media.hpp", "xml/document.hpp", "xml/schemas.hpp"},
      {eigen},
      Time::passed_in},
+    {"client-cpp/include/", {"rois/", "types/"}, {}, Time::passed_in},
+    {"client-cpp/source/",
+     {"", "rois/", "types/", "xml/codec.hpp", "xml/numbers.hpp", "xml/writer.hpp"},
+     {boost, openssl},
+     Time::read},
+    {"client-cpp/command/",
+     {"command/", "rois/", "types/", "xml/codec.hpp", "xml/decoding.hpp", "xml/document.hpp", "xml/encoding.hpp", "xml/names.hpp",
+      "xml/schemas.hpp", "files/"},
+     {boost, cli11, json, pugixml, posix},
+     Time::read},
+    {"client-cpp/examples/", {}, {rois}, Time::read},
 };
 
-std::array<std::string, 2> const include_folders{"server/", "components/"};
+std::array<std::string, 5> const include_folders{"server/", "components/", "client-cpp/", "client-cpp/include/",
+                                                 "client-cpp/source/"};
 std::array<std::string, 3> const layered_folders{"server/", "components/", "client-cpp/"};
 
 struct Include {
@@ -120,7 +133,8 @@ std::map<std::string, std::string> brought_along(Tree const& tree, std::string c
 void judge_own(Tree const& tree, std::string const& file, Layer const& layer, Include const& include, Complaints& complaints) {
     auto const header = file_of(tree, include.name);
     if (!header) {
-        complaints.push_back(at(file, include.line) + "\"" + include.name + "\" is no file under server/ or components/");
+        complaints.push_back(at(file, include.line) + "\"" + include.name +
+                             "\" is no file under server/, components/ or client-cpp/");
         return;
     }
     if (!is_one_of(layer.uses, include.name)) {

@@ -22,13 +22,17 @@ Complaints against_layers(Tree const&);
 // Below the network layer nobody reads a clock, sleeps or throws dice: time and chance are passed in.
 Complaints against_passed_in_time(Tree const&);
 
-// No C++ file is too long to be read at one sitting.
+// No argument is made in braces in a statement with a co_await: g++ 12 copies the bytes of such a structure and destroys both.
+Complaints against_braces_in_awaits(Tree const&);
+
+// No file of C++, TypeScript or Python is too long to be read at one sitting.
 Complaints against_short_files(Tree const&);
 
-// A relative link in README.md, ARCHITECTURE.md, CONTRIBUTING.md and docs/*.md leads to a file or a folder.
+// A relative link in README.md, ARCHITECTURE.md, CONTRIBUTING.md, docs/*.md and web/*/README.md leads to a file or a folder.
 Complaints against_links(Tree const&);
 
-// docs/dependencies.md names every package that CMake looks for and every one that ./dev installs.
+// docs/dependencies.md names every package that CMake looks for (but those that the project installs), every one that ./dev
+// installs, and every one that a package.json wants; a package-lock.json names no host.
 Complaints against_named_dependencies(Tree const&);
 
 // In docs/conformance*.md each row names tests and source files that there are and has a state that there is; every table, figure

@@ -8,6 +8,7 @@ namespace rois::house {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
+using testing::StartsWith;
 
 TEST(Layers, PointDown) {
     Tree const tree{
@@ -73,7 +74,8 @@ TEST(Layers, EveryFolderIsInOne) {
 
 TEST(Layers, AnIncludeThatIsNoFileIsSeen) {
     Tree const tree{{"server/types/ids.cpp", "#include \"ids.hpp\"\n"}, {"server/types/ids.hpp", ""}};
-    EXPECT_THAT(against_layers(tree), ElementsAre("server/types/ids.cpp:1: \"ids.hpp\" is no file under server/ or components/"));
+    EXPECT_THAT(against_layers(tree),
+                ElementsAre("server/types/ids.cpp:1: \"ids.hpp\" is no file under server/, components/ or client-cpp/"));
 }
 
 TEST(PassedInTime, IsReadByTheNetworkAndMainAlone) {
@@ -108,14 +110,37 @@ TEST(CodeAlone, KeepsItsLinesAndItsCode) {
     EXPECT_EQ(code_alone("1'000 R\"(x\ny)\" z"), "1'000     \n    z");
 }
 
+TEST(BracesInAwaits, AreSeen) {
+    Tree const tree{{"client-cpp/command/front.cpp",
+                     "co_await write(message,\n    {FaultCode::not_found, \"no; not here\", {}, {}});\n"
+                     "auto const all = co_await client.call(Search{});\n"
+                     "co_return co_await follow.follow(rois::FollowParameters{.distance = 1_m});\n"}};
+    EXPECT_THAT(against_braces_in_awaits(tree),
+                ElementsAre(StartsWith("client-cpp/command/front.cpp:1: "), StartsWith("client-cpp/command/front.cpp:3: "),
+                            StartsWith("client-cpp/command/front.cpp:4: ")));
+}
+
+TEST(BracesInAwaits, AreFineElsewhere) {
+    Tree const tree{{"a.cpp",
+                     "Search const all{};\nco_await client.call(all);\nother(Search{});\n"
+                     "co_await socket.async_close(websocket::close_reason{code, \"why\"}, [] { return 1; });\n"
+                     "co_await Facade{robot.component(name)}.position();  // not f({})\n"}};
+    EXPECT_THAT(against_braces_in_awaits(tree), IsEmpty());
+}
+
 TEST(ShortFiles, EndAtFiveHundredLines) {
     auto const lines = [](std::size_t number) {
         std::string text;
         while (number-- > 0) text += "\n";
         return text;
     };
-    Tree const tree{{"server/a.cpp", lines(501)}, {"tests/b.hpp", lines(500)}, {"docs/c.md", lines(900)}};
-    EXPECT_THAT(against_short_files(tree), ElementsAre("server/a.cpp:501: has 501 lines, more than 500"));
+    Tree const tree{{"server/a.cpp", lines(501)},
+                    {"tests/b.hpp", lines(500)},
+                    {"docs/c.md", lines(900)},
+                    {"web/client/src/d.ts", lines(502)},
+                    {"web/client/src/e.ts", lines(500)}};
+    EXPECT_THAT(against_short_files(tree), ElementsAre("server/a.cpp:501: has 501 lines, more than 500",
+                                                       "web/client/src/d.ts:501: has 502 lines, more than 500"));
 }
 
 TEST(Links, LeadToFilesAndFolders) {
@@ -129,10 +154,11 @@ TEST(Links, LeadToFilesAndFolders) {
 TEST(Links, ThatLeadNowhereAreSeen) {
     Tree const tree{{"ARCHITECTURE.md", "text\n[a](docs/a.md), [b](docs/b.md)\n"},
                     {"CONTRIBUTING.md", "[c]: docs/c.md\n"},
-                    {"docs/a.md", "```\n[no](link)\n```\n[d](docs/a.md)\n"}};
+                    {"docs/a.md", "```\n[no](link)\n```\n[d](docs/a.md)\n"},
+                    {"web/client/README.md", "[e](../server)\n"}};
     EXPECT_THAT(against_links(tree),
                 ElementsAre("ARCHITECTURE.md:2: docs/b.md leads nowhere", "CONTRIBUTING.md:1: docs/c.md leads nowhere",
-                            "docs/a.md:4: docs/a.md leads nowhere"));
+                            "docs/a.md:4: docs/a.md leads nowhere", "web/client/README.md:1: ../server leads nowhere"));
 }
 
 TEST(Dependencies, AreNamedByTheDocument) {
@@ -143,6 +169,30 @@ TEST(Dependencies, AreNamedByTheDocument) {
     EXPECT_THAT(against_named_dependencies(tree), ElementsAre("CMakeLists.txt:2: docs/dependencies.md does not name `Magic`",
                                                               "dev:3: docs/dependencies.md does not name `libmagic-dev`",
                                                               "dev:4: docs/dependencies.md does not name `wizard`"));
+}
+
+TEST(Dependencies, AreNotWhatTheProjectInstalls) {
+    Tree const tree{{"client/cmake/OursConfig.cmake.in", ""},
+                    {"tests/outside/CMakeLists.txt", "find_package(Ours REQUIRED)\nfind_package(Theirs)\n"},
+                    {"docs/dependencies.md", ""}};
+    EXPECT_THAT(against_named_dependencies(tree),
+                ElementsAre("tests/outside/CMakeLists.txt:2: docs/dependencies.md does not name `Theirs`"));
+}
+
+TEST(Dependencies, OfJavaScriptAreNamedToo) {
+    Tree const tree{{"web/package.json",
+                     "{\n  \"name\": \"x\",\n  \"devDependencies\": {\n    \"known\": \"1\",\n    \"magic\": \"2\"\n  },\n  "
+                     "\"y\": \"z\"\n}\n"},
+                    {"web/client/package.json", "{\n  \"dependencies\": {\n    \"wand\": \"1\"\n  }\n}\n"},
+                    {"docs/dependencies.md", "| `known` |\n"}};
+    EXPECT_THAT(against_named_dependencies(tree),
+                ElementsAre("web/client/package.json:3: docs/dependencies.md does not name `wand`",
+                            "web/package.json:5: docs/dependencies.md does not name `magic`"));
+}
+
+TEST(Dependencies, AreLockedWithoutAHost) {
+    Tree const tree{{"web/package-lock.json", "\"resolved\": \"client\",\n\"resolved\": \"https://registry.example/a.tgz\",\n"}};
+    EXPECT_THAT(against_named_dependencies(tree), ElementsAre("web/package-lock.json:2: a lock file names no host"));
 }
 
 TEST(Dependencies, NeedTheDocument) {

@@ -11,7 +11,7 @@ namespace {
 
 bool is_foreign(fs::path const& folder) {
     auto const name = folder.filename().string();
-    return (name.starts_with('.') && name != ".ci") || name == "build" || name == "node_modules";
+    return (name.starts_with('.') && name != ".ci") || name == "build" || name == "dist" || name == "node_modules";
 }
 
 std::string read(fs::path const& file) {

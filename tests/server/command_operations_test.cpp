@@ -16,8 +16,8 @@ struct CommandOperations : Conversation {
     Application rival{GetParam(), empty_hall()};
     CommandOperations() { rival.connect(); }
 
-    Document bind_any(Application& application, std::string const& filter = "") {
-        return application.ask("bind_any", filter.empty() ? "" : where(filter));
+    Document bind_any(Application& application, Xml const& filter = {}) {
+        return application.ask("bind_any", filter.empty() ? Xml{} : where(filter));
     }
 };
 ROIS_OVER_BOTH_WAYS(CommandOperations);

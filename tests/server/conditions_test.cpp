@@ -42,23 +42,16 @@ TEST_P(Conditions, FindByPlace) {
 
 TEST_P(Conditions, KnowUnitsByTheirNamesInBothSpellings) {
     for (auto const* unit : {"m", "metre", "meter"})
-        EXPECT_THAT(
-            desk.search(where(related("DWithin", "location",
-                                      place("desk") + "<fes:Distance uom='" + std::string{unit} + "'>50</fes:Distance>"))),
-            SizeIs(15))
-            << unit;
-    EXPECT_THAT(
-        desk.search(where(related("DWithin", "location", place("desk") + "<fes:Distance uom='millimeter'>50</fes:Distance>"))),
-        IsEmpty());
+        EXPECT_THAT(desk.search(where(related("DWithin", "location", place("desk") + distance("50", unit)))), SizeIs(15)) << unit;
+    EXPECT_THAT(desk.search(where(related("DWithin", "location", place("desk") + distance("50", "millimeter")))), IsEmpty());
 }
 
 TEST_P(Conditions, NameWhatIsNotKnown) {
     EXPECT_THAT(desk.ask("search", where(related("Within", "location", place("attic")))), IsRefused("BAD_PARAMETER", "'attic'"));
     EXPECT_THAT(desk.ask("search", where(related("Within", "location", box("0 0", "1 1", "urn:atr:def:crs:IDK::01")))),
                 IsRefused("BAD_PARAMETER", "'urn:atr:def:crs:IDK::01'"));
-    EXPECT_THAT(
-        desk.ask("search", where(related("DWithin", "location", place("desk") + "<fes:Distance uom='ft'>3</fes:Distance>"))),
-        IsRefused("BAD_PARAMETER", "'ft'"));
+    EXPECT_THAT(desk.ask("search", where(related("DWithin", "location", place("desk") + distance("3", "ft")))),
+                IsRefused("BAD_PARAMETER", "'ft'"));
     EXPECT_THAT(desk.ask("search", where(touching("location"))), IsRefused("BAD_PARAMETER", "Touches"));
     EXPECT_THAT(desk.ask("search", where(equal("//name", "move"))), IsRefused("BAD_PARAMETER", "XPath"));
 }
@@ -70,17 +63,15 @@ TEST_P(Conditions, SortWhatIsFound) {
 }
 
 // In the wrapper of the published examples.
-std::string wrapped(std::string const& inside) {
+Xml wrapped(Xml const& inside) {
     return "<condition xmlns:fes=\"http://www.opengis.net/fes/2.0\" xmlns:unr=\"http://www.irc.atr.jp/std/unr/0.1\">"
            "<unr:SearchCondition>" +
            inside + "</unr:SearchCondition></condition>";
 }
 
 TEST_P(Conditions, TakeATypeByItsUrnOrItsLastPart) {
-    auto const of_type = [](std::string const& type) { return "<unr:ComponentCondition type=\"" + type + "\"/>"; };
-    auto const in_a_group = [&](std::string const& type) {
-        return "<unr:ComponentGroupCondition>" + of_type(type) + "</unr:ComponentGroupCondition>";
-    };
+    auto const of_type = [](std::string const& type) { return element("unr:ComponentCondition", {{"type", type}}); };
+    auto const in_a_group = [&](std::string const& type) { return element("unr:ComponentGroupCondition", of_type(type)); };
     for (auto const* type : {"urn:x-rois:def:component:OMG::SpeechSynthesis", "unr:x-rois:def:component:OMG::speechsynthesis",
                              "SpeechSynthesis", "speechsynthesis"}) {
         EXPECT_THAT(desk.search(wrapped(of_type(type))), ElementsAre("speech_synthesis")) << type;
@@ -95,12 +86,11 @@ TEST_P(Conditions, TakeATypeByItsUrnOrItsLastPart) {
 }
 
 TEST_P(Conditions, OfTheWrapperOfThePublishedExamples) {
-    std::string const group =
-        "<unr:ComponentGroupCondition types=\"Robot\" aliases=\"a\">" +
-        related("Within", "a/Property/location", place("Reception hall")) +
-        "<unr:ComponentCondition type=\"unr:x-rois:def:component:OMG::Move\" "
-        "mode=\"exclusive\"><fes:filter/></unr:ComponentCondition>"
-        "<unr:ComponentCondition type=\"urn:x-rois:def:component:OMG::Follow\"/></unr:ComponentGroupCondition>";
+    Xml const group = "<unr:ComponentGroupCondition types=\"Robot\" aliases=\"a\">" +
+                      related("Within", "a/Property/location", place("Reception hall")) +
+                      "<unr:ComponentCondition type=\"unr:x-rois:def:component:OMG::Move\" "
+                      "mode=\"exclusive\"><fes:filter/></unr:ComponentCondition>"
+                      "<unr:ComponentCondition type=\"urn:x-rois:def:component:OMG::Follow\"/></unr:ComponentGroupCondition>";
     EXPECT_THAT(desk.search(wrapped(group)), ElementsAre("follow", "move"));
     EXPECT_THAT(desk.search(wrapped("<unr:ComponentCondition>" + equal("Name", "reaction") + "</unr:ComponentCondition>")),
                 ElementsAre("reaction"));
@@ -111,9 +101,7 @@ TEST_P(Conditions, OfTheWrapperOfThePublishedExamples) {
 }
 
 TEST_P(Conditions, ThatMeanTheSameAreOneSubscription) {
-    auto const id = [&](std::string const& filter) {
-        return desk.subscribe("person_detected", where(filter)).text("subscribe_id");
-    };
+    auto const id = [&](Xml const& filter) { return desk.subscribe("person_detected", where(filter)).text("subscribe_id"); };
     auto const more_than_none = id(compared("GreaterThan", "number", "0"));
     EXPECT_EQ(id("<fes:PropertyIsLessThan><fes:Literal>0.0</fes:Literal><fes:ValueReference>Result/number</fes:ValueReference>"
                  "</fes:PropertyIsLessThan>"),
@@ -128,14 +116,14 @@ TEST_P(Conditions, ChooseAmongTheResults) {
     desk.execute(Command{.component = "person_detection"});
     auto const id = desk.hear_event("person_detected").text("event_id");
     auto const period = [](std::string const& begin, std::string const& end) {
-        return "<gml:TimePeriod xmlns:gml=\"http://www.opengis.net/gml/3.2\"><gml:beginPosition>" + begin +
-               "</gml:beginPosition><gml:endPosition>" + end + "</gml:endPosition></gml:TimePeriod>";
+        return element("gml:TimePeriod", {{"xmlns:gml", "http://www.opengis.net/gml/3.2"}},
+                       text_element("gml:beginPosition", begin) + text_element("gml:endPosition", end));
     };
     EXPECT_THAT(desk.get_event_detail(id, where(related("During", "timestamp", period("2020-01-01", "2200-01-01")))).values(),
                 SizeIs(2));
     EXPECT_THAT(desk.get_event_detail(id, where(related("During", "timestamp", period("2020-01-01", "2020-01-02")))).values(),
                 IsEmpty());
-    EXPECT_THAT(desk.get_event_detail(id, where("<fes:ResourceId rid=\"" + id + "\"/>")).values(), SizeIs(2));
+    EXPECT_THAT(desk.get_event_detail(id, where(element("fes:ResourceId", {{"rid", id}}))).values(), SizeIs(2));
 }
 
 TEST_P(Conditions, AreUnderstoodByAllOperationsThatTakeOne) {
@@ -164,7 +152,7 @@ struct Robots : testing::TestWithParam<Way> {
 
     Application desk{GetParam(), hall()};
     Application rival{GetParam(), hall()};
-    std::string drives = equal("component_type", "urn:x-rois:def:component:OMG::Navigation");
+    Xml drives = equal("component_type", "urn:x-rois:def:component:OMG::Navigation");
 };
 ROIS_OVER_BOTH_WAYS(Robots);
 
@@ -248,7 +236,7 @@ ROIS_OVER_BOTH_WAYS(TalkingVisitor);
 TEST_P(TalkingVisitor, IsHeardOnlyWhenAskingForHelp) {
     desk.connect();
     desk.bind("speech_recognition");
-    auto const asks =
+    Xml const asks =
         "<fes:PropertyIsLike wildCard=\"*\" singleChar=\"?\" escapeChar=\"!\" matchCase=\"false\">"
         "<fes:ValueReference>recognized_text</fes:ValueReference><fes:Literal>*help*</fes:Literal></fes:PropertyIsLike>";
     EXPECT_THAT(desk.subscribe("speech_recognized", where(asks), true), IsOk());

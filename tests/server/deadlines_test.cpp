@@ -57,7 +57,7 @@ TEST(Deadline, OfAWebSocketThatNeverReads) {
     WebSocketClient greedy{gateway};
     HttpClient other{gateway};
     greedy.call("connect");
-    std::string const payload = request("get_profile", std::string(200, ' '));
+    std::string const payload = request("get_profile", client::characters(std::string(200, ' ')));
     std::string frame{'\x81', '\xFE', static_cast<char>(payload.size() >> 8), static_cast<char>(payload.size())};
     frame += std::string(4, '\0') + payload;
     stuff(greedy.line(), frame);

@@ -26,8 +26,8 @@ struct Errors : testing::TestWithParam<Way> {
         for (auto const* ref : {"navigation", "speech_synthesis"}) EXPECT_THAT(desk.bind(ref), IsOk());
     }
 
-    Document detail_of(std::string const& id, std::string const& condition = "") {
-        return desk.ask("get_error_detail", "<error_id>" + id + "</error_id>" + condition);
+    Document detail_of(std::string const& id, Xml const& condition = {}) {
+        return desk.ask("get_error_detail", text_element("error_id", id) + condition);
     }
     static Command drive(std::string const& id) {
         return {.component = "navigation", .id = id, .arguments = {target_position({"desk"})}};

@@ -33,9 +33,11 @@ struct FramesOfRobots : testing::TestWithParam<Way> {
 
     Document drive_to(std::string const& point, std::string const& crs) {
         return desk.ask("set_parameter",
-                        "<component_ref rois:code='robot2.navigation'/><parameters><parameter rois:name='target_position'>"
-                        "<rois:data_type_ref rois:code='string[]' rois:codebook_ref='" +
-                            crs + "'/><rois:value>" + point + "</rois:value></parameter></parameters>");
+                        element("component_ref", {{"rois:code", "robot2.navigation"}}) +
+                            element("parameters", element("parameter", {{"rois:name", "target_position"}},
+                                                          element("rois:data_type_ref",
+                                                                  {{"rois:code", "string[]"}, {"rois:codebook_ref", crs}}) +
+                                                              text_element("rois:value", point))));
     }
 
     Application desk{GetParam(), hall()};
@@ -81,7 +83,7 @@ TEST_P(FramesOfRobots, AreTakenFromApplications) {
     EXPECT_THAT(desk.hear_event("reached_target").values(), Contains(Pair("target", ElementsAre("15000, 6000"))));
     EXPECT_EQ(desk.status_of("go"), "OK");
     auto const there = box("14900 5900", "15100 6100"), mapped = box("5900 4900", "6100 5100", map_frame);
-    auto const within = [&](std::string const& where_) {
+    auto const within = [&](Xml const& where_) {
         return desk.search(where(both(equal("name", "robot2.navigation"), related("Within", "location", where_))));
     };
     EXPECT_THAT(within(there), ElementsAre("robot2.navigation"));

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "server/http_client.hpp"
 
 namespace rois::test {
@@ -157,6 +159,51 @@ TEST(Http, TakesXmlOnly) {
         EXPECT_THAT(reply.reason(), HasSubstr("Content-Type: application/xml"));
     }
     EXPECT_EQ(client.post(request("connect"), {}).status, 415);
+}
+
+// However the bytes fall into what is read at once (1,024, and twice as much again), and whether the peer has said its last.
+TEST(Http, AnswersRequestsOfAnySizeAndAPeerThatSaysNoMore) {
+    for (std::size_t const size : {1023, 1024, 1025, 2047, 2048, 2049, 4096, 65'536, 65'537}) {
+        auto const post = [&](std::size_t blanks) {
+            auto const body = request("connect") + std::string(blanks, ' ');
+            return head("POST /rois", "Content-Type: text/xml\r\nContent-Length: " + std::to_string(body.size()) + "\r\n") + body;
+        };
+        std::size_t blanks = 0;
+        while (post(blanks).size() < size) ++blanks;
+        HttpClient goes_on, says_no_more;
+        EXPECT_EQ(goes_on.say(post(blanks) + post(blanks)).return_code(), "OK") << size;
+        EXPECT_EQ(goes_on.say("").return_code(), "OK") << size;
+        EXPECT_EQ(goes_on.say(post(blanks)).return_code(), "OK") << size;
+        says_no_more.line().send(post(blanks));
+        says_no_more.line().finish();
+        EXPECT_EQ(says_no_more.say("").return_code(), "OK") << size;
+        EXPECT_TRUE(says_no_more.line().ends()) << size;
+    }
+}
+
+// Also when its request has filled what was read at once.
+TEST(Http, LetsGoOfAStreamWhosePeerHasGone) {
+    GatewayProcess const gateway;
+    HttpClient session{gateway};
+    session.call("connect");
+    for (std::size_t const size : {1000, 1024}) {
+        auto const stream = [&](std::size_t padding) {
+            return head("GET /rois/notifications", "Accept: text/event-stream\r\nRoIS-Session: " + session.session +
+                                                       "\r\nX: " + std::string(padding, 'x') + "\r\n");
+        };
+        {
+            HttpClient reader{gateway};
+            reader.line().send(stream(size - stream(0).size()));
+            reader.line().take_until("text/event-stream");
+        }
+        auto const until = std::chrono::steady_clock::now() + std::chrono::seconds{5};
+        auto const gone = [&] {
+            return session.get("/metrics").body.find("rois_connections{kind=\"stream\"} 0\n") != std::string::npos;
+        };
+        bool seen = gone();
+        while (!seen && std::chrono::steady_clock::now() < until) seen = gone();
+        EXPECT_TRUE(seen) << size;
+    }
 }
 
 TEST(Http, ServesHttp10AndEndsTheConnection) {

@@ -30,7 +30,7 @@ TEST(Message, WithForbiddenXmlIs400) {
 
 TEST(Message, ThatIsNotValidIs422WithItsPlace) {
     HttpClient client;
-    auto const reply = client.post(request("bind", "\n<component/>", "request_id='r7'"));
+    auto const reply = client.post(request("bind", "\n<component/>", {{"request_id", "r7"}}));
     EXPECT_EQ(reply.status, 422);
     EXPECT_EQ(reply.fault(), "invalid");
     EXPECT_STREQ(reply.root().attribute("line").value(), "2");
@@ -91,7 +91,7 @@ TEST(Session, IsSharedByConnections) {
 TEST(Session, IsNotResumedOverHttp) {
     HttpClient client;
     client.call("connect");
-    auto const reply = client.call("resume", "", "session='" + client.session + "' last_sequence='0'");
+    auto const reply = client.call("resume", "", {{"session", client.session}, {"last_sequence", "0"}});
     EXPECT_EQ(reply.status, 403);
     EXPECT_EQ(reply.fault(), "not_allowed");
 }
@@ -123,7 +123,7 @@ TEST(Session, EndsWithoutASignOfLife) {
 TEST(Operation, AnswersWith200WhateverItsReturnCode) {
     HttpClient client;
     client.call("connect");
-    auto const reply = client.call("bind", component_ref("nobody"), "request_id='9'");
+    auto const reply = client.call("bind", component_ref("nobody"), {{"request_id", "9"}});
     EXPECT_EQ(reply.status, 200);
     EXPECT_EQ(reply.return_code(), "BAD_PARAMETER");
     EXPECT_STREQ(reply.root().attribute("request_id").value(), "9");

@@ -157,14 +157,8 @@ TEST(EventStream, HearsTheAbortsBeforeDisconnectIsAnsweredThenEnds) {
     client.call("bind", component_ref("speech_synthesis"));
     std::string words;
     for (int i = 0; i < 300; ++i) words += "word ";
-    auto const speak =
-        "<rois:CommandUnitSequence><rois:command_unit_list xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
-        "xsi:type=\"rois:CommandMessageType\" rois:command_type=\"start\" rois:command_id=\"long\"><rois:component_ref "
-        "rois:code=\"speech_synthesis\"/><rois:arguments><rois:parameter rois:name=\"speech_text\"><rois:data_type_ref "
-        "rois:code=\"string\"/><rois:value>" +
-        words +
-        "</rois:value></rois:parameter></rois:arguments></rois:command_unit_list>"
-        "</rois:CommandUnitSequence>";
+    auto const speak = client::sequence(
+        client::unit({.component = "speech_synthesis", .id = "long", .arguments = {client::speech_text(words)}}));
     EXPECT_EQ(client.call("execute", speak).return_code(), "OK");
     Stream stream{client.session};
     EXPECT_EQ(client.call("disconnect").return_code(), "OK");

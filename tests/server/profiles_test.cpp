@@ -196,9 +196,9 @@ TEST_P(ProfilesOfUsers, MayListenWithAGrammar) {
                                     "",
                                     {{"grammar",
                                       "string",
-                                      {"&lt;grammar xmlns='http://www.w3.org/2001/06/grammar' version='1.0' xml:lang='en' "
+                                      {"<grammar xmlns='http://www.w3.org/2001/06/grammar' version='1.0' xml:lang='en' "
                                        "root='" +
-                                       rule + "'>&lt;rule id='hello'>hello&lt;tag>greeting&lt;/tag>&lt;/rule>&lt;/grammar>"}}}});
+                                       rule + "'><rule id='hello'>hello<tag>greeting</tag></rule></grammar>"}}}});
     };
     EXPECT_THAT(start("bye").reason(), HasSubstr("grammar:1:1: there is no rule 'bye'"));
     EXPECT_EQ(start("hello").return_code(), "OK");
@@ -267,7 +267,7 @@ TEST_P(ProfilesOfUsers, OfOneNameTakeTurns) {
     GatewayProcess gateway{{"--profiles", folder_.name()}};
     Application desk{GetParam(), gateway};
     desk.connect();
-    std::string const lamps_of_b = where(equal("component_type", "urn:test2::Lamp"));
+    auto const lamps_of_b = where(equal("component_type", "urn:test2::Lamp"));
     EXPECT_THAT(desk.search(lamps_of_b), testing::IsEmpty());
     folder_.remove("a.xml");
     gateway.signal(SIGHUP);

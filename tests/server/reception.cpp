@@ -165,7 +165,7 @@ void Reception::bow() {
 }
 
 std::vector<Document> Reception::run(std::vector<Command> units) {
-    std::string sequence;
+    Xml sequence;
     for (auto const& command : units) {
         sequence += unit(command);
         commanded_.push_back(command.id);

@@ -1,4 +1,4 @@
-// Figure 1 of the specification, played against the program: over HTTP, over a WebSocket, and by docs/reception.sh.
+// Figure 1 of the specification, played against the program: over HTTP, over a WebSocket, and by docs/examples/reception.sh.
 #include <algorithm>
 #include <cstdio>
 #include <set>
@@ -121,12 +121,13 @@ void wait_for_tanaka(GatewayProcess const& gateway) {
 TEST(TheReceptionScript, ReceivesAVisitor) {
     auto const gateway = hall_with("one_visitor.xml");
     wait_for_tanaka(gateway);
-    auto const text = printed_by("ROIS_URL=" + gateway.url() + " " ROIS_SOURCE_DIR "/docs/reception.sh 1 2>&1");
+    auto const text =
+        printed_by("ROIS_URL=" + gateway.url() + " " ROIS_SOURCE_DIR "/docs/examples/reception.sh 1 2>&1 >/dev/null");
     EXPECT_THAT(steps(text),
                 ElementsAre("Connected to http://N.N.N.N:N; the robot stands at N, N, N.", "Waiting for somebody to come.",
                             "There is somebody: N person(s).", HasSubstr("(mm, mm, degree); going there."),
                             "Arrived at person-N.", "This is tanaka.", "Robot: \"Mr. Tanaka, your meeting is in room N.\"",
-                            "The robot bows.", "Robot: \"Goodbye.\"", "Going back to the start.", "Received N visitor(s)."))
+                            "The robot bows.", "Robot: \"Goodbye.\"", "Going back to the start."))
         << text;
 }
 
@@ -134,15 +135,14 @@ TEST(TheReceptionScript, ReceivesAVisitor) {
 TEST(TheReceptionScript, WaitsUntilAVisitorStands) {
     GatewayProcess const gateway{
         {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/one_visitor.xml", "--sim-speed", "2", "--seed", "7"}};
-    auto const text = printed_by("ROIS_URL=" + gateway.url() + "/ " ROIS_SOURCE_DIR "/docs/reception.sh 2>&1");
-    EXPECT_THAT(steps(text), IsSupersetOf({HasSubstr("Arrived at person-N."), HasSubstr("This is tanaka."),
-                                           HasSubstr("Received N visitor(s).")}))
-        << text;
+    auto const text =
+        printed_by("ROIS_URL=" + gateway.url() + "/ " ROIS_SOURCE_DIR "/docs/examples/reception.sh 2>&1 >/dev/null");
+    EXPECT_THAT(steps(text), IsSupersetOf({HasSubstr("Arrived at person-N."), HasSubstr("This is tanaka.")})) << text;
     EXPECT_THAT(text, Not(HasSubstr("//rois"))) << "a slash at the end of ROIS_URL does no harm";
 }
 
 TEST(TheReceptionScript, SaysHowItIsUsed) {
-    std::string const script = ROIS_SOURCE_DIR "/docs/reception.sh ";
+    std::string const script = ROIS_SOURCE_DIR "/docs/examples/reception.sh ";
     EXPECT_THAT(printed_by(script + "-h"), StartsWith("use: reception.sh [VISITORS]"));
     for (auto const* bad : {"abc", "0", "-1", "''", "99999999", "1.5"}) {
         auto const text = printed_by(script + bad + " 2>&1 >&-; test $? -eq 2");

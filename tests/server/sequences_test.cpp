@@ -28,7 +28,7 @@ struct Sequences : Conversation {
         desk.status_of(id);
         return lines(desk.history());
     }
-    void refused(std::string const& units, std::string const& code, std::string const& path, std::string const& words) {
+    void refused(Xml const& units, std::string const& code, std::string const& path, std::string const& words) {
         auto const answer = desk.execute(units);
         EXPECT_THAT(answer, IsRefused(code, words));
         EXPECT_THAT(answer.reason(), testing::StartsWith(path + ": "));
@@ -151,7 +151,7 @@ TEST_P(Sequences, AnIdIsThereOnce) {
 }
 
 TEST_P(Sequences, OfMoreCommandsThanASessionMayHave) {
-    std::string many = pause(600'000);
+    Xml many = pause(600'000);
     for (int i = 0; i < 1'000; ++i) many += unit(halt(""));
     EXPECT_THAT(desk.execute(many), IsOk());
     EXPECT_THAT(desk.execute(many), IsRefused("OUT_OF_RESOURCES", "1024"));

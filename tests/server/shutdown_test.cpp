@@ -23,7 +23,7 @@ TEST(Shutdown, TellsAWebSocketTheLastAndCloses) {
     WebSocketClient client{gateway};
     client.call("connect");
     client.call("bind", component_ref("follow"));
-    auto const start =
+    client::Xml const start =
         "<rois:CommandUnitSequence><rois:command_unit_list xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" "
         "xsi:type=\"rois:CommandMessageType\" rois:delay_time=\"3600000\" rois:command_type=\"stop\" rois:command_id=\"late\">"
         "<rois:component_ref rois:code=\"follow\"/></rois:command_unit_list></rois:CommandUnitSequence>";

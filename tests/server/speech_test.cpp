@@ -14,13 +14,12 @@ TEST(Speech, IsLoggedPassageByPassage) {
         Application desk{Way::http, gateway};
         desk.connect();
         desk.bind("speech_synthesis");
-        desk.execute(
-            Command{.component = "speech_synthesis",
-                    .id = "greet",
-                    .arguments = {{"SSML_text",
-                                   "string",
-                                   {"&lt;speak xml:lang='en'>Welcome, &lt;lang xml:lang='ja'>ようこそ&lt;/lang> &lt;break "
-                                    "time='1s'/>&lt;prosody pitch='high' volume='soft'>Tanaka&lt;/prosody>&lt;/speak>"}}}});
+        desk.execute(Command{.component = "speech_synthesis",
+                             .id = "greet",
+                             .arguments = {{"SSML_text",
+                                            "string",
+                                            {"<speak xml:lang='en'>Welcome, <lang xml:lang='ja'>ようこそ</lang> <break "
+                                             "time='1s'/><prosody pitch='high' volume='soft'>Tanaka</prosody></speak>"}}}});
         EXPECT_EQ(desk.status_of("greet"), "OK");
     }
     gateway.signal(SIGTERM);

@@ -19,24 +19,23 @@ std::vector<std::string> component_refs(Document const& answer) {
 }
 
 // Each operation but connect, with children that are valid.
-std::vector<std::pair<std::string, std::string>> const& operations_in_a_session() {
-    static std::string const navigation = "<component_ref rois:code=\"navigation\"/>";
-    static std::vector<std::pair<std::string, std::string>> const all{
-        {"disconnect", ""},
-        {"get_profile", ""},
-        {"get_error_detail", "<error_id>x-1</error_id>"},
-        {"search", ""},
-        {"bind", navigation},
-        {"bind_any", ""},
-        {"release", navigation},
-        {"get_parameter", navigation},
-        {"set_parameter", navigation + parameters({time_limit("1")})},
-        {"execute", sequence(pause(0))},
-        {"get_command_result", "<command_id>c-1</command_id>"},
-        {"query", "<query_type>robot_position</query_type>"},
-        {"subscribe", "<event_type>reached_target</event_type>"},
-        {"unsubscribe", "<subscribe_id>s-1</subscribe_id>"},
-        {"get_event_detail", "<event_id>e-1</event_id>"}};
+std::vector<std::pair<std::string, Xml>> const& operations_in_a_session() {
+    static Xml const navigation = "<component_ref rois:code=\"navigation\"/>";
+    static std::vector<std::pair<std::string, Xml>> const all{{"disconnect", ""},
+                                                              {"get_profile", ""},
+                                                              {"get_error_detail", "<error_id>x-1</error_id>"},
+                                                              {"search", ""},
+                                                              {"bind", navigation},
+                                                              {"bind_any", ""},
+                                                              {"release", navigation},
+                                                              {"get_parameter", navigation},
+                                                              {"set_parameter", navigation + parameters({time_limit("1")})},
+                                                              {"execute", sequence(pause(0))},
+                                                              {"get_command_result", "<command_id>c-1</command_id>"},
+                                                              {"query", "<query_type>robot_position</query_type>"},
+                                                              {"subscribe", "<event_type>reached_target</event_type>"},
+                                                              {"unsubscribe", "<subscribe_id>s-1</subscribe_id>"},
+                                                              {"get_event_detail", "<event_id>e-1</event_id>"}};
     return all;
 }
 

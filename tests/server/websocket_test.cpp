@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <stop_token>
+#include <thread>
+
 #include "server/websocket_client.hpp"
 
 namespace rois::test {
@@ -12,7 +15,7 @@ std::string code_of(pugi::xml_node answer) { return answer.attribute("return_cod
 std::string fault_of(pugi::xml_node answer) { return name_of(answer) == "fault" ? answer.attribute("code").value() : ""; }
 
 std::string resume(WebSocketClient& client, std::string const& session, unsigned last_sequence) {
-    return code_of(client.call("resume", "", "session='" + session + "' last_sequence='" + std::to_string(last_sequence) + "'"));
+    return code_of(client.call("resume", "", {{"session", session}, {"last_sequence", std::to_string(last_sequence)}}));
 }
 
 TEST(Handshake, IsAnsweredWithTheSubprotocol) {
@@ -65,7 +68,7 @@ TEST(WebSocket, AnswersBeforeItNotifies) {
     EXPECT_EQ(code_of(client.call("bind", component_ref("navigation"))), "OK");
     for (unsigned i = 1; i <= 20; ++i) {
         auto const answer =
-            client.call("set_parameter", component_ref("navigation") + parameters("time_limit", 1'000), "request_id='r'");
+            client.call("set_parameter", component_ref("navigation") + parameters("time_limit", 1'000), {{"request_id", "r"}});
         EXPECT_EQ(name_of(answer), "set_parameter_response");
         EXPECT_STREQ(answer.attribute("request_id").value(), "r");
         std::string const command_id = answer.child("command_id").text().get();
@@ -78,7 +81,7 @@ TEST(WebSocket, AnswersBeforeItNotifies) {
 TEST(WebSocket, AnswersManyRequestsInOrder) {
     WebSocketClient client;
     client.call("connect");
-    for (int i = 0; i < 200; ++i) client.ask("search", "", "request_id='" + std::to_string(i) + "'");
+    for (int i = 0; i < 200; ++i) client.ask("search", "", {{"request_id", std::to_string(i)}});
     for (int i = 0; i < 200; ++i) EXPECT_EQ(client.next_document().attribute("request_id").as_int(), i);
 }
 
@@ -89,7 +92,7 @@ TEST(WebSocket, LivesThroughFaults) {
     client.send("");
     EXPECT_EQ(fault_of(client.next_document()), "not_well_formed");
     EXPECT_EQ(fault_of(client.call("search")), "no_session");
-    EXPECT_EQ(fault_of(client.call("resume", "", "session='unknown' last_sequence='0'")), "no_session");
+    EXPECT_EQ(fault_of(client.call("resume", "", {{"session", "unknown"}, {"last_sequence", "0"}})), "no_session");
     EXPECT_EQ(code_of(client.call("connect")), "OK");
     EXPECT_EQ(fault_of(client.call("search", "<nonsense/>")), "invalid");
     EXPECT_EQ(code_of(client.call("search")), "OK");
@@ -137,6 +140,32 @@ TEST(WebSocket, HearsTheLastOfASessionThatEndsElsewhere) {
     EXPECT_EQ(http.call("disconnect").return_code(), "OK");
     EXPECT_EQ(fault_of(client.call("search")), "no_session");
     EXPECT_EQ(code_of(client.call("connect")), "OK");
+}
+
+// However much one has to say, the others get their turn: each connection is received from once, and then the next.
+TEST(WebSocket, OneThatNeverStopsLeavesTheOthersTheirTurn) {
+    GatewayProcess const gateway{{"--threads", "1"}};
+    auto const frame = std::string{"\x81\xFE\x01\x00\0\0\0\0<x/>", 12} + std::string(252, ' ');
+    std::string many;
+    for (int i = 0; i < 100; ++i) many += frame;
+    WebSocketClient talker{gateway};
+    {
+        std::jthread const listens{[&] {
+            try {
+                while (true) talker.line().take(4'096);
+            } catch (LineEnded const&) {
+            }
+        }};
+        std::jthread const talks{[&](std::stop_token const& enough) {
+            while (!enough.stop_requested()) talker.line().send(many);
+            talker.line().finish();
+        }};
+        for (int i = 0; i < 10; ++i) {
+            HttpClient other{gateway};
+            other.line().be_patient(std::chrono::seconds{3});
+            EXPECT_EQ(other.get("/healthz").status, 200);
+        }
+    }
 }
 
 TEST(Resume, GoesOnAfterTheLastSequence) {

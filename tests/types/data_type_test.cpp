@@ -157,6 +157,9 @@ TEST(DataType, DateTimeMayHaveAnOffset) {
     for (auto const* offset :
          {"+9:00", "+0900", "+09", "09:00", "+14:01", "+15:00", "+99:99", "-23:00", "+09:60", "+09:00Z", "+aa:00"})
         EXPECT_FALSE(is("DateTime", std::string{"2026-11-20T12:00:00.5"} + offset)) << offset;
+    EXPECT_FALSE(is("DateTime", "0001-01-01T00:00:00+01:00")) << "in UTC its year has not four digits";
+    EXPECT_FALSE(is("DateTime", "9999-12-31T23:59:59-01:00"));
+    EXPECT_TRUE(is("DateTime", "9999-12-31T23:59:59+01:00"));
 }
 
 TEST(DataType, IdentifierIsACode) {
@@ -226,6 +229,9 @@ TEST(DataType, DefaultsAreOneTextOrAnItemEach) {
     EXPECT_EQ(values("int[]", "1 2"), List{"1 2"});
     EXPECT_EQ(values("String[]", " red \n green "), (List{"red", "green"}));
     EXPECT_EQ(values("string[]", " "), List{});
+    EXPECT_EQ(values("DateTime", "2026-11-20T12:00:00+01:00"), List{"2026-11-20T11:00:00Z"}) << "times are UTC (decision 28)";
+    EXPECT_EQ(values("DateTime[]", "2026-11-20T12:00:00+01:00 2026-11-20T12:00:00Z"),
+              (List{"2026-11-20T11:00:00Z", "2026-11-20T12:00:00Z"}));
 }
 
 }  // namespace rois

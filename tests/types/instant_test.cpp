@@ -42,6 +42,15 @@ TEST(Instant, IsReadInUtcOrWithAnOffset) {
     EXPECT_EQ(to_utc("2026-11-20T12:00:00.1234567891Z"), at(2026, 11, 20, 12h + 123'456'789ns));
 }
 
+TEST(Instant, IsToldInUtcWithAllItsDigits) {
+    EXPECT_EQ(in_utc("2026-11-20T12:00:00+01:00"), "2026-11-20T11:00:00Z");
+    EXPECT_EQ(in_utc(" 2026-12-31T23:30:07.1234567891-00:45 "), "2027-01-01T00:15:07.1234567891Z");
+    EXPECT_EQ(in_utc(" 2026-11-20T12:00:00.50Z\n"), "2026-11-20T12:00:00.50Z");
+    EXPECT_EQ(in_utc("2400-02-29T00:00:00+14:00"), "2400-02-28T10:00:00Z") << "also where no clock here goes";
+    EXPECT_EQ(in_utc("0001-01-01T00:00:00+01:00"), "0001-01-01T00:00:00+01:00") << "there is no year before";
+    EXPECT_EQ(in_utc("soon"), "soon");
+}
+
 TEST(Instant, BeyondWhatAClockShowsIsTheNearest) {
     EXPECT_EQ(to_utc("9999-12-31T23:59:59Z"), Utc::max());
     EXPECT_EQ(to_utc("0001-01-01T00:00:00Z"), Utc::min());

@@ -57,6 +57,46 @@ TEST(Flattened, HasANameOnceAndItsOwnFirst) {
     EXPECT_EQ(whole.parameters.front().description, "urn:top");
 }
 
+TEST(Flattened, SaysTheSameOfAParameterInAllMessages) {
+    auto const parameter = [](std::string name, std::string type, std::optional<std::string> value) {
+        return ParameterProfile{.name = std::move(name),
+                                .data_type_ref = {.code = std::move(type), .authority = {}, .codebook_ref = {}, .version = {}},
+                                .default_value = std::move(value),
+                                .description = {}};
+    };
+    auto base = profile({"urn:base"});
+    base.messages = {{.kind = MessageKind::command,
+                      .name = "set_parameter",
+                      .results = {},
+                      .arguments = {parameter("volume", "int", "50"), parameter("pitch", "int", "3")},
+                      .timeout = {}},
+                     {.kind = MessageKind::query,
+                      .name = "get_parameter",
+                      .results = {parameter("volume", "int", {})},
+                      .arguments = {},
+                      .timeout = {}}};
+    base.parameters = {parameter("volume", "int", "50"), parameter("pitch", "int", "3")};
+    auto top = profile({"urn:top", {"urn:base"}});
+    top.parameters = {parameter("Volume", "string", "loud"), parameter("pitch", "int", "7")};
+    auto const whole = flattened(top, {base});
+    auto const said = [](std::vector<ParameterProfile> const& list) {
+        std::vector<std::string> all;
+        for (auto const& each : list) all.push_back(each.data_type_ref.code + " " + each.default_value.value_or("none"));
+        return all;
+    };
+    EXPECT_THAT(said(whole.messages.at(0).arguments), ElementsAre("string loud", "int 7"));
+    EXPECT_THAT(said(whole.messages.at(1).results), ElementsAre("string loud"));
+    EXPECT_THAT(said(whole.parameters), ElementsAre("string loud", "int 7"));
+
+    auto sets = profile({"urn:sets", {"urn:base"}});
+    sets.messages = {{.kind = MessageKind::command,
+                      .name = "set_parameter",
+                      .results = {},
+                      .arguments = {parameter("volume", "string", {})},
+                      .timeout = {}}};
+    EXPECT_THAT(said(flattened(sets, {base}).parameters), ElementsAre("string none", "int 3"));
+}
+
 TEST(Flattened, MayIncludeAPartOnTwoWays) {
     std::vector const known{profile({"urn:base", {}, {"start"}}), profile({"urn:left", {"urn:base"}, {"l"}}),
                             profile({"urn:right", {"urn:base"}, {"r"}})};

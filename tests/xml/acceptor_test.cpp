@@ -70,14 +70,16 @@ TEST(Acceptor, LeavesTheUnusualToXerces) {
     }
 }
 
+// The root, what is around, and so many.
+std::string nested(std::size_t depth) {
+    std::string text;
+    for (std::size_t i = 0; i < depth; ++i) text += "<fes:Not>";
+    text += "<fes:PropertyIsNull><fes:ValueReference>a</fes:ValueReference></fes:PropertyIsNull>";
+    for (std::size_t i = 0; i < depth; ++i) text += "</fes:Not>";
+    return document("search", "<condition><fes:Filter>" + text + "</fes:Filter></condition>");
+}
+
 TEST(Acceptor, KeepsTheLimits) {
-    auto const nested = [](std::size_t depth) {  // the root, what is around, and so many
-        std::string text;
-        for (std::size_t i = 0; i < depth; ++i) text += "<fes:Not>";
-        text += "<fes:PropertyIsNull><fes:ValueReference>a</fes:ValueReference></fes:PropertyIsNull>";
-        for (std::size_t i = 0; i < depth; ++i) text += "</fes:Not>";
-        return document("search", "<condition><fes:Filter>" + text + "</fes:Filter></condition>");
-    };
     EXPECT_TRUE(accepted(nested(59)));
     EXPECT_FALSE(accepted(nested(60)));
     EXPECT_TRUE(accepted(nested(2), {.depth = 7}));
@@ -99,6 +101,68 @@ TEST(Acceptor, KeepsTheLimits) {
     for (auto const blanks : {most, most + 1}) {
         EXPECT_EQ(accepted(corner(blanks)), blanks == most);
         EXPECT_EQ(std::holds_alternative<Request>(read(corner(blanks))), blanks == most);
+    }
+}
+
+// Start tags that were seen before are taken as a whole (KnownTag): with the verdict and the tree of the first time.
+TEST(Acceptor, SeesADocumentAsIfItWereItsFirst) {
+    auto const fes = [](std::string const& prefix, std::string const& name_space, std::string const& inside) {
+        return "<search xmlns='urn:x-rois:psm:xml:message:1' xmlns:" + prefix + "='http://www.opengis.net/" + name_space + "'>" +
+               inside + "</search>";
+    };
+    auto const null_of = [](std::string const& reference) {
+        return "<condition><f:Filter><f:PropertyIsNull>" + reference + "</f:PropertyIsNull></f:Filter></condition>";
+    };
+    std::string const a = "<f:ValueReference>a</f:ValueReference>";
+    std::vector<std::string> documents{
+        fes("f", "fes/2.0", null_of(a)),
+        fes("f", "gml/3.2", null_of(a)),
+        fes("f", "fes/2.0", null_of(a)),
+        fes("g", "fes/2.0", null_of(a)),
+        fes("f", "fes/2.0", "<condition xmlns:f='http://www.opengis.net/gml/3.2'><f:Filter/></condition>"),
+        fes("f", "fes/2.0", null_of("<f:ValueReference xmlns:f='http://www.opengis.net/gml/3.2'>a</f:ValueReference>")),
+        fes("f", "fes/2.0", null_of("<f:ValueReference xmlns:g='http://www.opengis.net/gml/3.2'>a</f:ValueReference>")),
+        fes("f", "fes/2.0", null_of("<f:ValueReference></f:ValueReference>")),
+        fes("f", "fes/2.0", null_of("<f:ValueReference>a&amp;b</f:ValueReference>")),
+        fes("f", "fes/2.0", null_of("<f:ValueReference>a]]>b</f:ValueReference>")),
+        fes("f", "fes/2.0", null_of("<f:ValueReference>a]b</f:ValueReference>")),
+        fes("f", "fes/2.0", null_of("<f:ValueReference>a</f:ValueReferencf>")),
+        fes("f", "fes/2.0", null_of("<f:ValueReference>a</f:ValueReference")),
+        fes("f", "fes/2.0", null_of("<f:ValueReference>a<b/></f:ValueReference>")),
+        fes("f", "fes/2.0", null_of("<f:ValueReference>a")),
+        fes("f", "fes/2.0", null_of(a + a)),
+        fes("f", "fes/2.0", a),
+        fes("f", "fes/2.0", null_of(a)).substr(0, 120)};
+    auto const samples = fuzz::samples();
+    documents.insert(documents.end(), samples.begin(), samples.end());
+    Acceptor kept{schemas(), {}};
+    std::size_t taken = 0;
+    for (int twice = 0; twice < 2; ++twice) {
+        for (auto const& text : documents) {
+            Acceptor fresh{schemas(), {}};
+            ASSERT_EQ(kept.accepts(text), fresh.accepts(text)) << text;
+            if (!fresh.accepts(text)) continue;
+            ++taken;
+            ASSERT_EQ(kept.tree() == nullptr, fresh.tree() == nullptr) << text;
+            if (fresh.tree() != nullptr) {
+                ASSERT_TRUE(*kept.tree() == *fresh.tree()) << text;
+            }
+        }
+    }
+    EXPECT_GT(taken, 200u);
+    EXPECT_TRUE(kept.accepts(documents.front()));
+    EXPECT_FALSE(kept.accepts(documents.at(1)));
+    EXPECT_FALSE(kept.accepts(documents.at(5)));
+}
+
+// As known ones, too.
+TEST(Acceptor, KeepsTheLimitsOfWhatItHasSeen) {
+    Acceptor deep{schemas(), {.depth = 7}}, many{schemas(), {.elements = 7}};
+    for (auto* const each : {&deep, &many}) {
+        for (int twice = 0; twice < 2; ++twice) {
+            EXPECT_TRUE(each->accepts(nested(2)));
+            EXPECT_FALSE(each->accepts(nested(3)));
+        }
     }
 }
 

@@ -199,6 +199,29 @@ TEST(Answer, AProfileHasOneIdForEachObject) {
     }
 }
 
+TEST(Answer, AProfileOfAnyNameThatXmlHasIsCalledSo) {
+    for (auto const& [name, id] :
+         {std::pair{"profile.ランプ", "profile.ランプ"}, {"profile.é1", "profile.é1"}, {"1ラ", "_x31_ラ"}}) {
+        auto const text = encode(ComponentProfile{}, name);
+        EXPECT_THAT(text, HasSubstr("gml:id=\"" + std::string{id} + '"'));
+        EXPECT_EQ(problem("profile", text), "") << text;
+    }
+}
+
+TEST(Answer, AProfileOfAnotherNameIsCalledOtherwise) {
+    std::vector<std::pair<std::string, std::string>> const ids{
+        {"profile.😀", "profile._xF0__x9F__x98__x80_"},
+        {"profile._xF0__x9F__x98__x80_", "profile._x5F_xF0__x5F_x9F__x5F_x98__x5F_x80_"},
+        {"profile._x20 ", "profile._x5F_x20_x20_"},
+        {"profile.𠮷野", "profile._xF0__xA0__xAE__xB7_野"},
+        {"profile.desk_xylophone", "profile.desk_xylophone"}};
+    for (auto const& [name, id] : ids) {
+        auto const text = encode(ComponentProfile{}, name);
+        EXPECT_THAT(text, HasSubstr("gml:id=\"" + id + '"'));
+        EXPECT_EQ(problem("profile", text), "") << text;
+    }
+}
+
 TEST(FaultDocument, OfEveryCodeIsValid) {
     for (int code = 0; code <= static_cast<int>(FaultCode::shutting_down); ++code) {
         Fault const bare{static_cast<FaultCode>(code), "", {}, ""};

@@ -87,6 +87,13 @@ TEST(ProfileOfOthers, MayHaveAUrnForItsId) {
     EXPECT_THAT(whole(text).warnings, ElementsAre(AllOf(StartsWith("p.xml:1:1: "), HasSubstr("'urn:a:b'"))));
 }
 
+TEST(ProfileOfOthers, KeepsAnIdThatLooksLikeOneOfOurs) {
+    auto text = profile("");
+    text.replace(text.find("gml:id='c'"), 10, "gml:id='_x20_'");
+    text.replace(text.find(" codeSpace='cs'"), 15, "");
+    EXPECT_THAT(whole(text).warnings, ElementsAre(HasSubstr("codeSpace")));
+}
+
 TEST(ProfileOfOthers, MayHaveAttributesWithoutPrefix) {
     auto const read =
         whole(profile("<rois:ParameterProfile name='p' default_value='10'>\n<rois:data_type_ref code='int'/>"
@@ -178,6 +185,49 @@ TEST(ProfileOfOthers, IsRefusedWhereItContradictsItself) {
                 AllOf(StartsWith("p.xml:4:1: "), HasSubstr("'p' is there twice")));
     EXPECT_THAT(refusal(profile("\n<rois:MessageProfile rois:name='m'/>")),
                 AllOf(StartsWith("p.xml:4:1: "), HasSubstr("xsi:type")));
+}
+
+// A message of this kind and name.
+std::string message_named(std::string_view kind, std::string_view name, std::string_view inside) {
+    auto text = message(kind, inside);
+    return text.replace(text.find("'m'"), 3, "'" + std::string{name} + "'");
+}
+
+TEST(ProfileOfOthers, IsRefusedWhereItsMessagesContradictItsParameters) {
+    auto const set = [](std::string_view type, std::string_view attributes = "") {
+        return message_named("Command", "set_parameter", parameter("Arguments", type, attributes)) + "\n";
+    };
+    auto const get = [](std::string_view type) {
+        return message_named("Query", "get_parameter", "\n" + parameter("Results", type)) + "\n";
+    };
+    auto const twice = HasSubstr("'p' is there twice");
+    EXPECT_THAT(refusal(profile(set("int") + parameter("ParameterProfile", "string"))), AllOf(StartsWith("p.xml:4:1: "), twice));
+    EXPECT_THAT(refusal(profile(get("int") + parameter("ParameterProfile", "string"))), AllOf(StartsWith("p.xml:5:1: "), twice));
+    EXPECT_THAT(refusal(profile(set("int") + get("string"))), AllOf(StartsWith("p.xml:5:1: "), twice));
+    EXPECT_THAT(
+        refusal(profile(set("int", "rois:default_value='1'") + parameter("ParameterProfile", "int", "rois:default_value='2'"))),
+        AllOf(StartsWith("p.xml:4:1: "), twice));
+    EXPECT_THAT(
+        whole(profile(set("int", "rois:default_value='1'") + get("Integer") + parameter("ParameterProfile", "xsd:int"))).warnings,
+        IsEmpty());
+}
+
+TEST(ProfileOfOthers, IsRefusedWhereItTellsWhatTheEngineTells) {
+    auto const result = [](std::string_view name, std::string_view type) {
+        auto text = parameter("Results", type);
+        return text.replace(text.find("'p'"), 3, "'" + std::string{name} + "'");
+    };
+    EXPECT_THAT(refusal(profile("\n" + message_named("Query", "component_status", result("battery", "int")))),
+                AllOf(StartsWith("p.xml:4:1: "), HasSubstr("'component_status' is answered by the engine")));
+    EXPECT_THAT(refusal(profile("\n" + message_named("Command", "dim", result("Status", "int")))),
+                AllOf(StartsWith("p.xml:4:1: "), HasSubstr("get_command_result")));
+    EXPECT_THAT(whole(profile(message_named("Query", "component_status", result("status", "Component_Status")))).warnings,
+                IsEmpty());
+}
+
+TEST(ProfileOfOthers, TellsItsTimesInUtc) {
+    auto const read = whole(profile(parameter("ParameterProfile", "DateTime", "rois:default_value='2026-11-20T12:00:00+01:00'")));
+    EXPECT_EQ(component(read).parameters.at(0).default_value, "2026-11-20T11:00:00Z");
 }
 
 TEST(ProfileOfOthers, IsToldWhatIsStillWrongWhereItIs) {

@@ -1,0 +1,77 @@
+#include <pugixml.hpp>
+
+#include "xml/codec.hpp"
+#include "xml/decoding.hpp"
+#include "xml/message_tree.hpp"
+#include "xml/profile_decoder.hpp"
+#include "xml/tree.hpp"
+
+namespace rois::xml {
+
+namespace {
+
+constexpr int deepest = 100;                     // elements inside each other; engines take half as many, and answer with a few
+constexpr std::size_t keep_at_most = 64 * 1024;  // bytes, between two documents
+
+// Whether it is bearable for what goes down into it.
+bool is_deep(pugi::xml_document& tree) {
+    struct Walker : pugi::xml_tree_walker {
+        bool for_each(pugi::xml_node&) override { return depth() < deepest; }
+    } walker;
+    return !tree.traverse(walker);
+}
+
+}  // namespace
+
+class AnswerReader::Kept {
+public:
+    std::optional<Heard> read(std::string_view document) {
+        tree_.reset();
+        if (bytes_.capacity() > keep_at_most) std::string{}.swap(bytes_);
+        bytes_ = document;
+        auto const parsed = tree_.load_buffer_inplace(bytes_.data(), bytes_.size(), as_xerces_reads, pugi::encoding_utf8);
+        if (!parsed || is_deep(tree_)) return std::nullopt;
+        message_.read(tree_.document_element());
+        auto heard = decode_heard(message_);
+        if (heard && !add_profiles(*heard, document)) return std::nullopt;
+        return heard;
+    }
+
+private:
+    // The profiles of get_profile's reply, in the order of its components. False when one cannot be understood.
+    bool add_profiles(Heard& heard, std::string_view document) {
+        auto* const answered = std::get_if<Answered>(&heard);
+        auto* const reply = answered != nullptr ? std::get_if<GetProfile::Reply>(&answered->reply) : nullptr;
+        if (reply == nullptr || reply->return_code != ReturnCode::ok) return true;
+        try {
+            auto entry = reply->components.begin();
+            for (auto const element : tree_.document_element().children()) {
+                auto const name = local_name(element);
+                if (name == "HRIEngineProfile") {
+                    auto read = decode_profile(element, "get_profile", document).profile;
+                    reply->profile = std::make_shared<EngineProfile const>(std::get<EngineProfile>(std::move(read)));
+                } else if (name == "HRIComponentProfile" && entry != reply->components.end()) {
+                    auto read = decode_profile(element, "get_profile", document).profile;
+                    entry++->profile = std::make_shared<ComponentProfile const>(std::get<ComponentProfile>(std::move(read)));
+                }
+            }
+            return reply->profile != nullptr && entry == reply->components.end();
+        } catch (BadDocument const&) {
+            return false;
+        }
+    }
+
+    std::string bytes_;
+    pugi::xml_document tree_;
+    MessageTree message_;
+};
+
+AnswerReader::AnswerReader() : kept_{std::make_unique<Kept>()} {}
+
+AnswerReader::~AnswerReader() = default;
+
+AnswerReader::AnswerReader(AnswerReader&&) noexcept = default;
+
+std::optional<Heard> AnswerReader::read(std::string_view document) { return kept_->read(document); }
+
+}  // namespace rois::xml
