@@ -51,9 +51,22 @@ public:
             auto const delay = speed_ > 0
                                    ? std::chrono::duration<double, std::micro>{static_cast<double>(later.delay.count()) / speed_}
                                    : std::chrono::duration<double, std::micro>{0};
-            due_.emplace(now + std::chrono::duration_cast<Clock::duration>(delay), std::move(notification));
+            due_.emplace(now + std::chrono::duration_cast<Clock::duration>(delay), Due{later.at, std::move(notification)});
         }
         wait();
+    }
+
+    // What the recorded application had been told before it commanded this is told now, so that what follows is in the same
+    // order.
+    void catch_up(std::chrono::microseconds recorded) {
+        for (auto one = due_.begin(); one != due_.end();) {
+            if (one->second.recorded <= recorded) {
+                tell(one->second.notification);
+                one = due_.erase(one);
+            } else {
+                ++one;
+            }
+        }
     }
 
     void close() {
@@ -67,25 +80,34 @@ private:
         if (due_.empty()) return;
         timer_.expires_at(due_.begin()->first);
         timer_.async_wait([self = shared_from_this()](Failure failure) {
-            if (!failure) self->tell();
+            if (!failure) self->tell_what_is_due();
         });
     }
 
-    void tell() {
+    void tell_what_is_due() {
         auto const now = Clock::now();
         while (session_ != nullptr && !due_.empty() && due_.begin()->first <= now) {
-            auto const notification = std::move(due_.begin()->second);
+            auto const due = std::move(due_.begin()->second);
             due_.erase(due_.begin());
-            auto const* const event = std::get_if<ReceiveEvent>(&notification);
-            if (event == nullptr || subscriptions_.contains(event->subscribe_id)) session_->tell(notification);
+            tell(due.notification);
         }
         wait();
     }
 
+    void tell(Notification const& notification) {
+        auto const* const event = std::get_if<ReceiveEvent>(&notification);
+        if (event == nullptr || subscriptions_.contains(event->subscribe_id)) session_->tell(notification);
+    }
+
+    struct Due {
+        std::chrono::microseconds recorded;
+        Notification notification;
+    };
+
     asio::steady_timer timer_;
     HostedSession* session_;
     double speed_;
-    std::multimap<Clock::time_point, Notification> due_;
+    std::multimap<Clock::time_point, Due> due_;
     std::set<SubscribeId> subscriptions_;
 };
 
@@ -134,6 +156,8 @@ std::string Player::answer(Request const& request) {
 std::variant<Reply, Fault> Player::answer_of(Exchange const& exchange, Operation const& operation) {
     auto answer = exchange.answer;
     Names names;
+    bool const moves = std::holds_alternative<Execute>(operation) || std::holds_alternative<SetParameter>(operation);
+    if (moves) stage_->catch_up(exchange.asked_at);
     auto* const reply = std::get_if<Reply>(&answer);
     auto* const executed = reply != nullptr ? std::get_if<Execute::Reply>(reply) : nullptr;
     if (executed != nullptr && executed->return_code == ReturnCode::ok) {

@@ -43,6 +43,7 @@ public:
 
 private:
     struct Asked {
+        std::chrono::microseconds at{};
         Operation operation;
         std::string request_id;
     };
@@ -54,7 +55,7 @@ private:
         // What is sent again after the link broke is one request.
         bool const again =
             !request->request_id.empty() && std::ranges::find(asked_, request->request_id, &Asked::request_id) != asked_.end();
-        if (!again) asked_.push_back({std::move(request->operation), std::move(request->request_id)});
+        if (!again) asked_.push_back({document.at, std::move(request->operation), std::move(request->request_id)});
     }
 
     void hear(RecordedDocument const& document) {
@@ -75,7 +76,7 @@ private:
     void answer(std::variant<Reply, Fault> answer, std::string const& request_id, std::chrono::microseconds at) {
         auto const asked = std::ranges::find(asked_, request_id, &Asked::request_id);
         if (asked == asked_.end()) return;
-        script_->exchanges.push_back({std::move(asked->operation), std::move(answer), {}});
+        script_->exchanges.push_back({asked->at, std::move(asked->operation), std::move(answer), {}});
         answered_at_.push_back(at);
         asked_.erase(asked);
         note_ids(script_->exchanges.back(), script_->exchanges.size() - 1);
@@ -102,7 +103,7 @@ private:
         auto const cause = cause_of(notification);
         if (!cause) return;
         auto const delay = std::max(at - answered_at_[*cause], std::chrono::microseconds{0});
-        script_->exchanges[*cause].later.push_back({delay, std::move(notification)});
+        script_->exchanges[*cause].later.push_back({at, delay, std::move(notification)});
     }
 
     std::optional<std::size_t> cause_of(Notification const& notification) const {

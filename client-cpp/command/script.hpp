@@ -21,11 +21,13 @@ std::string exact_key(Operation);
 std::string rough_key(Operation);
 
 struct Later {
+    std::chrono::microseconds at{};     // in the recording
     std::chrono::microseconds delay{};  // after the answer
     Notification notification;
 };
 
 struct Exchange {
+    std::chrono::microseconds asked_at{};  // in the recording
     Operation request;
     std::variant<Reply, Fault> answer;
     std::vector<Later> later;  // in the order in which they came

@@ -18,8 +18,9 @@ Fault too_slow() { return {FaultCode::too_slow, "the request did not arrive in t
 
 }  // namespace
 
-Connection::Connection(Loop& loop, Socket socket)
+Connection::Connection(Loop& loop, Socket socket, Admission::Place place)
     : loop_{loop},
+      place_{std::move(place)},
       wire_{std::move(socket), loop.poller(), loop.shared().settings.write_timeout, loop.shared().telemetry},
       counted_{std::in_place, loop.shared().telemetry, Telemetry::Kind::http} {
     loop.shared().telemetry.accepted();

@@ -20,7 +20,7 @@ namespace rois::net {
 // A coroutine is only what may have to wait: a request whose bytes are there is read and answered without one.
 class Connection : public std::enable_shared_from_this<Connection> {
 public:
-    Connection(Loop&, Socket);
+    Connection(Loop&, Socket, Admission::Place);
     ~Connection();
 
     // Until the connection is over.
@@ -55,6 +55,7 @@ private:
     Task<> flush();
 
     Loop& loop_;
+    Admission::Place place_;
     Wire wire_;
     std::optional<Telemetry::Counted> counted_;
     // The request that is being received or served.

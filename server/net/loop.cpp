@@ -28,17 +28,15 @@ void Loop::run() {
     io_.run();
 }
 
-void Loop::serve(Socket socket) {
-    asio::post(io_, [this, socket = std::move(socket)]() mutable {
-        auto const connection = std::make_shared<Connection>(*this, std::move(socket));
-        asio::co_spawn(io_, connection->run(), [connection](std::exception_ptr const& broken) {
-            if (!broken) return;
-            try {
-                std::rethrow_exception(broken);
-            } catch (std::exception const& error) {
-                spdlog::error("a connection broke off: {}", error.what());
-            }
-        });
+void Loop::serve(Socket socket, Admission::Place place) {
+    auto const connection = std::make_shared<Connection>(*this, std::move(socket), std::move(place));
+    asio::co_spawn(io_, connection->run(), [connection](std::exception_ptr const& broken) {
+        if (!broken) return;
+        try {
+            std::rethrow_exception(broken);
+        } catch (std::exception const& error) {
+            spdlog::error("a connection broke off: {}", error.what());
+        }
     });
 }
 

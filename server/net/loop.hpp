@@ -4,6 +4,7 @@
 #include <memory>
 #include <unordered_set>
 
+#include "net/admission.hpp"
 #include "net/asio.hpp"
 #include "net/documents.hpp"
 #include "net/gateway.hpp"
@@ -36,10 +37,10 @@ public:
     void run();
 
     // From any thread.
-    void serve(Socket);
     void shut_down(std::chrono::milliseconds within);
 
     // On the loop's own thread.
+    void serve(Socket, Admission::Place);
     bool draining() const { return last_moment_ != Steady::max(); }
     Shared const& shared() const { return shared_; }
     xml::RequestReader& reader() { return reader_; }

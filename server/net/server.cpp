@@ -4,7 +4,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <boost/asio/basic_socket_acceptor.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/signal_set.hpp>
@@ -13,16 +12,14 @@
 #include <thread>
 #include <vector>
 
+#include "net/listener.hpp"
 #include "net/loop.hpp"
 
 namespace rois::net {
 
 namespace {
 
-using Acceptor = asio::basic_socket_acceptor<asio::ip::tcp, Executor>;
 using Signals = asio::basic_signal_set<Executor>;
-
-constexpr auto pause_when_full = std::chrono::milliseconds{50};
 
 std::string text_of(std::string const& host, std::uint16_t port) {
     bool const ipv6 = host.find(':') != std::string::npos;
@@ -36,8 +33,9 @@ public:
     Running(Settings settings, Gateway& gateway, Telemetry& telemetry, Documents const& documents,
             std::shared_ptr<xml::Schemas const> schemas)
         : shared_{std::move(settings), gateway, telemetry, documents, std::move(schemas)},
+          admission_{shared_.settings.max_connections},
           loops_{make_loops()},
-          acceptor_{loops_.front()->executor()},
+          listeners_{make_listeners()},
           signals_{loops_.front()->executor()},
           hang_ups_{loops_.front()->executor()} {
         gateway.tick();  // time begins before anybody can ask
@@ -55,7 +53,7 @@ public:
 
     void run() {
         auto const first = loops_.front()->executor();
-        asio::co_spawn(first, accept(), asio::detached);
+        for (auto const& listener : listeners_) asio::co_spawn(listener->executor(), listener->accept(), asio::detached);
         asio::co_spawn(first, tick(), asio::detached);
         asio::co_spawn(first, wait_for_signal(), asio::detached);
         if (on_hang_up_) asio::co_spawn(first, wait_for_hang_ups(), asio::detached);
@@ -72,51 +70,31 @@ private:
         return loops;
     }
 
+    std::vector<std::unique_ptr<Listener>> make_listeners() {
+        std::vector<std::unique_ptr<Listener>> listeners;
+        listeners.reserve(loops_.size());
+        for (auto const& loop : loops_) listeners.push_back(std::make_unique<Listener>(*loop, admission_));
+        return listeners;
+    }
+
     void listen() {
         auto const& settings = shared_.settings;
+        auto& first = *listeners_.front();
         try {
-            asio::ip::basic_resolver<asio::ip::tcp, Executor> resolver{acceptor_.get_executor()};
+            asio::ip::basic_resolver<asio::ip::tcp, Executor> resolver{first.executor()};
             auto const found = resolver.resolve(settings.host, std::to_string(settings.port), asio::ip::resolver_base::passive);
-            auto const endpoint = found.begin()->endpoint();
-            acceptor_.open(endpoint.protocol());
-            acceptor_.set_option(asio::socket_base::reuse_address{true});
-            acceptor_.bind(endpoint);
-            acceptor_.listen();
-            port_ = acceptor_.local_endpoint().port();
+            first.bind_alone(found.begin()->endpoint());
+            if (listeners_.size() > 1) first.share();
+            for (std::size_t i = 1; i < listeners_.size(); ++i) listeners_[i]->bind_too(first.endpoint());
+            for (auto const& listener : listeners_) listener->listen();
+            port_ = first.endpoint().port();
         } catch (boost::system::system_error const& error) {
             throw std::runtime_error{"cannot listen on " + text_of(settings.host, settings.port) + ": " + error.code().message()};
         }
     }
 
-    // Hands the connections out to the loops in turn. Stops at the limit, and for a moment when the system has nothing to give.
-    Task<> accept() {
-        Timer pause{acceptor_.get_executor()};
-        bool full = false;
-        for (std::size_t next = 0; acceptor_.is_open();) {
-            boost::system::error_code error;
-            if (shared_.telemetry.open_connections() >= shared_.settings.max_connections) {
-                if (!std::exchange(full, true))
-                    spdlog::warn("{} connections are open; more must wait", shared_.settings.max_connections);
-                pause.expires_after(pause_when_full);
-                co_await pause.async_wait(into(error));
-                continue;
-            }
-            full = false;
-            auto& loop = *loops_[next];
-            auto socket = co_await acceptor_.async_accept(loop.executor(), into(error));
-            if (!error) {
-                loop.serve(std::move(socket));
-                next = (next + 1) % loops_.size();
-            } else if (error != asio::error::operation_aborted) {
-                spdlog::warn("cannot accept a connection: {}", error.message());
-                pause.expires_after(pause_when_full);
-                co_await pause.async_wait(into(error));
-            }
-        }
-    }
-
     Task<> tick() {
-        Timer timer{acceptor_.get_executor()};
+        Timer timer{loops_.front()->executor()};
         while (true) {
             timer.expires_after(shared_.settings.tick);
             co_await timer.async_wait(asio::use_awaitable_t<Executor>{});
@@ -134,7 +112,7 @@ private:
     Task<> wait_for_signal() {
         auto const signal = co_await signals_.async_wait(asio::use_awaitable_t<Executor>{});
         spdlog::info("shutting down after {}", signal == SIGTERM ? "SIGTERM" : "SIGINT");
-        acceptor_.close();
+        for (auto const& listener : listeners_) listener->close();
         shared_.gateway.shut_down();
         for (auto const& loop : loops_) loop->shut_down(shared_.settings.shutdown_timeout);
         co_await signals_.async_wait(asio::use_awaitable_t<Executor>{});
@@ -142,8 +120,9 @@ private:
     }
 
     Shared shared_;
+    Admission admission_;
     std::vector<std::unique_ptr<Loop>> loops_;
-    Acceptor acceptor_;
+    std::vector<std::unique_ptr<Listener>> listeners_;
     Signals signals_;
     Signals hang_ups_;
     std::function<void()> on_hang_up_;

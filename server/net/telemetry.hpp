@@ -38,8 +38,6 @@ public:
     void delivered(std::size_t notifications) { delivered_ += notifications; }
     void cut() { ++cut_; }  // a connection that was closed because its reader was too slow
 
-    std::uint64_t open_connections() const { return open_[0] + open_[1] + open_[2]; }
-
     // The Prometheus text format.
     std::string text(EngineStatistics const&) const;
 

@@ -7,7 +7,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -53,11 +55,18 @@ bool read_some(int from, std::string& text) {
     return true;
 }
 
-// Until both have ended.
-void read_both(int out, std::string& out_text, int error, std::string& error_text) {
+// Until both have ended. Far longer than any call takes: then it is killed, and what it said until then tells why.
+void read_both(pid_t process, int out, std::string& out_text, int error, std::string& error_text) {
+    constexpr auto patience = std::chrono::seconds{100};
+    auto const end = std::chrono::steady_clock::now() + patience;
     std::array<pollfd, 2> both{{{out, POLLIN, 0}, {error, POLLIN, 0}}};
     while (both[0].fd >= 0 || both[1].fd >= 0) {
-        poll(both.data(), both.size(), -1);
+        auto const left = std::chrono::duration_cast<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
+        if (poll(both.data(), both.size(), std::max(0, static_cast<int>(left.count()))) == 0) {
+            kill(process, SIGKILL);
+            error_text += "killed, since it did not end by itself\n";
+            break;
+        }
         if (both[0].revents != 0 && !read_some(out, out_text)) both[0].fd = -1;
         if (both[1].revents != 0 && !read_some(error, error_text)) both[1].fd = -1;
     }
@@ -96,7 +105,7 @@ Ended run_rois(std::vector<std::string> const& arguments, std::string const& inp
     if (write(in.ends[1], input.data(), input.size()) < 0) ADD_FAILURE() << "nothing was read of the input";
     close(in.ends[1]);
     Ended ended;
-    read_both(out.ends[0], ended.out, error.ends[0], ended.error);
+    read_both(process, out.ends[0], ended.out, error.ends[0], ended.error);
     ended.exit_code = exit_code(process);
     return ended;
 }
@@ -141,7 +150,7 @@ void RoisProcess::signal(int number) { kill(process_, number); }
 Ended RoisProcess::wait() {
     Ended ended;
     ended.out = std::move(read_);
-    read_both(out_, ended.out, error_, ended.error);
+    read_both(process_, out_, ended.out, error_, ended.error);
     ended.exit_code = exit_code(process_);
     process_ = 0;
     return ended;

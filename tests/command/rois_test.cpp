@@ -7,43 +7,16 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "client/http_client.hpp"
-#include "command/rois_process.hpp"
+#include "command/rois_fixture.hpp"
 
 namespace rois::test {
 namespace {
 
-using nlohmann::json;
 using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-struct Rois : testing::Test {
-    Ended run(std::vector<std::string> const& arguments, std::string const& input = {}) {
-        return run_rois(arguments, input, at());
-    }
-    Variables at() const { return {{"ROIS_URL", shared_gateway().url()}}; }
-
-    // Its objects, one a line.
-    std::vector<json> objects(std::vector<std::string> arguments) {
-        arguments.push_back("--json");
-        auto const ended = run(arguments);
-        EXPECT_EQ(ended.exit_code, 0) << ended.error;
-        std::vector<json> all;
-        for (auto const& line : lines_of(ended.out)) all.push_back(json::parse(line));
-        return all;
-    }
-
-    void expect(int code, std::string const& says, std::vector<std::string> const& arguments) {
-        auto const ended = run(arguments);
-        EXPECT_EQ(ended.exit_code, code) << ended.out << ended.error;
-        EXPECT_THAT(ended.error, HasSubstr(says));
-    }
-};
-
-constexpr auto messages = "xmlns='urn:x-rois:psm:xml:message:1' xmlns:rois='http://www.omg.org/spec/RoIS/20240801'";
 
 TEST_F(Rois, SearchesWithAConditionThatIsTypedOrInAFile) {
     EXPECT_EQ(run({"search", "type", "=", "Navigation"}).out, "navigation  Navigation\n");
@@ -205,152 +178,6 @@ TEST_F(Rois, SaysWhatIsWrongWithItsCommandLine) {
 
 TEST_F(Rois, SpeaksHttpToo) {
     EXPECT_EQ(run({"--http", "start", "speech_synthesis", "speech_text=Hi."}).out, "start speech_synthesis  OK\n");
-}
-
-// --- Recordings ---
-
-TEST_F(Rois, ReplaysWhatItRecorded) {
-    auto const file = file_named("day.jsonl");
-    std::vector<std::string> const watch{"watch", "person_detected", "--start", "person_detection", "--count", "1", "--json"};
-    auto recorded = watch;
-    recorded.insert(recorded.end(), {"--record", file});
-    auto const live = run(recorded);
-    ASSERT_EQ(live.exit_code, 0) << live.error;
-    auto const event = json::parse(lines_of(live.out).back());
-
-    RoisProcess engine{{"replay", file, "--listen", "127.0.0.1:0", "--json", "--speed", "0"}};
-    Variables const there{{"ROIS_URL", json::parse(engine.line())["listening"]}};
-    for (auto const& way : {std::vector<std::string>{}, std::vector<std::string>{"--http"}}) {
-        auto again = watch;
-        again.insert(again.end(), way.begin(), way.end());
-        auto const replayed = run_rois(again, {}, there);
-        ASSERT_EQ(replayed.exit_code, 0) << replayed.error;
-        auto told = json::parse(lines_of(replayed.out).back());
-        told["sequence"] = event["sequence"];
-        EXPECT_EQ(told, event);
-    }
-    EXPECT_EQ(run_rois({"health"}, {}, there).exit_code, 0);
-    EXPECT_EQ(run_rois({"bind", "navigation"}, {}, there).exit_code, 4) << "never recorded";
-    auto const bad = run_rois({"send", "-"}, "<bind " + std::string{messages} + "><component/></bind>", there);
-    EXPECT_EQ(bad.exit_code, 9) << "validated like the gateway's";
-    engine.signal(SIGTERM);
-    EXPECT_EQ(engine.wait().exit_code, 0);
-}
-
-TEST_F(Rois, RefusesWhatIsNotServedThere) {
-    RoisProcess between{{"record", file_named("refused.jsonl"), "--listen", "127.0.0.1:0", "--json"}, at()};
-    auto const url = json::parse(between.line())["listening"].get<std::string>();
-    auto const port = std::stoi(url.substr(url.rfind(':') + 1));
-    client::HttpClient http{{.port = static_cast<std::uint16_t>(port)}};
-    EXPECT_EQ(http.get("/elsewhere").fault(), "not_found");
-    EXPECT_EQ(http.get("/elsewhere").reason(), "only sessions are served here: /rois, /rois/notifications");
-    EXPECT_EQ(http.get("/rois").fault(), "upgrade_required");
-    EXPECT_EQ(http.get("/readyz", {}, "PUT").reason(), "this method is not for /readyz");
-    EXPECT_EQ(http.get("/rois/notifications?after=0&wait=0").fault(), "no_session");
-    EXPECT_EQ(http.call("connect").return_code(), "OK");
-    EXPECT_EQ(http.get("/rois/notifications?after=x&wait=0", {{"RoIS-Session", http.session}}).fault(), "not_well_formed");
-    EXPECT_EQ(
-        http.get("/rois/notifications", {{"RoIS-Session", http.session}, {"Accept", "text/event-stream"}, {"Last-Event-ID", "x"}})
-            .reason(),
-        "Last-Event-ID must be a whole number");
-}
-
-TEST_F(Rois, RecordsWhatOthersSay) {
-    auto const file = file_named("others.jsonl");
-    RoisProcess between{{"record", file, "--listen", "127.0.0.1:0", "--json"}, at()};
-    Variables const there{{"ROIS_URL", json::parse(between.line())["listening"]}};
-    EXPECT_EQ(run_rois({"start", "speech_synthesis", "speech_text=Hi."}, {}, there).out, "start speech_synthesis  OK\n");
-    between.signal(SIGINT);
-    EXPECT_EQ(between.wait().exit_code, 0);
-    RoisProcess engine{{"replay", file, "--listen", "127.0.0.1:0", "--json", "--speed", "0"}};
-    Variables const replayed{{"ROIS_URL", json::parse(engine.line())["listening"]}};
-    EXPECT_EQ(run_rois({"start", "speech_synthesis", "speech_text=Hello."}, {}, replayed).out, "start speech_synthesis  OK\n")
-        << "roughly the same";
-}
-
-TEST_F(Rois, RefusesWhatIsNoRecording) {
-    expect(2, ":1: this is no recording", {"replay", file_with("none.jsonl", "<xml/>\n")});
-    expect(2,
-           ":2: ", {"replay", file_with("bad.jsonl", "{\"recording\":\"rois-recording-1\"}\n{\"at\":1,\"direction\":\"up\"}\n")});
-    expect(2, "cannot be read", {"replay", "/no/such/file"});
-    expect(2, "cannot be written", {"search", "--record", "/no/such/folder/file"});
-}
-
-// --- Scenarios ---
-
-constexpr auto reception = ROIS_SOURCE_DIR "/client-cpp/scenarios/reception.xml";
-
-TEST(TheReceptionAsAScenario, ReceivesFourVisitorsAndIsReplayed) {
-    GatewayProcess const gateway{
-        {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/four_visitors.xml", "--sim-speed", "20", "--seed", "7"}};
-    auto const file = file_named("reception.jsonl");
-    auto const live =
-        run_rois({"scenario", reception, "visitors=4", "identifying=1", "listening=2", "looking=2", "--quiet", "--record", file},
-                 {}, {{"ROIS_URL", gateway.url()}});
-    ASSERT_EQ(live.exit_code, 0) << live.error;
-    EXPECT_THAT(lines_of(live.out), testing::UnorderedElementsAre(
-                                        "tanaka: told \"Mr. Tanaka, your meeting is in room 3.\"",
-                                        "suzuki: told \"Ms. Suzuki, your taxi is waiting at the entrance.\"",
-                                        "somebody: told \"Welcome. How can I help you?\", heard \"Where is the exhibition?\"",
-                                        "somebody: told \"Welcome. How can I help you?\"", "received 4 visitors"));
-    RoisProcess engine{{"replay", file, "--listen", "127.0.0.1:0", "--json"}};
-    auto const again = run_rois({"scenario", reception, "visitors=4", "identifying=1", "listening=2", "looking=2", "--quiet"}, {},
-                                {{"ROIS_URL", json::parse(engine.line())["listening"]}});
-    EXPECT_EQ(again.exit_code, 0) << again.error;
-    EXPECT_EQ(again.out, live.out) << "without a robot";
-}
-
-std::string scenario_with(std::string const& states, std::string const& start = "a") {
-    return file_with("scenario.xml", "<robot_scenario xmlns='urn:x-rois:scenario:1' start='" + start +
-                                         "'>\n<component name='move'/>\n<variable name='x'/>\n" + states +
-                                         "\n</robot_scenario>\n");
-}
-
-TEST_F(Rois, ReportsEachTransitionOfAScenario) {
-    auto const file = scenario_with(
-        "<state name='a'><command component='move' type='stop'/><completed status='OK' to='b'/></state>"
-        "<end name='b' failed='true'><print>x is {x}</print></end>");
-    auto const ended = run({"scenario", file, "x=1", "--json"});
-    EXPECT_EQ(ended.exit_code, 1) << "failed";
-    auto const lines = lines_of(ended.out);
-    ASSERT_EQ(lines.size(), 2u) << ended.out << ended.error;
-    auto const transition = json::parse(lines[0]);
-    EXPECT_EQ(transition["from"], "a");
-    EXPECT_EQ(transition["to"], "b");
-    EXPECT_EQ(transition["by"], "completed OK");
-    EXPECT_EQ(lines[1], "{\"print\":\"x is 1\"}");
-}
-
-TEST_F(Rois, SaysWhatIsWrongWithAScenario) {
-    auto const end = std::string{"<end name='b'/>"};
-    struct Wrong {
-        std::string states;
-        std::string says;
-    };
-    for (auto const& [states, says] : std::vector<Wrong>{
-             {"<state name='a'><nothing/></state>", ":4:17: unknown element 'nothing' inside 'state'"},
-             {"<state name='a'><at_once to='c'/></state>" + end, ":4:17: no state 'c'; there are a, b"},
-             {"<state name='a'/>" + end, ":4:1: nothing leads out of this state"},
-             {"<state name='a'><print>{y}</print><at_once to='b'/></state>" + end, ":4:17: no variable 'y'; there are x"},
-             {"<state name='a'><command component='arm' type='stop'/><at_once to='b'/></state>" + end,
-              ":4:17: no component 'arm'; there are move"},
-             {"<state name='a'><completed to='b'/></state>" + end,
-              ":4:1: this state waits for the end of its commands, and has none"},
-             {"<state name='a'><at_once to='b'><when variable='x'/></at_once></state>" + end,
-              ":4:33: a 'when' has one of is, is_not"},
-             {"<state name='a'><after seconds='1' to='b'><take variable='x' result='r'/></after></state>" + end,
-              "only events and answers have results"},
-         }) {
-        auto const file = scenario_with(states);
-        expect(2, file + says.substr(0, says.starts_with(":") ? std::string::npos : 0), {"scenario", "--check", file});
-        expect(2, says, {"scenario", "--check", file});
-    }
-    EXPECT_EQ(run({"scenario", "--check", reception}).out, "scenario ok\n");
-    expect(2, "no variable 'guests'", {"scenario", reception, "guests=2"});
-    expect(2, "robot_scenario", {"scenario", ROIS_SOURCE_DIR "/tests/server/data/one_visitor.xml"});
-    auto const unexpected =
-        scenario_with("<state name='a'><command component='move' type='resume'/><completed status='OK' to='b'/></state>" + end);
-    expect(1, "ended with ERROR, and no trigger is for that", {"scenario", unexpected});
 }
 
 // --- What is installed beside the program ---

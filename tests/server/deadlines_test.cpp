@@ -1,4 +1,5 @@
 // Whoever is too slow is cut at a deadline; others do not notice.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "server/websocket_client.hpp"
@@ -75,6 +76,24 @@ TEST(Limit, OfConnectionsMakesMoreOfThemWait) {
     EXPECT_EQ(first->get("/healthz").status, 200);
     first.reset();
     EXPECT_EQ(second.read().status, 200);
+}
+
+TEST(Limit, OfConnectionsHoldsOverAllThreads) {
+    GatewayProcess gateway{{"--max-connections", "3", "--threads", "3"}};
+    std::vector<std::unique_ptr<HttpClient>> inside;
+    for (int i = 0; i < 3; ++i) {
+        inside.push_back(std::make_unique<HttpClient>(gateway));
+        EXPECT_EQ(inside.back()->get("/healthz").status, 200);
+    }
+    std::vector<std::unique_ptr<HttpClient>> outside;
+    for (int i = 0; i < 8; ++i) {
+        outside.push_back(std::make_unique<HttpClient>(gateway));
+        outside.back()->line().send("GET /healthz HTTP/1.1\r\nHost: h\r\nConnection: close\r\n\r\n");
+    }
+    for (auto const& client : inside)
+        EXPECT_THAT(client->get("/metrics").body, testing::HasSubstr("rois_connections{kind=\"http\"} 3\n"));
+    inside.clear();
+    for (auto const& client : outside) EXPECT_EQ(client->read().status, 200);
 }
 
 }  // namespace

@@ -1,0 +1,78 @@
+// `rois record` and `rois replay`.
+#include <signal.h>
+
+#include "client/http_client.hpp"
+#include "command/rois_fixture.hpp"
+
+namespace rois::test {
+namespace {
+
+TEST_F(Rois, ReplaysWhatItRecorded) {
+    auto const file = file_named("day.jsonl");
+    std::vector<std::string> const watch{"watch", "person_detected", "--start", "person_detection", "--count", "1", "--json"};
+    auto recorded = watch;
+    recorded.insert(recorded.end(), {"--record", file});
+    auto const live = run(recorded);
+    ASSERT_EQ(live.exit_code, 0) << live.error;
+    auto const event = json::parse(lines_of(live.out).back());
+
+    RoisProcess engine{{"replay", file, "--listen", "127.0.0.1:0", "--json", "--speed", "0"}};
+    Variables const there{{"ROIS_URL", json::parse(engine.line())["listening"]}};
+    for (auto const& way : {std::vector<std::string>{}, std::vector<std::string>{"--http"}}) {
+        auto again = watch;
+        again.insert(again.end(), way.begin(), way.end());
+        auto const replayed = run_rois(again, {}, there);
+        ASSERT_EQ(replayed.exit_code, 0) << replayed.error;
+        auto told = json::parse(lines_of(replayed.out).back());
+        told["sequence"] = event["sequence"];
+        EXPECT_EQ(told, event);
+    }
+    EXPECT_EQ(run_rois({"health"}, {}, there).exit_code, 0);
+    EXPECT_EQ(run_rois({"bind", "navigation"}, {}, there).exit_code, 4) << "never recorded";
+    auto const bad = run_rois({"send", "-"}, "<bind " + std::string{messages} + "><component/></bind>", there);
+    EXPECT_EQ(bad.exit_code, 9) << "validated like the gateway's";
+    engine.signal(SIGTERM);
+    EXPECT_EQ(engine.wait().exit_code, 0);
+}
+
+TEST_F(Rois, RefusesWhatIsNotServedThere) {
+    RoisProcess between{{"record", file_named("refused.jsonl"), "--listen", "127.0.0.1:0", "--json"}, at()};
+    auto const url = json::parse(between.line())["listening"].get<std::string>();
+    auto const port = std::stoi(url.substr(url.rfind(':') + 1));
+    client::HttpClient http{{.port = static_cast<std::uint16_t>(port)}};
+    EXPECT_EQ(http.get("/elsewhere").fault(), "not_found");
+    EXPECT_EQ(http.get("/elsewhere").reason(), "only sessions are served here: /rois, /rois/notifications");
+    EXPECT_EQ(http.get("/rois").fault(), "upgrade_required");
+    EXPECT_EQ(http.get("/readyz", {}, "PUT").reason(), "this method is not for /readyz");
+    EXPECT_EQ(http.get("/rois/notifications?after=0&wait=0").fault(), "no_session");
+    EXPECT_EQ(http.call("connect").return_code(), "OK");
+    EXPECT_EQ(http.get("/rois/notifications?after=x&wait=0", {{"RoIS-Session", http.session}}).fault(), "not_well_formed");
+    EXPECT_EQ(
+        http.get("/rois/notifications", {{"RoIS-Session", http.session}, {"Accept", "text/event-stream"}, {"Last-Event-ID", "x"}})
+            .reason(),
+        "Last-Event-ID must be a whole number");
+}
+
+TEST_F(Rois, RecordsWhatOthersSay) {
+    auto const file = file_named("others.jsonl");
+    RoisProcess between{{"record", file, "--listen", "127.0.0.1:0", "--json"}, at()};
+    Variables const there{{"ROIS_URL", json::parse(between.line())["listening"]}};
+    EXPECT_EQ(run_rois({"start", "speech_synthesis", "speech_text=Hi."}, {}, there).out, "start speech_synthesis  OK\n");
+    between.signal(SIGINT);
+    EXPECT_EQ(between.wait().exit_code, 0);
+    RoisProcess engine{{"replay", file, "--listen", "127.0.0.1:0", "--json", "--speed", "0"}};
+    Variables const replayed{{"ROIS_URL", json::parse(engine.line())["listening"]}};
+    EXPECT_EQ(run_rois({"start", "speech_synthesis", "speech_text=Hello."}, {}, replayed).out, "start speech_synthesis  OK\n")
+        << "roughly the same";
+}
+
+TEST_F(Rois, RefusesWhatIsNoRecording) {
+    expect(2, ":1: this is no recording", {"replay", file_with("none.jsonl", "<xml/>\n")});
+    expect(2,
+           ":2: ", {"replay", file_with("bad.jsonl", "{\"recording\":\"rois-recording-1\"}\n{\"at\":1,\"direction\":\"up\"}\n")});
+    expect(2, "cannot be read", {"replay", "/no/such/file"});
+    expect(2, "cannot be written", {"search", "--record", "/no/such/folder/file"});
+}
+
+}  // namespace
+}  // namespace rois::test

@@ -1,0 +1,91 @@
+// `rois scenario`.
+#include "command/rois_fixture.hpp"
+
+namespace rois::test {
+namespace {
+
+constexpr auto reception = ROIS_SOURCE_DIR "/client-cpp/scenarios/reception.xml";
+
+// What a scenario printed, without its transitions.
+std::vector<std::string> said_in(std::string const& out) {
+    auto lines = lines_of(out);
+    std::erase_if(lines, [](std::string const& line) { return line.find(" -> ") != std::string::npos; });
+    return lines;
+}
+
+TEST(TheReceptionAsAScenario, ReceivesFourVisitorsAndIsReplayed) {
+    GatewayProcess const gateway{
+        {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/four_visitors.xml", "--sim-speed", "20", "--seed", "7"}};
+    auto const file = file_named("reception.jsonl");
+    std::vector<std::string> const scenario{"scenario", reception, "visitors=4", "identifying=1", "listening=2", "looking=2"};
+    auto recorded = scenario;
+    recorded.insert(recorded.end(), {"--record", file});
+    auto const live = run_rois(recorded, {}, {{"ROIS_URL", gateway.url()}});
+    ASSERT_EQ(live.exit_code, 0) << live.error << live.out;
+    EXPECT_THAT(said_in(live.out), testing::UnorderedElementsAre(
+                                       "tanaka: told \"Mr. Tanaka, your meeting is in room 3.\"",
+                                       "suzuki: told \"Ms. Suzuki, your taxi is waiting at the entrance.\"",
+                                       "somebody: told \"Welcome. How can I help you?\", heard \"Where is the exhibition?\"",
+                                       "somebody: told \"Welcome. How can I help you?\"", "received 4 visitors"))
+        << live.out;
+    RoisProcess engine{{"replay", file, "--listen", "127.0.0.1:0", "--json"}};
+    auto const again = run_rois(scenario, {}, {{"ROIS_URL", json::parse(engine.line())["listening"]}});
+    EXPECT_EQ(again.exit_code, 0) << "without a robot: " << again.error << again.out;
+    EXPECT_EQ(said_in(again.out), said_in(live.out)) << again.out << live.out;
+}
+
+std::string scenario_with(std::string const& states, std::string const& start = "a") {
+    return file_with("scenario.xml", "<robot_scenario xmlns='urn:x-rois:scenario:1' start='" + start +
+                                         "'>\n<component name='move'/>\n<variable name='x'/>\n" + states +
+                                         "\n</robot_scenario>\n");
+}
+
+TEST_F(Rois, ReportsEachTransitionOfAScenario) {
+    auto const file = scenario_with(
+        "<state name='a'><command component='move' type='stop'/><completed status='OK' to='b'/></state>"
+        "<end name='b' failed='true'><print>x is {x}</print></end>");
+    auto const ended = run({"scenario", file, "x=1", "--json"});
+    EXPECT_EQ(ended.exit_code, 1) << "failed";
+    auto const lines = lines_of(ended.out);
+    ASSERT_EQ(lines.size(), 2u) << ended.out << ended.error;
+    auto const transition = json::parse(lines[0]);
+    EXPECT_EQ(transition["from"], "a");
+    EXPECT_EQ(transition["to"], "b");
+    EXPECT_EQ(transition["by"], "completed OK");
+    EXPECT_EQ(lines[1], "{\"print\":\"x is 1\"}");
+}
+
+TEST_F(Rois, SaysWhatIsWrongWithAScenario) {
+    auto const end = std::string{"<end name='b'/>"};
+    struct Wrong {
+        std::string states;
+        std::string says;
+    };
+    for (auto const& [states, says] : std::vector<Wrong>{
+             {"<state name='a'><nothing/></state>", ":4:17: unknown element 'nothing' inside 'state'"},
+             {"<state name='a'><at_once to='c'/></state>" + end, ":4:17: no state 'c'; there are a, b"},
+             {"<state name='a'/>" + end, ":4:1: nothing leads out of this state"},
+             {"<state name='a'><print>{y}</print><at_once to='b'/></state>" + end, ":4:17: no variable 'y'; there are x"},
+             {"<state name='a'><command component='arm' type='stop'/><at_once to='b'/></state>" + end,
+              ":4:17: no component 'arm'; there are move"},
+             {"<state name='a'><completed to='b'/></state>" + end,
+              ":4:1: this state waits for the end of its commands, and has none"},
+             {"<state name='a'><at_once to='b'><when variable='x'/></at_once></state>" + end,
+              ":4:33: a 'when' has one of is, is_not"},
+             {"<state name='a'><after seconds='1' to='b'><take variable='x' result='r'/></after></state>" + end,
+              "only events and answers have results"},
+         }) {
+        auto const file = scenario_with(states);
+        expect(2, file + says.substr(0, says.starts_with(":") ? std::string::npos : 0), {"scenario", "--check", file});
+        expect(2, says, {"scenario", "--check", file});
+    }
+    EXPECT_EQ(run({"scenario", "--check", reception}).out, "scenario ok\n");
+    expect(2, "no variable 'guests'", {"scenario", reception, "guests=2"});
+    expect(2, "robot_scenario", {"scenario", ROIS_SOURCE_DIR "/tests/server/data/one_visitor.xml"});
+    auto const unexpected =
+        scenario_with("<state name='a'><command component='move' type='resume'/><completed status='OK' to='b'/></state>" + end);
+    expect(1, "ended with ERROR, and no trigger is for that", {"scenario", unexpected});
+}
+
+}  // namespace
+}  // namespace rois::test
