@@ -14,7 +14,10 @@ using HttpMessage = http::request<http::string_body>;
 class Front::Connection : public std::enable_shared_from_this<Front::Connection> {
 public:
     Connection(Front& front, asio::ip::tcp::socket socket)
-        : host_{front.host_}, reader_{front.schemas_}, stream_{std::move(socket)} {}
+        : host_{front.host_}, reader_{front.schemas_}, stream_{std::move(socket)} {
+        Failure ignored;
+        stream_.socket().set_option(asio::ip::tcp::no_delay{true}, ignored);
+    }
 
     // Requests, until one of them makes something else of the connection. It must be owned by a shared_ptr.
     asio::awaitable<void> run();

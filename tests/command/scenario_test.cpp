@@ -13,20 +13,22 @@ std::vector<std::string> said_in(std::string const& out) {
     return lines;
 }
 
-TEST(TheReceptionAsAScenario, ReceivesFourVisitorsAndIsReplayed) {
-    GatewayProcess const gateway{
-        {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/four_visitors.xml", "--sim-speed", "20", "--seed", "7"}};
+// Its times are long against what a busy machine may take, so that they only pass for the visitor who is not known.
+TEST(TheReceptionAsAScenario, ReceivesThreeVisitorsAndIsReplayed) {
+    std::string const data = ROIS_SOURCE_DIR "/tests/server/data/";
+    GatewayProcess const gateway{{"--floor-plan", data + "watchful_hall.xml", "--scenario", data + "three_visitors.xml",
+                                  "--sim-speed", "20", "--seed", "7"}};
     auto const file = file_named("reception.jsonl");
-    std::vector<std::string> const scenario{"scenario", reception, "visitors=4", "identifying=1", "listening=2", "looking=2"};
+    std::vector<std::string> const scenario{"scenario", reception, "visitors=3", "identifying=5"};
     auto recorded = scenario;
     recorded.insert(recorded.end(), {"--record", file});
     auto const live = run_rois(recorded, {}, {{"ROIS_URL", gateway.url()}});
     ASSERT_EQ(live.exit_code, 0) << live.error << live.out;
-    EXPECT_THAT(said_in(live.out), testing::UnorderedElementsAre(
-                                       "tanaka: told \"Mr. Tanaka, your meeting is in room 3.\"",
-                                       "suzuki: told \"Ms. Suzuki, your taxi is waiting at the entrance.\"",
-                                       "somebody: told \"Welcome. How can I help you?\", heard \"Where is the exhibition?\"",
-                                       "somebody: told \"Welcome. How can I help you?\"", "received 4 visitors"))
+    EXPECT_THAT(said_in(live.out),
+                testing::UnorderedElementsAre("tanaka: told \"Mr. Tanaka, your meeting is in room 3.\"",
+                                              "suzuki: told \"Ms. Suzuki, your taxi is waiting at the entrance.\"",
+                                              "somebody: told \"Welcome. How can I help you?\", heard \"I have an appointment.\"",
+                                              "received 3 visitors"))
         << live.out;
     RoisProcess engine{{"replay", file, "--listen", "127.0.0.1:0", "--json"}};
     auto const again = run_rois(scenario, {}, {{"ROIS_URL", json::parse(engine.line())["listening"]}});
