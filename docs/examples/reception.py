@@ -74,6 +74,7 @@ start = engine.query("robot_position")["position_data"][0]
 met = set()  # the temporary names of those who were received, and their permanent ids
 received = 0
 while received < visitors:
+    engine.run("navigation", target_position=["string[]", start])  # from where the hall is seen
     engine.run("person_detection")
     engine.event("person_detected", 30, lambda results: int(results["number"][0]) > 0)
     engine.run("person_detection", "stop")
@@ -92,6 +93,6 @@ while received < visitors:
         say("Goodbye.")
         print(f'{visitor}: told "{message}"' + (f', heard "{heard}"' if heard else ""), flush=True)
         received += 1
-    engine.run("navigation", target_position=["string[]", start])
+engine.run("navigation", target_position=["string[]", start])
 print(f"received {visitors} visitors")
 engine.request("disconnect")

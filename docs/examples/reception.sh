@@ -241,7 +241,7 @@ guide() {
 
 receive() {
     wait_for_a_person
-    go_there || return 1
+    go_there || { go_back; return 1; }  # the hall is seen from the start
     known_persons="$known_persons$person "
     identify
     case $known_visitors in *" ${visitor:-nobody} "*)

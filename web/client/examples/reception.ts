@@ -73,6 +73,7 @@ async function ask(question: string): Promise<string | undefined> {
 }
 
 for (let received = 0; received < visitors; ) {
+  await navigation.go_to(start); // from where the hall is seen
   await detection.start();
   await detected.next(30_000);
   await detection.stop();
@@ -92,7 +93,7 @@ for (let received = 0; received < visitors; ) {
     console.log(`${visitor}: told "${message}"${heard === undefined ? '' : `, heard "${heard}"`}`);
     received += 1;
   }
-  await navigation.go_to(start);
 }
+await navigation.go_to(start);
 await client.close();
 console.log(`received ${visitors} visitors`);
