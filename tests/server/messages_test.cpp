@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "server/http_client.hpp"
+#include "server/websocket_client.hpp"
 
 namespace rois::test {
 namespace {
@@ -110,13 +111,16 @@ TEST(Session, IsOneTooManyAboveTheLimit) {
 
 TEST(Session, EndsWithoutASignOfLife) {
     GatewayProcess gateway{{"--session-timeout", "0.2", "--resume-window", "0.1"}};
-    HttpClient gone{gateway}, waiting{gateway};
+    HttpClient gone{gateway};
     gone.call("connect");
     gone.call("bind", component_ref("move"));
+    WebSocketClient waiting{gateway};  // whose session lives as long as its link
     waiting.call("connect");
-    while (waiting.call("bind", component_ref("move")).return_code() == "OUT_OF_RESOURCES") {
-    }
-    EXPECT_EQ(waiting.call("get_parameter", component_ref("move")).return_code(), "OK");
+    std::string bound;
+    do {
+        bound = waiting.call("bind", component_ref("move")).attribute("return_code").value();
+    } while (bound == "OUT_OF_RESOURCES");
+    EXPECT_EQ(bound, "OK");
     EXPECT_EQ(gone.call("search").fault(), "no_session");
 }
 

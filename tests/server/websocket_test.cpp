@@ -204,6 +204,8 @@ TEST(Resume, OfItsOwnSessionReadsAgain) {
     EXPECT_EQ(code_of(client.call("disconnect")), "OK");
 }
 
+std::string return_code(pugi::xml_node answer) { return answer.attribute("return_code").value(); }
+
 TEST(Link, OfAWebSocketThatVanishesIsLostWithItsSession) {
     GatewayProcess gateway{{"--session-timeout", "0.1", "--resume-window", "0.1"}};
     {
@@ -211,11 +213,11 @@ TEST(Link, OfAWebSocketThatVanishesIsLostWithItsSession) {
         bind_and_complete(vanishing, 0);
         vanishing.vanish();
     }
-    HttpClient waiting{gateway};
+    WebSocketClient waiting{gateway};  // whose session lives as long as its link
     waiting.call("connect");
-    while (waiting.call("bind", component_ref("navigation")).return_code() == "OUT_OF_RESOURCES") {
+    while (return_code(waiting.call("bind", component_ref("navigation"))) == "OUT_OF_RESOURCES") {
     }
-    EXPECT_EQ(waiting.call("get_parameter", component_ref("navigation")).return_code(), "OK");
+    EXPECT_EQ(return_code(waiting.call("get_parameter", component_ref("navigation"))), "OK");
 }
 
 TEST(Ping, IsAnsweredWithItsPayload) {
