@@ -92,9 +92,10 @@ public:
 private:
     void started(CommandHandle command) override { port_->started(command); }
 
-    void completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards) override {
+    void completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards,
+                   std::string why) override {
         if (running_ == command) running_.reset();
-        port_->completed(command, status, std::move(results), afterwards);
+        port_->completed(command, status, std::move(results), afterwards, std::move(why));
     }
 
     void event(std::string_view event_type, Results results) override { port_->event(event_type, std::move(results)); }
@@ -105,7 +106,8 @@ private:
             port_->error(ErrorType::user_defined_error, "it complains, as the scenario says");
         if (std::exchange(had_failed_, is(Fault::Kind::failed)) || !had_failed_) return;
         component_->halt(when);
-        if (auto const command = std::exchange(running_, {})) port_->completed(*command, CompletedStatus::error);
+        if (auto const command = std::exchange(running_, {}))
+            port_->completed(*command, CompletedStatus::error, {}, Afterwards::as_before, reason);
         port_->error(ErrorType::component_internal_error, reason);
     }
 

@@ -33,14 +33,14 @@ private:
         limit_ = WorldTime{integer_of(parameters, "time_limit").value_or(0)};
         whom_.reset();
         waits_ = false;
-        if (wheels_are_anothers()) return end(CompletedStatus::out_of_resources);
+        if (wheels_are_anothers()) return end(CompletedStatus::out_of_resources, busy_wheels());
         look();
     }
 
     void act() override {
         if (limit_.count() == 0 || elapsed() < limit_) return look();
         cease();
-        end(CompletedStatus::timeout);
+        end(CompletedStatus::timeout, "time_limit has passed");
     }
 
     // Keeps the distance to the target, or stands and waits until it is found.

@@ -55,10 +55,10 @@ private:
     void act() override {
         auto const state = progress().state;
         if (state == MotionState::arrived) return end(CompletedStatus::ok);
-        if (over(state)) return end(CompletedStatus::error);
+        if (over(state)) return end(CompletedStatus::error, "a wall or something else that does not move is in the way");
         if (blocked(state) < patience) return;
         cease();
-        end(CompletedStatus::error);
+        end(CompletedStatus::error, "somebody is in the way and does not move");
     }
 };
 

@@ -55,7 +55,11 @@ private:
         way.policy = text_of(parameters, "routing_policy") == "distance" ? RoutingPolicy::distance : RoutingPolicy::time;
         for (auto const& name : names_) way.targets.push_back(*target(name));
         auto const is_hopeless = [&](Target const& target) { return hall().plan().clearance(target.position) <= 0; };
-        if (std::ranges::any_of(way.targets, is_hopeless)) return end(CompletedStatus::error);
+        auto const hopeless = std::ranges::find_if(way.targets, is_hopeless);
+        if (hopeless != way.targets.end()) {
+            auto const& name = names_[static_cast<std::size_t>(hopeless - way.targets.begin())];
+            return end(CompletedStatus::error, quoted(name) + " is outside of the hall, in a wall or in furniture");
+        }
         drive(std::move(way));
     }
 
@@ -63,9 +67,11 @@ private:
         auto const [state, reached] = progress();
         while (told_ < reached) tell_reached();
         if (state == MotionState::arrived) return end(CompletedStatus::ok);
-        if (over(state)) return end(CompletedStatus::error);
-        if (limit_.count() > 0 && elapsed() >= limit_) return give_up(CompletedStatus::timeout);
-        if (blocked(state) >= patience) give_up(CompletedStatus::error);
+        if (over(state))
+            return end(CompletedStatus::error, "no way leads to " + quoted(names_[std::min(told_, names_.size() - 1)]));
+        if (limit_.count() > 0 && elapsed() >= limit_)
+            return give_up(CompletedStatus::timeout, "not there within time_limit, " + std::to_string(limit_.count()) + " ms");
+        if (blocked(state) >= patience) give_up(CompletedStatus::error, "somebody is in the way and does not move");
     }
 
     void tell_reached() {
@@ -74,9 +80,9 @@ private:
         port().event("reached_target", {{std::move(reached), boolean("is_final_target", told_ == names_.size())}, {}});
     }
 
-    void give_up(CompletedStatus status) {
+    void give_up(CompletedStatus status, std::string reason) {
         cease();
-        end(status);
+        end(status, std::move(reason));
     }
 
     std::vector<std::string> names_;  // of the targets, in the robot's frame

@@ -169,8 +169,9 @@ void Action::stepped(Instant) {
     act();
 }
 
-void Action::end(CompletedStatus status) {
-    if (auto const command = std::exchange(command_, {})) port().completed(*command, status);
+void Action::end(CompletedStatus status, std::string reason) {
+    if (auto const command = std::exchange(command_, {}))
+        port().completed(*command, status, {}, Afterwards::as_before, std::move(reason));
 }
 
 }  // namespace rois::simulation

@@ -128,8 +128,8 @@ protected:
     virtual void hold() = 0;
     virtual void go_on() = 0;
 
-    // Completes the command; the action has ceased, or ceases by itself.
-    void end(CompletedStatus);
+    // Completes the command; the action has ceased, or ceases by itself. `reason`: why not with OK.
+    void end(CompletedStatus, std::string reason = {});
     WorldTime elapsed() const { return elapsed_; }
 
 private:

@@ -98,7 +98,7 @@ private:
             case SpeechState::spoken:
                 return end(CompletedStatus::ok);
             case SpeechState::broken:
-                return end(CompletedStatus::error);
+                return end(CompletedStatus::error, "the speech was broken off");
         }
     }
 

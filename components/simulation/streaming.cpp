@@ -75,7 +75,8 @@ void Streaming::perform(CommandHandle command, std::string_view command_type, Pa
     // Closed since the command was accepted, or in that state already.
     bool const held = stream != nullptr && stream->status == StreamStatus::suspended;
     if (stream == nullptr || (command_type == "suspend_stream" && held) || (command_type == "resume_stream" && !held))
-        return port().completed(command, CompletedStatus::error);
+        return port().completed(command, CompletedStatus::error, {}, Afterwards::as_before,
+                                stream == nullptr ? "the stream has been closed" : "the stream is in that state already");
     if (command_type == "suspend_stream") {
         hold(*stream, now);
     } else if (command_type == "resume_stream") {
@@ -158,10 +159,13 @@ std::variant<Streaming::Opening, std::string> Streaming::negotiated(ParameterLis
 }
 
 void Streaming::connect(CommandHandle command, Instant now) {
-    if (streams_.size() >= most_streams) return port().completed(command, CompletedStatus::out_of_resources);
+    if (streams_.size() >= most_streams)
+        return port().completed(command, CompletedStatus::out_of_resources, {}, Afterwards::as_before,
+                                std::to_string(most_streams) + " streams are open already");
     auto const agreed = negotiated(parameters_);
     auto const* opening = std::get_if<Opening>(&agreed);
-    if (opening == nullptr) return port().completed(command, CompletedStatus::error);
+    if (opening == nullptr)
+        return port().completed(command, CompletedStatus::error, {}, Afterwards::as_before, std::get<std::string>(agreed));
     Stream stream{.id = description().ref.code + "-" + std::to_string(++last_),
                   .outlet = opening->open(held_ ? media::Flow::held : media::Flow::on)};
     Results results{{text("stream_id", stream.id), text("encoding_parameters", opening->encoding),

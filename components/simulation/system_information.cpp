@@ -19,7 +19,7 @@ public:
 
     // Without the methods of RoIS_Common: there is nothing to start, and the engine never asks for it.
     void start(CommandHandle command, ParameterList const&, Instant) override {
-        port().completed(command, CompletedStatus::error);
+        port().completed(command, CompletedStatus::error, {}, Afterwards::as_before, "there is nothing to start");
     }
     void halt(Instant) override {}
     void suspend(Instant) override {}

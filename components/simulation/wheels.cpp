@@ -7,7 +7,7 @@ namespace rois::simulation {
 void WheelAction::drive(Motion motion) {
     blocked_ = {};
     motion_ = hall().drive(robot()).begin(owner_, std::move(motion));
-    if (!motion_) end(CompletedStatus::out_of_resources);
+    if (!motion_) end(CompletedStatus::out_of_resources, busy_wheels());
 }
 
 Progress WheelAction::progress() const { return motion_ ? hall().drive(robot()).progress(*motion_) : Progress{}; }
@@ -16,6 +16,8 @@ WorldTime WheelAction::blocked(MotionState state) {
     blocked_ = state == MotionState::obstructed ? blocked_ + Hall::step_length : WorldTime{};
     return blocked_;
 }
+
+std::string WheelAction::busy_wheels() const { return "the wheels are busy with " + std::string{hall().drive(robot()).owner()}; }
 
 bool WheelAction::wheels_are_anothers() const {
     auto const owner = hall().drive(robot()).owner();

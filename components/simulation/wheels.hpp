@@ -21,6 +21,8 @@ protected:
     WorldTime blocked(MotionState);
 
     bool wheels_are_anothers() const;
+    // Why they cannot be had.
+    std::string busy_wheels() const;
 
     // WARNING while somebody is in the way.
     ComponentStatus condition() const override;

@@ -22,6 +22,7 @@ struct CommandEnded {
     CompletedStatus status;
     Results results;
     Afterwards afterwards;
+    std::string reason;
 };
 
 struct EventOccurred {

@@ -34,6 +34,7 @@ struct Command {
     std::optional<Deadlines::Ticket> start_deadline;  // until the component says that it has started
     CompletedStatus status = CompletedStatus::ok;     // once ended, as are the following
     Results results;
+    std::string reason;  // why not with OK, for people; may be empty
     Steady ended_at;
 
     // Where it stands in its sequence; none for set_parameter by itself.

@@ -150,6 +150,9 @@ Reply Engine::Core::perform(Session& session, GetCommandResult const& get, Insta
         return refused<GetCommandResult::Reply>(
             ReturnCode::bad_parameter, "unknown command_id " + quoted(get.command_id.text) + ", or its results have aged out");
     auto const& command = *found->second;
+    auto const* message = find_message(command.component->profile(), MessageKind::command, command.type);
+    // A result that the profile calls so is the component's own.
+    bool const has_reason = !command.reason.empty() && find_parameter(message->results, "reason") == nullptr;
     Results results;
     switch (command.state) {
         case Command::State::waiting:
@@ -161,11 +164,12 @@ Reply Engine::Core::perform(Session& session, GetCommandResult const& get, Insta
         case Command::State::ended:
             results = command.results;
             results.parameters.insert(results.parameters.begin(), text("status", std::string{to_text(command.status)}));
+            if (has_reason) results.parameters.insert(results.parameters.begin() + 1, text("reason", command.reason));
             break;
     }
-    auto const* message = find_message(command.component->profile(), MessageKind::command, command.type);
     Declarations known;
-    known.add({.name = "status", .data_type_ref = {"string", {}, {}, {}}, .default_value = {}, .description = {}});
+    for (auto const* name : {"status", "reason"})
+        known.add({.name = name, .data_type_ref = {"string", {}, {}, {}}, .default_value = {}, .description = {}});
     known.add(message->results);
     if (auto problem = choose(results, get.condition, known, get.command_id.text))
         return refused<GetCommandResult::Reply>(ReturnCode::bad_parameter, std::move(*problem));

@@ -52,8 +52,10 @@ public:
     // The command has begun to act. Due within its profile's timeout (decision 16); `completed` implies it.
     virtual void started(CommandHandle) = 0;
 
-    // The command has ended; once for each. Answers to commands that have ended otherwise are counted and dropped.
-    virtual void completed(CommandHandle, CompletedStatus, Results = {}, Afterwards = Afterwards::as_before) = 0;
+    // The command has ended; once for each. Answers to commands that have ended otherwise are counted and dropped. `reason` says,
+    // for people, why it did not end with OK; it becomes the result `reason` of get_command_result.
+    virtual void completed(CommandHandle, CompletedStatus, Results = {}, Afterwards = Afterwards::as_before,
+                           std::string reason = {}) = 0;
 
     // An event of the profile occurred.
     virtual void event(std::string_view event_type, Results) = 0;

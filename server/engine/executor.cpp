@@ -5,6 +5,7 @@
 
 #include "engine/parameters.hpp"
 #include "engine/sequence_check.hpp"
+#include "types/texts.hpp"
 
 namespace rois {
 
@@ -99,7 +100,7 @@ void Executor::run_ready(Instant now) {
 void Executor::run(SharedCommand const& command, Instant now) {
     if (command->state != Command::State::waiting) return;
     if (command->binding_lost || command->component->bound_to != command->session)
-        return end(command, CompletedStatus::abort, {}, now);
+        return end(command, CompletedStatus::abort, "its component was released before its turn came", now);
     command->state = Command::State::running;
     if (command->type == "set_parameter") return run_set_parameter(command, now);
     if (command->type == "start") return run_start(command, now);
@@ -115,7 +116,7 @@ void Executor::run_set_parameter(SharedCommand const& command, Instant now) {
     auto const changed = component.in_own_frame(component.parameters);
     auto const& parameters = changed ? *changed : component.parameters;
     if (called == Called::ok) called = component.call([&](Component& c) { c.parameters_changed(parameters, now); });
-    end(command, called == Called::ok ? CompletedStatus::ok : CompletedStatus::error, {}, now);
+    end(command, called, now);
 }
 
 Executor::Called Executor::store(Command const& command) {
@@ -128,8 +129,9 @@ Executor::Called Executor::store(Command const& command) {
 
 void Executor::run_start(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
-    if (store(*command) == Called::failed) return end(command, CompletedStatus::error, {}, now);
-    if (component.activity != RegisteredComponent::Activity::idle) halt(component, CompletedStatus::abort, now);
+    if (store(*command) == Called::failed) return end(command, Called::failed, now);
+    if (component.activity != RegisteredComponent::Activity::idle)
+        halt(component, CompletedStatus::abort, "another start took its place", now);
     component.activity = RegisteredComponent::Activity::running;
     component.start = command;
     await_start(command, now);
@@ -139,7 +141,7 @@ void Executor::run_start(SharedCommand const& command, Instant now) {
     if (component.call([&](Component& c) { c.start(command->handle, parameters, now); }) == Called::ok) return;
     component.activity = RegisteredComponent::Activity::idle;
     component.start = nullptr;
-    end(command, CompletedStatus::error, {}, now);
+    end(command, Called::failed, now);
 }
 
 void Executor::run_stop(SharedCommand const& command, Instant now) {
@@ -147,26 +149,27 @@ void Executor::run_stop(SharedCommand const& command, Instant now) {
     if (component.activity != RegisteredComponent::Activity::idle) {
         auto status_of_start = CompletedStatus::abort;
         component.call([&](Component& c) { status_of_start = c.status_when_stopped(); });
-        halt(component, status_of_start, now);
+        halt(component, status_of_start, status_of_start == CompletedStatus::ok ? "" : "it was stopped", now);
     }
-    end(command, CompletedStatus::ok, {}, now);
+    end(command, Called::ok, now);
 }
 
 void Executor::run_suspend(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
     if (component.activity == RegisteredComponent::Activity::idle || component.suspended)
-        return end(command, CompletedStatus::error, {}, now);
+        return end(command, CompletedStatus::error,
+                   component.suspended ? "the component is suspended already" : "nothing runs that could be suspended", now);
     auto const called = component.call([&](Component& c) { c.suspend(now); });
     component.suspended = called == Called::ok;
-    end(command, called == Called::ok ? CompletedStatus::ok : CompletedStatus::error, {}, now);
+    end(command, called, now);
 }
 
 void Executor::run_resume(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
-    if (!component.suspended) return end(command, CompletedStatus::error, {}, now);
+    if (!component.suspended) return end(command, CompletedStatus::error, "nothing is suspended that could be resumed", now);
     auto const called = component.call([&](Component& c) { c.resume(now); });
     component.suspended = called != Called::ok;
-    end(command, called == Called::ok ? CompletedStatus::ok : CompletedStatus::error, {}, now);
+    end(command, called, now);
 }
 
 void Executor::run_function(SharedCommand const& command, Instant now) {
@@ -175,7 +178,7 @@ void Executor::run_function(SharedCommand const& command, Instant now) {
     auto const& arguments = changed ? *changed : command->arguments;
     auto const called =
         command->component->call([&](Component& c) { c.perform(command->handle, command->type, arguments, now); });
-    if (called == Called::failed) end(command, CompletedStatus::error, {}, now);
+    if (called == Called::failed) end(command, called, now);
 }
 
 void Executor::await_start(SharedCommand const& command, Instant now) {
@@ -191,13 +194,13 @@ void Executor::start_timed_out(CommandHandle handle, Instant now) {
     auto const command = found->second;
     command->start_deadline.reset();
     auto& component = *command->component;
-    agenda_.add(ErrorOccurred{&component, ErrorType::component_not_responding,
-                              "the command '" + command->type + "' did not start in time"});
+    std::string const reason = "the command '" + command->type + "' did not start in time";
+    agenda_.add(ErrorOccurred{&component, ErrorType::component_not_responding, reason});
     if (component.start == command) {
-        halt(component, CompletedStatus::timeout, now);
+        halt(component, CompletedStatus::timeout, reason, now);
     } else {
         component.call([&](Component& c) { c.halt(now); });
-        end(command, CompletedStatus::timeout, {}, now);
+        end(command, CompletedStatus::timeout, reason, now);
     }
     run_ready(now);
 }
@@ -222,10 +225,11 @@ void Executor::completed(CommandEnded said, Instant now) {
     if (component.check(MessageKind::command, command->type, said.results) == RegisteredComponent::Answer::wrong) {
         said.status = CompletedStatus::error;
         said.results = {};
+        said.reason = "its results are not those of the profile";
     }
     if (said.status == CompletedStatus::ok) component.succeeded();
     follow_up(component, command, said.status == CompletedStatus::ok ? said.afterwards : Afterwards::as_before);
-    end(command, said.status, std::move(said.results), now);
+    end(command, said.status, std::move(said.reason), now, std::move(said.results));
     run_ready(now);
 }
 
@@ -241,18 +245,24 @@ void Executor::follow_up(RegisteredComponent& component, SharedCommand const& co
     component.suspended = active && component.suspended;
 }
 
-void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_start, Instant now) {
+void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_start, std::string reason, Instant now) {
     component.call([&](Component& c) { c.halt(now); });
     component.activity = RegisteredComponent::Activity::idle;
     component.suspended = false;
-    if (auto const start = std::exchange(component.start, nullptr)) end(start, status_of_start, {}, now);
+    if (auto const start = std::exchange(component.start, nullptr)) end(start, status_of_start, std::move(reason), now);
 }
 
-void Executor::end(SharedCommand const& command, CompletedStatus status, Results results, Instant now) {
+void Executor::end(SharedCommand const& command, Called called, Instant now) {
+    bool const ok = called == Called::ok;
+    end(command, ok ? CompletedStatus::ok : CompletedStatus::error, ok ? "" : "the component failed", now);
+}
+
+void Executor::end(SharedCommand const& command, CompletedStatus status, std::string reason, Instant now, Results results) {
     if (command->state == Command::State::ended) return;
     command->state = Command::State::ended;
     command->status = status;
     command->results = std::move(results);
+    command->reason = std::move(reason);
     command->ended_at = now.steady;
     if (command->start_deadline) deadlines_.cancel(*command->start_deadline);
     live_.erase(static_cast<std::uint64_t>(command->handle));
@@ -264,7 +274,9 @@ void Executor::end(SharedCommand const& command, CompletedStatus status, Results
     auto const execution = std::exchange(command->execution, nullptr);
     if (!execution) return;
     auto const turns = execution->command_ended(command->node, status);
-    for (auto const& aborted : execution->take_aborted()) end(aborted, CompletedStatus::abort, {}, now);
+    for (auto const& aborted : execution->take_aborted())
+        end(aborted, CompletedStatus::abort,
+            "the command " + quoted(command->id.text) + " of its sequence ended with " + std::string{to_text(status)}, now);
     give_turns(execution, turns, now);
 }
 
@@ -285,7 +297,7 @@ void Executor::forget_old_results(Session& session, Instant now) const {
 }
 
 void Executor::release(Session& session, RegisteredComponent& component, Instant now) {
-    withdraw(live_commands(session), component, now);
+    withdraw(live_commands(session), component, "its component was released", now);
 }
 
 void Executor::part(RegisteredComponent& component, Instant now) {
@@ -293,39 +305,41 @@ void Executor::part(RegisteredComponent& component, Instant now) {
     live.reserve(live_.size());
     for (auto const& [handle, command] : live_) live.push_back(command);
     std::ranges::sort(live, {}, [](auto const& command) { return command->handle; });
-    withdraw(live, component, now);
+    withdraw(live, component, "its component has gone", now);
 }
 
-void Executor::withdraw(std::vector<SharedCommand> const& live, RegisteredComponent& component, Instant now) {
+void Executor::withdraw(std::vector<SharedCommand> const& live, RegisteredComponent& component, std::string const& reason,
+                        Instant now) {
     for (auto const& command : live) {
         if (command->component.get() != &component || command->state == Command::State::ended) continue;
         if (command->state == Command::State::waiting) {
             command->binding_lost = true;
         } else if (component.start != command) {
             component.call([&](Component& c) { c.halt(now); });
-            end(command, CompletedStatus::abort, {}, now);
+            end(command, CompletedStatus::abort, reason, now);
         }
     }
-    if (component.activity != RegisteredComponent::Activity::idle) halt(component, CompletedStatus::abort, now);
+    if (component.activity != RegisteredComponent::Activity::idle) halt(component, CompletedStatus::abort, reason, now);
     run_ready(now);
 }
 
-void Executor::abort(SharedCommand const& command, Instant now) {
+void Executor::abort(SharedCommand const& command, std::string const& reason, Instant now) {
     auto& component = *command->component;
-    if (component.start == command) return halt(component, CompletedStatus::abort, now);
+    if (component.start == command) return halt(component, CompletedStatus::abort, reason, now);
     if (command->state == Command::State::running) component.call([&](Component& c) { c.halt(now); });
-    end(command, CompletedStatus::abort, {}, now);
+    end(command, CompletedStatus::abort, reason, now);
 }
 
 void Executor::abort_all(Session& session, Instant now) {
-    for (auto const& command : live_commands(session)) abort(command, now);
+    for (auto const& command : live_commands(session)) abort(command, "its session has ended", now);
     run_ready(now);
 }
 
 void Executor::stop_all(Instant now) {
-    while (!live_.empty()) abort(SharedCommand{live_.begin()->second}, now);
+    std::string const ends = "the engine ends";
+    while (!live_.empty()) abort(SharedCommand{live_.begin()->second}, ends, now);
     for (auto const& [ref, component] : registry_.all())
-        if (component->activity != RegisteredComponent::Activity::idle) halt(*component, CompletedStatus::abort, now);
+        if (component->activity != RegisteredComponent::Activity::idle) halt(*component, CompletedStatus::abort, ends, now);
 }
 
 void Executor::let_run_on(Session& session) {

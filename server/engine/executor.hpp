@@ -77,13 +77,15 @@ private:
     void run_suspend(SharedCommand const&, Instant now);
     void run_resume(SharedCommand const&, Instant now);
     void run_function(SharedCommand const&, Instant now);
-    void withdraw(std::vector<SharedCommand> const& live, RegisteredComponent&, Instant now);
-    void halt(RegisteredComponent&, CompletedStatus status_of_start, Instant now);
+    void withdraw(std::vector<SharedCommand> const& live, RegisteredComponent&, std::string const& reason, Instant now);
+    void halt(RegisteredComponent&, CompletedStatus status_of_start, std::string reason, Instant now);
     void await_start(SharedCommand const&, Instant now);
     void start_timed_out(CommandHandle, Instant now);
     static void follow_up(RegisteredComponent&, SharedCommand const&, Afterwards);
-    void end(SharedCommand const&, CompletedStatus, Results, Instant now);
-    void abort(SharedCommand const&, Instant now);
+    // `reason`: why it is not OK, for people.
+    void end(SharedCommand const&, CompletedStatus, std::string reason, Instant now, Results = {});
+    void end(SharedCommand const& command, Called called, Instant now);
+    void abort(SharedCommand const&, std::string const& reason, Instant now);
     Called store(Command const&);
     void remember(SharedCommand const&, Instant now);
 

@@ -244,10 +244,14 @@ ParameterList RegisteredComponent::for_start(ParameterList stored, ParameterList
 
 void RegisteredComponent::started(CommandHandle command) { agenda_.add(CommandStarted{command}); }
 
-void RegisteredComponent::completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards) {
+void RegisteredComponent::completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards,
+                                    std::string reason) {
     auto told_results = told(std::move(results), "a command", Report::each);
-    if (!told_results) status = CompletedStatus::error;
-    agenda_.add(CommandEnded{command, status, std::move(told_results).value_or(Results{}), afterwards});
+    if (!told_results) {
+        status = CompletedStatus::error;
+        reason = "its results are in a frame that cannot be told";
+    }
+    agenda_.add(CommandEnded{command, status, std::move(told_results).value_or(Results{}), afterwards, std::move(reason)});
 }
 
 void RegisteredComponent::event(std::string_view event_type, Results results) {

@@ -95,7 +95,7 @@ public:
     void bound_anew() { told_once_.clear(); }
 
     void started(CommandHandle) override;
-    void completed(CommandHandle, CompletedStatus, Results, Afterwards) override;
+    void completed(CommandHandle, CompletedStatus, Results, Afterwards, std::string reason) override;
     void event(std::string_view event_type, Results) override;
     void error(ErrorType, std::string text, Report) override;
 

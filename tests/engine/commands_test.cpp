@@ -291,6 +291,17 @@ TEST_F(Commands, TellWhetherTheyWaitOrRun) {
     EXPECT_EQ(desk.result_of("say"), "ERROR");
 }
 
+TEST_F(Commands, TellWhyTheyDidNotEndWell) {
+    desk.execute(go("first"));
+    desk.execute(go("second"));
+    EXPECT_EQ(desk.reason_of("first"), "another start took its place");
+    desk.execute(go("third"), say("then"));
+    desk.release("navigation");
+    EXPECT_EQ(desk.reason_of("third"), "its component was released");
+    EXPECT_EQ(desk.reason_of("then"), "the command 'third' of its sequence ended with ABORT");
+    EXPECT_EQ(desk.reason_of("second"), "another start took its place");
+}
+
 TEST_F(Commands, AreKnownInTheirOwnSessionOnly) {
     desk.execute(go("go"));
     EXPECT_EQ(desk.result_of("come"), "BAD_PARAMETER");

@@ -52,7 +52,15 @@ SetParameter::Reply Application::set_parameter(std::string const& ref, Parameter
 std::string Application::result_of(std::string const& command_id, QueryExpression condition) {
     auto const reply = ask(GetCommandResult{{command_id}, std::move(condition)});
     if (reply.return_code != ReturnCode::ok) return std::string{to_text(reply.return_code)};
-    return in_words(reply.results.parameters);
+    auto results = reply.results.parameters;
+    std::erase_if(results, [](Parameter const& each) { return each.name == "reason"; });
+    return in_words(results);
+}
+
+std::string Application::reason_of(std::string const& command_id) {
+    auto const reply = ask(GetCommandResult{{command_id}, {}});
+    auto const* reason = find(reply.results.parameters, "reason");
+    return reason == nullptr ? "" : reason->values.at(0);
 }
 
 std::string Application::status_of(std::string const& ref) {

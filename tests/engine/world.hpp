@@ -48,6 +48,8 @@ public:
 
     // What get_command_result says: "RUNNING", "OK charge=80", or the return code when it says no.
     std::string result_of(std::string const& command_id, QueryExpression condition = {});
+    // The reason that it gives, if it does.
+    std::string reason_of(std::string const& command_id);
 
     std::string status_of(std::string const& ref);
     Query::Reply query(std::string const& query_type, QueryExpression condition = {});

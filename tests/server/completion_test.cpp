@@ -7,6 +7,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::Pair;
+using testing::UnorderedElementsAre;
 
 struct Completion : Conversation {
     Completion() {
@@ -104,6 +105,24 @@ TEST_P(Completion, TimeoutAfterTheTimeLimit) {
 TEST_P(Completion, ErrorWhenThereIsNoWay) {
     desk.execute({.component = "navigation", .id = "go", .arguments = {target_position({"90000, 90000"})}});
     EXPECT_EQ(desk.status_of("go"), "ERROR");
+    EXPECT_THAT(
+        desk.get_command_result("go").values(),
+        UnorderedElementsAre(Pair("status", ElementsAre("ERROR")),
+                             Pair("reason", ElementsAre("'90000, 90000' is outside of the hall, in a wall or in furniture"))));
+}
+
+TEST_P(Completion, SaysWhyItWasNotOk) {
+    auto const why = [&](std::string const& id) { return desk.get_command_result(id).values()["reason"].at(0); };
+    desk.execute(unit(speak_long("now")) + unit(speak("Later.", "later")));
+    desk.execute(of("speech_synthesis", "stop", "stop"));
+    desk.status_of("stop");
+    EXPECT_EQ(why("now"), "it was stopped");
+    EXPECT_EQ(why("later"), "the command 'now' of its sequence ended with ABORT");
+    desk.execute(of("speech_synthesis", "resume", "on"));
+    EXPECT_EQ(desk.status_of("on"), "ERROR");
+    EXPECT_EQ(why("on"), "nothing is suspended that could be resumed");
+    EXPECT_THAT(desk.get_command_result("on", where(equal("reason", "another"))).values(), IsEmpty());
+    EXPECT_THAT(desk.get_command_result("stop").values(), ElementsAre(Pair("status", ElementsAre("OK"))));
 }
 
 TEST_P(Completion, ResultsWhileItWaitsAndRunsAndAfterwards) {

@@ -84,6 +84,7 @@ public:
     // Of the last command that completed.
     Results const& results() const { return last_results_; }
     Afterwards afterwards() const { return last_afterwards_; }
+    std::string const& reason() const { return last_reason_; }
 
     std::vector<Told> const& log() const { return log_; }
     std::vector<std::string> words() const {
@@ -100,10 +101,12 @@ public:
     void forget() { log_.clear(); }
 
     void started(CommandHandle) override { tell("started", {}); }
-    void completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards) override {
+    void completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards,
+                   std::string reason) override {
         EXPECT_EQ(static_cast<std::uint64_t>(command), last_);
         last_results_ = std::move(results);
         last_afterwards_ = afterwards;
+        last_reason_ = std::move(reason);
         runs_ = afterwards == Afterwards::active;
         tell("completed " + std::string{to_text(status)} + (runs_ ? ", active" : ""), {});
     }
@@ -131,6 +134,7 @@ private:
     std::uint64_t last_ = 0;
     bool runs_ = false;
     Results last_results_;
+    std::string last_reason_;
     Afterwards last_afterwards_ = Afterwards::as_before;
     std::vector<Told> log_;
 };

@@ -67,6 +67,8 @@ TEST(Navigation, FailsWhenATargetIsOutsideOfTheHall) {
     for (auto target : {"-1000, 4000", "5000, 90000", "1e300, 0"}) {
         stage["navigation"].start({to({"desk", target})});
         EXPECT_EQ(stage.outcome("navigation", 1), "ERROR") << target;
+        EXPECT_EQ(stage["navigation"].reason(),
+                  "'" + std::string{target} + "' is outside of the hall, in a wall or in furniture");
     }
     EXPECT_THAT(stage["navigation"].events("reached_target"), IsEmpty());
 }
@@ -76,6 +78,7 @@ TEST(Navigation, FailsWhenWallsLeaveNoWay) {
     stage["navigation"].start({to({"desk", "10000, 7000"})});  // behind the walls of the corner
     EXPECT_EQ(stage.outcome("navigation"), "ERROR");
     EXPECT_THAT(stage["navigation"].words(), ElementsAre("started", "reached_target", "completed ERROR"));
+    EXPECT_EQ(stage["navigation"].reason(), "no way leads to '10000, 7000'");
 }
 
 TEST(Navigation, FailsWhenTheTargetIsWithinAWall) {
@@ -99,6 +102,7 @@ TEST(Navigation, FailsWhenSomebodyStaysInTheWay) {
         },
         120);
     EXPECT_EQ(stage["navigation"].ended(), "ERROR");
+    EXPECT_EQ(stage["navigation"].reason(), "somebody is in the way and does not move");
     EXPECT_GE(stage.hall().now() - begun, WorldTime{30'000});
     EXPECT_TRUE(warned);
     EXPECT_LT(stage.robot().position.x(), 6);
@@ -109,6 +113,7 @@ TEST(Navigation, KeepsItsTimeLimit) {
     Stage stage;
     stage["navigation"].start({to({"11000, 4000"}), integer("time_limit", 2000)});
     EXPECT_EQ(stage.outcome("navigation"), "TIMEOUT");
+    EXPECT_EQ(stage["navigation"].reason(), "not there within time_limit, 2000 ms");
     EXPECT_NEAR(in_seconds(stage.hall().now()), 2, 0.05);
     EXPECT_LT(stage.robot().position.x(), 5);
     auto const stood = (stage.run(2), stage.robot().position);
