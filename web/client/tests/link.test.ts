@@ -163,24 +163,42 @@ behind_a_proxy('a command is executed once wherever the link is cut', {}, async 
   assert.equal(await targets.next(20), undefined);
 });
 
-// The same for bind_any: a second one would take another component of the type.
-test('bind_any binds one wherever the link is cut', async () => {
+// The same for bind_any: a second one would take another component of the type. Two robots are there.
+async function bind_any_while_cut(dialogue: (client: Client, other: Client, bind_any: () => Promise<string>, bytes: number) => Promise<void>): Promise<void> {
   const two = await Gateway.start('--floor-plan', `${root}/components/simulation/data/two-robots.xml`, ...flags);
   const proxy = await Proxy.before(two.port);
-  const client = await connect(proxy.url, quick);
+  const [client, other] = [await connect(proxy.url, quick), await connect(two.url)];
   for (let bytes = 1; bytes < 1500; bytes += 61) {
-    let left = 1;
-    proxy.next_cut = () => (left-- > 0 ? bytes : Infinity);
-    proxy.cut_after_next();
-    const bound = await client.bind_any('Navigation');
-    const free = (await client.search()).length;
-    assert.ok(free > 15);
-    const other = await connect(two.url);
-    assert.notEqual((await other.bind_any('Navigation')).code, bound.code, `${bytes}: the second one is free`);
-    await other.close();
-    await client.release(bound);
+    const bind_any = async () => {
+      let left = 1;
+      proxy.next_cut = () => (left-- > 0 ? bytes : Infinity);
+      proxy.cut_after_next();
+      const { code } = await client.bind_any('Navigation');
+      assert.ok((await client.search()).length > 15); // beyond the cut
+      return code;
+    };
+    await dialogue(client, other, bind_any, bytes);
   }
+  await other.close();
   await client.close();
   await proxy.stop();
   await two.stop();
-});
+}
+
+test('bind_any binds one wherever the link is cut', () =>
+  bind_any_while_cut(async (client, other, bind_any, bytes) => {
+    const bound = await bind_any();
+    const second = await other.bind_any('Navigation');
+    assert.notEqual(second.code, bound, `${bytes}: the second one is free`);
+    await other.release(second);
+    await client.release(bound);
+  }));
+
+test('bind_any binds what nobody else has wherever the link is cut', () =>
+  bind_any_while_cut(async (client, other, bind_any, bytes) => {
+    const first = await other.bind_any('Navigation');
+    const bound = await bind_any();
+    assert.notEqual(bound, first.code, `${bytes}`);
+    await client.release(bound);
+    await other.release(first);
+  }));
