@@ -28,7 +28,7 @@ export class Clock {
       clearTimeout: forget,
       clearInterval: forget,
     });
-    performance.now = () => this.time;
+    Object.defineProperty(performance, 'now', { value: () => this.time, configurable: true });
   }
 
   remove(): void {

@@ -74,7 +74,7 @@ behind_a_proxy('a gap is told with its size when the gateway has forgotten what 
   assert.equal(await targets.next(20), undefined);
 });
 
-behind_a_proxy('a link that is dead without saying so is given up', { heartbeat: 250 }, async (client, proxy, seen) => {
+behind_a_proxy('a link that is dead without saying so is given up', { heartbeat: 500 }, async (client, proxy, seen) => {
   const resumed = seen.until('resumed');
   proxy.half_open();
   await resumed;
@@ -86,7 +86,7 @@ behind_a_proxy('a link that is dead without saying so is given up', { heartbeat:
   await again;
 });
 
-behind_a_proxy('a gateway that is silent but there is left alone', { heartbeat: 150 }, async (client, _, seen) => {
+behind_a_proxy('a gateway that is silent but there is left alone', { heartbeat: 500 }, async (client, _, seen) => {
   while (seen.out.filter((name) => name === 'connect').length < 3) await client.notifications().next(10);
   assert.deepEqual(seen.states, []);
 });

@@ -61,8 +61,8 @@ test('a browser refuses whom it does not trust, and its console says why', () =>
     const complaint = page.waitForEvent('console');
     const why = await page.evaluate(async (to) => {
       const { connect } = await import('rois-client');
-      return connect(to, { deadline: 500, first_delay: 50 }).then(String, String);
+      return connect(to, { deadline: 3000, first_delay: 50 }).then(String, String);
     }, tls.url);
-    assert.equal(why, "RoisError: no session within 500 ms: the WebSocket could not be opened; the browser's console may say why");
+    assert.equal(why, "RoisError: no session within 3000 ms: the WebSocket could not be opened; the browser's console may say why");
     assert.match((await complaint).text(), /ERR_CERT_AUTHORITY_INVALID/);
   }));
