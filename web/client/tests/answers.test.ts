@@ -5,7 +5,7 @@ import { test } from 'node:test';
 
 import { component_profile_of, engine_profile_of, fault_of, is_notification, notification_of, parse_xml, results_of } from 'rois-client';
 
-import { profile_of, trouble_of } from '#dist/answers.js';
+import { identifier_of, profile_of, trouble_of } from '#dist/answers.js';
 
 import { root } from './gateway.js';
 
@@ -65,6 +65,12 @@ test('results are read with where things are', () => {
   assert.deepEqual([covariance!.length, covariance![0], covariance![21], covariance![35]], [36, 25, 1e-3, 2.5]);
   assert.deepEqual(second, { of: 'position_data', ref: 'robot2', crs: 'urn:x-rois:def:crs:hall', position: [0, 0, 0], reliability: 0.75 });
   assert.deepEqual(third, { of: 'position_data', ref: 'robot3', crs: '', position: [1, 2, 3] });
+});
+
+test('an identifier is read with all that it says', () => {
+  const all = { code: 'a', authority: 'b', codebook_ref: 'c', version: 'd' };
+  const attributes = Object.entries(all).map(([name, text]) => `r:${name}="${text}"`);
+  assert.deepEqual(identifier_of(parse_xml(`<i xmlns:r="http://www.omg.org/spec/RoIS/20240801" ${attributes.join(' ')}/>`)), all);
 });
 
 const int = { code: 'int' };

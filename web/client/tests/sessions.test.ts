@@ -4,15 +4,14 @@ import { test } from 'node:test';
 
 import { command, component_ref, connect, PersonDetection } from 'rois-client';
 
-import { free_port, Gateway } from './gateway.js';
+import { Gateway } from './gateway.js';
 import { Proxy } from './proxy.js';
 import { behind_a_proxy, flags, gateway, go, number_of, quick, said_over_http, watched } from './stage.js';
 
 test('a lost session is told, and a new one has its subscriptions, each once', async () => {
-  const port = await free_port();
-  const listen = ['--listen', `127.0.0.1:${port}`];
-  let engine = await Gateway.start(...flags, ...listen);
-  const client = await connect(engine.url, quick);
+  let engine = await Gateway.start(...flags);
+  const proxy = await Proxy.before(engine.port);
+  const client = await connect(proxy.url, quick);
   const seen = watched(client);
   const first = client.session;
   await client.bind('navigation');
@@ -25,7 +24,8 @@ test('a lost session is told, and a new one has its subscriptions, each once', a
   const pending = client.search();
   const outcome = assert.rejects(pending, { failure: 'session_lost' });
   const open = seen.until('open');
-  engine = await Gateway.start(...flags, ...listen);
+  engine = await Gateway.start(...flags);
+  proxy.target = engine.port;
   await open;
   await outcome;
   assert.notEqual(client.session, first);
@@ -41,6 +41,7 @@ test('a lost session is told, and a new one has its subscriptions, each once', a
   assert.equal(one.subscribe_id, same.subscribe_id);
   assert.notEqual(one.subscribe_id, other.subscribe_id);
   await client.close();
+  await proxy.stop();
   await engine.stop();
 });
 
