@@ -38,14 +38,26 @@ tell() { printf '%s  %s\n' "$(date +%H:%M:%S)" "$*" >&2; }
 
 # --- Speaking to the engine -----------------------------------------------------------------------------------------
 
-# request OPERATION [CHILDREN [ATTRIBUTES]]: sends one document; the answer is in $answer. Anything but OK ends the script.
-request() {
-    answer=$(printf '<%s %s %s>%s</%s>' "$1" "$names" "${3:-}" "${2:-}" "$1" |
-        curl -sS --data-binary @- -H 'Content-Type: application/xml' ${session:+-H "RoIS-Session: $session"} "$url/rois")
-    case $answer in
-        *return_code=\"OK\"*) ;;
-        *) tell "The engine refused $1: $answer"; exit 1 ;;
-    esac
+# ask OPERATION [CHILDREN [ATTRIBUTES]]: sends one document, again when the link breaks; fails when the answer, $answer, is not OK.
+ask() {
+    document="<$1 $names ${3:-}>${2:-}</$1>"
+    # curl takes a head that is cut off for one without a body.
+    until answer=$(curl -sS -m 10 --data-binary "$document" -H 'Content-Type: application/xml' \
+        ${session:+-H "RoIS-Session: $session"} "$url/rois") && [ -n "$answer" ]; do pause; done
+    case $answer in *return_code=\"OK\"*) return 0 ;; esac
+    return 1
+}
+
+pause() {
+    tell 'The link broke; asking again.'
+    sleep 1
+}
+
+# request OPERATION [CHILDREN [ATTRIBUTES]]: the same, and anything but OK ends the script.
+request() { ask "$@" || refused "$1"; }
+refused() {
+    tell "The engine refused $1: $answer"
+    exit 1
 }
 
 # text_of ELEMENT DOCUMENT: the text of the first element of that name.
@@ -70,13 +82,19 @@ command() {
     printf '<rois:component_ref rois:code="%s"/>%s</rois:command_unit_list>' "$2" "${4:+<rois:arguments>$4</rois:arguments>}"
 }
 
-execute() { request execute "<rois:CommandUnitSequence>$1</rois:CommandUnitSequence>"; }
+# execute ID UNIT: refused when an earlier try was accepted, and its answer got lost.
+execute() {
+    ask execute "<rois:CommandUnitSequence>$2</rois:CommandUnitSequence>" && return
+    first=$answer
+    ask get_command_result "<command_id>$1</command_id>" || { answer=$first; refused execute; }
+}
 
 # --- Hearing from the engine ----------------------------------------------------------------------------------------
 
 # fetch SECONDS: adds the notifications that are there, or come within that time, to the news.
 fetch() {
-    curl -sS -H "RoIS-Session: $session" "$url/rois/notifications?after=$after&wait=$1" | tr '\n' ' ' |
+    fetched=$(curl -sS -m $(($1 + 10)) -H "RoIS-Session: $session" "$url/rois/notifications?after=$after&wait=$1") || { pause; return; }
+    printf '%s' "$fetched" | tr '\n' ' ' |
         sed 's/<receive_event /\
 &/g; s/<receive_error /\
 &/g; s/<completed /\
@@ -110,7 +128,7 @@ wait_for() {
 commands=0
 run() {
     commands=$((commands + 1))
-    execute "$(command "step-$commands" "$1" "$2" "${3:-}")"
+    execute "step-$commands" "$(command "step-$commands" "$1" "$2" "${3:-}")"
     wait_for "*<command_id>step-$commands</command_id>*" 120 || { tell "$1 $2 did not complete within two minutes"; exit 1; }
     status=$(text_of status "$notification")
 }

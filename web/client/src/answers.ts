@@ -153,6 +153,7 @@ export function engine_profile_of(from: XmlElement): EngineProfile {
     name: from.text_of('name'),
     sub_engines: from.all('SubProfile').map(engine_profile_of),
     components: from.all('HRIComponent').map((one) => one.text),
+    parameters: from.all('ParameterProfile').map(parameter_profile_of),
   };
 }
 

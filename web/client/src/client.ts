@@ -323,6 +323,7 @@ export class Client {
     const content = () => text_element('event_type', event_type) + condition_xml(condition);
     return this.asked('subscribe', { inline_results }, content, options, (answer) => {
       this.subscriptions.add(subscription, answer.text_of('subscribe_id'));
+      if (subscription.ended) this.leave(subscription).catch(() => undefined); // closed while it was made again
       return subscription;
     }, true);
   }

@@ -52,7 +52,6 @@ interface Call {
   text: string;
   request_id: string | undefined;
   repeatable: boolean;
-  own: boolean; // of the link itself: never repeated, and not part of any session
   sent_at: number;
   settled: boolean; // nobody waits for the answer any more
   answered(answer: XmlElement): void;
@@ -147,7 +146,6 @@ export class Link {
         text: written(make),
         request_id,
         repeatable: how.repeatable,
-        own: false,
         sent_at: 0,
         settled: false,
         answered: (answer) => {
@@ -176,7 +174,7 @@ export class Link {
   private greet(operation: Operation, attributes: Record<string, string | number>, answered: (answer: XmlElement) => void): void {
     const request_id = `r${this.next_id++}`;
     const text = request(operation, { ...attributes, request_id });
-    this.transmit({ text, request_id, repeatable: false, own: true, sent_at: 0, settled: false, answered, failed: () => undefined });
+    this.transmit({ text, request_id, repeatable: false, sent_at: 0, settled: false, answered, failed: () => undefined });
   }
 
   private transmit(call: Call): void {
@@ -191,7 +189,7 @@ export class Link {
   }
 
   private fail_all(error: RoisError): void {
-    for (const call of [...this.in_flight, ...this.queue.splice(0)]) if (!call.settled && !call.own) call.failed(error);
+    for (const call of [...this.in_flight, ...this.queue.splice(0)]) call.failed(error);
   }
 
   // --- The link ---
@@ -236,8 +234,7 @@ export class Link {
       if (!trouble) {
         this.live('resumed', () => undefined);
       } else if (trouble.failure === 'refused' || trouble.fault?.code === 'no_session') {
-        this.lose_session(trouble.message);
-        if (!this.closing) this.begin_session();
+        this.lose_session(trouble.message, () => this.begin_session());
       } else {
         this.drop(trouble.message);
       }
@@ -255,13 +252,15 @@ export class Link {
     this.turn(state, '');
   }
 
-  private lose_session(reason: string): void {
+  // What comes then does not, when whoever hears of the loss closes the client.
+  private lose_session(reason: string, then: () => void): void {
     const error = new RoisError('session_lost', `the session was lost: ${reason}`);
     this.session = '';
     this.ready = false;
     this.fail_all(error);
     this.listener.session_ended(error);
     this.listener.missed({ reason: 'session' });
+    if (!this.closing) then();
   }
 
   private beat(): void {
@@ -278,9 +277,7 @@ export class Link {
       const trouble = trouble_of(answer);
       if (trouble) return this.drop(trouble.message);
       const session = answer.text_of('session');
-      if (session === this.session) return;
-      this.lose_session('the engine had ended it');
-      this.begun(session);
+      if (session !== this.session) this.lose_session('the engine had ended it', () => this.begun(session));
     });
   }
 
@@ -290,16 +287,13 @@ export class Link {
   }
 
   private ended({ reason, final }: SocketEnd): void {
-    if (this.state === 'closed') return;
     this.quieten();
     this.socket = undefined;
-    const repeated: Call[] = [];
     for (const call of this.in_flight.splice(0)) {
-      if (call.settled || call.own) continue;
-      if (call.repeatable) repeated.push(call);
+      if (call.settled) continue;
+      if (call.repeatable) this.queue.push(call); // where nothing is while such calls are in flight
       else call.failed(new RoisError('link_lost', `the link broke before the answer: ${reason}`));
     }
-    this.queue.unshift(...repeated);
     if (final && this.state === 'connecting') {
       this.finish(new RoisError('unreachable', reason));
       return;
@@ -325,6 +319,7 @@ export class Link {
   private received(text: string): void {
     this.heard_at = performance.now();
     this.listener.document('in', text);
+    if (this.state === 'closed') return; // by whoever has heard it
     try {
       const document = parse_xml(text);
       if (is_notification(document)) this.notify(notification_of(document));
@@ -346,18 +341,19 @@ export class Link {
   }
 
   private answer(document: XmlElement): void {
-    const call = this.in_flight.shift();
+    const [call] = this.in_flight;
     const echoed = document.attribute('request_id');
     if (call === undefined || (echoed !== undefined && call.request_id !== undefined && echoed !== call.request_id))
       throw new RoisError('protocol', `the gateway says what nobody asked for: ${document.name} ${document.text_of('reason')}`);
     const no_session = document.name === 'fault' && document.attribute('code') === 'no_session';
     if (no_session && this.ready && !this.closing) {
-      this.in_flight.unshift(call); // fails with the others
-      this.lose_session('the engine had ended it');
-      this.in_flight.shift();
-      this.begin_session();
+      this.lose_session('the engine had ended it', () => {
+        this.in_flight.shift(); // has failed with the others
+        this.begin_session();
+      });
       return;
     }
+    this.in_flight.shift();
     if (!call.settled) call.answered(document);
     if (document.name === 'disconnect_response' && !this.closing) this.finish(new RoisError('closed', 'the session was disconnected'));
   }

@@ -3,6 +3,7 @@ import { createHash, randomBytes } from 'node:crypto';
 import { type ClientRequest, type IncomingMessage, request as http_request } from 'node:http';
 import { request as https_request } from 'node:https';
 import type { Duplex } from 'node:stream';
+import type { TLSSocket } from 'node:tls';
 
 import { frame, FrameError, FrameReader, Opcode } from './node_frames.js';
 import { type OpenSocket, type Socket, type SocketEnd, type SocketListener, subprotocol } from './socket.js';
@@ -34,7 +35,7 @@ class NodeSocket implements Socket {
     });
     this.request.on('upgrade', (answer, stream, head) => this.shaken(answer, stream, head));
     this.request.on('response', (answer) => this.refused(answer));
-    this.request.on('error', (error) => this.end({ reason: error.message, final: false }));
+    this.request.on('error', (error) => this.failed(error));
     this.request.end();
   }
 
@@ -91,6 +92,14 @@ class NodeSocket implements Socket {
     this.listener.opened();
     if (head.length > 0) feed(head);
     stream.on('data', feed);
+  }
+
+  // There is no answer. What TLS does not agree to now, it does not agree to later either.
+  private failed(error: NodeJS.ErrnoException): void {
+    const socket = this.request.socket as Partial<TLSSocket> | null;
+    if (socket?.authorizationError) this.end({ reason: `the gateway's certificate is refused: ${error.message}`, final: true });
+    else if (error.code === 'EPROTO') this.end({ reason: `no TLS is spoken there: ${error.message.trim()}`, final: true });
+    else this.end({ reason: error.message, final: false });
   }
 
   // An answer without an upgrade: its status and the fault in it say why.

@@ -36,6 +36,7 @@ export interface EngineProfile {
   name: string;
   sub_engines: EngineProfile[];
   components: string[]; // refs
+  parameters: ParameterProfile[];
 }
 
 /** A component as `get_profile` lists it. */

@@ -68,7 +68,6 @@ export class Stream<T> implements AsyncIterable<T> {
 
   async *[Symbol.asyncIterator](): AsyncGenerator<T, void, undefined> {
     for (;;) {
-      if (this.waiting.length === 0 && this.over && !('error' in this.over)) return;
       const one = await this.next();
       if (one === undefined) return;
       yield one;

@@ -29,7 +29,6 @@ export class Subscription extends Stream<ReceiveEvent> {
 
   /** Unsubscribes. What has come already can still be read. */
   async close(): Promise<void> {
-    if (this.ended) return;
     this.end();
     await this.leave(this);
   }

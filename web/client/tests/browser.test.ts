@@ -40,21 +40,21 @@ test('a page speaks to the gateway that serves it, without a URL', () =>
 
 test('a page of another server needs the consent of the gateway', () =>
   in_chromium(async (page) => {
-    const try_it = (url: string) =>
-      page.evaluate(async (to) => {
+    const try_it = (url: string, deadline: number) =>
+      page.evaluate(async ([to, within]) => {
         const { connect } = await import('rois-client');
-        return connect(to, { deadline: 500, first_delay: 50 }).then(
+        return connect(to, { deadline: within, first_delay: 50 }).then(
           async (client) => {
             await client.close();
             return 'welcome';
           },
           (error: { failure: string }) => error.failure,
         );
-      }, url);
+      }, [url, deadline] as const);
     const closed = await Gateway.start(...flags);
-    assert.equal(await try_it(closed.url), 'unreachable');
+    assert.equal(await try_it(closed.url, 1000), 'unreachable');
     await closed.stop();
     const open = await Gateway.start(...flags, '--allowed-origins', new URL(page.url()).origin);
-    assert.equal(await try_it(open.url), 'welcome');
+    assert.equal(await try_it(open.url, 30_000), 'welcome');
     await open.stop();
   }));

@@ -322,7 +322,7 @@ spoken('whoever waits is told when the client is closed', async () => {
 });
 
 test('what cannot be reached is told', async () => {
-  await assert.rejects(connect('http://127.0.0.1:1', { deadline: 300, first_delay: 10 }), { failure: 'unreachable', message: /no session within 300 ms: .*ECONNREFUSED/ });
+  await assert.rejects(connect('http://127.0.0.1:1', { deadline: 1000, first_delay: 10 }), { failure: 'unreachable', message: /no session within 1000 ms: .*ECONNREFUSED/ });
   await assert.rejects(connect(`${gateway.url}/elsewhere`), { failure: 'unreachable', message: /404/ });
   await assert.rejects(connect('ftp://robot'), { failure: 'invalid' });
   await assert.rejects(connect('robot'), { failure: 'invalid' });

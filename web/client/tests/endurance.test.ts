@@ -8,14 +8,17 @@ import { connect } from 'rois-client';
 import { commands, endure, type Endured, events_each } from './endurance.js';
 import { Gateway, root } from './gateway.js';
 import { in_chromium } from './page.js';
+import { output_of } from './program.js';
 import { Proxy, random_from } from './proxy.js';
+import { TlsProxy } from './tls_proxy.js';
 
-async function cut_a_hundred_times(endured_at: (url: string, gateway: Gateway) => Promise<Endured>, flags: string[] = []): Promise<void> {
-  const gateway = await Gateway.start('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '100', ...flags);
-  const proxy = await Proxy.before(gateway.port);
+const start = (...flags: string[]) => Gateway.start('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '100', ...flags);
+
+async function cut_a_hundred_times(target: number, endured_at: (proxy: Proxy) => Promise<Endured>): Promise<void> {
+  const proxy = await Proxy.before(target);
   try {
     proxy.cut_at_random(100, 50_000, random_from(7));
-    const endured = await endured_at(proxy.url, gateway);
+    const endured = await endured_at(proxy);
     assert.equal(proxy.cuts, 100);
     const { resumed, ...rest } = endured;
     assert.deepEqual(rest, {
@@ -30,20 +33,39 @@ async function cut_a_hundred_times(endured_at: (url: string, gateway: Gateway) =
     assert.ok(resumed > 50, `${resumed}: a link that is cut before it was resumed is not`);
   } finally {
     await proxy.stop();
-    await gateway.stop();
   }
 }
 
-test('in Node', () => cut_a_hundred_times((url) => endure(connect, url)));
+test('in Node', async () => {
+  const gateway = await start();
+  await cut_a_hundred_times(gateway.port, ({ url }) => endure(connect, url)).finally(() => gateway.stop());
+});
+
+// Cut within TLS and its handshake. Who trusts the certificate is a program of its own: Node reads whom it trusts when it starts.
+test('in Node over TLS', async () => {
+  const gateway = await start();
+  const tls = await TlsProxy.before(gateway.port);
+  const program = `import { connect } from '${root}/web/client/dist/node.js';
+    import { endure } from '${root}/web/client/build/tests/endurance.js';
+    console.log(JSON.stringify(await endure(connect, process.env.ROIS_URL)));`;
+  try {
+    await cut_a_hundred_times(tls.port, async ({ port }) => {
+      const command = [process.execPath, '--input-type=module', '-e', program];
+      return JSON.parse(await output_of(command, `wss://127.0.0.1:${port}`, { NODE_EXTRA_CA_CERTS: tls.certificate })) as Endured;
+    });
+  } finally {
+    await tls.stop();
+    await gateway.stop();
+  }
+});
 
 test('in Chromium', () =>
   in_chromium(async (page) => {
-    await cut_a_hundred_times(
-      (url) =>
-        page.evaluate(async (to) => {
-          const [{ endure: run }, { connect: to_connect }] = await Promise.all([import(`${location.origin}/tests/endurance.js`), import('rois-client')]);
-          return run(to_connect, to) as Promise<Endured>;
-        }, url),
-      ['--allowed-origins', new URL(page.url()).origin],
-    );
+    const gateway = await start('--allowed-origins', new URL(page.url()).origin);
+    const endured_at = ({ url }: Proxy) =>
+      page.evaluate(async (to) => {
+        const [{ endure: run }, { connect: to_connect }] = await Promise.all([import(`${location.origin}/tests/endurance.js`), import('rois-client')]);
+        return run(to_connect, to) as Promise<Endured>;
+      }, url);
+    await cut_a_hundred_times(gateway.port, endured_at).finally(() => gateway.stop());
   }));

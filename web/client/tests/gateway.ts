@@ -1,6 +1,5 @@
 // The real program, run by a test.
 import { type ChildProcess, spawn } from 'node:child_process';
-import { createServer } from 'node:net';
 import { dirname, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
@@ -15,10 +14,9 @@ export class Gateway {
     readonly url: string,
   ) {}
 
-  /** Waits until it listens, on a free port of the loopback unless the arguments say another. */
+  /** Waits until it listens, on a free port of the loopback. */
   static async start(...flags: string[]): Promise<Gateway> {
-    const listen = flags.includes('--listen') ? [] : ['--listen', '127.0.0.1:0'];
-    const child = spawn(program, [...listen, ...flags], { stdio: ['ignore', 'ignore', 'pipe'] });
+    const child = spawn(program, ['--listen', '127.0.0.1:0', ...flags], { stdio: ['ignore', 'ignore', 'pipe'] });
     let log = '';
     const url = await new Promise<string>((found, failed) => {
       child.on('error', failed);
@@ -43,13 +41,4 @@ export class Gateway {
     this.process.kill(signal);
     await ended;
   }
-}
-
-/** A port that was free a moment ago. */
-export async function free_port(): Promise<number> {
-  const server = createServer().listen(0, '127.0.0.1');
-  await new Promise((resolve) => server.once('listening', resolve));
-  const { port } = server.address() as { port: number };
-  await new Promise((resolve) => server.close(resolve));
-  return port;
 }

@@ -1,7 +1,7 @@
 // The package as others get it.
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
-import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { after, before, test } from 'node:test';
 
@@ -27,7 +27,8 @@ test('holds what is needed and nothing else', () => {
   assert.equal(manifest.name, 'rois-client');
   for (const kind of ['dependencies', 'optionalDependencies', 'peerDependencies', 'bundleDependencies']) assert.equal(manifest[kind], undefined, kind);
   assert.deepEqual(files.filter((file) => !file.startsWith('dist/')), ['LICENSE', 'README.md', 'package.json']);
-  assert.deepEqual(files.filter((file) => file.startsWith('dist/') && !/^dist\/[a-z_]+(\.d\.ts|\.js)$/.test(file)), []);
+  const modules = readdirSync(`${source}/src`).map((file) => file.replace(/\.ts$/, ''));
+  assert.deepEqual(files.filter((file) => file.startsWith('dist/')), modules.flatMap((one) => [`dist/${one}.d.ts`, `dist/${one}.js`]).sort());
   for (const file of [manifest.exports['.'].node, manifest.exports['.']].flatMap((one) => [one.types, one.default]))
     assert.ok(existsSync(`${outside}/node_modules/rois-client/${file}`), file);
   assert.equal(readFileSync(`${source}/LICENSE`, 'utf8'), readFileSync(`${root}/LICENSE`, 'utf8'));

@@ -23,7 +23,7 @@ export async function bring_client(page: Page, origin: string): Promise<void> {
 }
 
 /** Serves the page on a free port of the loopback, so its origin is none that a gateway knows by itself; everything ends afterwards. */
-export async function in_chromium(dialogue: (page: Page) => Promise<void>): Promise<void> {
+export async function in_chromium(dialogue: (page: Page) => Promise<void>, ...switches: string[]): Promise<void> {
   if (!existsSync(program)) throw new Error(`${program} is not there: install chromium, or say in CHROMIUM where one is`);
   const server = createServer(async (request, response) => {
     const path = normalize(request.url ?? '/');
@@ -36,7 +36,7 @@ export async function in_chromium(dialogue: (page: Page) => Promise<void>): Prom
     response.writeHead(text === undefined ? 404 : 200, { 'Content-Type': 'text/javascript' }).end(text);
   }).listen(0, '127.0.0.1');
   await new Promise((resolve) => server.once('listening', resolve));
-  const browser = await chromium.launch({ executablePath: program, args: ['--disable-dev-shm-usage'] });
+  const browser = await chromium.launch({ executablePath: program, args: ['--disable-dev-shm-usage', ...switches] });
   try {
     const page = await browser.newPage({ bypassCSP: true }); // the gateway's own page has no scripts, and so allows none
     await page.goto(`http://127.0.0.1:${(server.address() as { port: number }).port}/`);

@@ -2,9 +2,10 @@
 import { spawn } from 'node:child_process';
 
 /** What it writes on standard output; rejects with its standard error when it fails. */
-export function output_of([program, ...args]: string[], url: string): Promise<string> {
+export function output_of([program, ...args]: string[], url: string, environment: Record<string, string> = {}): Promise<string> {
   return new Promise((resolve, reject) => {
-    const child = spawn(program!, args, { env: { ...process.env, ROIS_URL: url, PYTHONDONTWRITEBYTECODE: '1' }, stdio: ['ignore', 'pipe', 'pipe'] });
+    const env = { ...process.env, ROIS_URL: url, PYTHONDONTWRITEBYTECODE: '1', ...environment };
+    const child = spawn(program!, args, { env, stdio: ['ignore', 'pipe', 'pipe'] });
     let [out, log] = ['', ''];
     child.stdout.setEncoding('utf8').on('data', (text: string) => (out += text));
     child.stderr.setEncoding('utf8').on('data', (text: string) => (log += text));

@@ -37,7 +37,8 @@ export class Proxy {
 
   private constructor(
     private readonly server: Server,
-    private readonly target: number,
+    /** The gateway's port; another one is for new connections. */
+    public target: number,
   ) {
     server.on('connection', (near) => this.accept(near));
   }

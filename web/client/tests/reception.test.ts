@@ -5,6 +5,7 @@ import { test } from 'node:test';
 
 import { Gateway, root } from './gateway.js';
 import { output_of } from './program.js';
+import { Proxy, random_from } from './proxy.js';
 
 const data = `${root}/tests/server/data`;
 const history = readFileSync(`${data}/three_visitors.txt`, 'utf8');
@@ -15,19 +16,26 @@ const programs: [name: string, source: string, command: string[]][] = [
   ['a shell with curl', 'docs/examples/reception.sh', ['sh', `${root}/docs/examples/reception.sh`]],
 ];
 
+async function received_by(command: string[], cuts: number): Promise<string> {
+  const gateway = await Gateway.start('--floor-plan', `${data}/watchful_hall.xml`, '--scenario', `${data}/three_visitors.xml`, '--sim-speed', '20', '--seed', '7');
+  const proxy = await Proxy.before(gateway.port);
+  proxy.cut_at_random(cuts, 5_000, random_from(3));
+  try {
+    const told = await output_of([...command, '3'], proxy.url);
+    assert.equal(proxy.cuts, cuts);
+    return told;
+  } finally {
+    await proxy.stop();
+    await gateway.stop();
+  }
+}
+
 test('the reception has one history', { concurrency: true }, async (all) => {
-  await Promise.all(
-    programs.map(([name, , command]) =>
-      all.test(`in ${name}`, async () => {
-        const gateway = await Gateway.start('--floor-plan', `${data}/watchful_hall.xml`, '--scenario', `${data}/three_visitors.xml`, '--sim-speed', '20', '--seed', '7');
-        try {
-          assert.equal(await output_of([...command, '3'], gateway.url), history);
-        } finally {
-          await gateway.stop();
-        }
-      }),
-    ),
-  );
+  const each = programs.flatMap(([name, , command]) => [
+    all.test(`in ${name}`, async () => assert.equal(await received_by(command, 0), history)),
+    all.test(`in ${name}, while the link is cut`, async () => assert.equal(await received_by(command, 10), history)),
+  ]);
+  await Promise.all(each);
 });
 
 test('the reception is shorter than 100 lines', () => {

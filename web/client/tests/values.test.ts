@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { parse_xml, type Parameter, pose_of, pose_text, Results, results_of, Stream, value } from 'rois-client';
+import { type Parameter, pose_of, pose_text, Results, value } from 'rois-client';
 
 const one = (name: string, code: string, ...values: string[]): Parameter => ({ name, data_type_ref: { code }, values });
 
@@ -44,47 +44,4 @@ test('results are read as what they are', () => {
 test('places are read and written', () => {
   assert.deepEqual(pose_of(pose_text({ x: 1.5, y: -2, th: 90 })), { x: 1.5, y: -2, th: 90 });
   for (const text of ['', 'desk', '1', '1, 2, 3, 4', '1, ,2', '1, x']) assert.equal(pose_of(text), undefined, text);
-});
-
-test('located entities are read with their certainty', () => {
-  const results = results_of(
-    parse_xml(
-      `<a><results><located of="p" ref="r" crs="c"><position>1 2 3</position><orientation>0 0 90</orientation><covariance>1 0 0 1</covariance></located>` +
-        `<located of="p" ref="s" crs="c"><position>1 2 3</position><reliability>0.5</reliability></located></results></a>`,
-    ),
-  );
-  assert.deepEqual(results.located, [
-    { of: 'p', ref: 'r', crs: 'c', position: [1, 2, 3], orientation: [0, 0, 90], covariance: [1, 0, 0, 1] },
-    { of: 'p', ref: 's', crs: 'c', position: [1, 2, 3], reliability: 0.5 },
-  ]);
-});
-
-test('a stream keeps its order, and drops the oldest when it is full', async () => {
-  let dropped = 0;
-  const stream = new Stream<number>(3, (count) => (dropped += count));
-  for (let n = 1; n <= 5; ++n) stream.push(n);
-  assert.equal(dropped, 2);
-  assert.equal(await stream.next(), 3);
-  stream.end();
-  stream.push(9);
-  const rest: number[] = [];
-  for await (const n of stream) rest.push(n);
-  assert.deepEqual(rest, [4, 5]);
-  assert.equal(await stream.next(), undefined);
-});
-
-test('a stream is waited for, but not longer than asked', async () => {
-  const stream = new Stream<number>(3, () => undefined);
-  assert.equal(await stream.next(1), undefined);
-  const [first, second] = [stream.next(), stream.next(10_000)];
-  stream.push(1);
-  stream.push(2);
-  assert.deepEqual(await Promise.all([first, second]), [1, 2]);
-  const waiting = stream.next();
-  stream.end(new Error('over'));
-  await assert.rejects(waiting, { message: 'over' });
-  await assert.rejects(stream.next(), { message: 'over' });
-  await assert.rejects(async () => {
-    for await (const _ of stream) assert.fail();
-  }, { message: 'over' });
 });

@@ -1,0 +1,335 @@
+// What a link does, step by step, before a gateway that the test plays.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { Client, type ClientOptions, type OpenSocket } from 'rois-client';
+
+import { Clock, settled } from './clock.js';
+import { news_of, options, Scripted, scripted } from './scripted.js';
+
+scripted('new tries come less and less often, until one succeeds', {}, async (client, gateway, clock) => {
+  for (const delay of [100, 200, 400, 800, 1000, 1000]) {
+    await gateway.socket.end('refused', true); // is no end for a client that had a session
+    const tries = gateway.sockets.length;
+    await clock.pass(delay - 1);
+    assert.equal(gateway.sockets.length, tries, `${delay}`);
+    await clock.pass(1);
+    assert.equal(gateway.sockets.length, tries + 1, `${delay}`);
+    assert.equal(client.state, 'lost');
+  }
+  await gateway.socket.open();
+  await gateway.socket.answer();
+  assert.equal(client.state, 'resumed');
+  await gateway.socket.end('cut');
+  const tries = gateway.sockets.length;
+  await clock.pass(100);
+  assert.equal(gateway.sockets.length, tries + 1, 'as often as at first');
+});
+
+scripted('a new try comes sooner by chance', { random: () => 0.5 }, async (_, gateway, clock) => {
+  await gateway.socket.end('cut');
+  await clock.pass(74);
+  assert.equal(gateway.sockets.length, 1);
+  await clock.pass(1);
+  assert.equal(gateway.sockets.length, 2);
+});
+
+scripted('calls keep their order over a broken link', {}, async (client, gateway, clock) => {
+  const calls: Promise<unknown>[] = [client.search(), client.get_profile(), client.release('a')];
+  await gateway.socket.end('cut');
+  calls.push(client.bind('b'));
+  const told = Promise.allSettled(calls);
+  client.on('state', ({ state }) => state === 'resumed' && void client.send('<mine/>'));
+  await clock.pass(100);
+  await gateway.socket.open();
+  await gateway.socket.answer();
+  assert.deepEqual(gateway.socket.names, ['resume', 'search', 'get_profile', 'release', 'bind', 'mine']);
+  for (const return_code of ['ERROR', 'UNSUPPORTED', 'OK', 'BAD_PARAMETER', 'OK']) await gateway.socket.answer('', return_code);
+  const codes = (await told).map((one) => (one.status === 'rejected' ? one.reason.return_code : 'OK'));
+  assert.deepEqual(codes, ['ERROR', 'UNSUPPORTED', 'OK', 'BAD_PARAMETER']);
+});
+
+for (const [how, refuse] of [
+  ['refused', (gateway: Scripted) => gateway.socket.answer('', 'BAD_PARAMETER')],
+  ['answered with the fault no_session', (gateway: Scripted) => gateway.socket.fault('no_session')],
+] as const)
+  scripted(`when resume is ${how}, a new session begins, and counts from one`, {}, async (client, gateway, clock) => {
+    const news = news_of(client);
+    for (const sequence of [1, 2, 3]) await gateway.socket.completed(sequence);
+    await gateway.socket.end('cut');
+    await clock.pass(100);
+    await gateway.socket.open();
+    assert.equal(gateway.socket.came[0]!.attribute('session'), 'one');
+    assert.equal(gateway.socket.came[0]!.attribute('last_sequence'), '3');
+    await refuse(gateway);
+    assert.equal(client.session, '');
+    assert.deepEqual(gateway.socket.names, ['resume', 'connect']);
+    await gateway.socket.answer('<session>two</session>');
+    await gateway.socket.completed(1);
+    await gateway.socket.end('cut');
+    await clock.pass(100);
+    await gateway.socket.open();
+    assert.equal(gateway.socket.came[0]!.attribute('session'), 'two');
+    assert.equal(gateway.socket.came[0]!.attribute('last_sequence'), '1');
+    assert.deepEqual(news, ['1', '2', '3', 'lost', 'gap: session', 'open', '1', 'lost']);
+  });
+
+scripted('when resume fails for now, it is tried again', {}, async (client, gateway, clock) => {
+  await gateway.socket.end('cut');
+  await clock.pass(100);
+  await gateway.socket.open();
+  await gateway.socket.fault('too_many');
+  assert.ok(gateway.socket.closed);
+  await clock.pass(200);
+  await gateway.socket.open();
+  assert.equal(gateway.socket.came[0]!.attribute('session'), 'one');
+  await gateway.socket.answer();
+  assert.equal(client.state, 'resumed');
+});
+
+// How a client that begins ends.
+async function begun(more: ClientOptions, open_socket: OpenSocket, dialogue: (clock: Clock) => Promise<void>): Promise<string> {
+  const clock = new Clock();
+  try {
+    const client = new Client('http://robot', { ...options, ...more }, open_socket);
+    const states: string[] = [];
+    client.on('state', ({ state }) => states.push(state));
+    const outcome = client.start(15_000).then(String, String);
+    await settled();
+    await dialogue(clock);
+    const told = await outcome;
+    assert.equal(client.state, 'closed');
+    assert.equal(clock.waits, 0);
+    await assert.rejects(client.search(), { failure: 'closed' });
+    await client.close();
+    assert.equal(clock.waits, 0);
+    return `${states.join(' ')}: ${told}`;
+  } finally {
+    clock.remove();
+  }
+}
+
+test('who is refused a session tries again, and says why in the end', async () => {
+  const gateway = new Scripted();
+  const told = await begun({}, gateway.open, async (clock) => {
+    await gateway.socket.open();
+    await gateway.socket.fault('too_many');
+    assert.ok(gateway.socket.closed);
+    await clock.pass(100);
+    assert.equal(gateway.sockets.length, 2);
+    await clock.pass(14_900);
+  });
+  assert.equal(told, 'connecting connecting closed: RoisError: no session within 15000 ms: no session within 10000 ms');
+  assert.ok(gateway.socket.closed);
+});
+
+test('who cannot be reached at all is told at once', async () => {
+  const broken = () => {
+    throw new Error('no sockets today');
+  };
+  assert.equal(await begun({}, broken, async () => undefined), 'closed: RoisError: Error: no sockets today');
+  const gateway = new Scripted();
+  assert.equal(await begun({}, gateway.open, () => gateway.socket.end('never', true)), 'closed: RoisError: never');
+});
+
+for (const [when, greeted] of [['before', false], ['just when', true]] as const)
+  test(`who is closed ${when} there is a session is closed at once`, async () => {
+    const [clock, gateway] = [new Clock(), new Scripted()];
+    const client = new Client('http://robot', options, gateway.open);
+    const started = assert.rejects(client.start(), { failure: 'unreachable', message: 'the client was closed' });
+    await gateway.socket.open();
+    client.on('document', () => void client.close());
+    if (greeted) await gateway.socket.answer('<session>one</session>');
+    else await client.close();
+    await started;
+    assert.deepEqual([client.state, clock.waits, gateway.socket.closed], ['closed', 0, true]);
+    clock.remove();
+  });
+
+scripted('a link that is opened and not greeted is given up', {}, async (client, gateway, clock) => {
+  await gateway.socket.end('cut');
+  await clock.pass(100);
+  const silent = gateway.socket;
+  await silent.open();
+  await clock.pass(10_000);
+  assert.ok(silent.closed);
+  assert.equal(gateway.sockets.length, 2);
+  await clock.pass(200);
+  await gateway.socket.open();
+  await gateway.socket.answer();
+  await clock.pass(10_000);
+  assert.equal(client.state, 'resumed', 'the patience with it has ended');
+});
+
+scripted('a client that is closed while it waits for the answer to that asks again', {}, async (client, gateway, clock) => {
+  const closing = Promise.all([client.close(), client.close()]);
+  await gateway.socket.end('cut');
+  await clock.pass(100);
+  await gateway.socket.open();
+  await gateway.socket.answer();
+  assert.deepEqual(gateway.socket.names, ['resume', 'disconnect']);
+  await gateway.socket.answer();
+  await closing;
+  assert.ok(gateway.socket.closed);
+  assert.equal(client.state, 'closed');
+});
+
+scripted('a session that has ended already needs no other to be closed', {}, async (client, gateway) => {
+  const closing = client.close();
+  await gateway.socket.fault('no_session');
+  await closing;
+  assert.deepEqual(gateway.socket.names, ['connect', 'disconnect']);
+});
+
+scripted('a gateway is asked whether it lives when nothing has come for a while', {}, async (client, gateway, clock) => {
+  await clock.pass(9_000);
+  await gateway.socket.completed(1);
+  await clock.pass(9_000);
+  assert.deepEqual(gateway.socket.names, ['connect'], 'something has come');
+  await clock.pass(6_000);
+  assert.deepEqual(gateway.socket.names, ['connect', 'connect']);
+  await gateway.socket.answer('<session>one</session>');
+  await clock.pass(15_000);
+  assert.deepEqual(gateway.socket.names, ['connect', 'connect', 'connect'], 'once');
+  await clock.pass(10_000);
+  assert.equal(client.state, 'lost');
+  assert.ok(gateway.sockets[0]!.closed);
+});
+
+scripted('a call waits while something else comes, and not for ever', { deadline: 100_000 }, async (client, gateway, clock) => {
+  await clock.pass(4_000);
+  const found = client.search();
+  for (let sequence = 1; sequence < 4; ++sequence) {
+    await clock.pass(8_000);
+    await gateway.socket.completed(sequence);
+  }
+  assert.deepEqual([client.state, gateway.socket.names], ['open', ['connect', 'search']], 'who has a question open is not asked another');
+  await clock.pass(15_000);
+  assert.equal(client.state, 'lost');
+  await gateway.socket.open();
+  await gateway.socket.answer();
+  await gateway.socket.answer();
+  assert.deepEqual(await found, []);
+});
+
+scripted('a session that has ended unsaid is found out', {}, async (client, gateway, clock) => {
+  const news = news_of(client);
+  const subscribing = client.subscribe('person_detected');
+  await gateway.socket.answer('<subscribe_id>s-1</subscribe_id>');
+  await subscribing;
+  await gateway.socket.completed(1);
+  await clock.pass(15_000);
+  await gateway.socket.answer('<session>two</session>');
+  assert.equal(client.session, 'two');
+  assert.deepEqual(gateway.socket.names, ['connect', 'subscribe', 'connect', 'subscribe']);
+  await gateway.socket.answer('<subscribe_id>s-1</subscribe_id>');
+  await gateway.socket.completed(1);
+  assert.deepEqual(news, ['1', 'gap: session', 'open', '1']);
+});
+
+scripted('a gateway that does not say whether it lives is left', {}, async (client, gateway, clock) => {
+  await clock.pass(15_000);
+  await gateway.socket.fault('busy');
+  assert.equal(client.state, 'lost');
+});
+
+scripted('notifications are told once, and gaps in their numbers, too', {}, async (client, gateway) => {
+  const news = news_of(client);
+  for (const sequence of [1, 1, 2, 5, 4, 6]) await gateway.socket.completed(sequence);
+  await gateway.socket.say('<lost xmlns="urn:x-rois:psm:xml:message:1" sequence="9" count="3"/>');
+  await gateway.socket.completed(10);
+  assert.deepEqual(news, ['1', '2', 'lost 2: 3 to 4', '5', '6', 'lost 3: 7 to 9', '9', '10']);
+});
+
+const says = '<search_response xmlns="urn:x-rois:psm:xml:message:1" return_code="OK"';
+for (const [what, text] of Object.entries({
+  'what is no document': 'Good day.',
+  'what is no message': `<completed xmlns="urn:x-rois:psm:xml:message:1"/>`,
+  'the answer to another request': `${says} request_id="r99"/>`,
+  'an answer without its end': `${says}/`,
+}))
+  scripted(`after ${what} the link is opened anew`, {}, async (client, gateway, clock) => {
+    const found = client.search();
+    await gateway.socket.say(text);
+    assert.deepEqual([client.state, gateway.socket.closed], ['lost', true]);
+    await clock.pass(100);
+    await gateway.socket.open();
+    await gateway.socket.answer();
+    await gateway.socket.answer();
+    assert.deepEqual(await found, []);
+  });
+
+scripted('after an answer that nobody asked for the link is opened anew', {}, async (client, gateway) => {
+  await gateway.socket.say(`${says}/>`);
+  assert.equal(client.state, 'lost');
+});
+
+// A listener may do what it likes, also when it is told that the session is lost.
+for (const [how, lose] of [
+  ['a resume', async (gateway: Scripted, clock: Clock) => {
+    await gateway.socket.end('cut');
+    await clock.pass(100);
+    await gateway.socket.open();
+    await gateway.socket.fault('no_session');
+  }],
+  ['a question whether it lives', async (gateway: Scripted, clock: Clock) => {
+    await clock.pass(15_000);
+    await gateway.socket.answer('<session>two</session>');
+  }],
+  ['a call', (gateway: Scripted) => gateway.socket.fault('no_session')],
+] as const)
+  scripted(`a client that is closed when ${how} tells that the session is lost is closed for good`, {}, async (client, gateway, clock) => {
+    const news = news_of(client);
+    client.on('gap', () => void client.close());
+    const call = how === 'a call' ? client.search() : undefined;
+    const outcome = call && assert.rejects(call, { failure: 'session_lost' });
+    await lose(gateway, clock);
+    await outcome;
+    assert.deepEqual(news.filter((one) => one !== 'lost'), ['gap: session', 'closed']);
+    assert.deepEqual([client.state, clock.waits, gateway.socket.is_over], ['closed', 0, true]);
+    assert.ok(!gateway.socket.names.slice(1).includes('connect') || how === 'a question whether it lives');
+  });
+
+scripted('an answer that comes too late makes nothing', { buffer: 1 }, async (client, gateway, clock) => {
+  const news = news_of(client);
+  const outcome = assert.rejects(client.subscribe('t', { deadline: 100 }), { failure: 'deadline' });
+  await clock.pass(100);
+  await outcome;
+  await gateway.socket.answer('<subscribe_id>s-1</subscribe_id>');
+  for (const sequence of [1, 2, 3]) await gateway.socket.event(sequence, 's-1');
+  assert.deepEqual(news, ['1', '2', '3'], 'and no gap for a stream that nobody has');
+});
+
+scripted('all calls of a session that is no more fail, and only those', {}, async (client, gateway) => {
+  const calls = [client.search(), client.get_profile(), client.send('<mine/>')];
+  const failed = calls.map((call) => assert.rejects(call, { failure: 'session_lost' }));
+  await gateway.socket.fault('no_session');
+  const next = client.search();
+  for (const _ of [1, 2]) await gateway.socket.fault('no_session');
+  await Promise.all(failed);
+  assert.deepEqual(gateway.socket.names, ['connect', 'search', 'get_profile', 'mine', 'connect']);
+  await gateway.socket.answer('<session>two</session>');
+  await gateway.socket.answer();
+  assert.deepEqual(await next, []);
+});
+
+scripted('what is subscribed to comes before all calls of a new session', {}, async (client, gateway, clock) => {
+  const subscribing = client.subscribe('person_detected');
+  await gateway.socket.answer('<subscribe_id>s-1</subscribe_id>');
+  await subscribing;
+  await gateway.socket.end('cut');
+  await clock.pass(100);
+  await gateway.socket.open();
+  await gateway.socket.fault('no_session');
+  const found = client.search();
+  await gateway.socket.answer('<session>two</session>');
+  assert.deepEqual(gateway.socket.names, ['resume', 'connect', 'subscribe', 'search']);
+  await gateway.socket.answer('<subscribe_id>s-1</subscribe_id>');
+  await gateway.socket.answer();
+  await found;
+});
+
+// In base64 it has all that base64url writes otherwise: fn5+Pj4+Pz8/w7s=
+scripted('a token is written as a subprotocol may be', { token: '~~~>>>???û' }, async (_, gateway) => {
+  assert.deepEqual(gateway.socket.subprotocols, ['rois.xml.v1', 'rois.bearer.fn5-Pj4-Pz8_w7s']);
+});
