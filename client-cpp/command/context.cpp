@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <stdexcept>
 
 #include "command/condition_text.hpp"
 #include "command/request_file.hpp"
@@ -35,7 +36,11 @@ Context::~Context() { signals_.on_first({}); }
 
 Session& Context::session() {
     if (!session_) {
-        session_ = open_session(options_, recorded_);
+        try {
+            session_ = std::make_unique<Session>(options_, recorded_);
+        } catch (std::invalid_argument const& error) {
+            throw Trouble{Exit::usage, error.what()};
+        }
         signals_.on_first([session = session_.get()] { session->interrupt(); });
     }
     return *session_;

@@ -37,19 +37,14 @@ Address address_of(std::string const& url) {
 
 std::string without_brackets(std::string const& host) { return host.starts_with('[') ? host.substr(1, host.size() - 2) : host; }
 
-http::request<http::string_body> message_of(Address const& address, HttpServer const& server, HttpRequest const& wanted) {
-    auto const verb = wanted.body.empty() ? http::verb::get : http::verb::post;
-    http::request<http::string_body> message{verb, address.path + wanted.target, 11};
-    message.set(http::field::host, address.host + ":" + address.port);
-    message.set(http::field::connection, "close");
-    if (!server.token.empty()) message.set(http::field::authorization, "Bearer " + server.token);
-    if (!wanted.session.empty()) message.set("RoIS-Session", wanted.session);
-    if (!wanted.body.empty()) {
-        message.set(http::field::content_type, "application/xml");
-        message.body() = wanted.body;
-        message.prepare_payload();
-    }
-    return message;
+using Get = http::request<http::empty_body>;
+
+Get request_of(Address const& address, HttpServer const& server, std::string const& target) {
+    Get request{http::verb::get, address.path + target, 11};
+    request.set(http::field::host, address.host + ":" + address.port);
+    request.set(http::field::connection, "close");
+    if (!server.token.empty()) request.set(http::field::authorization, "Bearer " + server.token);
+    return request;
 }
 
 struct Outcome {
@@ -58,8 +53,8 @@ struct Outcome {
 };
 
 template <class Stream>
-asio::awaitable<void> exchange(Stream& stream, http::request<http::string_body>& message, Outcome& outcome, Failure& failure) {
-    co_await http::async_write(stream, message, into(failure));
+asio::awaitable<void> exchange(Stream& stream, Get& request, Outcome& outcome, Failure& failure) {
+    co_await http::async_write(stream, request, into(failure));
     if (failure) co_return;
     beast::flat_buffer buffer;
     http::response_parser<http::string_body> parser;
@@ -68,8 +63,8 @@ asio::awaitable<void> exchange(Stream& stream, http::request<http::string_body>&
     if (!failure) outcome.answer = HttpAnswer{parser.get().result_int(), parser.get().body()};
 }
 
-asio::awaitable<void> exchange_with_tls(beast::tcp_stream stream, Address const& address, HttpServer const& server,
-                                        http::request<http::string_body>& message, Outcome& outcome, Failure& failure) {
+asio::awaitable<void> exchange_with_tls(beast::tcp_stream stream, Address const& address, HttpServer const& server, Get& request,
+                                        Outcome& outcome, Failure& failure) {
     asio::ssl::context context{asio::ssl::context::tls_client};
     context.set_default_verify_paths();
     if (!server.ca_file.empty()) context.load_verify_file(server.ca_file, failure);
@@ -80,11 +75,10 @@ asio::awaitable<void> exchange_with_tls(beast::tcp_stream stream, Address const&
     secured.set_verify_mode(asio::ssl::verify_peer);
     secured.set_verify_callback(asio::ssl::host_name_verification{host});
     co_await secured.async_handshake(asio::ssl::stream_base::client, into(failure));
-    if (!failure) co_await exchange(secured, message, outcome, failure);
+    if (!failure) co_await exchange(secured, request, outcome, failure);
 }
 
-asio::awaitable<void> run(Address const& address, HttpServer const& server, http::request<http::string_body>& message,
-                          Outcome& outcome) {
+asio::awaitable<void> run(Address const& address, HttpServer const& server, Get& request, Outcome& outcome) {
     auto const executor = co_await asio::this_coro::executor;
     Failure failure;
     asio::ip::tcp::resolver resolver{executor};
@@ -92,22 +86,25 @@ asio::awaitable<void> run(Address const& address, HttpServer const& server, http
     beast::tcp_stream stream{executor};
     if (!failure) co_await stream.async_connect(found, into(failure));
     if (!failure && address.tls) {
-        co_await exchange_with_tls(std::move(stream), address, server, message, outcome, failure);
+        co_await exchange_with_tls(std::move(stream), address, server, request, outcome, failure);
     } else if (!failure) {
-        co_await exchange(stream, message, outcome, failure);
+        co_await exchange(stream, request, outcome, failure);
     }
     if (failure) outcome.trouble = failure.message();
 }
 
 }  // namespace
 
-HttpAnswer ask(HttpServer const& server, HttpRequest const& wanted, std::chrono::milliseconds deadline) {
+HttpAnswer http_get(HttpServer const& server, std::string const& target, std::chrono::milliseconds deadline) {
     auto const address = address_of(server.url);
-    auto message = message_of(address, server, wanted);
+    auto request = request_of(address, server, target);
     Outcome outcome;
-    asio::io_context io{1};
-    asio::co_spawn(io, run(address, server, message, outcome), asio::detached);
-    io.run_for(deadline);
+    auto io = std::make_unique<asio::io_context>(1);
+    asio::co_spawn(*io, run(address, server, request, outcome), asio::detached);
+    io->run_for(deadline);
+    // The end of one that looks a name up waits for it. Nothing runs on it any more, and the program ends soon.
+    [[maybe_unused]] static asio::io_context* left_alone = nullptr;
+    if (!io->stopped()) left_alone = io.release();
     if (!outcome.answer) throw Trouble{Exit::no_answer, server.url + ": " + outcome.trouble};
     return std::move(*outcome.answer);
 }

@@ -17,17 +17,6 @@ Observers observers(std::function<void(Notification)> told, std::shared_ptr<Reco
     return observers;
 }
 
-// The connection takes answers to its own requests by these ids; those of an application that is a C++ client as well are called
-// otherwise on the way.
-constexpr std::string_view own = "request_id=\"rois-cpp-";
-constexpr std::string_view relayed = "request_id=\"relayed-rois-cpp-";
-
-std::string renamed(std::string document, std::string_view from, std::string_view to) {
-    auto const at = document.find(from);
-    if (at != std::string::npos && at < document.find('>')) document.replace(at, from.size(), to);
-    return document;
-}
-
 std::string no_engine(std::variant<Request, Fault> const& read, NoAnswer const& none) {
     auto const* const request = std::get_if<Request>(&read);
     return xml::encode(Fault{FaultCode::shutting_down,
@@ -62,10 +51,10 @@ void Relay::take(std::string const& document, std::variant<Request, Fault> const
                             std::function<void(std::string)> answered) -> Task<> {
         auto sent = co_await connection.send(std::move(text));
         auto* const answer = std::get_if<std::string>(&sent);
-        auto said = answer != nullptr ? renamed(std::move(*answer), relayed, own) : no_engine(what, std::get<NoAnswer>(sent));
+        auto said = answer != nullptr ? std::move(*answer) : no_engine(what, std::get<NoAnswer>(sent));
         asio::post(io, [answered = std::move(answered), said = std::move(said)] { answered(said); });
     };
-    connection_.spawn(pass_on(connection_, io_, renamed(document, own, relayed), read, std::move(reply)));
+    connection_.spawn(pass_on(connection_, io_, document, read, std::move(reply)));
 }
 
 }  // namespace rois::command

@@ -3,15 +3,13 @@
 
 #include <atomic>
 #include <chrono>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <variant>
-#include <vector>
 
 #include "command/exit.hpp"
+#include "command/inbox.hpp"
 #include "command/options.hpp"
 #include "command/recording.hpp"
 #include "rois/connection.hpp"
@@ -29,42 +27,38 @@ using Until = std::optional<std::chrono::steady_clock::time_point>;  // none: fo
 
 class Session {
 public:
-    virtual ~Session() = default;
+    // Waits until it is open. `recorded` may be null. Throws Trouble when it cannot be opened, std::invalid_argument for a URL
+    // that is none.
+    Session(Options const&, std::shared_ptr<RecordingWriter> recorded);
 
     // Whether it goes on when the program ends.
-    virtual bool is_joined() const = 0;
-    virtual SessionId id() const = 0;
+    bool is_joined() const { return joined_; }
+    SessionId id() const { return connection_.session(); }
 
     // Waits for the answer. Throws Trouble (no_answer) when there is none.
     std::variant<Reply, Fault> request(Operation);
 
     // Any document as it stands, and its answer's. Throws Trouble like `request`.
-    virtual std::string send(std::string const& document) = 0;
+    std::string send(std::string const& document);
 
     // The next one in the order of what happened; nothing at that time, after an interruption, and when the link has closed for
     // good.
-    virtual std::optional<Heard> hear(Until = {}) = 0;
+    std::optional<Heard> hear(Until until = {}) { return inbox_.take(until); }
 
     // From any thread: ends the session if it is its own, and all that waits.
     void interrupt();
     bool interrupted() const { return interrupted_; }
 
-protected:
-    virtual Answer answer(Request) = 0;
-    virtual void end_waiting() = 0;
-
 private:
-    std::atomic<bool> interrupted_ = false;
-};
+    Observers observers(std::shared_ptr<RecordingWriter> recorded);
 
-// Waits until it is open. `recorded` may be null. Throws Trouble.
-std::unique_ptr<Session> open_session(Options const&, std::shared_ptr<RecordingWriter> recorded);
+    bool const joined_;
+    std::atomic<bool> interrupted_ = false;
+    Inbox<Heard> inbox_;  // filled on the client's thread
+    Connection connection_;
+};
 
 // Settings of the client library.
 Settings settings_of(Options const&);
-
-// Both are made by open_session.
-std::unique_ptr<Session> own_session(Options const&, std::shared_ptr<RecordingWriter> recorded);
-std::unique_ptr<Session> joined_session(Options const&);
 
 }  // namespace rois::command

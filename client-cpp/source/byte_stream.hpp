@@ -5,6 +5,7 @@
 // Asio first.
 #include <boost/asio/connect.hpp>
 #include <boost/asio/ssl.hpp>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -28,21 +29,27 @@ inline std::unique_ptr<asio::ssl::context> trust(Settings const& settings) {
     return context;
 }
 
-// Resolves, connects and, with TLS, checks who is there. `lowest` is the socket of `stream`.
+using Resolver = asio::ip::basic_resolver<asio::ip::tcp, Executor>;
+
+// Resolves a name, connects and, with TLS, checks who is there. `lowest` is the socket of `stream`.
 template <class Stream>
-asio::awaitable<std::string, Executor> connect(Stream& stream, Socket& lowest,
-                                               asio::ip::basic_resolver<asio::ip::tcp, Executor>& resolver,
-                                               Target const& target) {
+asio::awaitable<std::string, Executor> connect(Stream& stream, Socket& lowest, Resolver& resolver, Target const& target) {
     error_code error;
-    auto const found = co_await resolver.async_resolve(target.host, target.port, into(error));
-    if (error) co_return "the name " + target.host + " cannot be resolved: " + error.message();
+    error_code no_address;
+    auto const address = asio::ip::make_address(target.host, no_address);
+    Resolver::results_type found;
+    if (no_address) {
+        found = co_await resolver.async_resolve(target.host, target.port, into(error));
+        if (error) co_return "the name " + target.host + " cannot be resolved: " + error.message();
+    } else {
+        auto const port = static_cast<std::uint16_t>(std::stoul(target.port));
+        found = Resolver::results_type::create({address, port}, target.host, target.port);
+    }
     co_await asio::async_connect(lowest, found, into(error));
     if (error) co_return "no connection to " + target.authority + ": " + error.message();
     lowest.set_option(asio::ip::tcp::no_delay{true}, error);
     if constexpr (is_tls<Stream>) {
         stream.set_verify_callback(asio::ssl::host_name_verification{target.host}, error);
-        error_code no_address;
-        asio::ip::make_address(target.host, no_address);
         if (no_address) SSL_set_tlsext_host_name(stream.native_handle(), target.host.c_str());
         co_await stream.async_handshake(asio::ssl::stream_base::client, into(error));
         if (error) co_return "no TLS with " + target.authority + ": " + error.message();

@@ -38,9 +38,12 @@ public:
         if (auto const waiter = std::exchange(waiter_, {})) waiter.resume();
     }
 
+    // Whether it was given an outcome. One whose deadline has passed stays in the row until its answer comes.
+    bool is_over() const { return outcome_.has_value(); }
+
     struct Awaiter {
         Call* call;
-        bool await_ready() const { return call->outcome_.has_value(); }
+        bool await_ready() const { return call->is_over(); }
         void await_suspend(std::coroutine_handle<> waiter) const { call->waiter_ = waiter; }
         Outcome await_resume() const { return std::move(*call->outcome_); }
     };

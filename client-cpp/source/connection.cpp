@@ -35,7 +35,7 @@ Task<std::optional<NoAnswer>> wait_until_open(std::shared_ptr<detail::Core> core
     core->loop().cancel(ticket);
     std::optional<NoAnswer> problem;
     if (core->is_closed()) {
-        problem = NoAnswer{NoAnswer::Why::closed, core->last_reason()};
+        problem = core->closed();
     } else if (!core->is_open()) {
         auto reason = "no session within " + std::to_string(within.count()) + " ms";
         if (!core->last_reason().empty()) reason += ": " + core->last_reason();

@@ -11,7 +11,9 @@ Core::Core(Settings settings, Observers observers)
     : settings_{std::move(settings)},
       observers_{std::move(observers)},
       target_{client::read_url(settings_.url)},
-      dice_{std::random_device{}()} {}
+      name_{std::random_device{}()},
+      session_{settings_.session},
+      dice_{name_} {}
 
 void Core::start() {
     loop_.start(shared_from_this());
@@ -41,7 +43,15 @@ SessionId Core::session() const {
     return session_;
 }
 
-CommandId Core::fresh_command_id() { return {"command-" + std::to_string(++last_command_)}; }
+// In a session that is shared, others name commands, too.
+CommandId Core::fresh_command_id() {
+    auto const whose = is_joined() ? std::to_string(name_) + "-" : "";
+    return {"command-" + whose + std::to_string(++last_command_)};
+}
+
+NoAnswer Core::closed() const {
+    return {NoAnswer::Why::closed, "the connection is closed" + (last_reason_.empty() ? "" : ": " + last_reason_)};
+}
 
 void Core::change(State state, std::string reason) {
     state_ = state;
@@ -86,7 +96,7 @@ Task<> Core::pass(std::chrono::milliseconds time) {
 Task<Call::Outcome> Core::send(Call::Kind kind, std::string document, std::string request_id,
                                std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
-    if (is_closed()) co_return NoAnswer{NoAnswer::Why::closed, "the connection is closed"};
+    if (is_closed()) co_return closed();
     auto const call = std::make_shared<Call>(kind, std::move(document), std::move(request_id));
     call->deadline = loop_.in(deadline, [this, weak = std::weak_ptr{call}, deadline] {
         auto const late = weak.lock();
@@ -104,45 +114,37 @@ Task<Call::Outcome> Core::send(Call::Kind kind, std::string document, std::strin
     co_return outcome;
 }
 
-// A raw one that was sent keeps its place in the row until its answer has come.
+// One that was sent keeps its place in the row until its answer has come, or the link has broken.
 void Core::settle(std::shared_ptr<Call> const& call, Call::Outcome outcome) {
     loop_.cancel(call->deadline);
-    bool const keeps_place =
-        call->kind == Call::Kind::raw && call->sent && std::holds_alternative<NoAnswer>(outcome) && is_open();
+    bool const keeps_place = call->sent && std::holds_alternative<NoAnswer>(outcome) && is_open();
     if (!keeps_place) std::erase(calls_, call);
     call->give(std::move(outcome));
 }
 
-std::shared_ptr<Call> Core::call_of(std::string const& request_id) const {
-    auto const is_it = [&](auto const& call) { return call->sent && call->id == request_id; };
-    auto const found = std::ranges::find_if(calls_, is_it);
-    return found == calls_.end() ? nullptr : *found;
-}
-
-// The requests of the connection itself have ids of a form of their own.
+// Answers come in the order of the requests. An id is a check: documents that were sent as they stand may have any.
 void Core::take_answer(std::string_view document, std::optional<xml::Heard> heard) {
-    std::string id;
-    if (auto const* const answered = heard ? std::get_if<xml::Answered>(&*heard) : nullptr) id = answered->request_id;
-    auto* const fault = heard ? std::get_if<Fault>(&*heard) : nullptr;
-    if (fault != nullptr) id = fault->request_id;
-    if (id.starts_with("rois-cpp-")) {
-        auto const call = call_of(id);
-        if (!call) return;  // its deadline has passed
-        if (fault != nullptr && fault->code == FaultCode::no_session) {
-            call->sent = false;  // it never ran: it is sent in the next session
-            session_gone();
-        } else if (fault != nullptr) {
-            settle(call, std::move(*fault));
-        } else {
-            settle(call, std::move(std::get<xml::Answered>(*heard).reply));
-        }
+    constexpr auto not_understood = "what the gateway says is not understood";
+    auto const first = std::ranges::find_if(calls_, [](auto const& call) { return call->sent; });
+    if (first == calls_.end()) {
+        if (!heard) give_up_link(not_understood, client::Failure::passing);
         return;
     }
-    auto const raw = call_of("");
-    if (raw) {
-        settle(raw, std::string{document});
-    } else if (!heard) {
-        give_up_link("what the gateway says is not understood", client::Failure::passing);
+    auto const call = *first;
+    auto* const answered = heard ? std::get_if<xml::Answered>(&*heard) : nullptr;
+    auto* const fault = heard ? std::get_if<Fault>(&*heard) : nullptr;
+    auto const& id = answered != nullptr ? answered->request_id : fault != nullptr ? fault->request_id : call->id;
+    if (call->kind == Call::Kind::raw) {
+        settle(call, std::string{document});
+    } else if (!heard || (!id.empty() && id != call->id)) {
+        give_up_link(not_understood, client::Failure::passing);
+    } else if (answered != nullptr) {
+        settle(call, std::move(answered->reply));
+    } else if (fault->code == FaultCode::no_session) {
+        call->sent = false;  // it never ran: it is sent in the next session
+        session_gone();
+    } else {
+        settle(call, std::move(*fault));
     }
 }
 
@@ -160,26 +162,26 @@ void Core::flush() {
 void Core::begin_close(Farewell farewell) {
     if (is_closed()) return;
     auto const self = shared_from_this();
-    bool const says_it = is_open() && farewell == Farewell::due;
+    bool const says_it = is_open() && farewell == Farewell::due && !is_joined();
+    bool const hears_more = is_open() && farewell == Farewell::said && settings_.way == Way::http;
     phase_ = Phase::closing;
     loop_.cancel(attempt_);
     for (auto const& call : std::exchange(calls_, {})) {
         loop_.cancel(call->deadline);
-        call->give(
-            NoAnswer{NoAnswer::Why::closed, "the connection is closed" + (last_reason_.empty() ? "" : ": " + last_reason_)});
+        call->give(closed());
     }
     for (auto const& stream : subscriptions_.streams()) stream->end();
     for (auto const& [id, watch] : std::exchange(watches_, {})) watch->complete(CompletedStatus::abort);
     for (auto const& sleeper : std::exchange(sleeping_, {}))
         if (auto const flag = sleeper.lock()) flag->raise();
-    if (!says_it) {
+    if (!says_it && !hears_more) {
         finish();
         opened.raise();
         return;
     }
     opened.raise();
     constexpr auto longest = std::chrono::milliseconds{1'000};
-    send_on_link(xml::encode(Request{Disconnect{}, "disconnect"}));
+    if (says_it) send_on_link(xml::encode(Request{Disconnect{}, "disconnect"}));
     attempt_ = loop_.in(std::min(longest, settings_.connect_deadline), [this] { finish(); });
 }
 

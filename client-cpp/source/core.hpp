@@ -58,6 +58,7 @@ public:
     bool is_open() const { return phase_ == Phase::open; }
     bool is_closed() const { return phase_ == Phase::closing || phase_ == Phase::closed; }
     std::string const& last_reason() const { return last_reason_; }
+    NoAnswer closed() const;  // what is said to whoever asks then
 
     // Waits so long, or until the connection closes.
     Task<> pass(std::chrono::milliseconds);
@@ -81,13 +82,13 @@ private:
     void restored(std::string const& request_id, Outcome const&, Reply const*);
     void become_open();
     std::chrono::milliseconds pause();
+    bool is_joined() const { return !settings_.session.empty(); }  // in the session of another program
     void send_on_link(std::string const& document);
 
     // --- core.cpp ---
     void change(State, std::string reason = {});
     void take_answer(std::string_view document, std::optional<xml::Heard>);
     void settle(std::shared_ptr<client::Call> const&, client::Call::Outcome);
-    std::shared_ptr<client::Call> call_of(std::string const& request_id) const;
     void flush();
     enum class Farewell : std::uint8_t { due, said };  // the engine's session ends, too, or has ended
     void begin_close(Farewell);
@@ -123,6 +124,7 @@ private:
     std::atomic<std::uint64_t> last_command_ = 0;
 
     bool destroyed_ = false;
+    std::uint32_t const name_;  // by chance
 
     // The session.
     Phase phase_ = Phase::resting;
@@ -134,7 +136,7 @@ private:
     unsigned failures_ = 0;  // in a row
     client::Loop::Ticket attempt_ = 0;
     std::string last_reason_;
-    std::uint64_t dice_ = 0;
+    std::uint64_t dice_;
     std::vector<Identifier> bound_;
     client::Subscriptions subscriptions_;
     std::map<std::string, std::string> restoring_;  // request ids, and what is made anew

@@ -26,7 +26,7 @@ bool is_lasting(FaultCode code) {
 
 void Core::attempt() {
     phase_ = Phase::connecting;
-    auto const make = settings_.way == Way::websocket ? client::websocket_link : client::http_link;
+    auto const make = settings_.way == Way::websocket && !is_joined() ? client::websocket_link : client::http_link;
     try {
         link_ = make(loop_, target_, settings_, *this);
     } catch (std::exception const& problem) {  // the file of trusted certificates
@@ -61,7 +61,8 @@ void Core::document(std::string_view text) {
     if (heard && std::holds_alternative<xml::Told>(*heard)) {
         take(std::get<xml::Told>(*std::move(heard)));
     } else if (phase_ == Phase::closing) {
-        if (heard && is_farewell(*heard)) finish();
+        // Over HTTP the end of the event stream is the last that is heard: it may have `completed` for what the session ended.
+        if (heard && is_farewell(*heard) && settings_.way == Way::websocket) finish();
     } else if (phase_ == Phase::attaching && heard) {
         take_opening(*std::move(heard));
     } else if (phase_ == Phase::restoring && heard) {
@@ -108,13 +109,17 @@ void Core::take_opening(xml::Heard heard) {
     }
 }
 
-// The engine knows the session no longer: the next one follows, on a new link.
+// The engine knows the session no longer: the next one follows, on a new link. Another program's has no next one.
 void Core::session_gone() {
     {
         std::lock_guard const lock{session_mutex_};
         session_ = {};
     }
-    give_up_link("the engine has ended the session", Failure::passing);
+    if (is_joined()) {
+        give_up_link("there is no such session", Failure::lasting);
+    } else {
+        give_up_link("the engine has ended the session", Failure::passing);
+    }
 }
 
 void Core::attached() {
@@ -227,6 +232,7 @@ void Core::become_open() {
     loop_.cancel(attempt_);
     failures_ = 0;
     phase_ = Phase::open;
+    std::erase_if(calls_, [](auto const& call) { return call->is_over(); });
     std::vector<std::shared_ptr<client::Call>> doubtful;
     std::vector<std::shared_ptr<client::Call>> not_again;
     for (auto const& call : calls_) {

@@ -70,7 +70,7 @@ private:
             beast::get_lowest_layer(stream).close(ignored);
         }
 
-        asio::ip::basic_resolver<asio::ip::tcp, Executor> resolver;
+        Resolver resolver;
         Stream stream;
         beast::flat_buffer incoming;
         Steady used = std::chrono::steady_clock::now();

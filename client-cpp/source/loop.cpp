@@ -38,7 +38,15 @@ void Loop::arm() {
 }
 
 void Loop::start(std::shared_ptr<void> owner) {
-    thread_ = std::thread{[this, owner = std::move(owner)] { io_.run(); }};
+    thread_ = std::thread{[this, owner = std::move(owner)] {
+        own_id_ = std::this_thread::get_id();
+        io_.run();  // until it is stopped by `finish`
+        io_.restart();
+        while (io_.poll() > 0) {  // what was cancelled is told so
+        }
+        finished_.set_value(io_.stopped() ? Left::nothing : Left::something);
+        io_.run();
+    }};
 }
 
 void Loop::finish() {
@@ -46,13 +54,13 @@ void Loop::finish() {
     times_.clear();
     timer_.cancel();
     work_.reset();
+    io_.stop();
 }
 
 void Loop::join() {
-    if (is_here()) {
-        detached_ = std::this_thread::get_id();
+    if (is_here() || finished_.get_future().get() == Left::something) {
         thread_.detach();
-    } else if (thread_.joinable()) {
+    } else {
         thread_.join();
     }
 }

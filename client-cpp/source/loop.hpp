@@ -3,11 +3,13 @@
 
 #include "asio.hpp"
 // Asio first.
+#include <atomic>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/post.hpp>
 #include <coroutine>
 #include <cstdint>
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <thread>
@@ -25,7 +27,7 @@ public:
 
     asio::io_context& io() { return io_; }
     Executor executor() { return io_.get_executor(); }
-    bool is_here() const { return std::this_thread::get_id() == thread_.get_id() || std::this_thread::get_id() == detached_; }
+    bool is_here() const { return std::this_thread::get_id() == own_id_; }
 
     // From any thread; it runs on the client's.
     template <class Function>
@@ -58,7 +60,8 @@ public:
     void start(std::shared_ptr<void> owner);
     // On the client's thread: all alarms are forgotten, and the thread ends when nothing is left to do.
     void finish();
-    // Waits for its end; on the client's thread itself, lets it end alone.
+    // Waits for its end. Lets it end alone on the client's thread itself, and when a name is still looked up, which may take long
+    // and cannot be ended.
     void join();
 
 private:
@@ -72,7 +75,9 @@ private:
     std::map<Ticket, Steady> times_;
     Ticket last_ticket_ = 0;
     std::thread thread_;
-    std::thread::id detached_{};
+    std::atomic<std::thread::id> own_id_;
+    enum class Left : std::uint8_t { nothing, something };
+    std::promise<Left> finished_;  // whether something is still under way
 };
 
 }  // namespace rois::client

@@ -160,7 +160,7 @@ private:
     Settings const& settings_;
     Listener* listener_;  // null: nothing more is told
     std::unique_ptr<asio::ssl::context> context_;
-    asio::ip::basic_resolver<asio::ip::tcp, Executor> resolver_;
+    Resolver resolver_;
     Full stream_;
     beast::flat_buffer incoming_;
     std::deque<std::string> outgoing_;  // the first one is being written

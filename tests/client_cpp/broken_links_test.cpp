@@ -167,6 +167,8 @@ TEST_P(TheLink, MakesAnewWhatWentWithItsSession) {
     auto events = 0;
     for (auto const& [sequence, told] : history.notifications()) events += std::holds_alternative<ReceiveEvent>(told) ? 1 : 0;
     EXPECT_EQ(events, 1) << "subscribed once";
+    EXPECT_FALSE(history.completions().contains(following.id().text))
+        << "of the session that is gone nothing is told but the gap";
 }
 
 TEST_P(TheLink, TellsWhatItCannotMakeAnew) {

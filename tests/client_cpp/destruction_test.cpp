@@ -2,6 +2,7 @@
 #include <thread>
 
 #include "client_cpp/rig.hpp"
+#include "client_cpp/slow_name.hpp"
 
 namespace rois::test {
 namespace {
@@ -88,6 +89,21 @@ TEST_P(Destruction, OnItsOwnThread) {
         over.set_value();
     }(robot, gone));
     EXPECT_EQ(gone.get_future().wait_for(5s), std::future_status::ready);
+}
+
+TEST_P(Destruction, WaitsForNoNameThatIsStillLookedUp) {
+    SlowName name;
+    std::promise<void> gone;
+    std::thread user{[&] {
+        {
+            Client const robot{settings("http://robot.slow")};
+            name.await_lookup();
+        }
+        gone.set_value();
+    }};
+    EXPECT_EQ(gone.get_future().wait_for(5s), std::future_status::ready);
+    name.end_lookup();
+    user.join();
 }
 
 TEST_P(Destruction, LeavesHandlesThatSayThatItIsOver) {

@@ -98,8 +98,7 @@ public:
     template <class Op>
     Task<typename Op::Reply> call(Op operation, std::optional<std::chrono::milliseconds> deadline = {});
 
-    // Sends any document as it stands, once, and gives the document that answers it. A document without a request_id is answered
-    // in its turn among those of `send`.
+    // Sends any document as it stands, once, and gives the document that answers it, whatever request_id it has.
     Task<std::variant<std::string, NoAnswer>> send(std::string document, std::optional<std::chrono::milliseconds> deadline = {});
 
     // Goes on after this time, or at once when the connection closes.

@@ -27,7 +27,7 @@ public:
     Task<std::optional<ReceiveEvent>> next_event(std::optional<std::chrono::milliseconds> within = {});
 
     // From now on each event, those that wait first, is given to this function on the client's thread, as long as there is a
-    // handle. `next_event` is for others then. The function must not throw.
+    // handle; it may still run when the last handle goes. `next_event` is for others then. The function must not throw.
     void each_event(std::function<void(ReceiveEvent const&)>);
 
     // Throws away what waits.

@@ -21,6 +21,9 @@ struct Settings {
     Way way = Way::websocket;
     std::string token;    // sent as Authorization: Bearer; empty: none
     std::string ca_file;  // PEM, certificates that are trusted for TLS beside the system's; empty: none
+    // Another program's session, to act in it beside that one: over HTTP, since a WebSocket would take it over. What it was told
+    // before is told first. It does not end with the connection; the connection closes when it has ended. Empty: an own one.
+    std::string session;
 
     std::chrono::milliseconds deadline = std::chrono::seconds{10};         // of a call, with all that happens to it on the way
     std::chrono::milliseconds connect_deadline = std::chrono::seconds{5};  // of one attempt, with TLS and handshake

@@ -1,0 +1,282 @@
+// The facades of all 17 components, against the simulated hall.
+#include <cmath>
+#include <stdexcept>
+#include <thread>
+
+#include "client_cpp/rig.hpp"
+
+namespace rois::test {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::Field;
+using testing::HasSubstr;
+using testing::SizeIs;
+using testing::StartsWith;
+
+// A hall in which somebody known waves and talks again and again, whose robot streams.
+GatewayProcess& lively_hall() {
+    static GatewayProcess hall{
+        {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/lively_visitor.xml", "--sim-speed", "20", "--media", "127.0.0.1:0"}};
+    return hall;
+}
+
+// One that nobody enters, whose robot may go anywhere.
+GatewayProcess& empty_hall() {
+    static GatewayProcess hall{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--sim-speed", "20"}};
+    return hall;
+}
+
+class TheFacades : public testing::Test {
+protected:
+    explicit TheFacades(GatewayProcess& hall = lively_hall()) : robot{quick(hall.url())} {}
+
+    // The next event that is so, as long as somebody has started the component.
+    template <class E>
+    E heard(Events<E>& events, std::function<bool(E const&)> const& is_it) {
+        while (true) {
+            auto event = robot(events.next(20s));
+            if (!event) throw std::runtime_error{"no such event: " + std::string{E::name}};
+            if (is_it(*event)) return *event;
+        }
+    }
+
+    // Binds any component of this type, subscribes, starts it and gives the first event that is so.
+    template <class Facade, class E>
+    E first(Task<Events<E>> (Facade::*subscribe)(QueryExpression) const, std::function<bool(E const&)> const& is_it) {
+        auto const component = robot.bind_any<Facade>();
+        auto events = robot((component.*subscribe)({}));
+        EXPECT_EQ(robot(component.start()), CompletedStatus::ok);
+        auto const event = heard(events, is_it);
+        EXPECT_GT(event.timestamp, *to_utc("2024-01-01T00:00:00Z"));
+        robot(component.release());
+        return event;
+    }
+
+    template <class Facade>
+    void expect_stream(char const* encoding) {
+        auto const streaming = robot.bind_any<Facade>();
+        auto notified = robot(streaming.notify_stream_status());
+        expect_ok(streaming.set({.encoding_parameters = {}, .transport_parameters = "http"}));
+        auto const set = robot(streaming.parameters());
+        EXPECT_EQ(set.transport_parameters, "http");
+        EXPECT_THAT(set.available_encodings, HasSubstr(encoding));
+        EXPECT_THAT(set.available_transports, HasSubstr("http"));
+        auto const stream = robot(streaming.connect_stream());
+        EXPECT_THAT(stream.transport_parameters, StartsWith("http://127.0.0.1:"));
+        EXPECT_THAT(stream.encoding_parameters, StartsWith(encoding));
+        EXPECT_EQ(robot(streaming.get_stream_status()), StreamStatus::not_running);
+        expect_ok(streaming.suspend_stream(stream.stream_id));
+        expect_ok(streaming.resume_stream(stream.stream_id));
+        expect_ok(streaming.disconnect_stream(stream.stream_id));
+        for (auto const status : {StreamStatus::suspended, StreamStatus::resumed, StreamStatus::not_connected})
+            heard<StreamStatusNotified>(notified, [&](StreamStatusNotified const& told) {
+                return told.stream_id == stream.stream_id && told.status == status;
+            });
+        EXPECT_EQ(robot(streaming.get_stream_status()), StreamStatus::not_connected);
+        EXPECT_THROW(robot(streaming.suspend_stream(stream.stream_id)), Error);
+    }
+
+    void expect_ok(Task<CompletedStatus> command) { EXPECT_EQ(robot(std::move(command)), CompletedStatus::ok); }
+
+    Blocking robot;
+};
+
+class TheFacadesThatMove : public TheFacades {
+protected:
+    TheFacadesThatMove() : TheFacades{empty_hall()} {}
+};
+
+auto const within_the_hall = [](Sighting const& seen) {
+    return seen.pose.x >= 0_mm && seen.pose.x <= 20_m && seen.pose.y >= 0_mm && seen.pose.y <= 12_m &&
+           seen.pose.crs == "urn:x-rois:def:crs:simulation::hall";
+};
+
+TEST_F(TheFacades, SystemInformation) {
+    SystemInformation const system{robot.client().component("system_information")};
+    auto const position = robot(system.robot_position());
+    ASSERT_THAT(position.robots, SizeIs(1));
+    EXPECT_EQ(position.robots[0].ref.code, "robot1");
+    EXPECT_TRUE(within_the_hall(position.robots[0]));
+    EXPECT_LT(distance(position.robots[0].pose, Pose{6_m, 6_m}), 200_mm);
+    EXPECT_EQ(robot(system.engine_status()).status, ComponentStatus::ready);
+    EXPECT_LE(robot(system.engine_status()).operable_time.value(), position.timestamp);
+}
+
+TEST_F(TheFacades, Detection) {
+    first<PersonDetection, PersonDetected>(&PersonDetection::person_detected, [](auto& event) { return event.number == 1; });
+    first<FaceDetection, FaceDetected>(&FaceDetection::face_detected, [](auto& event) { return event.number == 1; });
+    first<SoundDetection, SoundDetected>(&SoundDetection::sound_detected, [](auto& event) { return event.number == 1; });
+}
+
+TEST_F(TheFacades, Localization) {
+    auto const is_one = [](std::vector<Sighting> const& seen, char const* name) {
+        return seen.size() == 1 && seen[0].ref.code.starts_with(name) && within_the_hall(seen[0]);
+    };
+    first<PersonLocalization, PersonLocalized>(&PersonLocalization::person_localized,
+                                               [&](auto& event) { return is_one(event.people, "person-"); });
+    first<FaceLocalization, FaceLocalized>(&FaceLocalization::face_localized,
+                                           [&](auto& event) { return is_one(event.faces, "face-"); });
+    first<SoundLocalization, SoundLocalized>(&SoundLocalization::sound_localized,
+                                             [&](auto& event) { return is_one(event.sounds, "sound-"); });
+    auto const localization = robot.bind<PersonLocalization>("person_localization");
+    expect_ok(localization.set({.detection_threshold = 0.5_m, .minimum_interval = 40ms}));
+    auto const set = robot(localization.parameters());
+    EXPECT_EQ(set.detection_threshold, 500_mm);
+    EXPECT_EQ(set.minimum_interval, 40ms);
+}
+
+TEST_F(TheFacades, PersonIdentification) {
+    auto const event = first<PersonIdentification, PersonIdentified>(&PersonIdentification::person_identified,
+                                                                     [](auto& told) { return !told.people.empty(); });
+    EXPECT_THAT(event.people, ElementsAre(Field(&Identifier::code, "tanaka")));
+    EXPECT_EQ(event.people[0].codebook_ref, "urn:x-rois:def:codebook:simulation::visitor");
+}
+
+TEST_F(TheFacades, SpeechRecognition) {
+    auto const recognition = robot.bind<SpeechRecognition>("speech_recognition");
+    expect_ok(recognition.set({.languages = {"en"}, .grammar = "greeting = hello | goodbye", .rule = "greeting"}));
+    auto const set = robot(recognition.parameters());
+    EXPECT_THAT(set.languages, ElementsAre("en"));
+    EXPECT_THAT(set.grammar.value_or(""), HasSubstr("goodbye"));
+    EXPECT_EQ(set.rule, "greeting");
+    EXPECT_THAT(set.recognizable_languages, Contains("ja"));
+    auto begun = robot(recognition.speech_input_started());
+    auto over = robot(recognition.speech_input_finished());
+    auto recognized = robot(recognition.speech_recognized());
+    expect_ok(recognition.start());
+    auto const what = heard<SpeechRecognized>(recognized, [](auto&) { return true; });
+    EXPECT_THAT(what.recognized_text, ElementsAre("hello"));
+    auto const from = heard<SpeechInputStarted>(begun, [](auto&) { return true; });
+    auto const to = heard<SpeechInputFinished>(over, [](auto&) { return true; });
+    EXPECT_LT(from.timestamp, to.timestamp);
+}
+
+TEST_F(TheFacades, GestureRecognition) {
+    auto const event = first<GestureRecognition, GestureRecognized>(&GestureRecognition::gesture_recognized,
+                                                                    [](auto& told) { return !told.gestures.empty(); });
+    EXPECT_EQ(event.gestures[0].code, "wave");
+    GestureRecognition const recognition{robot.bind("gesture_recognition")};
+    EXPECT_EQ(robot(recognition.component_status()), ComponentStatus::ready);
+    EXPECT_THAT(robot(recognition.recognizable_gestures()), Contains(Field(&Identifier::code, "bow")));
+}
+
+TEST_F(TheFacades, SpeechSynthesis) {
+    auto const synthesis = robot.bind<SpeechSynthesis>("speech_synthesis");
+    expect_ok(synthesis.say("Welcome."));
+    expect_ok(synthesis.say({.SSML_text = "<speak>Good <emphasis>day</emphasis>.</speak>", .volume = 40, .language = "en"}));
+    expect_ok(synthesis.set({.speech_text = "Hello.", .volume = 60, .language = "de", .character = "default"}));
+    auto const set = robot(synthesis.parameters());
+    EXPECT_EQ(set.speech_text, "Hello.");
+    EXPECT_FALSE(set.SSML_text) << "one drops the other";
+    EXPECT_EQ(set.volume, 60);
+    EXPECT_EQ(set.language, "de");
+    EXPECT_EQ(set.character, "default");
+    EXPECT_THAT(set.synthesizable_languages, Contains("de"));
+    EXPECT_THAT(set.synthesizable_characters, Contains("default"));
+}
+
+TEST_F(TheFacades, Reaction) {
+    auto const reaction = robot.bind<Reaction>("reaction");
+    EXPECT_THAT(robot(reaction.available_reactions()), Contains(Field(&Identifier::code, "9")));
+    expect_ok(reaction.react("9"));
+    EXPECT_THROW(robot(reaction.react("51")), Error);
+}
+
+TEST_F(TheFacadesThatMove, Navigation) {
+    auto const navigation = robot.bind<Navigation>("navigation");
+    auto reached = robot(navigation.reached_target());
+    expect_ok(navigation.go({{Pose{5_m, 5_m, 90_deg}, "start"}, 60s, RoutingPolicy::distance}));
+    auto const any = [](ReachedTarget const&) { return true; };
+    auto const on_the_way = heard<ReachedTarget>(reached, any);
+    EXPECT_EQ(on_the_way.target, "5000, 5000, 90");
+    EXPECT_FALSE(on_the_way.is_final_target);
+    EXPECT_TRUE(heard<ReachedTarget>(reached, any).is_final_target);
+    EXPECT_EQ(robot(navigation.go_to("entrance", 1ms)), CompletedStatus::timeout);
+    expect_ok(navigation.go_to(Pose{6_m, 6_m}, 0ms));
+    expect_ok(navigation.set({{Pose{7_m, 6.5_m}}, 2s, RoutingPolicy::time}));
+    auto const set = robot(navigation.parameters());
+    EXPECT_THAT(set.target_position, ElementsAre(Field(&Target::text, "7000, 6500, 0")));
+    EXPECT_EQ(set.time_limit, 2s);
+    EXPECT_EQ(set.routing_policy, RoutingPolicy::time);
+}
+
+TEST_F(TheFacadesThatMove, Follow) {
+    auto const follow = robot.bind<Follow>("follow");
+    Identifier const nobody{"nobody", {}, {}, {}};
+    EXPECT_EQ(robot(follow.follow({nobody, 1_m, 100ms})), CompletedStatus::timeout);
+    auto const following = robot(follow.begin_following({nobody, 1_m, 0ms}));
+    expect_ok(follow.stop());
+    EXPECT_EQ(robot(following.completed()), CompletedStatus::ok);
+    EXPECT_THAT(robot(following.results()).parameters, Contains(Field(&Parameter::name, "status")));
+    expect_ok(follow.set({.target_object_ref = nobody, .distance = 1.5_m, .time_limit = 5s}));
+    auto const set = robot(follow.parameters());
+    EXPECT_EQ(set.target_object_ref->code, "nobody");
+    EXPECT_EQ(set.distance, 1.5_m);
+    EXPECT_EQ(set.time_limit, 5s);
+}
+
+TEST_F(TheFacadesThatMove, Move) {
+    SystemInformation const system{robot.client().component("system_information")};
+    auto const where = [&] { return robot(system.robot_position()).robots.at(0).pose; };
+    auto const before = where();
+    auto const move = robot.bind<Move>("move");
+    expect_ok(move.move(Line{-500_mm, 0_deg}));
+    EXPECT_NEAR(distance(before, where()).value, 500, 100);
+    expect_ok(move.move(Curve{500_mm, 180_deg}, 3s));
+    EXPECT_NEAR(std::remainder((where().th - before.th).value, 360), 180, 20);
+    expect_ok(move.set({.line = Line{100_mm, -90_deg}, .curve = {}, .time = 2s}));
+    auto const line = robot(move.parameters());
+    ASSERT_TRUE(line.line);
+    EXPECT_EQ(line.line->distance, 100_mm);
+    EXPECT_EQ(line.line->direction, -90_deg);
+    EXPECT_FALSE(line.curve);
+    EXPECT_EQ(line.time, 2s);
+    expect_ok(move.set({.line = {}, .curve = Curve{300_mm, 45_deg}, .time = {}}));
+    auto const curve = robot(move.parameters());
+    ASSERT_TRUE(curve.curve);
+    EXPECT_EQ(curve.curve->radius, 300_mm);
+    EXPECT_EQ(curve.curve->direction, 45_deg);
+    EXPECT_FALSE(curve.line) << "one drops the other";
+}
+
+TEST_F(TheFacades, AudioStreaming) { expect_stream<AudioStreaming>("audio/wav"); }
+
+TEST_F(TheFacades, VideoStreaming) { expect_stream<VideoStreaming>("multipart/x-mixed-replace"); }
+
+// --- Events as callbacks ---
+
+TEST_F(TheFacades, TellEventsToAFunction) {
+    auto const gestures = robot.bind<GestureRecognition>("gesture_recognition");
+    auto recognized = robot(gestures.gesture_recognized());
+    auto const third = std::make_shared<std::promise<std::pair<std::string, std::thread::id>>>();
+    recognized.each([third, told = 0](GestureRecognized const& event) mutable {
+        if (++told == 3) third->set_value({event.gestures.at(0).code, std::this_thread::get_id()});
+    });
+    expect_ok(gestures.start());
+    auto given = third->get_future();
+    ASSERT_EQ(given.wait_for(20s), std::future_status::ready);
+    auto const [gesture, thread] = given.get();
+    EXPECT_EQ(gesture, "wave");
+    EXPECT_NE(thread, std::this_thread::get_id()) << "on the client's thread";
+}
+
+TEST_F(TheFacades, TellWhatWaitsFirst) {
+    auto const detection = robot.bind<PersonDetection>("person_detection");
+    auto waiting = robot(detection.person_detected());
+    auto witness = robot(detection.person_detected());
+    for (int i = 0; i < 2; ++i) {  // each start tells the number
+        expect_ok(detection.start());
+        EXPECT_TRUE(robot(witness.next(5s)));
+        expect_ok(detection.stop());
+    }
+    auto const both = std::make_shared<std::promise<void>>();
+    waiting.each([both, told = 0](PersonDetected const&) mutable {
+        if (++told == 2) both->set_value();
+    });
+    EXPECT_EQ(both->get_future().wait_for(5s), std::future_status::ready);
+}
+
+}  // namespace
+}  // namespace rois::test

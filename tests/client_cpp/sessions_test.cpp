@@ -1,0 +1,86 @@
+// Sessions that several programs share, and what is told of one that ends.
+#include "client_cpp/rig.hpp"
+
+namespace rois::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Key;
+using testing::Not;
+using testing::SizeIs;
+
+class TheSession : public BothWays {
+protected:
+    // To act in the session of this one.
+    Settings beside(Blocking& holder) const {
+        auto joining = settings();
+        joining.session = holder.client().session().text;
+        return joining;
+    }
+};
+ROIS_BOTH_WAYS(TheSession);
+
+TEST_P(TheSession, IsSharedWithWhomeverItIsToldTo) {
+    History history;
+    Blocking holder{settings(), history.observers()};
+    auto const detection = holder.bind<PersonDetection>("person_detection");
+    EXPECT_EQ(holder(detection.start()), CompletedStatus::ok);
+    {
+        History told;
+        Blocking guest{beside(holder), told.observers()};
+        guest.open();
+        EXPECT_EQ(guest.client().session(), holder.client().session());
+        auto const same = guest.client().component("person_detection");
+        EXPECT_EQ(guest(same.stop()), CompletedStatus::ok) << "it is bound in this session";
+        EXPECT_THAT(told.completions(), SizeIs(2)) << "what was told before is told first";
+    }
+    EXPECT_EQ(holder(detection.start()), CompletedStatus::ok) << "the session goes on";
+    EXPECT_THAT(history.completions(), SizeIs(3));
+    EXPECT_THAT(history.states(), ElementsAre("connecting", "open"));
+}
+
+TEST_P(TheSession, ClosesWhomItWasSharedWithWhenItEnds) {
+    History told;
+    std::optional<Blocking> holder{settings()};
+    holder->open();
+    Blocking guest{beside(*holder), told.observers()};
+    guest.open();
+    holder.reset();
+    told.await_states({"connecting", "open", "lost", "closed"});
+    EXPECT_THAT(guest.call(Search{}).reason, HasSubstr("no such session"));
+}
+
+TEST_P(TheSession, IsNotOpenedAnewForWhoeverJoins) {
+    auto joining = settings();
+    joining.session = "nobody";
+    History told;
+    Blocking guest{joining, told.observers()};
+    try {
+        guest.open();
+        ADD_FAILURE() << "it is open";
+    } catch (Error const& refused) {
+        EXPECT_THAT(refused.what(), HasSubstr("no such session"));
+    }
+    EXPECT_THAT(told.states(), ElementsAre("connecting", "closed"));
+}
+
+TEST_P(TheSession, TellsTheEndOfItsCommandsBeforeItsOwn) {
+    for (auto const ends_it : {true, false}) {
+        History history;
+        std::string id;
+        {
+            Blocking robot{settings(), history.observers()};
+            auto const follow = robot.bind<Follow>("follow");
+            auto const following =
+                robot(follow.begin_following({.target_object_ref = Identifier{"nobody", {}, {}, {}}, .distance = 500_mm}));
+            id = following.id().text;
+            if (ends_it) robot.call(Disconnect{});
+        }
+        EXPECT_THAT(history.completions(), ElementsAre(testing::Pair(id, 1)));
+        EXPECT_EQ(history.states().back(), "closed");
+    }
+}
+
+}  // namespace
+}  // namespace rois::test

@@ -1,0 +1,109 @@
+// Completion as a user meets it: bash on a terminal, keys that are typed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <pty.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <stdexcept>
+
+#include "command/rois_process.hpp"
+
+namespace rois::test {
+namespace {
+
+// An interactive bash that has read the completion.
+class Shell {
+public:
+    explicit Shell(std::string const& url) {
+        // A key of our own says what the line has become.
+        auto const rc = file_with("bashrc", "source '" ROIS_SOURCE_DIR
+                                            "/client-cpp/command/completion/rois'\n"
+                                            R"(bind -x '"\C-xp": printf "[[%s]]" "$READLINE_LINE"')"
+                                            "\nPATH='" ROIS_BINARY_DIR "/bin':$PATH\n");
+        process_ = forkpty(&terminal_, nullptr, nullptr, nullptr);
+        if (process_ < 0) throw std::runtime_error{"no terminal"};
+        if (process_ > 0) return;
+        setenv("ROIS_URL", url.c_str(), 1);
+        setenv("TERM", "dumb", 1);
+        unsetenv("ROIS_SESSION");
+        execlp("bash", "bash", "--noprofile", "--rcfile", rc.c_str(), "-i", nullptr);
+        _exit(127);
+    }
+    ~Shell() {
+        kill(process_, SIGKILL);
+        waitpid(process_, nullptr, 0);
+        close(terminal_);
+    }
+    Shell(Shell const&) = delete;
+    Shell& operator=(Shell const&) = delete;
+
+    // The line with all that could stand there; or what another key makes of it.
+    std::string completed(std::string const& typed, std::string const& key = "\x1b*") {
+        auto const keys = "\x15" + typed + key + "\x18p";
+        if (write(terminal_, keys.data(), keys.size()) < 0) throw std::runtime_error{"nothing can be typed"};
+        auto const end = said_until("]]");
+        auto const begin = said_.rfind("[[", end) + 2;
+        auto line = said_.substr(begin, end - begin);
+        said_.clear();
+        return line;
+    }
+
+private:
+    std::size_t said_until(std::string const& text) {
+        auto at = said_.find(text);
+        while (at == std::string::npos) {
+            pollfd ready{terminal_, POLLIN, 0};
+            char bytes[4096];
+            auto const size = poll(&ready, 1, 20'000) > 0 ? read(terminal_, bytes, sizeof bytes) : 0;
+            if (size <= 0) throw std::runtime_error{"bash says no more than: " + said_};
+            said_.append(bytes, static_cast<std::size_t>(size));
+            at = said_.find(text);
+        }
+        return at;
+    }
+
+    pid_t process_ = 0;
+    int terminal_ = -1;
+    std::string said_;
+};
+
+TEST(TheCompletion, KnowsCommandsOptionsAndWhatTheEngineHas) {
+    Shell shell{shared_gateway().url()};
+    struct Row {
+        std::string typed;
+        std::string completed;
+    };
+    for (auto const& [typed, completed] : std::vector<Row>{
+             {"rois sea", "rois search "},
+             {"rois re", "rois record release replay "},
+             {"rois --colour a", "rois --colour always auto "},
+             {"rois --xml que", "rois --xml query "},
+             {"rois start --no", "rois start --no-wait "},
+             {"rois bind --w", "rois bind --where "},
+             {"rois start navi", "rois start navigation "},
+             {"rois query robot_position --of sys", "rois query robot_position --of system_information "},
+             {"rois set navigation ", "rois set navigation routing_policy= target_position= time_limit= "},
+             {"rois get navigation time", "rois get navigation time_limit "},
+             {"rois query eng", "rois query engine_status "},
+             {"rois watch person_l", "rois watch person_localized "},
+             {"rois watch person_localized --start person_loc", "rois watch person_localized --start person_localization "},
+             {"rois send " ROIS_SOURCE_DIR "/READ", "rois send " ROIS_SOURCE_DIR "/README.md "},
+             {"rois start elev", "rois start elev"},
+         })
+        EXPECT_EQ(shell.completed(typed), completed);
+    EXPECT_EQ(shell.completed("rois set navigation time", "\t"), "rois set navigation time_limit=") << "no blank behind it";
+    EXPECT_EQ(shell.completed("rois watch person_d", "\t"), "rois watch person_detected ");
+}
+
+TEST(TheCompletion, IsSilentWithoutAnEngine) {
+    Shell shell{"http://127.0.0.1:1"};
+    EXPECT_EQ(shell.completed("rois start navi"), "rois start navi");
+    EXPECT_EQ(shell.completed("rois heal"), "rois health ");
+}
+
+}  // namespace
+}  // namespace rois::test

@@ -1,0 +1,52 @@
+// The `rois` program over TLS, which a proxy ends; and a name that nobody can find in time.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include "client_cpp/slow_name.hpp"
+#include "client_cpp/tls_proxy.hpp"
+#include "command/exit.hpp"
+#include "command/http.hpp"
+#include "command/rois_process.hpp"
+
+namespace rois::test {
+namespace {
+
+using testing::HasSubstr;
+
+struct RoisOverTls : testing::Test {
+    TlsProxy const proxy{shared_gateway().port()};
+    std::string const url = "https://localhost:" + std::to_string(proxy.port());
+    Variables const trusting{{"ROIS_URL", url}, {"ROIS_CA_FILE", proxy.certificate()}};
+};
+
+TEST_F(RoisOverTls, KnowsWhetherTheEngineIsReady) {
+    EXPECT_EQ(run_rois({"health"}, {}, trusting).out, "healthy\n");
+    auto const stranger = run_rois({"health"}, {}, {{"ROIS_URL", url}});
+    EXPECT_EQ(stranger.exit_code, 1);
+    EXPECT_THAT(stranger.error, HasSubstr("certificate verify failed"));
+}
+
+TEST_F(RoisOverTls, SharesASession) {
+    RoisProcess holding{{"bind", "speech_synthesis"}, trusting};
+    auto const id = holding.line_with("session ").substr(8);
+    auto const said = run_rois({"--session", id, "start", "speech_synthesis", "speech_text=Hi."}, {}, trusting);
+    EXPECT_EQ(said.out, "start speech_synthesis  OK\n") << said.error;
+    EXPECT_THAT(run_rois({"--session", id, "watch", "--for", "1"}, {}, trusting).out, HasSubstr("completed"));
+    holding.signal(SIGINT);
+    EXPECT_EQ(holding.wait().exit_code, 0);
+}
+
+TEST(TheHealth, WaitsForNoNameThatIsStillLookedUp) {
+    SlowName name;
+    try {
+        command::http_get({"http://robot.slow"}, "/readyz", std::chrono::milliseconds{50});
+        ADD_FAILURE() << "somebody answers";
+    } catch (command::Trouble const& trouble) {
+        EXPECT_EQ(trouble.exit(), command::Exit::no_answer);
+    }
+    name.end_lookup();
+}
+
+}  // namespace
+}  // namespace rois::test
