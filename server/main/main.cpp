@@ -24,11 +24,13 @@
 #include "net/secrets.hpp"
 #include "net/server.hpp"
 #include "simulation/component_refs.hpp"
+#include "simulation/floor_map.hpp"
 #include "simulation/floor_plan_file.hpp"
 #include "simulation/named_places.hpp"
 #include "simulation/robot_components.hpp"
 #include "simulation/scenario_file.hpp"
 #include "simulation/simulation.hpp"
+#include "xml/floor_map_document.hpp"
 #include "xml/profile_document.hpp"
 #include "xml/schemas.hpp"
 
@@ -140,7 +142,11 @@ int serve(CommandLine const& command) {
                                    simulation::component_refs(simulation->hall().plan()),
                                    settings.profiles};
     if (!settings.profiles.empty()) gateway.change(user_components.read());
-    net::Documents const documents{gateway, telemetry, *schemas, files::web().at("index.html")};
+    net::Documents const documents{
+        gateway,
+        telemetry,
+        *schemas,
+        {.page = files::web().at("index.html"), .floor_map = xml::encode(simulation::floor_map(simulation->hall().plan()))}};
     net::Server server{settings.net, gateway, telemetry, documents, schemas};
     if (!settings.profiles.empty()) server.on_hang_up([&] { read_again(user_components, gateway); });
     if (media) spdlog::info("media are served under {}", media->url());

@@ -110,8 +110,12 @@ std::string policy_for_style(std::string_view page) {
 
 }  // namespace
 
-Documents::Documents(Gateway const& gateway, Telemetry const& telemetry, xml::Schemas const& schemas, std::string_view page)
-    : gateway_{gateway}, telemetry_{telemetry}, schemas_{schemas.files()}, page_{page}, style_policy_{policy_for_style(page)} {}
+Documents::Documents(Gateway const& gateway, Telemetry const& telemetry, xml::Schemas const& schemas, Site site)
+    : gateway_{gateway},
+      telemetry_{telemetry},
+      schemas_{schemas.files()},
+      site_{std::move(site)},
+      style_policy_{policy_for_style(site_.page)} {}
 
 HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const {
     switch (route.endpoint) {
@@ -125,6 +129,8 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const 
             return schema_list(head);
         case Endpoint::schema:
             return schema(route.name, head);
+        case Endpoint::floor_map:
+            return floor_map(head);
         case Endpoint::healthz:
             return plain("alive\n");
         case Endpoint::readyz:
@@ -140,7 +146,7 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const 
 }
 
 HttpAnswer Documents::page(RequestHead const& head) const {
-    std::string html{page_};
+    std::string html{site_.page};
     replace_all(html, "{{origin}}", origin_of(head));
     replace_all(html, "{{components}}", list_of_links("/rois/profile/", names_of(gateway_.components())));
     replace_all(html, "{{schemas}}", list_of_links("/rois/schemas/", names_of(schemas_)));
@@ -175,6 +181,11 @@ HttpAnswer Documents::schema(std::string const& file, RequestHead const& head) c
     auto const found = schemas_.find(file);
     if (found == schemas_.end()) return not_found("there is no such schema; /rois/schemas lists them");
     return versioned("application/xml; charset=utf-8", std::string{found->second}, head);
+}
+
+HttpAnswer Documents::floor_map(RequestHead const& head) const {
+    if (site_.floor_map.empty()) return not_found("this engine has no floor map");
+    return versioned("application/xml; charset=utf-8", site_.floor_map, head);
 }
 
 HttpAnswer Documents::readiness() const {

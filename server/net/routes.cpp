@@ -12,11 +12,12 @@ struct Named {
     std::string_view path;
     Endpoint endpoint;
 };
-constexpr std::array<Named, 8> fixed{{{"/", Endpoint::page},
+constexpr std::array<Named, 9> fixed{{{"/", Endpoint::page},
                                       {"/rois", Endpoint::rois},
                                       {"/rois/notifications", Endpoint::notifications},
                                       {"/rois/profile", Endpoint::engine_profile},
                                       {"/rois/schemas", Endpoint::schema_list},
+                                      {"/rois/map", Endpoint::floor_map},
                                       {"/healthz", Endpoint::healthz},
                                       {"/readyz", Endpoint::readyz},
                                       {"/metrics", Endpoint::metrics}}};

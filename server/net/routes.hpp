@@ -18,6 +18,7 @@ enum class Endpoint : std::uint8_t {
     component_profile,
     schema_list,
     schema,
+    floor_map,
     healthz,
     readyz,
     metrics,

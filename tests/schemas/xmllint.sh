@@ -38,6 +38,7 @@ judge() {
 
 judge rois.xsd validates profiles/*.xml ../components/simulation/profiles/*.xml
 judge scenario.xsd validates ../client-cpp/scenarios/*.xml
+judge map.xsd validates samples/floor_map.xml
 judge messages.xsd validates profiles/*.xml samples/valid/*.xml
 judge messages.xsd "fails to validate" samples/invalid/*.xml
 

@@ -2,12 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "net/documents.hpp"
+#include "net/secrets.hpp"
 #include "server/http_client.hpp"
 
 namespace rois::test {
 namespace {
 
 using testing::ContainsRegex;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 TEST(Document, OfTheEngineListsItsComponents) {
@@ -30,7 +33,8 @@ TEST(Document, OfEachComponentIsThere) {
 
 TEST(Document, IsNotSentAgainToWhoeverHasIt) {
     HttpClient client;
-    for (auto const* path : {"/", "/rois/profile", "/rois/profile/move", "/rois/schemas", "/rois/schemas/rois.xsd"}) {
+    for (auto const* path :
+         {"/", "/rois/profile", "/rois/profile/move", "/rois/schemas", "/rois/schemas/rois.xsd", "/rois/map"}) {
         auto const reply = client.get(path);
         auto const etag = reply.header("ETag");
         EXPECT_EQ(reply.header("Cache-Control"), "no-cache") << path;
@@ -49,10 +53,70 @@ TEST(Document, IsNotSentAgainToWhoeverHasIt) {
 TEST(Document, SchemasAreListedAndServed) {
     HttpClient client;
     auto const list = client.get("/rois/schemas");
-    for (std::string const name : {"rois.xsd", "messages.xsd", "fes.xsd", "gml.xsd", "unr.xsd"}) {
+    for (std::string const name : {"rois.xsd", "messages.xsd", "fes.xsd", "gml.xsd", "unr.xsd", "map.xsd"}) {
         EXPECT_THAT(list.body, HasSubstr("\"/rois/schemas/" + name + "\""));
         EXPECT_STREQ(client.get("/rois/schemas/" + name).root().name(), "xsd:schema") << name;
     }
+}
+
+// The map that this gateway serves.
+struct Map {
+    explicit Map(HttpClient& client) : reply{client.get("/rois/map")} { document.load_string(reply.body.c_str()); }
+
+    pugi::xml_node root() const { return document.document_element(); }
+    // Of the elements of this name, this attribute.
+    std::vector<std::string> all(char const* element, char const* attribute) const {
+        std::vector<std::string> values;
+        for (auto const node : root().children(element)) values.emplace_back(node.attribute(attribute).value());
+        return values;
+    }
+
+    HttpReply reply;
+    pugi::xml_document document;
+};
+
+TEST(FloorMap, ShowsTheHallAsItIsBuilt) {
+    HttpClient client;
+    Map const map{client};
+    EXPECT_EQ(map.reply.status, 200);
+    EXPECT_EQ(map.reply.header("Content-Type"), "application/xml; charset=utf-8");
+    EXPECT_STREQ(map.root().name(), "floor_map");
+    EXPECT_STREQ(map.root().attribute("xmlns").value(), "urn:x-rois:map:1");
+    EXPECT_STREQ(map.root().attribute("name").value(), "Reception hall");
+    EXPECT_STREQ(map.root().attribute("crs").value(), "urn:x-rois:def:crs:simulation::hall");
+    EXPECT_THAT(map.all("bounds", "width"), ElementsAre("20000"));
+    EXPECT_THAT(map.all("wall", "x1"), ElementsAre("15000", "15000", "15000", "3000"));
+    EXPECT_THAT(map.all("furniture", "depth"), ElementsAre("800", "3000"));
+    EXPECT_THAT(map.all("place", "name"),
+                ElementsAre("entrance", "exit", "desk", "start", "waiting_area", "exhibit", "meeting_room", "cloakroom"));
+    EXPECT_THAT(map.all("robot", "name"), ElementsAre("robot1"));
+    EXPECT_FALSE(map.root().child("robot").child("frame")) << "the robot has no map of its own";
+}
+
+TEST(FloorMap, ShowsTheFramesOfRobots) {
+    GatewayProcess gateway{{"--floor-plan", ROIS_SOURCE_DIR "/components/simulation/data/two-robots.xml"}};
+    HttpClient client{gateway};
+    Map const map{client};
+    EXPECT_THAT(map.all("robot", "name"), ElementsAre("robot1", "robot2"));
+    auto const frame = map.root().find_child_by_attribute("robot", "name", "robot2").child("frame");
+    EXPECT_STREQ(frame.attribute("crs").value(), "urn:x-rois:def:crs:simulation::robot2_map");
+    EXPECT_STREQ(frame.attribute("x").value(), "20000");
+    EXPECT_STREQ(frame.attribute("heading").value(), "90");
+}
+
+// The hall always has one: here an engine that nothing is said of.
+TEST(FloorMap, OfAnEngineWithoutOneIsNotFound) {
+    xml::Platform const platform;
+    xml::Schemas const schemas{{}};
+    net::Readers readers;
+    Engine engine{{}, {}, {}, readers, net::fresh_secret};
+    net::Telemetry telemetry;
+    net::Gateway gateway{engine, readers, telemetry};
+    net::Documents const documents{gateway, telemetry, schemas, {}};
+    auto const answer = documents.answer(net::route_of("/rois/map"), {});
+    EXPECT_EQ(answer.status, 404);
+    EXPECT_EQ(answer.fault, FaultCode::not_found);
+    EXPECT_THAT(answer.body, HasSubstr("this engine has no floor map"));
 }
 
 TEST(Page, LinksToAllOfItAndShowsTheRealAddress) {
