@@ -40,6 +40,7 @@ public:
           acceptor_{loops_.front()->executor()},
           signals_{loops_.front()->executor()},
           hang_ups_{loops_.front()->executor()} {
+        telemetry.may_open(shared_.settings.max_connections);
         gateway.tick();  // time begins before anybody can ask
         listen();
         signals_.add(SIGTERM);
@@ -95,8 +96,10 @@ private:
         for (std::size_t next = 0; acceptor_.is_open();) {
             boost::system::error_code error;
             if (shared_.telemetry.open_connections() >= shared_.settings.max_connections) {
-                if (!std::exchange(full, true))
+                if (!std::exchange(full, true)) {
+                    shared_.telemetry.full();
                     spdlog::warn("{} connections are open; more must wait", shared_.settings.max_connections);
+                }
                 pause.expires_after(pause_when_full);
                 co_await pause.async_wait(into(error));
                 continue;

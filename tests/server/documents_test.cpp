@@ -2,6 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <set>
+#include <sstream>
+
 #include "net/documents.hpp"
 #include "net/secrets.hpp"
 #include "server/http_client.hpp"
@@ -12,6 +16,7 @@ namespace {
 using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(Document, OfTheEngineListsItsComponents) {
     HttpClient client;
@@ -176,5 +181,57 @@ TEST(Metrics, CountWhatHappens) {
     }
 }
 
+TEST(Metrics, SayWhichSessionHasBoundWhat) {
+    GatewayProcess gateway;
+    HttpClient first{gateway}, second{gateway}, third{gateway};
+    first.call("connect");
+    second.call("connect");
+    second.call("bind", component_ref("navigation"));
+    second.call("bind", component_ref("move"));
+    third.call("connect");
+    third.call("bind", component_ref("reaction"));
+    third.call("disconnect");
+    auto const text = first.get("/metrics").body;
+    EXPECT_THAT(text, HasSubstr("rois_component_bound{component_ref=\"move\",session=\"2\"} 1\n"
+                                "rois_component_bound{component_ref=\"navigation\",session=\"2\"} 1\n#"))
+        << "and nothing else";
+    EXPECT_THAT(text, ContainsRegex("rois_session_age_seconds\\{session=\"1\"\\} [0-9.e-]+\nrois_session_age_seconds"
+                                    "\\{session=\"2\"\\} [0-9.e-]+\n#"));
+    for (auto const& session : {first.session, second.session}) EXPECT_THAT(text, Not(HasSubstr(session))) << "ids are secrets";
+}
+
+TEST(Metrics, SayWhichLimitsThereAreAndWhichWereReached) {
+    GatewayProcess gateway{{"--max-sessions", "1", "--max-connections", "2"}};
+    HttpClient desk{gateway}, guest{gateway};
+    desk.call("connect");
+    EXPECT_EQ(guest.call("connect").fault(), "too_many");
+    EXPECT_EQ(guest.call("connect").fault(), "too_many");
+    auto const reply = desk.get("/metrics");
+    for (auto const* line :
+         {"rois_limit{limit=\"sessions\"} 1", "rois_limit_reached_total{limit=\"sessions\"} 2",
+          "rois_limit{limit=\"connections\"} 2", "rois_limit{limit=\"commands\"} 1024",
+          "rois_limit_reached_total{limit=\"commands\"} 0", "rois_limit{limit=\"subscribed_predicates\"} 10000",
+          "rois_limit{limit=\"waiting_notifications\"} 1024", "rois_session_commands{session=\"1\"} 0",
+          "rois_session_subscriptions{session=\"1\"} 0", "rois_session_notifications_waiting{session=\"1\"} 0"})
+        EXPECT_THAT(reply.body, HasSubstr(std::string{line} + "\n"));
+    EXPECT_THAT(reply.body, ContainsRegex("rois_limit_reached_total\\{limit=\"connections\"\\} [01]\n"));
+}
+
+// A line for each family of metrics in docs/metrics.md, and no line without one.
+TEST(Metrics, AreInTheirDocument) {
+    GatewayProcess gateway;
+    HttpClient client{gateway};
+    client.call("connect");
+    std::set<std::string> told, written;
+    std::istringstream text{client.get("/metrics").body};
+    for (std::string line; std::getline(text, line);)
+        if (line.starts_with("# TYPE ")) told.insert(line.substr(7, line.find(' ', 7) - 7));
+    std::ifstream document{ROIS_SOURCE_DIR "/docs/metrics.md"};
+    for (std::string line; std::getline(document, line);)
+        if (line.starts_with("| `")) written.insert(line.substr(3, line.find_first_of("{`", 3) - 3));
+    EXPECT_EQ(told, written);
+}
+
 }  // namespace
 }  // namespace rois::test
+
