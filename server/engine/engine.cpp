@@ -34,8 +34,12 @@ std::variant<Reply, Refusal> Engine::Core::handle(SessionId const& id, Operation
 }
 
 void Engine::Core::tick(Instant now) {
-    advance_devices(now);
-    settle(now);
+    constexpr int most_turns = 100;  // of devices; what is left waits for the next tick
+    auto const goes_on = [](std::shared_ptr<Device> const& device) { return device->goes_on(); };
+    for (int turn = 0; turn == 0 || (turn < most_turns && std::ranges::any_of(devices_, goes_on)); ++turn) {
+        advance_devices(now);
+        settle(now);
+    }
     while (auto const action = deadlines_.take_due(now)) {
         action(now);
         settle(now);
