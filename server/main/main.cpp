@@ -116,7 +116,8 @@ EngineProfile engine_profile(Settings const& settings, simulation::FloorPlan con
     profile.object.code_space = "urn:ietf:rfc:2141";
     profile.object.name = settings.engine_name;
     profile.parameters = {
-        engine_parameter("sim_speed", "double", shown("sim_speed", settings), "Simulated seconds in a second; 0: the world stands still."),
+        engine_parameter("sim_speed", "double", shown("sim_speed", settings),
+                         "Simulated seconds in a second; 0: the world stands still."),
         engine_parameter("crs", "string", plan.crs, "The frame in which positions are told; others may be taken, too.")};
     return profile;
 }
@@ -155,11 +156,12 @@ int serve(CommandLine const& command) {
     UserComponents user_components{
         schemas, {simulation, media, schemas}, profiles, own_refs(settings, simulation->hall().plan()), settings.profiles};
     if (!settings.profiles.empty()) gateway.change(user_components.read());
-    net::Documents const documents{
-        gateway,
-        telemetry,
-        *schemas,
-        {.page = files::web().at("index.html"), .floor_map = xml::encode(simulation::floor_map(simulation->hall().plan()))}};
+    net::Documents const documents{gateway,
+                                   telemetry,
+                                   *schemas,
+                                   {.page = files::web().at("index.html"),
+                                    .console = net::WebFiles{files::console()},
+                                    .floor_map = xml::encode(simulation::floor_map(simulation->hall().plan()))}};
     net::Server server{settings.net, gateway, telemetry, documents, schemas};
     if (!settings.profiles.empty()) server.on_hang_up([&] { read_again(user_components, gateway); });
     if (media) spdlog::info("media are served under {}", media->url());

@@ -9,6 +9,7 @@
 #include "net/http_head.hpp"
 #include "net/routes.hpp"
 #include "net/telemetry.hpp"
+#include "net/web_files.hpp"
 #include "xml/schemas.hpp"
 
 namespace rois::net {
@@ -16,6 +17,7 @@ namespace rois::net {
 // What is served as it is given.
 struct Site {
     std::string_view page;  // HTML with one <style> element, and the marks {{origin}}, {{components}} and {{schemas}}
+    WebFiles console{{}};   // at "/"; when it is empty, the page is there
     std::string floor_map;  // a document (schemas/map.xsd); empty: the engine has none
 };
 

@@ -12,6 +12,8 @@ namespace rois::net {
 
 enum class Endpoint : std::uint8_t {
     page,
+    plain_page,
+    asset,
     rois,
     notifications,
     engine_profile,
