@@ -1,0 +1,31 @@
+import { useEffect } from 'preact/hooks';
+
+import { language } from '../i18n/i18n';
+import type { Console } from '../state/console';
+import { ConsoleContext } from './context';
+import { Header } from './header';
+import { Layout } from './layout';
+import { LinkBanner } from './link_status';
+import { NoticeArea } from './notices';
+import { texts } from './texts';
+import { TokenDialog } from './token_dialog';
+
+export function App({ console }: { console: Console }) {
+  useEffect(() => {
+    document.documentElement.lang = language.value;
+    document.title = texts().title;
+  }, [language.value]);
+  return (
+    <ConsoleContext.Provider value={console}>
+      <div class="app">
+        <Header />
+        <LinkBanner />
+        <main id="panels" class={console.link.view.value.phase === 'lost' ? 'app-main app-stale' : 'app-main'} tabIndex={-1}>
+          <Layout />
+        </main>
+        <NoticeArea />
+        <TokenDialog />
+      </div>
+    </ConsoleContext.Provider>
+  );
+}
