@@ -13,9 +13,11 @@ export default function ComponentsPanel() {
   const engine = profile.engine.value;
   if (!engine) return <EmptyState icon="components" title={texts().none} />;
   return (
-    <ul class="engine-tree" aria-label={texts().tree}>
-      <Engine engine={engine} />
-    </ul>
+    <div class="engine-frame" role="region" aria-label={texts().tree} tabIndex={0}>
+      <ul class="engine-tree">
+        <Engine engine={engine} />
+      </ul>
+    </div>
   );
 }
 

@@ -26,8 +26,8 @@ export function PanelFrame({ panel }: { panel: Panel }) {
     if (!Content) fetch_it();
   }, [panel]);
   return (
-    <section class={`panel panel-${panel.id}`} aria-label={panel.title()}>
+    <div class={`panel panel-${panel.id}`}>
       {trouble !== undefined ? <ErrorState error={trouble} retry={fetch_it} /> : Content ? <Boundary key={panel.id}><Content /></Boundary> : <Loading />}
-    </section>
+    </div>
   );
 }
