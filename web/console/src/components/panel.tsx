@@ -15,7 +15,7 @@ export default function ComponentsPanel() {
   const engine = profile.engine.value;
   const ref = selection.component.value;
   const view = profile.component(ref);
-  const detail = view ? <Detail key={ref} view={view} /> : <EmptyState icon="components" title={ref === '' ? texts().pick : texts().gone(ref)} />;
+  const detail = view ? <Detail key={ref} view={view} /> : <EmptyState icon="components" title={profile.is_empty.value ? texts().empty : ref === '' ? texts().pick : texts().gone(ref)} />;
   return (
     <div ref={frame} class="engine-panel">
       {!engine ? (

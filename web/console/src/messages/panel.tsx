@@ -20,7 +20,7 @@ const look_every = 250; // ms: nobody reads faster
 export default function MessagesPanel() {
   const console = useConsole();
   const t = texts();
-  const [frame, is_wide] = useIsWide(760);
+  const [frame, is_wide] = useIsWide(900); // for the list and the document side by side
   const tape = recording.value;
   const feed = useMemo(() => new Feed(tape ? source_of(tape) : live(console), filter.value), [tape, filter.value]);
   const [, again] = useState(0);
@@ -37,7 +37,7 @@ export default function MessagesPanel() {
       <VirtualList<Row>
         label={t.list}
         rows={rows}
-        row_height={26}
+        row_height={matchMedia('(pointer: coarse)').matches ? 40 : 26}
         key_of={key_of}
         render={(row) => <RowView row={row} is_live={!tape} />}
         chosen={chosen}

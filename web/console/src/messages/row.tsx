@@ -18,6 +18,7 @@ export function RowView({ row, is_live }: { row: Row; is_live: boolean }) {
   const expire = expire_of(row);
   const is_expired = is_live && expire !== undefined && expire <= now.value;
   const status = row.return_code ?? (row.name === 'completed' ? /^\w+/.exec(summary(row))?.[0] : undefined);
+  const look = row.name === 'completed' && status !== 'OK' ? 'stopped' : category_of(row);
   return (
     <>
       <span class="messages-time">{clock_time(row.at)}</span>
@@ -25,7 +26,7 @@ export function RowView({ row, is_live }: { row: Row; is_live: boolean }) {
         <Icon name={row.direction === 'out' ? 'up' : 'down'} size={12} />
         <span class="unseen">{row.direction === 'out' ? t.outward : t.inward}</span>
       </span>
-      <span class={`messages-name messages-is-${category_of(row)}`}>{row.name === '' ? '—' : row.name}</span>
+      <span class={`messages-name messages-is-${look}`}>{row.name === '' ? '—' : row.name}</span>
       <span class="messages-component">{row.component ?? ''}</span>
       <span class="messages-summary">{summary(row)}</span>
       {is_expired && <Badge>{t.expired}</Badge>}

@@ -69,7 +69,7 @@ const most = 12; // values or commands
 
 function values(text: string, element: string): string[] {
   const each = new RegExp(`<(?:[\\w.-]+:)?${element}\\s[^>]*?${attribute('name')}[^>]*>([^]*?)</(?:[\\w.-]+:)?${element}>`, 'g');
-  return [...first_of(text.matchAll(each))].map(([, name, inside]) => {
+  return [...first_of(text.matchAll(each))].filter(([, name]) => name !== 'timestamp').map(([, name, inside]) => {
     const items = [...inside!.matchAll(/<(?:[\w.-]+:)?value(?:\s[^>]*)?>([^<]*)</g)].map(([, value]) => plain(value!));
     return `${name}: ${items.join('; ')}`;
   });

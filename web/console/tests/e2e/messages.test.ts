@@ -1,5 +1,4 @@
 // Events and messages: every document, filtered and read; details; gaps; recordings that `rois replay` serves.
-import { spawn } from 'node:child_process';
 import { writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { resolve } from 'node:path';
@@ -9,9 +8,9 @@ import { command as start, connect } from 'rois-client';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
 import { picture, root, Stage, violations } from './harness';
+import { replayed } from './replay';
 
 let stage: Stage;
-const rois = resolve(process.env['ROIS_BINARY_DIR'] ?? `${root}/build/release`, 'bin/rois');
 
 beforeAll(async () => {
   stage = await Stage.set('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '20', '--seed', '7', '--event-details', '2', '--resume-window', '0.01');
@@ -173,29 +172,13 @@ describe('events and messages', () => {
 });
 
 // The file as an engine: what was commanded is answered as it was, and completes.
-async function answers_as_recorded(file: string): Promise<void> {
-  const replay = spawn(rois, ['replay', file, '--listen', '127.0.0.1:0', '--speed', '0'], { stdio: ['ignore', 'pipe', 'pipe'] });
-  const ended = new Promise((resolve) => replay.once('exit', resolve));
-  try {
-    const url = await new Promise<string>((listens, failed) => {
-      let said = '';
-      const heard = (text: Buffer) => {
-        said += String(text);
-        const found = /http:\/\/127\.0\.0\.1:\d+/.exec(said);
-        if (found) listens(found[0]);
-      };
-      replay.stdout.on('data', heard);
-      replay.stderr.on('data', heard);
-      void ended.then(() => failed(new Error(`rois replay ended: ${said}`)));
-    });
+function answers_as_recorded(file: string): Promise<void> {
+  return replayed(file, async (url) => {
     const client = await connect(url);
     expect((await client.get_profile()).components.map((one) => one.ref)).toContain('navigation');
     await client.bind('person_detection');
     const execution = await client.execute([start('person_detection', 'start')]);
     expect(await execution.status()).toBe('OK');
     await client.close();
-  } finally {
-    replay.kill();
-    await ended;
-  }
+  });
 }

@@ -9,7 +9,7 @@ import { read_recording, recording_of } from '../../src/state/recording';
 import { Ring } from '../../src/state/ring';
 import { World } from './world';
 
-const event = '<receive_event xmlns="urn:m" sequence="1"><event_type>person_detected</event_type><expire>2026-11-20T12:01:00Z</expire><component_ref rois:code="person_detection"/><results><result rois:name="number"><rois:data_type_ref rois:code="int"/><rois:value>2</rois:value></result></results></receive_event>';
+const event = '<receive_event xmlns="urn:m" sequence="1"><event_type>person_detected</event_type><expire>2026-11-20T12:01:00Z</expire><component_ref rois:code="person_detection"/><results><result rois:name="timestamp"><rois:value>2026-11-20T12:00:00Z</rois:value></result><result rois:name="number"><rois:data_type_ref rois:code="int"/><rois:value>2</rois:value></result></results></receive_event>';
 const completed = '<completed sequence="2"><command_id>c-1</command_id><status>ERROR</status></completed>';
 const execute = '<execute xmlns:rois="r"><rois:CommandUnitSequence><rois:command_unit_list xsi:type="rois:CommandMessageType" rois:command_type="start" rois:command_id=""><rois:component_ref rois:code="navigation"/></rois:command_unit_list></rois:CommandUnitSequence></execute>';
 const refused = '<execute_response return_code="BAD_PARAMETER"><reason>command_unit_list[1]: &quot;x&quot; &amp; so on</reason></execute_response>';
