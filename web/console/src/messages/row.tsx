@@ -2,7 +2,7 @@ import { clock_time } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import { Badge, Icon, StatusBadge } from '../ui';
 import { category_of, is_gap, type Row } from './feed';
-import { expire_of, summary } from './summary';
+import { component_of, expire_of, summary } from './summary';
 import { texts } from './texts';
 
 export function RowView({ row, is_live }: { row: Row; is_live: boolean }) {
@@ -27,7 +27,7 @@ export function RowView({ row, is_live }: { row: Row; is_live: boolean }) {
         <span class="unseen">{row.direction === 'out' ? t.outward : t.inward}</span>
       </span>
       <span class={`messages-name messages-is-${look}`}>{row.name === '' ? '—' : row.name}</span>
-      <span class="messages-component">{row.component ?? ''}</span>
+      <span class="messages-component">{component_of(row)}</span>
       <span class="messages-summary">{summary(row)}</span>
       {is_expired && <Badge>{t.expired}</Badge>}
       {status !== undefined && status !== 'OK' && <StatusBadge status={status} />}

@@ -102,7 +102,7 @@ describe('events and messages', () => {
 
   test('time stands still on demand', () =>
     stage.page(async (page) => {
-      await page.getByText('Nothing passes the filter').waitFor();
+      await page.getByText('So far only the console has asked, by itself').waitFor();
       await page.getByRole('button', { name: 'Pause', exact: true }).click();
       await command(page, 'person_detection');
       expect(await row(page, 'completed').count()).toBe(0);
