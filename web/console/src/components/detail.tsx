@@ -1,9 +1,9 @@
 // One component: how it is, who has it, and what it can do.
+import { useDraft } from '../forms';
 import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
 import { Button, error_text, StatusBadge, Tabs } from '../ui';
 import { CommandsTab } from './commands_tab';
-import { useDraft } from './drafts';
 import { EventsTab } from './events_tab';
 import { holder_text } from './holder';
 import { ParametersTab } from './parameters_tab';

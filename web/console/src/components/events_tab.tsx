@@ -1,12 +1,11 @@
 // A form to subscribe to every event of a component, what is subscribed, and the last events.
 import { component_ref, Condition, condition_xml, parse_xml, request, text_element } from 'rois-client';
 
-import { Exchange, signature } from '../forms';
+import { Exchange, signature, useDraft } from '../forms';
 import { clock_time } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import type { ComponentView, Offered } from '../state/profile_state';
 import { Button, Checkbox, error_text, TextArea } from '../ui';
-import { useDraft } from './drafts';
 import { Pick } from './pick';
 import { texts } from './texts';
 

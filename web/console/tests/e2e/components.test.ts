@@ -70,6 +70,7 @@ describe('components', () => {
       // What was typed is still there.
       await open(page, 'navigation');
       expect(await page.getByLabel('target_position, item 2').inputValue()).toBe('desk');
+      await answer(page).getByText(/It is (running|done)\./).waitFor();
       await page.getByRole('button', { name: 'Release navigation' }).click();
       await item(page, 'navigation').getByText('bound by me').waitFor({ state: 'detached' });
     }));
@@ -82,7 +83,12 @@ describe('components', () => {
       await page.getByLabel('Release it when the command has ended').check();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
       await answer(page).getByText('It is running.').waitFor();
+      // It is seen from another form, too.
+      await page.getByRole('button', { name: 'resume', exact: true }).click();
+      await page.getByText('The answer will stand here.').waitFor();
       await page.getByRole('button', { name: 'Stop follow start' }).click();
+      await page.getByRole('button', { name: 'Stop follow start' }).waitFor({ state: 'detached' });
+      await page.getByRole('button', { name: 'start', exact: true }).click();
       await answer(page).getByText('It is done.').waitFor();
       await item(page, 'follow').getByText('bound by me').waitFor({ state: 'detached' });
     }));
