@@ -42,7 +42,7 @@ void serve(Setting const& setting) {
     for (std::size_t i = 0; i < setting.bystanders; ++i) engine.add(probe("bystander" + std::to_string(i), of_bystanders));
     net::Telemetry telemetry;
     net::Gateway gateway{engine, readers, telemetry};
-    net::Documents const documents{gateway, telemetry, *schemas, ""};
+    net::Documents const documents{gateway, telemetry, *schemas, {}};
     net::Settings net_settings;
     net_settings.port = setting.port;
     net_settings.threads = setting.threads;

@@ -1,15 +1,18 @@
-# embed_files(TARGET FUNCTION FILE...): adds to TARGET a source that defines
+# Puts files into the program, as
 #   std::map<std::string, std::string_view, std::less<>> const& rois::files::FUNCTION();
-# which maps the name of each file (without its folder) to its bytes, inside the program.
-function(embed_files target function)
-    set(source ${CMAKE_CURRENT_BINARY_DIR}/embedded_${function}.cpp)
+
+# source_with_files(VARIABLE FUNCTION FOLDER FILE...): sets VARIABLE to the text of a source that defines FUNCTION, which maps the path of
+# each file in FOLDER to its bytes.
+function(source_with_files variable function folder)
     set(text "// Made by cmake/embed.cmake.\n#include \"files/files.hpp\"\n\n")
     set(entries "")
     set(number 0)
     foreach(file IN LISTS ARGN)
-        get_filename_component(name ${file} NAME)
+        cmake_path(RELATIVE_PATH file BASE_DIRECTORY ${folder} OUTPUT_VARIABLE name)
         set(symbol "rois_${function}_${number}")
-        string(APPEND text "asm(\".section .rodata\\n${symbol}:\\n.incbin \\\"${file}\\\"\\n${symbol}_end:\\n.byte 0\\n.previous\\n\");\n"
+        # A ccache that hashes the source alone would miss a changed .incbin; so the source names the bytes.
+        file(SHA1 ${file} hash)
+        string(APPEND text "asm(\".section .rodata /* ${hash} */\\n${symbol}:\\n.incbin \\\"${file}\\\"\\n${symbol}_end:\\n.byte 0\\n.previous\\n\");\n"
             "extern \"C\" const char ${symbol}[] __attribute__((visibility(\"hidden\")));\n"
             "extern \"C\" const char ${symbol}_end[] __attribute__((visibility(\"hidden\")));\n")
         string(APPEND entries "        {\"${name}\", {${symbol}, ${symbol}_end}},\n")
@@ -17,16 +20,20 @@ function(embed_files target function)
     endforeach()
     string(APPEND text "\nnamespace rois::files {\n\nNamed const& ${function}() {\n    static Named const files{\n${entries}    };\n"
         "    return files;\n}\n\n}  // namespace rois::files\n")
-    file(GENERATE OUTPUT ${source} CONTENT "${text}")
+    set(${variable} "${text}" PARENT_SCOPE)
+endfunction()
+
+# embed_source(TARGET SOURCE FILE...): compiles a source with files into TARGET.
+function(embed_source target source)
     set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${ARGN}" COMPILE_OPTIONS "-fno-lto")
-    # A ccache that hashes the source alone would miss a changed .incbin; the files' bytes go into the command line.
-    set(hashes "")
-    foreach(file IN LISTS ARGN)
-        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
-        file(SHA1 ${file} hash)
-        string(APPEND hashes ${hash})
-    endforeach()
-    string(SHA1 hash "${hashes}")
-    set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS "ROIS_EMBEDDED=${hash}")
     target_sources(${target} PRIVATE ${source})
+endfunction()
+
+# embed_files(TARGET FUNCTION FOLDER FILE...): files that are there already.
+function(embed_files target function folder)
+    set(source ${CMAKE_CURRENT_BINARY_DIR}/embedded_${function}.cpp)
+    source_with_files(text ${function} ${folder} ${ARGN})
+    file(GENERATE OUTPUT ${source} CONTENT "${text}")
+    embed_source(${target} ${source} ${ARGN})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARGN})
 endfunction()

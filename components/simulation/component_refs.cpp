@@ -38,7 +38,8 @@ bool is_small_or_digit(char32_t c) { return (c >= 'a' && c <= 'z') || (c >= '0' 
 bool is_big(char32_t c) { return c >= 'A' && c <= 'Z'; }
 bool is_in_names(char32_t c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-' || is_in(inside_names, c); }
 
-// A name of XML without dots and colons.
+}  // namespace
+
 bool is_name(std::string_view text) {
     auto const first = take_character(text);
     if (!first || !is_letter(*first)) return false;
@@ -46,8 +47,6 @@ bool is_name(std::string_view text) {
         if (!is_in_names(*c)) return false;
     return true;
 }
-
-}  // namespace
 
 std::string component_ref(std::string_view component, std::string_view engine) {
     return engine.empty() ? std::string{component} : std::string{engine} + "." + std::string{component};

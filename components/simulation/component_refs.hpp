@@ -14,6 +14,9 @@ namespace rois::simulation {
 // its sub engine: "robot2.navigation". `engine` is empty for the first.
 std::string component_ref(std::string_view component, std::string_view engine);
 
+// Whether it is a name of XML without dots and colons.
+bool is_name(std::string_view);
+
 // Of every component of every robot, also of those that are there with media only, and of those that have one of these
 // names.
 std::vector<std::string> component_refs(FloorPlan const&, std::vector<std::string> const& names = {});

@@ -61,6 +61,11 @@ Place const* FloorPlan::place(std::string_view name_of_place) const {
     return found == places.end() ? nullptr : &*found;
 }
 
+Place const& FloorPlan::exit() const {
+    auto const* const found = place("exit");
+    return found != nullptr ? *found : *place("entrance");
+}
+
 Metres FloorPlan::clearance(Point const& p) const {
     Metres nearest = inside_margin(bounds, p);
     for (Segment const& wall : walls) nearest = std::min(nearest, distance(wall, p));

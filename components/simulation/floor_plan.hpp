@@ -87,6 +87,9 @@ struct FloorPlan {
     // Null when there is none of that name.
     Place const* place(std::string_view name_of_place) const;
 
+    // Where people go out: "exit", or the entrance.
+    Place const& exit() const;
+
     // Distance to the nearest wall, desk or edge; negative outside of the hall and 0 within a desk.
     Metres clearance(Point const&) const;
 

@@ -12,6 +12,7 @@
 #include "simulation/person.hpp"
 #include "simulation/robot.hpp"
 #include "simulation/scenario.hpp"
+#include "simulation/steering.hpp"
 
 namespace rois::simulation {
 
@@ -70,6 +71,13 @@ public:
     // A robot shows a reaction for some time. A new one takes the place of the old one; it ends by itself.
     void show(RobotId, std::string reaction, Seconds duration);
     void stop_showing(RobotId);
+
+    // Visitors who do what they are told, beside those of the scenario, whose history they change only by being there. They come
+    // in when nobody stands in the entrance, and stay until they are told to leave. What cannot be done is a deed that has
+    // failed.
+    SharedDeed let_in(Role);  // whoever they are; nothing of it but who they are counts
+    SharedDeed steer(std::string_view visitor, Order);
+    void stop_steering();  // they stand where they are, and nobody who waits is let in
 
 private:
     class World;

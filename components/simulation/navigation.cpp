@@ -4,13 +4,10 @@
 #include "simulation/basic_components.hpp"
 #include "simulation/parameter_reading.hpp"
 #include "simulation/wheels.hpp"
-#include "types/listing.hpp"
 #include "types/texts.hpp"
 
 namespace rois::simulation {
 namespace {
-
-constexpr std::size_t most_targets = 100;
 
 // Somebody who stands on the way or the target for longer makes it one that cannot be reached.
 constexpr WorldTime patience{30'000};
@@ -26,18 +23,8 @@ private:
         if (!policy.empty() && policy != "time" && policy != "distance")
             return "parameter 'routing_policy' must be 'time' or 'distance', not " + quoted(policy);
         auto const* targets = find(parameters, "target_position");
-        return targets == nullptr ? std::nullopt : unfit_targets(*targets);
-    }
-
-    std::optional<std::string> unfit_targets(Parameter const& targets) const {
-        if (targets.values.size() > most_targets)
-            return "parameter 'target_position' has more than " + std::to_string(most_targets) + " positions";
-        for (auto const& text : targets.values)
-            if (!target(text))
-                return "parameter 'target_position': " + quoted(text) +
-                       R"( is neither "x, y" nor "x, y, th" (mm, mm, degree) nor one of the places )" +
-                       listed(hall().plan().places, &Place::name);
-        return {};
+        if (targets == nullptr) return {};
+        return not_targets(*targets, hall().plan(), [&](auto const& text) { return target(text).has_value(); });
     }
 
     std::optional<std::string> missing(ParameterList const& parameters) const override {

@@ -3,6 +3,7 @@
 #include <limits>
 #include <string>
 
+#include "types/listing.hpp"
 #include "types/texts.hpp"
 
 namespace rois::simulation {
@@ -41,6 +42,19 @@ std::optional<std::string> negative(ParameterList const& parameters, std::string
     auto const number = integer_of(parameters, name);
     if (!number || *number >= 0) return {};
     return "parameter '" + std::string{name} + "' must not be negative";
+}
+
+std::optional<std::string> not_targets(Parameter const& targets, FloorPlan const& plan,
+                                       std::function<bool(std::string const&)> const& is_target) {
+    constexpr std::size_t most = 100;
+    if (targets.values.size() > most)
+        return "parameter '" + targets.name + "' has more than " + std::to_string(most) + " positions";
+    for (auto const& text : targets.values)
+        if (!is_target(text))
+            return "parameter '" + targets.name + "': " + quoted(text) +
+                   R"( is neither "x, y" nor "x, y, th" (mm, mm, degree) nor one of the places )" +
+                   listed(plan.places, &Place::name);
+    return {};
 }
 
 }  // namespace rois::simulation

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "simulation/floor_plan.hpp"
 #include "types/values.hpp"
 
 namespace rois::simulation {
@@ -22,5 +25,9 @@ std::vector<std::int32_t> integers_of(ParameterList const&, std::string_view nam
 // Why this number is none of those allowed, or nothing; an absent one is fine.
 std::optional<std::string> not_between(ParameterList const&, std::string_view name, std::int32_t least, std::int32_t most);
 std::optional<std::string> negative(ParameterList const&, std::string_view name);
+
+// Why one of these is no position to go to, or nothing; the plan has the places that may be named.
+std::optional<std::string> not_targets(Parameter const&, FloorPlan const&,
+                                       std::function<bool(std::string const&)> const& is_target);
 
 }  // namespace rois::simulation

@@ -26,8 +26,6 @@ public:
     // When the `k`-th (from 1) of the steps of the last call was due, at the latest the last call's `now`.
     Instant due(std::int64_t k, std::int64_t steps, Instant now) const;
 
-    double speed() const { return speed_; }
-
 private:
     double speed_;
     double step_;      // of the world, in nanoseconds

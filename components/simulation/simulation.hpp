@@ -25,18 +25,24 @@ public:
 // Components hold it by shared_ptr. Used by the engine's thread only.
 class Simulation : public Device {
 public:
-    // `speed`: simulated seconds per real second, > 0.
+    // `speed`: simulated seconds per real second. With 0 the world stands still, but for what let_pass() lets pass.
     Simulation(FloorPlan, Scenario, std::uint64_t seed, double speed);
 
     // The first call starts the clock and makes the first step. A gap longer than SimulatedTime::longest_gap counts as that much.
+    // A world that stands still makes one step of what is to pass.
     void advance(Instant now) override;
+    bool goes_on() const override { return !time_ && hall_.now() < pass_until_; }
+
+    // So much time of the world is to pass, after what is to pass already; whole steps. Says when it will have. For a speed of 0.
+    WorldTime let_pass(WorldTime);
+    void stand_still();  // what has not passed yet does not
 
     // One step by hand, seen by the observers at `when`; for tests that hold the clock.
     void step(Instant when);
 
     Hall& hall() { return hall_; }
     Hall const& hall() const { return hall_; }
-    double speed() const { return time_.speed(); }
+    bool runs_by_itself() const { return time_.has_value(); }
     std::vector<Fault> const& faults() const { return faults_; }
 
     void join(Observer&);
@@ -48,7 +54,8 @@ private:
 
     std::vector<Fault> faults_;
     Hall hall_;
-    SimulatedTime time_;
+    std::optional<SimulatedTime> time_;  // none: the world stands still
+    WorldTime pass_until_{0};
     bool begun_ = false;
     std::vector<Observer*> observers_;
 };

@@ -28,6 +28,9 @@ class Visitor {
 public:
     // Comes in at `pose`; `seed` is this visitor's own.
     Visitor(PersonId, Role, Pose const& pose, WorldTime now, FloorPlan const&, Planner const&, std::uint64_t seed);
+    virtual ~Visitor() = default;
+    Visitor(Visitor const&) = delete;
+    Visitor& operator=(Visitor const&) = delete;
 
     Person const& person() const { return person_; }
     std::string const& role_id() const { return role_.id; }
@@ -37,6 +40,19 @@ public:
     void notice(Happening const&, Robot const&, double loudness, Company const&);
 
     void step(Company&);
+
+protected:
+    // What they do in a step, as their own mind has it.
+    virtual void play(Company&);
+
+    Role const& role() const { return role_; }
+    void say(std::string text, std::string language, Company&);
+    void make_gesture(std::string id, Company&);
+    // A step on the way there, or beside it when somebody stands there. `waiting` also when there is no room.
+    Walker::Step go(Whereabouts const&, Company&);
+    // Goes nowhere, and is turned like this as long as no robot attends to them.
+    void stand(std::optional<Radians> heading);
+    void go_out() { gone_ = true; }
 
 private:
     static constexpr Seconds usual_patience = 15;
@@ -56,13 +72,10 @@ private:
     Doing act(Wander const&, Company&);
     Doing act(Leave const&, Company&);
 
-    void play(Company&);
     void next_action(WorldTime now);
     void end_speech_and_gesture(Company&);
     bool is_open(std::size_t answer) const;  // not used up by `once`
     void answer(Company&);
-    void say(std::string text, std::string language, Company&);
-    void make_gesture(std::string id, Company&);
     void turn(Company const&);
     void mind_robots(Company const&);
     Robot const* attended_robot(Company const&) const;

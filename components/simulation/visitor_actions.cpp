@@ -38,6 +38,23 @@ std::optional<Point> Visitor::standing_place(Whereabouts const& where, Company c
 
 Walker::Step Visitor::walk(Company& company) { return walker_.step(person_, role_.speed, company.others, random_, company.dt); }
 
+Walker::Step Visitor::go(Whereabouts const& where, Company& company) {
+    if (!walker_.has_goal()) {
+        auto const goal = standing_place(where, company);
+        if (!goal) return Walker::Step::waiting;
+        walker_.go(*goal);
+    }
+    auto const step = walk(company);
+    // Somebody else may have taken the place.
+    if (step == Walker::Step::waiting && distance(person_.pose.position, *walker_.goal()) < 1.2) walker_.stop();
+    return step;
+}
+
+void Visitor::stand(std::optional<Radians> heading) {
+    walker_.stop();
+    heading_wanted_ = heading;
+}
+
 Visitor::Doing Visitor::act(Walk const& walk_to, Company& company) {
     if (action_fresh_) {
         faces_.reset();
@@ -45,23 +62,9 @@ Visitor::Doing Visitor::act(Walk const& walk_to, Company& company) {
     }
     if (in_seconds(company.now - action_began_) > longest_walk) return Doing::done;
     if (stays_for_robot(company)) return Doing::still;
-    if (!walker_.has_goal()) {
-        auto const goal = standing_place(walk_to.to, company);
-        if (!goal) return Doing::still;
-        walker_.go(*goal);
-    }
-    switch (walk(company)) {
-        case Walker::Step::walking:
-            return Doing::still;
-        case Walker::Step::waiting:
-            // Somebody else may have taken the place.
-            if (distance(person_.pose.position, *walker_.goal()) < 1.2) walker_.stop();
-            return Doing::still;
-        case Walker::Step::no_way:
-            return Doing::done;
-        case Walker::Step::arrived:
-            break;
-    }
+    auto const step = go(walk_to.to, company);
+    if (step == Walker::Step::walking || step == Walker::Step::waiting) return Doing::still;
+    if (step == Walker::Step::no_way) return Doing::done;
     auto const* name = std::get_if<std::string>(&walk_to.to.at);
     Place const* place = name ? company.plan.place(*name) : nullptr;
     if (place) heading_wanted_ = place->pose.heading;
@@ -140,10 +143,9 @@ Visitor::Doing Visitor::act(Leave const&, Company& company) {
         heading_wanted_.reset();
     }
     if (!pending_.empty() || person_.speaking || stays_for_robot(company)) return Doing::still;
-    Place const* exit = company.plan.place("exit");
-    if (!exit) exit = company.plan.place("entrance");
-    if (distance(person_.pose.position, exit->pose.position) < 0.5) return Doing::done;
-    walker_.go(exit->pose.position);
+    Point const exit = company.plan.exit().pose.position;
+    if (distance(person_.pose.position, exit) < 0.5) return Doing::done;
+    walker_.go(exit);
     walk(company);
     return Doing::still;
 }

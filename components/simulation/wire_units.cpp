@@ -15,7 +15,6 @@ constexpr double mm = 1000.0;
 
 std::string whole(double value) { return std::to_string(std::lround(value)); }
 
-// To a thousandth: finer than anything here is measured.
 double fine(double value) { return std::round(value * 1000.0) / 1000.0; }
 
 // Row by row, to a thousandth.
@@ -39,6 +38,10 @@ std::optional<double> number(std::string_view text) {
 }
 
 }  // namespace
+
+double millimetres(Metres length) { return fine(length * mm); }
+
+double degrees(Radians angle) { return fine(to_degrees(wrapped(angle))); }
 
 std::string to_wire(Pose const& pose) {
     return whole(pose.position.x() * mm) + ", " + whole(pose.position.y() * mm) + ", " + whole(to_degrees(wrapped(pose.heading)));
@@ -67,8 +70,8 @@ Located located(std::string of, std::string ref, std::string crs, Pose const& po
     made.of = std::move(of);
     made.ref = std::move(ref);
     made.crs = std::move(crs);
-    made.position = {fine(pose.position.x() * mm), fine(pose.position.y() * mm), fine(height * mm)};
-    made.orientation = {0, 0, fine(to_degrees(wrapped(pose.heading)))};
+    made.position = {millimetres(pose.position.x()), millimetres(pose.position.y()), millimetres(height)};
+    made.orientation = {0, 0, degrees(pose.heading)};
     if (covariance) made.certainty = Located::Covariance{rows_of(*covariance)};
     return made;
 }
@@ -76,8 +79,8 @@ Located located(std::string of, std::string ref, std::string crs, Pose const& po
 Frame placed(std::string crs, std::string base, Pose const& pose, Covariance const& covariance) {
     return {.crs = std::move(crs),
             .base = std::move(base),
-            .position = {fine(pose.position.x() * mm), fine(pose.position.y() * mm), 0},
-            .orientation = {0, 0, fine(to_degrees(wrapped(pose.heading)))},
+            .position = {millimetres(pose.position.x()), millimetres(pose.position.y()), 0},
+            .orientation = {0, 0, degrees(pose.heading)},
             .covariance = rows_of(covariance)};
 }
 

@@ -13,6 +13,10 @@
 
 namespace rois::simulation {
 
+// To a thousandth, finer than anything here is measured; an angle in (-180, 180].
+double millimetres(Metres);
+double degrees(Radians);
+
 // "x, y, th" in mm, mm, degrees, rounded to whole ones: "12500, 3000, -90".
 std::string to_wire(Pose const&);
 

@@ -17,6 +17,8 @@ FloorPlan checked(FloorPlan plan) {
     return plan;
 }
 
+std::string already_inside(std::string const& visitor) { return visitor + " is in the hall already"; }
+
 bool is_for_visitors(Happening const& happening) {
     return std::holds_alternative<RobotId>(happening.who) &&
            (happening.kind == Happening::Kind::speech_finished || happening.kind == Happening::Kind::reaction_shown);
@@ -99,16 +101,58 @@ void Hall::World::admit() {
     };
     if (std::ranges::any_of(people, [&](Person const& who) { return in_the_door(disc(who)); })) return;
     if (std::ranges::any_of(drives, [&](Drive const& drive) { return in_the_door(drive.stopping_disc()); })) return;
-    auto is_inside = [&](std::string_view role) {
-        return std::ranges::any_of(visitors_, [&](auto const& visitor) { return visitor->role_id() == role; });
-    };
-    auto role = crowd_.next(now, people.size(), is_inside);
-    if (!role) return;
+    auto const of_the_scenario = std::ranges::count_if(people, [](Person const& who) { return !is_steered(who.id); });
+    auto role = crowd_.next(now, static_cast<std::size_t>(of_the_scenario), [&](auto role_id) { return is_inside(role_id); });
+    if (!role) return admit_steered(entrance);
     PersonId const id{++last_person_};
-    visitors_.push_back(
-        std::make_unique<Visitor>(id, std::move(*role), entrance, now, plan_, walkways_, mixed({seed, 2, last_person_})));
-    people.push_back(visitors_.back()->person());
-    chronicle.add({0, now, Happening::Kind::entered, id, entrance.position, {}, {}, 0, {}});
+    enter(std::make_unique<Visitor>(id, std::move(*role), entrance, now, plan_, walkways_, mixed({seed, 2, last_person_})));
+}
+
+// Those of the scenario come first, and have numbers and random numbers of their own: they come as they would anyway.
+void Hall::World::admit_steered(Pose const& entrance) {
+    if (waiting_.empty()) return;
+    auto [role, deed] = std::move(waiting_.front());
+    waiting_.pop_front();
+    if (is_inside(role.id)) return deed->fail(already_inside(role.id));
+    PersonId const id{++last_steered_};
+    enter(
+        std::make_unique<SteeredVisitor>(id, std::move(role), entrance, now, plan_, walkways_, mixed({seed, 3, last_steered_})));
+    deed->state = Deed::State::done;
+}
+
+void Hall::World::enter(std::unique_ptr<Visitor> visitor) {
+    auto const& person = people.emplace_back(visitor->person());
+    chronicle.add({0, now, Happening::Kind::entered, person.id, person.pose.position, {}, {}, 0, {}});
+    visitors_.push_back(std::move(visitor));
+}
+
+bool Hall::World::is_inside(std::string_view role) const {
+    return std::ranges::any_of(visitors_, [&](auto const& visitor) { return visitor->role_id() == role; });
+}
+
+SharedDeed Hall::World::let_in(Role role) {
+    auto deed = std::make_shared<Deed>();
+    bool const waits = std::ranges::any_of(waiting_, [&](Waiting const& other) { return other.role.id == role.id; });
+    if (waits || is_inside(role.id)) {
+        deed->fail(already_inside(role.id));
+    } else {
+        waiting_.push_back({std::move(role), deed});
+    }
+    return deed;
+}
+
+SteeredVisitor* Hall::World::steered(std::string_view ref) {
+    for (auto const& visitor : visitors_) {
+        auto* const found = dynamic_cast<SteeredVisitor*>(visitor.get());
+        if (found != nullptr && found->role_id() == ref) return found;
+    }
+    return nullptr;
+}
+
+void Hall::World::stop_steering() {
+    waiting_.clear();
+    for (auto const& visitor : visitors_)
+        if (auto* const steered = dynamic_cast<SteeredVisitor*>(visitor.get())) steered->stand_still();
 }
 
 Company Hall::World::company(PersonId self) {

@@ -7,6 +7,7 @@
 
 #include "simulation/crowd.hpp"
 #include "simulation/hall.hpp"
+#include "simulation/steered_visitor.hpp"
 #include "simulation/tracks.hpp"
 #include "simulation/visitor.hpp"
 #include "simulation/voice.hpp"
@@ -27,6 +28,11 @@ public:
     Robot& robot(RobotId id) { return robots.at(static_cast<std::size_t>(id)); }
     Person const* person(PersonId) const;
 
+    SharedDeed let_in(Role);
+    SteeredVisitor* steered(std::string_view ref);  // null when no steered visitor of this name is in the hall
+    void stop_steering();
+    bool is_inside(std::string_view role) const;
+
     std::uint64_t seed;
     WorldTime now{0};
     Chronicle chronicle;
@@ -37,7 +43,15 @@ public:
     std::vector<Person> people;  // as the visitors are after the last step
 
 private:
+    // Who is steered and waits to be let in.
+    struct Waiting {
+        Role role;
+        std::shared_ptr<Deed> deed;
+    };
+
     void admit();
+    void admit_steered(Pose const& entrance);
+    void enter(std::unique_ptr<Visitor>);
     void tell_visitors();
     void step_visitors();
     void step_robots();
@@ -49,7 +63,9 @@ private:
     Planner walkways_;
     Crowd crowd_;
     std::vector<std::unique_ptr<Visitor>> visitors_;
-    std::uint32_t last_person_ = 0;
+    std::uint32_t last_person_ = 0;  // of those who are not steered
+    std::uint32_t last_steered_ = first_steered - 1;
+    std::deque<Waiting> waiting_;
     std::uint64_t told_ = 0;  // the visitors know of what happened up to here
 };
 

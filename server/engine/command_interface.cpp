@@ -132,9 +132,11 @@ Reply Engine::Core::perform(Session& session, Execute const& execute, Instant no
         return refused<Execute::Reply>(problem->return_code, std::move(problem->reason));
     // However they end, as many `completed` can wait for the session (decisions 12, 23).
     auto const most = settings_.max_waiting_notifications;
-    if (session.commands.size() - session.ended.size() + check.commands() > most)
+    if (session.live_commands() + check.commands() > most) {
+        ++refused_.commands;
         return refused<Execute::Reply>(ReturnCode::out_of_resources,
                                        "more than " + std::to_string(most) + " commands of this session would wait or run");
+    }
     Execute::Reply reply;
     reply.command_unit_list = execute.command_unit_list;
     IdFiller{executor_, session, check.ids()}.fill(reply.command_unit_list.command_unit_list);

@@ -125,6 +125,8 @@ class Device {
 public:
     virtual ~Device() = default;
     virtual void advance(Instant now) = 0;
+    // Whether it is to be advanced once more in the same tick, when the engine has taken in what came of the last time.
+    virtual bool goes_on() const { return false; }
 };
 
 }  // namespace rois

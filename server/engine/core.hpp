@@ -93,6 +93,7 @@ private:
 
     // Sessions (engine.cpp)
     void end(Session&, Instant now);
+    static SessionStatistics statistics(Session const&);
     void await_end_of_window(Session&);
     void end_if_lost(SessionId const&, Instant now);
     void settle(Instant now);
@@ -118,6 +119,13 @@ private:
     bool shutting_down_ = false;
     std::uint64_t events_published_ = 0;
     std::uint64_t errors_published_ = 0;
+    std::uint64_t last_session_ = 0;
+    // How often there would have been too many.
+    struct {
+        std::uint64_t sessions = 0;
+        std::uint64_t commands = 0;
+        std::uint64_t predicates = 0;
+    } refused_;
 };
 
 // A reply that says no.

@@ -34,8 +34,12 @@ std::variant<Reply, Refusal> Engine::Core::handle(SessionId const& id, Operation
 }
 
 void Engine::Core::tick(Instant now) {
-    advance_devices(now);
-    settle(now);
+    constexpr int most_turns = 100;  // of devices; what is left waits for the next tick
+    auto const goes_on = [](std::shared_ptr<Device> const& device) { return device->goes_on(); };
+    for (int turn = 0; turn == 0 || (turn < most_turns && std::ranges::any_of(devices_, goes_on)); ++turn) {
+        advance_devices(now);
+        settle(now);
+    }
     while (auto const action = deadlines_.take_due(now)) {
         action(now);
         settle(now);
@@ -169,6 +173,25 @@ EngineStatistics Engine::Core::statistics() const {
     numbers.notifications_lost = notifier_.lost();
     numbers.errors = errors_published_;
     numbers.stray_answers = executor_.stray_answers();
+    for (auto const& [id, session] : sessions_) numbers.each_session.push_back(statistics(*session));
+    std::ranges::sort(numbers.each_session, {}, &SessionStatistics::number);
+    auto const waiting = settings_.max_waiting_notifications;
+    numbers.limits = {{"sessions", settings_.max_sessions, refused_.sessions},
+                      {"commands", waiting, refused_.commands},
+                      {"subscribed_predicates", settings_.max_subscribed_predicates, refused_.predicates},
+                      {"waiting_notifications", waiting, notifier_.lost() + notifier_.overflows()}};
+    return numbers;
+}
+
+SessionStatistics Engine::Core::statistics(Session const& session) {
+    SessionStatistics numbers{.number = session.number,
+                              .connected = session.connected,
+                              .bound = {},
+                              .commands = session.live_commands(),
+                              .subscriptions = session.subscriptions.size(),
+                              .waiting_notifications = session.notifications->waiting()};
+    for (auto const* component : session.bound) numbers.bound.push_back(component->ref().code);
+    std::ranges::sort(numbers.bound);
     return numbers;
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -38,6 +39,21 @@ struct ComponentChange {
 };
 
 // Numbers for /metrics, counted since the start.
+struct SessionStatistics {
+    std::uint64_t number = 0;  // in the order of connecting, from 1: unlike the id it is no secret
+    Steady connected;
+    std::vector<std::string> bound;  // refs
+    std::size_t commands = 0;        // that wait or run
+    std::size_t subscriptions = 0;
+    std::size_t waiting_notifications = 0;
+};
+
+struct LimitStatistics {
+    std::string_view of;
+    std::size_t most = 0;
+    std::uint64_t reached = 0;  // how often something was refused, dropped or ended because of it
+};
+
 struct EngineStatistics {
     std::size_t sessions = 0;                  // now
     std::size_t components = 0;                // now
@@ -47,7 +63,9 @@ struct EngineStatistics {
     std::uint64_t notifications = 0;
     std::uint64_t notifications_lost = 0;
     std::uint64_t errors = 0;
-    std::uint64_t stray_answers = 0;  // of components: late, double or of nobody
+    std::uint64_t stray_answers = 0;              // of components: late, double or of nobody
+    std::vector<SessionStatistics> each_session;  // ordered by number
+    std::vector<LimitStatistics> limits;
 };
 
 // Plain and single-threaded: all calls, also those to a session's NotificationQueue, are made by one thread at a time. Time is

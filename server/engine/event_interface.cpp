@@ -20,11 +20,13 @@ Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instan
         return refused<Subscribe::Reply>(ReturnCode::unsupported, "no component that has the event can match the condition");
     auto* const known = subscriptions_.find(subscribe.event_type, wanted);
     bool const again = known != nullptr && session.subscriptions.contains(known);
-    if (!again && session.predicates + wanted.predicates() > settings_.max_subscribed_predicates)
+    if (!again && session.predicates + wanted.predicates() > settings_.max_subscribed_predicates) {
+        ++refused_.predicates;
         return refused<Subscribe::Reply>(ReturnCode::out_of_resources,
                                          "the conditions of a session's subscriptions may have " +
                                              std::to_string(settings_.max_subscribed_predicates) +
                                              " predicates together: unsubscribe from what is not needed any more");
+    }
     Subscribe::Reply reply;
     reply.subscribe_id = subscriptions_.add(session, subscribe.event_type, std::move(wanted), subscribe.inline_results).id;
     return reply;

@@ -99,6 +99,11 @@ void NotificationQueue::close() {
     closed_ = true;
 }
 
+std::size_t NotificationQueue::waiting() const {
+    std::lock_guard const lock{mutex_};
+    return waiting_;
+}
+
 bool NotificationQueue::closed() const {
     std::lock_guard const lock{mutex_};
     return shows_closed();

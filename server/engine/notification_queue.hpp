@@ -62,6 +62,9 @@ public:
     // How many were dropped so far.
     std::uint64_t lost() const { return lost_; }
 
+    // How many nobody has read.
+    std::size_t waiting() const;
+
     // Whether the session had to end because too many waited.
     bool overflowed() const { return overflowed_; }
 

@@ -25,8 +25,10 @@ public:
         auto& queue = *session.notifications;
         bool const known = queue.overflowed();
         auto const lost = queue.lost(), last = queue.last_sequence();
-        if (queue.push(std::move(notification)) == NotificationQueue::Pushed::overflow && !known)
+        if (queue.push(std::move(notification)) == NotificationQueue::Pushed::overflow && !known) {
             overflowed_.push_back(session.id);
+            ++overflows_;
+        }
         if (queue.last_sequence() == last) return;
         ++told_;
         lost_ += queue.lost() - lost;
@@ -44,12 +46,14 @@ public:
 
     std::uint64_t told() const { return told_; }
     std::uint64_t lost() const { return lost_; }
+    std::uint64_t overflows() const { return overflows_; }  // sessions that had to end
 
 private:
     Outbox& outbox_;
     std::vector<SessionId> overflowed_;
     std::uint64_t told_ = 0;
     std::uint64_t lost_ = 0;
+    std::uint64_t overflows_ = 0;
 };
 
 }  // namespace rois

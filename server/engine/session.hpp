@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <list>
 #include <map>
 #include <memory>
@@ -23,6 +24,8 @@ struct Subscription;
 // Owned by the engine; state only.
 struct Session {
     SessionId id;
+    std::uint64_t number = 0;  // in the order of connecting
+    Steady connected;
     std::shared_ptr<NotificationQueue> notifications;
 
     std::set<RegisteredComponent*> bound;
@@ -30,6 +33,7 @@ struct Session {
     std::size_t predicates = 0;                                                // in the conditions of these
     std::unordered_map<CommandId, std::shared_ptr<Command>, IdHash> commands;  // all that are known (decision 17)
     std::list<std::shared_ptr<Command>> ended;                                 // of these, in the order in which they ended
+    std::size_t live_commands() const { return commands.size() - ended.size(); }
 
     // The link (decision 2): how many WebSockets and streams are open, and until when silence is no loss.
     std::size_t open_links = 0;

@@ -8,9 +8,14 @@ namespace rois {
 
 std::variant<Reply, Refusal> Engine::Core::connect(SessionId const& id, Instant now) {
     if (auto* session = find(id)) return perform(*session, Connect{}, now);
-    if (sessions_.size() >= settings_.max_sessions) return Refusal::too_many_sessions;
+    if (sessions_.size() >= settings_.max_sessions) {
+        ++refused_.sessions;
+        return Refusal::too_many_sessions;
+    }
     auto session = std::make_unique<Session>();
     session->id.text = fresh_secret_();
+    session->number = ++last_session_;
+    session->connected = now.steady;
     session->notifications =
         std::make_shared<NotificationQueue>(session->id, settings_.max_waiting_notifications, settings_.max_sent_notifications);
     session->quiet_until = now.steady;

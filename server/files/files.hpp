@@ -12,7 +12,8 @@ using Named = std::map<std::string, std::string_view, std::less<>>;  // file nam
 
 Named const& schemas();     // schemas/*.xsd
 Named const& profiles();    // schemas/profiles/*.xml
-Named const& simulation();  // components/simulation/data/*.xml: floor plans and scenarios
-Named const& web();         // web/*.html: the page at /
+Named const& simulation();  // components/simulation/data/*.xml: floor plans, scenarios, the hall's own profile
+Named const& web();         // web/*.html: the page without JavaScript
+Named const& console();     // web/console/dist, by path, with the compressed forms ("....gz"); empty when it was not built
 
 }  // namespace rois::files

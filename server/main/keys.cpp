@@ -173,7 +173,8 @@ std::string show_origins(Settings const& settings) {
 }
 
 bool set_sim_speed(Settings& settings, std::string const& text) {
-    auto const speed = number_within(text, 0.01, 1'000);
+    auto const speed = number_within(text, 0, 1'000);
+    if (speed && *speed > 0 && *speed < 0.01) return false;
     if (speed) settings.sim_speed = *speed;
     return speed.has_value();
 }
@@ -192,8 +193,11 @@ std::vector<Key> general_keys() {
         {"engine_name", "the engine's name in its profile", "NAME",
          "a letter, then letters, digits, '-', '_' and '.', 64 at most", Key::Kind::text, set_engine_name,
          [](Settings const& s) { return s.engine_name; }},
-        {"sim_speed", "simulated seconds in a second", "X", range("a number", 0.01, 1'000), Key::Kind::number, set_sim_speed,
+        {"sim_speed", "simulated seconds in a second; 0: the world stands still but for what simulated_hall lets pass", "X",
+         range("0, or a number", 0.01, 1'000), Key::Kind::number, set_sim_speed,
          [](Settings const& s) { return text_of(s.sim_speed); }},
+        choice<Steering>("steering", "the component simulated_hall, by which applications steer visitors; also with sim_speed 0",
+                         [](Settings & s) -> auto& { return s.steering; }, {{"off", Steering::off}, {"on", Steering::on}}),
         whole_number<std::uint64_t>(
             "seed", "from which the simulation draws; the same seed gives the same history",
             [](Settings & s) -> auto& { return s.seed; }, 0, 9'007'199'254'740'991),

@@ -24,11 +24,14 @@
 #include "net/secrets.hpp"
 #include "net/server.hpp"
 #include "simulation/component_refs.hpp"
+#include "simulation/floor_map.hpp"
 #include "simulation/floor_plan_file.hpp"
 #include "simulation/named_places.hpp"
 #include "simulation/robot_components.hpp"
 #include "simulation/scenario_file.hpp"
+#include "simulation/simulated_hall.hpp"
 #include "simulation/simulation.hpp"
+#include "xml/floor_map_document.hpp"
 #include "xml/profile_document.hpp"
 #include "xml/schemas.hpp"
 
@@ -80,6 +83,20 @@ std::shared_ptr<media::Server> make_media(media::Settings const& settings) {
     return settings.host.empty() ? nullptr : std::make_shared<media::Server>(settings, net::fresh_secret);
 }
 
+bool has_steering(Settings const& settings) { return settings.steering == Steering::on || settings.sim_speed == 0; }
+
+ComponentProfile profile_of_hall(std::shared_ptr<xml::Schemas const> const& schemas) {
+    auto const* const file = "simulated_hall.xml";
+    return xml::read_component_profile(schemas, file, std::string{files::simulation().at(file)});
+}
+
+// Of all components that are there without any profile of a user.
+std::vector<std::string> own_refs(Settings const& settings, simulation::FloorPlan const& plan) {
+    auto refs = simulation::component_refs(plan);
+    if (has_steering(settings)) refs.emplace_back(simulation::simulated_hall_ref);
+    return refs;
+}
+
 // The value of a configuration key, as a text.
 std::string shown(std::string_view name, Settings const& settings) {
     return std::ranges::find(keys(), name, &Key::name)->show(settings);
@@ -99,7 +116,8 @@ EngineProfile engine_profile(Settings const& settings, simulation::FloorPlan con
     profile.object.code_space = "urn:ietf:rfc:2141";
     profile.object.name = settings.engine_name;
     profile.parameters = {
-        engine_parameter("sim_speed", "double", shown("sim_speed", settings), "Simulated seconds in a second."),
+        engine_parameter("sim_speed", "double", shown("sim_speed", settings),
+                         "Simulated seconds in a second; 0: the world stands still."),
         engine_parameter("crs", "string", plan.crs, "The frame in which positions are told; others may be taken, too.")};
     return profile;
 }
@@ -131,16 +149,19 @@ int serve(CommandLine const& command) {
     engine.add(simulation);
     engine.describe(simulation::named_places(simulation->hall().plan()));
     for (auto& component : simulation::robot_components(simulation, media, profiles)) engine.add(std::move(component));
+    if (has_steering(settings)) engine.add(simulation::simulated_hall(simulation, profile_of_hall(schemas)));
     SpeechLog const speech_log{simulation};
     net::Telemetry telemetry;
     net::Gateway gateway{engine, readers, telemetry};
-    UserComponents user_components{schemas,
-                                   {simulation, media, schemas},
-                                   profiles,
-                                   simulation::component_refs(simulation->hall().plan()),
-                                   settings.profiles};
+    UserComponents user_components{
+        schemas, {simulation, media, schemas}, profiles, own_refs(settings, simulation->hall().plan()), settings.profiles};
     if (!settings.profiles.empty()) gateway.change(user_components.read());
-    net::Documents const documents{gateway, telemetry, *schemas, files::web().at("index.html")};
+    net::Documents const documents{gateway,
+                                   telemetry,
+                                   *schemas,
+                                   {.page = files::web().at("index.html"),
+                                    .console = net::WebFiles{files::console()},
+                                    .floor_map = xml::encode(simulation::floor_map(simulation->hall().plan()))}};
     net::Server server{settings.net, gateway, telemetry, documents, schemas};
     if (!settings.profiles.empty()) server.on_hang_up([&] { read_again(user_components, gateway); });
     if (media) spdlog::info("media are served under {}", media->url());

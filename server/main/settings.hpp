@@ -14,12 +14,16 @@ namespace rois {
 enum class LogFormat : std::uint8_t { text, json };
 enum class LogLevel : std::uint8_t { debug, info, warning, error };
 
+// Whether applications find the hall itself among the components (docs/simulation.md).
+enum class Steering : std::uint8_t { off, on };
+
 struct Settings {
     net::Settings net;
     EngineSettings engine;
     media::Settings media;  // without a host nothing is streamed
     std::string engine_name = "reception";
-    double sim_speed = 1;
+    double sim_speed = 1;  // 0: the world stands still, and there is steering
+    Steering steering = Steering::off;
     std::uint64_t seed = 1;
     std::string floor_plan;  // a file; empty: the reception hall that comes with the program
     std::string scenario;

@@ -58,19 +58,13 @@ void replace_all(std::string& text, std::string_view mark, std::string_view by) 
         text.replace(at, mark.size(), by);
 }
 
-// Whether the client has this version already (RFC 9110, 13.1.2).
-bool is_known(std::string_view etag, RequestHead const& head) {
-    return head.lists("If-None-Match", "*") || head.lists("If-None-Match", etag) ||
-           head.lists("If-None-Match", "W/" + std::string{etag});
-}
-
 // A document that clients may keep as long as they ask whether it has changed.
 HttpAnswer versioned(std::string_view content_type, std::string body, RequestHead const& head) {
     HttpAnswer answer;
     auto const etag = '"' + digest(body) + '"';
     answer.cache_control = "no-cache";
     answer.set("ETag", etag);
-    if (is_known(etag, head)) {
+    if (head.knows(etag)) {
         answer.status = 304;
         answer.content_type = {};
         return answer;
@@ -89,16 +83,6 @@ HttpAnswer plain(std::string body) {
 
 HttpAnswer not_found(std::string reason) { return answer_of({FaultCode::not_found, std::move(reason), {}, {}}); }
 
-// The address by which the client reached us, fit to be shown in a page.
-std::string origin_of(RequestHead const& head) {
-    auto const host = head.field("Host").value_or("");
-    bool const harmless = !host.empty() && std::ranges::all_of(host, [](char c) {
-        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-               std::string_view{".:-_[]"}.find(c) != std::string_view::npos;
-    });
-    return "http://" + (harmless ? std::string{host} : "localhost");
-}
-
 std::string policy_for_style(std::string_view page) {
     constexpr std::string_view begin = "<style>";
     auto const from = std::min(page.find(begin), page.size());
@@ -110,13 +94,21 @@ std::string policy_for_style(std::string_view page) {
 
 }  // namespace
 
-Documents::Documents(Gateway const& gateway, Telemetry const& telemetry, xml::Schemas const& schemas, std::string_view page)
-    : gateway_{gateway}, telemetry_{telemetry}, schemas_{schemas.files()}, page_{page}, style_policy_{policy_for_style(page)} {}
+Documents::Documents(Gateway const& gateway, Telemetry const& telemetry, xml::Schemas const& schemas, Site site)
+    : gateway_{gateway},
+      telemetry_{telemetry},
+      schemas_{schemas.files()},
+      site_{std::move(site)},
+      style_policy_{policy_for_style(site_.page)} {}
 
 HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const {
     switch (route.endpoint) {
         case Endpoint::page:
+            return site_.console.empty() ? page(head) : site_.console.answer("index.html", head);
+        case Endpoint::plain_page:
             return page(head);
+        case Endpoint::asset:
+            return site_.console.answer("assets/" + route.name, head);
         case Endpoint::engine_profile:
             return engine_profile(head);
         case Endpoint::component_profile:
@@ -125,6 +117,8 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const 
             return schema_list(head);
         case Endpoint::schema:
             return schema(route.name, head);
+        case Endpoint::floor_map:
+            return floor_map(head);
         case Endpoint::healthz:
             return plain("alive\n");
         case Endpoint::readyz:
@@ -140,8 +134,8 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const 
 }
 
 HttpAnswer Documents::page(RequestHead const& head) const {
-    std::string html{page_};
-    replace_all(html, "{{origin}}", origin_of(head));
+    std::string html{site_.page};
+    replace_all(html, "{{origin}}", "http://" + std::string{head.host()});
     replace_all(html, "{{components}}", list_of_links("/rois/profile/", names_of(gateway_.components())));
     replace_all(html, "{{schemas}}", list_of_links("/rois/schemas/", names_of(schemas_)));
     auto answer = versioned("text/html; charset=utf-8", std::move(html), head);
@@ -175,6 +169,11 @@ HttpAnswer Documents::schema(std::string const& file, RequestHead const& head) c
     auto const found = schemas_.find(file);
     if (found == schemas_.end()) return not_found("there is no such schema; /rois/schemas lists them");
     return versioned("application/xml; charset=utf-8", std::string{found->second}, head);
+}
+
+HttpAnswer Documents::floor_map(RequestHead const& head) const {
+    if (site_.floor_map.empty()) return not_found("this engine has no floor map");
+    return versioned("application/xml; charset=utf-8", site_.floor_map, head);
 }
 
 HttpAnswer Documents::readiness() const {

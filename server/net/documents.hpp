@@ -1,4 +1,4 @@
-// What can be read without a session: profiles, schemas, health, metrics and the page at "/".
+// What can be read without a session: profiles, schemas, the floor map, health, metrics and the page at "/".
 #pragma once
 
 #include <memory>
@@ -9,15 +9,22 @@
 #include "net/http_head.hpp"
 #include "net/routes.hpp"
 #include "net/telemetry.hpp"
+#include "net/web_files.hpp"
 #include "xml/schemas.hpp"
 
 namespace rois::net {
 
+// What is served as it is given.
+struct Site {
+    std::string_view page;  // HTML with one <style> element, and the marks {{origin}}, {{components}} and {{schemas}}
+    WebFiles console{{}};   // at "/"; when it is empty, the page is there
+    std::string floor_map;  // a document (schemas/map.xsd); empty: the engine has none
+};
+
 // Immutable; any thread. All that is given must outlive it.
 class Documents {
 public:
-    // `page` is HTML with one <style> element, and the marks {{origin}}, {{components}} and {{schemas}}.
-    Documents(Gateway const&, Telemetry const&, xml::Schemas const&, std::string_view page);
+    Documents(Gateway const&, Telemetry const&, xml::Schemas const&, Site);
 
     // Answers a GET or HEAD of any endpoint but /rois and /rois/notifications.
     HttpAnswer answer(Route const&, RequestHead const&) const;
@@ -28,13 +35,14 @@ private:
     HttpAnswer component_profile(std::string const& ref, RequestHead const&) const;
     HttpAnswer schema_list(RequestHead const&) const;
     HttpAnswer schema(std::string const& file, RequestHead const&) const;
+    HttpAnswer floor_map(RequestHead const&) const;
     HttpAnswer readiness() const;
     HttpAnswer metrics() const;
 
     Gateway const& gateway_;
     Telemetry const& telemetry_;
     xml::NamedFiles const& schemas_;
-    std::string_view page_;
+    Site site_;
     std::string style_policy_;  // the Content-Security-Policy that allows the page's own style and nothing else
 };
 

@@ -32,6 +32,14 @@ bool any_member(std::string_view list, What what) {
     return false;
 }
 
+// Whether a member's parameters give it a weight of 0: it is not wanted at all (RFC 9110, 12.4.2).
+bool is_refused(std::string_view parameters) {
+    auto const weight = lower_case(parameters).find("q=");
+    if (weight == std::string::npos) return false;
+    auto const value = without_blanks(parameters.substr(weight + 2));
+    return value.starts_with('0') && value.find_first_not_of("0.") == std::string_view::npos;
+}
+
 Fault broken(std::string reason) { return {FaultCode::not_well_formed, "broken HTTP: " + std::move(reason), {}, {}}; }
 
 Fault overlong_target(Settings const& settings) {
@@ -168,6 +176,35 @@ std::optional<std::string_view> RequestHead::parameter(std::string_view name) co
         rest.remove_prefix(std::min(pair.size() + 1, rest.size()));
     }
     return {};
+}
+
+bool RequestHead::knows(std::string_view etag) const {
+    return lists("If-None-Match", "*") || lists("If-None-Match", etag) || lists("If-None-Match", "W/" + std::string{etag});
+}
+
+// What is said of gzip itself counts more than what is said of any encoding ("*").
+bool RequestHead::takes_gzip() const {
+    auto taken = std::pair{0, false};  // how closely it was said, and what
+    for (auto const& field : fields) {
+        if (!equal_ignoring_case(field.name, "Accept-Encoding")) continue;
+        any_member(field.value, [&](std::string_view each) {
+            auto const semicolon = std::min(each.find(';'), each.size());
+            auto const name = without_blanks(each.substr(0, semicolon));
+            int const closely = name == "*" ? 1 : equal_ignoring_case(name, "gzip") ? 2 : 0;
+            if (closely > taken.first) taken = {closely, !is_refused(each.substr(semicolon))};
+            return false;
+        });
+    }
+    return taken.second;
+}
+
+std::string_view RequestHead::host() const {
+    auto const said = field("Host").value_or("");
+    bool const harmless = std::ranges::all_of(said, [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+               std::string_view{".:-_[]"}.find(c) != std::string_view::npos;
+    });
+    return harmless && !said.empty() ? said : "localhost";
 }
 
 std::size_t find_head(std::string_view text, std::size_t& searched) {

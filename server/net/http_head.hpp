@@ -35,6 +35,12 @@ struct RequestHead {
     bool lists(std::string_view name, std::string_view member, Case = Case::ignored) const;
     // The parameter's value in the query, undecoded: the first of that name.
     std::optional<std::string_view> parameter(std::string_view name) const;
+    // Whether the client has this version already (RFC 9110, 13.1.2).
+    bool knows(std::string_view etag) const;
+    // Whether it takes a compressed body (RFC 9110, 12.5.3).
+    bool takes_gzip() const;
+    // The host by which it reached us, fit to be shown; "localhost" when it says none that is.
+    std::string_view host() const;
     // Whether another request may follow on this connection.
     bool keep_alive() const { return !http_1_0 && !lists("Connection", "close"); }
 };

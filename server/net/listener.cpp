@@ -59,8 +59,10 @@ Task<> Listener::accept() {
 Task<std::optional<Admission::Place>> Listener::place() {
     while (acceptor_.is_open()) {
         if (auto place = admission_.enter()) co_return place;
-        if (admission_.is_news())
+        if (admission_.is_news()) {
+            loop_.shared().telemetry.full();
             spdlog::warn("{} connections are open; more must wait", loop_.shared().settings.max_connections);
+        }
         boost::system::error_code error;
         pause_.expires_after(between_tries);
         co_await pause_.async_wait(into(error));

@@ -12,15 +12,18 @@ struct Named {
     std::string_view path;
     Endpoint endpoint;
 };
-constexpr std::array<Named, 8> fixed{{{"/", Endpoint::page},
-                                      {"/rois", Endpoint::rois},
-                                      {"/rois/notifications", Endpoint::notifications},
-                                      {"/rois/profile", Endpoint::engine_profile},
-                                      {"/rois/schemas", Endpoint::schema_list},
-                                      {"/healthz", Endpoint::healthz},
-                                      {"/readyz", Endpoint::readyz},
-                                      {"/metrics", Endpoint::metrics}}};
-constexpr std::array<Named, 2> folders{{{"/rois/profile/", Endpoint::component_profile}, {"/rois/schemas/", Endpoint::schema}}};
+constexpr std::array<Named, 10> fixed{{{"/", Endpoint::page},
+                                       {"/plain", Endpoint::plain_page},
+                                       {"/rois", Endpoint::rois},
+                                       {"/rois/notifications", Endpoint::notifications},
+                                       {"/rois/profile", Endpoint::engine_profile},
+                                       {"/rois/schemas", Endpoint::schema_list},
+                                       {"/rois/map", Endpoint::floor_map},
+                                       {"/healthz", Endpoint::healthz},
+                                       {"/readyz", Endpoint::readyz},
+                                       {"/metrics", Endpoint::metrics}}};
+constexpr std::array<Named, 3> folders{
+    {{"/rois/profile/", Endpoint::component_profile}, {"/rois/schemas/", Endpoint::schema}, {"/assets/", Endpoint::asset}}};
 
 int hex_digit(char c) {
     if (c >= '0' && c <= '9') return c - '0';

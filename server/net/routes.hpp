@@ -12,12 +12,15 @@ namespace rois::net {
 
 enum class Endpoint : std::uint8_t {
     page,
+    plain_page,
+    asset,
     rois,
     notifications,
     engine_profile,
     component_profile,
     schema_list,
     schema,
+    floor_map,
     healthz,
     readyz,
     metrics,

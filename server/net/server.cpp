@@ -38,6 +38,7 @@ public:
           listeners_{make_listeners()},
           signals_{loops_.front()->executor()},
           hang_ups_{loops_.front()->executor()} {
+        telemetry.may_open(shared_.settings.max_connections);
         gateway.tick();  // time begins before anybody can ask
         listen();
         signals_.add(SIGTERM);

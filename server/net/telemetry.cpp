@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 namespace rois::net {
@@ -103,6 +104,30 @@ public:
         }
     }
 
+    // A series for each session, by its number.
+    void sessions(std::vector<SessionStatistics> const& all) {
+        auto const now = std::chrono::steady_clock::now();
+        auto const age = [&](auto const& s) { return std::chrono::duration<double>(now - s.connected).count(); };
+        each("rois_session_age_seconds", "Since a session connected; sessions are numbered in that order.", all, age);
+        each("rois_session_commands", "Commands of a session that wait or run.", all, &SessionStatistics::commands);
+        each("rois_session_subscriptions", "Distinct event types with conditions that a session has subscribed to.", all,
+             &SessionStatistics::subscriptions);
+        each("rois_session_notifications_waiting", "Notifications that a session has not read.", all,
+             &SessionStatistics::waiting_notifications);
+        begin("rois_component_bound", "1 for a component that a session has bound.", MetricType::Gauge);
+        for (auto const& session : all)
+            for (auto const& ref : session.bound) add({{"component_ref", ref}, {"session", std::to_string(session.number)}}, 1);
+    }
+
+    void limits(std::vector<LimitStatistics> all, Telemetry const& t) {
+        all.push_back({"connections", t.most_open_, t.full_});
+        begin("rois_limit", "How many there may be.", MetricType::Gauge);
+        for (auto const& limit : all) add({{"limit", std::string{limit.of}}}, static_cast<double>(limit.most));
+        begin("rois_limit_reached_total", "How often something was refused, dropped, ended or had to wait because of a limit.",
+              MetricType::Counter);
+        for (auto const& limit : all) add({{"limit", std::string{limit.of}}}, static_cast<double>(limit.reached));
+    }
+
     void network(Telemetry const& t) {
         begin("rois_connections", "Open connections by what they are used for.", MetricType::Gauge);
         for (std::size_t i = 0; i < kind_names.size(); ++i) add({{"kind", kind_names[i]}}, static_cast<double>(t.open_[i]));
@@ -125,6 +150,13 @@ public:
 private:
     void begin(std::string name, std::string help, MetricType type) {
         families_.push_back({std::move(name), std::move(help), type, {}});
+    }
+
+    template <class Value>
+    void each(std::string name, std::string help, std::vector<SessionStatistics> const& all, Value value) {
+        begin(std::move(name), std::move(help), MetricType::Gauge);
+        for (auto const& session : all)
+            add({{"session", std::to_string(session.number)}}, static_cast<double>(std::invoke(value, session)));
     }
 
     void add(std::vector<ClientMetric::Label> labels, double value) {
@@ -175,6 +207,8 @@ std::string Telemetry::text(EngineStatistics const& statistics) const {
     Exposition exposition;
     exposition.network(*this);
     exposition.engine(statistics);
+    exposition.sessions(statistics.each_session);
+    exposition.limits(statistics.limits, *this);
     exposition.process();
     return exposition.text();
 }

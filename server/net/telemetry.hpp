@@ -37,6 +37,8 @@ public:
     void faulted(FaultCode code) { ++faults_[static_cast<std::size_t>(code)]; }
     void delivered(std::size_t notifications) { delivered_ += notifications; }
     void cut() { ++cut_; }  // a connection that was closed because its reader was too slow
+    void may_open(std::size_t connections) { most_open_ = connections; }
+    void full() { ++full_; }  // no connection was accepted until another one closed
 
     // The Prometheus text format.
     std::string text(EngineStatistics const&) const;
@@ -57,6 +59,8 @@ private:
     std::atomic<std::uint64_t> accepted_ = 0;
     std::atomic<std::uint64_t> delivered_ = 0;
     std::atomic<std::uint64_t> cut_ = 0;
+    std::atomic<std::uint64_t> most_open_ = 0;
+    std::atomic<std::uint64_t> full_ = 0;
 };
 
 }  // namespace rois::net

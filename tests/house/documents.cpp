@@ -20,7 +20,9 @@ bool is_document(std::string_view file) {
     return file.starts_with("docs/") && file.ends_with(".md") && file.find('/', 5) == file.npos;
 }
 
-bool is_source(std::string_view file) { return is_cpp(file) || file.ends_with(".ts") || file.ends_with(".py"); }
+bool is_source(std::string_view file) {
+    return is_cpp(file) || file.ends_with(".ts") || file.ends_with(".tsx") || file.ends_with(".py");
+}
 
 bool exists(Tree const& tree, std::string path) {
     while (path.ends_with('/')) path.pop_back();

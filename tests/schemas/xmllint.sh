@@ -36,8 +36,10 @@ judge() {
     done
 }
 
-judge rois.xsd validates profiles/*.xml ../components/simulation/profiles/*.xml
+judge rois.xsd validates profiles/*.xml ../components/simulation/profiles/*.xml ../components/simulation/data/simulated_hall.xml
+judge hall.xsd validates ../components/simulation/data/reception-*.xml ../components/simulation/data/two-robots.xml
 judge scenario.xsd validates ../client-cpp/scenarios/*.xml
+judge map.xsd validates samples/floor_map.xml
 judge messages.xsd validates profiles/*.xml samples/valid/*.xml
 judge messages.xsd "fails to validate" samples/invalid/*.xml
 

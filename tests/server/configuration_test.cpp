@@ -63,7 +63,9 @@ TEST(CommandLine, SaysWhatItIs) {
 
 TEST(CommandLine, IsCheckedFlagByFlag) {
     expect_complaint(run_gateway({"--nonsense"}), "--nonsense");
-    expect_complaint(run_gateway({"--sim-speed", "fast"}), "--sim-speed must be a number from 0.01 to 1000, not 'fast'");
+    expect_complaint(run_gateway({"--sim-speed", "fast"}), "--sim-speed must be 0, or a number from 0.01 to 1000, not 'fast'");
+    expect_complaint(run_gateway({"--sim-speed", "0.001"}), "--sim-speed must be 0, or a number from 0.01 to 1000");
+    expect_complaint(run_gateway({"--steering", "maybe"}), "--steering must be one of off|on");
     expect_complaint(run_gateway({"--threads", "0"}), "--threads must be a whole number from 1 to 256");
     expect_complaint(run_gateway({"--log-format", "xml"}), "--log-format must be one of text|json");
     expect_complaint(run_gateway({"--on-session-end", "explode"}), "one of stop|continue");

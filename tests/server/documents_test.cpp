@@ -2,13 +2,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "net/documents.hpp"
+#include "net/secrets.hpp"
 #include "server/http_client.hpp"
 
 namespace rois::test {
 namespace {
 
 using testing::ContainsRegex;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(Document, OfTheEngineListsItsComponents) {
     HttpClient client;
@@ -30,7 +38,8 @@ TEST(Document, OfEachComponentIsThere) {
 
 TEST(Document, IsNotSentAgainToWhoeverHasIt) {
     HttpClient client;
-    for (auto const* path : {"/", "/rois/profile", "/rois/profile/move", "/rois/schemas", "/rois/schemas/rois.xsd"}) {
+    for (auto const* path :
+         {"/", "/plain", "/rois/profile", "/rois/profile/move", "/rois/schemas", "/rois/schemas/rois.xsd", "/rois/map"}) {
         auto const reply = client.get(path);
         auto const etag = reply.header("ETag");
         EXPECT_EQ(reply.header("Cache-Control"), "no-cache") << path;
@@ -49,20 +58,80 @@ TEST(Document, IsNotSentAgainToWhoeverHasIt) {
 TEST(Document, SchemasAreListedAndServed) {
     HttpClient client;
     auto const list = client.get("/rois/schemas");
-    for (std::string const name : {"rois.xsd", "messages.xsd", "fes.xsd", "gml.xsd", "unr.xsd"}) {
+    for (std::string const name : {"rois.xsd", "messages.xsd", "fes.xsd", "gml.xsd", "unr.xsd", "map.xsd"}) {
         EXPECT_THAT(list.body, HasSubstr("\"/rois/schemas/" + name + "\""));
         EXPECT_STREQ(client.get("/rois/schemas/" + name).root().name(), "xsd:schema") << name;
     }
 }
 
+// The map that this gateway serves.
+struct Map {
+    explicit Map(HttpClient& client) : reply{client.get("/rois/map")} { document.load_string(reply.body.c_str()); }
+
+    pugi::xml_node root() const { return document.document_element(); }
+    // Of the elements of this name, this attribute.
+    std::vector<std::string> all(char const* element, char const* attribute) const {
+        std::vector<std::string> values;
+        for (auto const node : root().children(element)) values.emplace_back(node.attribute(attribute).value());
+        return values;
+    }
+
+    HttpReply reply;
+    pugi::xml_document document;
+};
+
+TEST(FloorMap, ShowsTheHallAsItIsBuilt) {
+    HttpClient client;
+    Map const map{client};
+    EXPECT_EQ(map.reply.status, 200);
+    EXPECT_EQ(map.reply.header("Content-Type"), "application/xml; charset=utf-8");
+    EXPECT_STREQ(map.root().name(), "floor_map");
+    EXPECT_STREQ(map.root().attribute("xmlns").value(), "urn:x-rois:map:1");
+    EXPECT_STREQ(map.root().attribute("name").value(), "Reception hall");
+    EXPECT_STREQ(map.root().attribute("crs").value(), "urn:x-rois:def:crs:simulation::hall");
+    EXPECT_THAT(map.all("bounds", "width"), ElementsAre("20000"));
+    EXPECT_THAT(map.all("wall", "x1"), ElementsAre("15000", "15000", "15000", "3000"));
+    EXPECT_THAT(map.all("furniture", "depth"), ElementsAre("800", "3000"));
+    EXPECT_THAT(map.all("place", "name"),
+                ElementsAre("entrance", "exit", "desk", "start", "waiting_area", "exhibit", "meeting_room", "cloakroom"));
+    EXPECT_THAT(map.all("robot", "name"), ElementsAre("robot1"));
+    EXPECT_FALSE(map.root().child("robot").child("frame")) << "the robot has no map of its own";
+}
+
+TEST(FloorMap, ShowsTheFramesOfRobots) {
+    GatewayProcess gateway{{"--floor-plan", ROIS_SOURCE_DIR "/components/simulation/data/two-robots.xml"}};
+    HttpClient client{gateway};
+    Map const map{client};
+    EXPECT_THAT(map.all("robot", "name"), ElementsAre("robot1", "robot2"));
+    auto const frame = map.root().find_child_by_attribute("robot", "name", "robot2").child("frame");
+    EXPECT_STREQ(frame.attribute("crs").value(), "urn:x-rois:def:crs:simulation::robot2_map");
+    EXPECT_STREQ(frame.attribute("x").value(), "20000");
+    EXPECT_STREQ(frame.attribute("heading").value(), "90");
+}
+
+// The hall always has one: here an engine that nothing is said of.
+TEST(FloorMap, OfAnEngineWithoutOneIsNotFound) {
+    xml::Platform const platform;
+    xml::Schemas const schemas{{}};
+    net::Readers readers;
+    Engine engine{{}, {}, {}, readers, net::fresh_secret};
+    net::Telemetry telemetry;
+    net::Gateway gateway{engine, readers, telemetry};
+    net::Documents const documents{gateway, telemetry, schemas, {}};
+    auto const answer = documents.answer(net::route_of("/rois/map"), {});
+    EXPECT_EQ(answer.status, 404);
+    EXPECT_EQ(answer.fault, FaultCode::not_found);
+    EXPECT_THAT(answer.body, HasSubstr("this engine has no floor map"));
+}
+
 TEST(Page, LinksToAllOfItAndShowsTheRealAddress) {
     HttpClient client;
-    auto const page = client.say("GET / HTTP/1.1\r\nHost: robot.example:8080\r\n\r\n");
+    auto const page = client.say("GET /plain HTTP/1.1\r\nHost: robot.example:8080\r\n\r\n");
     EXPECT_THAT(page.header("Content-Type"), HasSubstr("text/html"));
     EXPECT_THAT(page.header("Content-Security-Policy"),
                 ContainsRegex("default-src 'none'; style-src 'sha256-[A-Za-z0-9+/]{43}='"));
     EXPECT_THAT(page.body, HasSubstr("url=http://robot.example:8080\n"));
-    EXPECT_THAT(page.body, testing::Not(HasSubstr("{{")));
+    EXPECT_THAT(page.body, Not(HasSubstr("{{")));
     for (std::size_t at = page.body.find("href=\"/"); at != std::string::npos; at = page.body.find("href=\"/", at + 1)) {
         auto const target = page.body.substr(at + 6, page.body.find('"', at + 6) - at - 6);
         EXPECT_EQ(client.get(target).status, 200) << target;
@@ -71,12 +140,12 @@ TEST(Page, LinksToAllOfItAndShowsTheRealAddress) {
 
 TEST(Page, ReflectsNoMarkup) {
     HttpClient client;
-    auto const page = client.say("GET / HTTP/1.1\r\nHost: $(reboot)&lt;script&gt;\r\n\r\n");
-    EXPECT_THAT(page.body, testing::Not(HasSubstr("script&gt;")));
+    auto const page = client.say("GET /plain HTTP/1.1\r\nHost: $(reboot)&lt;script&gt;\r\n\r\n");
+    EXPECT_THAT(page.body, Not(HasSubstr("script&gt;")));
     EXPECT_THAT(page.body, HasSubstr("url=http://localhost\n"));
     auto const refused = client.say("GET / HTTP/1.1\r\nHost: <script>alert(1)</script>\r\n\r\n");
     EXPECT_EQ(refused.status, 400);
-    EXPECT_THAT(refused.body, testing::Not(HasSubstr("<script")));
+    EXPECT_THAT(refused.body, Not(HasSubstr("<script")));
 }
 
 TEST(Health, IsGood) {
@@ -110,6 +179,57 @@ TEST(Metrics, CountWhatHappens) {
           "rois_connections{kind=\"http\"} 1", "rois_request_duration_seconds_count 5", "rois_connections_accepted_total 1"}) {
         EXPECT_THAT(reply.body, HasSubstr(std::string{line} + "\n"));
     }
+}
+
+TEST(Metrics, SayWhichSessionHasBoundWhat) {
+    GatewayProcess gateway;
+    HttpClient first{gateway}, second{gateway}, third{gateway};
+    first.call("connect");
+    second.call("connect");
+    second.call("bind", component_ref("navigation"));
+    second.call("bind", component_ref("move"));
+    third.call("connect");
+    third.call("bind", component_ref("reaction"));
+    third.call("disconnect");
+    auto const text = first.get("/metrics").body;
+    EXPECT_THAT(text, HasSubstr("rois_component_bound{component_ref=\"move\",session=\"2\"} 1\n"
+                                "rois_component_bound{component_ref=\"navigation\",session=\"2\"} 1\n#"))
+        << "and nothing else";
+    EXPECT_THAT(text, ContainsRegex("rois_session_age_seconds\\{session=\"1\"\\} [0-9.e-]+\nrois_session_age_seconds"
+                                    "\\{session=\"2\"\\} [0-9.e-]+\n#"));
+    for (auto const& session : {first.session, second.session}) EXPECT_THAT(text, Not(HasSubstr(session))) << "ids are secrets";
+}
+
+TEST(Metrics, SayWhichLimitsThereAreAndWhichWereReached) {
+    GatewayProcess gateway{{"--max-sessions", "1", "--max-connections", "2"}};
+    HttpClient desk{gateway}, guest{gateway};
+    desk.call("connect");
+    EXPECT_EQ(guest.call("connect").fault(), "too_many");
+    EXPECT_EQ(guest.call("connect").fault(), "too_many");
+    auto const reply = desk.get("/metrics");
+    for (auto const* line :
+         {"rois_limit{limit=\"sessions\"} 1", "rois_limit_reached_total{limit=\"sessions\"} 2",
+          "rois_limit{limit=\"connections\"} 2", "rois_limit{limit=\"commands\"} 1024",
+          "rois_limit_reached_total{limit=\"commands\"} 0", "rois_limit{limit=\"subscribed_predicates\"} 10000",
+          "rois_limit{limit=\"waiting_notifications\"} 1024", "rois_session_commands{session=\"1\"} 0",
+          "rois_session_subscriptions{session=\"1\"} 0", "rois_session_notifications_waiting{session=\"1\"} 0"})
+        EXPECT_THAT(reply.body, HasSubstr(std::string{line} + "\n"));
+    EXPECT_THAT(reply.body, ContainsRegex("rois_limit_reached_total\\{limit=\"connections\"\\} [01]\n"));
+}
+
+// A line for each family of metrics in docs/metrics.md, and no line without one.
+TEST(Metrics, AreInTheirDocument) {
+    GatewayProcess gateway;
+    HttpClient client{gateway};
+    client.call("connect");
+    std::set<std::string> told, written;
+    std::istringstream text{client.get("/metrics").body};
+    for (std::string line; std::getline(text, line);)
+        if (line.starts_with("# TYPE ")) told.insert(line.substr(7, line.find(' ', 7) - 7));
+    std::ifstream document{ROIS_SOURCE_DIR "/docs/metrics.md"};
+    for (std::string line; std::getline(document, line);)
+        if (line.starts_with("| `")) written.insert(line.substr(3, line.find_first_of("{`", 3) - 3));
+    EXPECT_EQ(told, written);
 }
 
 }  // namespace

@@ -90,5 +90,29 @@ TEST(HttpHead, EndsAtAnEmptyLine) {
     }
 }
 
+TEST(HttpHead, SaysWhetherItTakesGzip) {
+    auto const takes = [](std::string const& lines) {
+        return std::get<RequestHead>(read("GET / HTTP/1.1\r\nHost: h\r\n" + lines + "\r\n")).takes_gzip();
+    };
+    auto const encoding = [&](std::string const& value) { return takes("Accept-Encoding: " + value + "\r\n"); };
+    for (auto const* yes : {"gzip", "GZIP", "gzip, deflate, br", "br;q=1.0, gzip;q=0.8, *;q=0.1", "*", "identity, *;q=0.5",
+                            "gzip; q=0.001", "*;q=0, gzip"})
+        EXPECT_TRUE(encoding(yes)) << yes;
+    for (auto const* no : {"", "identity", "br", "gzip;q=0", "gzip ; q=0.000", "*;q=0", "gzip;Q=0, *", "xgzip"})
+        EXPECT_FALSE(encoding(no)) << no;
+    EXPECT_FALSE(takes("")) << "who says nothing gets it as it is";
+    EXPECT_TRUE(takes("Accept-Encoding: br\r\nAccept-Encoding: gzip\r\n"));
+}
+
+TEST(HttpHead, NamesAHarmlessHost) {
+    auto const host = [](std::string const& value) {
+        return std::get<RequestHead>(read("GET / HTTP/1.1\r\nHost: " + value + "\r\n\r\n")).host();
+    };
+    EXPECT_EQ(host("robot.example:8080"), "robot.example:8080");
+    EXPECT_EQ(host("[::1]:8080"), "[::1]:8080");
+    EXPECT_EQ(host("$(reboot);"), "localhost");
+    EXPECT_EQ(host(""), "localhost");
+}
+
 }  // namespace
 }  // namespace rois::net

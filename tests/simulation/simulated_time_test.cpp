@@ -98,6 +98,31 @@ TEST(Simulation, TellsTheTimeWhateverItsSpeed) {
     }
 }
 
+TEST(Simulation, StandsStillButForWhatIsLetPass) {
+    Simulation simulation{plain_hall(), nobody(), 1, 0};
+    Witness witness{simulation.hall()};
+    simulation.join(witness);
+    EXPECT_FALSE(simulation.runs_by_itself());
+    for (int i = 0; i < 3; ++i) simulation.advance(beginning + seconds{i});
+    EXPECT_EQ(simulation.hall().now(), WorldTime{20}) << "it has begun";
+    EXPECT_FALSE(simulation.goes_on());
+    EXPECT_EQ(simulation.let_pass(WorldTime{40}), WorldTime{60});
+    EXPECT_EQ(simulation.let_pass(WorldTime{20}), WorldTime{80});
+    int steps = 0;
+    for (; simulation.goes_on(); ++steps) simulation.advance(beginning + seconds{9});
+    EXPECT_EQ(steps, 3) << "one at a time";
+    EXPECT_EQ(simulation.hall().now(), WorldTime{80});
+    EXPECT_EQ(witness.seen.back().second.utc, (beginning + seconds{9}).utc);
+    simulation.let_pass(WorldTime{60});
+    simulation.advance(beginning + seconds{9});
+    simulation.stand_still();
+    simulation.advance(beginning + seconds{9});
+    EXPECT_EQ(simulation.hall().now(), WorldTime{100});
+    EXPECT_EQ(simulation.let_pass(WorldTime{20}), WorldTime{120}) << "what was dropped does not count";
+}
+
+TEST(Simulation, NeedsASpeedThatIsNone) { EXPECT_THROW((Simulation{plain_hall(), nobody(), 1, -1}), std::invalid_argument); }
+
 TEST(Simulation, GivesTheSameHistoryAtEveryFrameRate) {
     FloorPlan const plan = shipped_plan("reception-hall.xml");
     Simulation smooth{plan, reception_day(plan), 9, 10}, jerky{plan, reception_day(plan), 9, 10};

@@ -3,6 +3,8 @@ import { Client, type ClientOptions } from './client.js';
 import { open_node_socket } from './node_socket.js';
 
 export * from './index.js';
+/** What a `Client` of one's own making is opened with; `connect` does it by itself. */
+export { open_node_socket as open_socket } from './node_socket.js';
 
 /** Connects to the gateway at this URL. Rejects with RoisError `unreachable`. */
 export async function connect(url: string = 'http://127.0.0.1:8080', options: ClientOptions = {}): Promise<Client> {

@@ -1,10 +1,15 @@
 // The real program, run by a test.
 import { type ChildProcess, spawn } from 'node:child_process';
+import { existsSync } from 'node:fs';
 import { dirname, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-/** The project's root. Compiled, this file is web/client/build/tests/gateway.js. */
-export const root = resolve(dirname(fileURLToPath(import.meta.url)), '../../../..');
+/** The project's root, wherever this file was compiled to. */
+export const root = root_above(dirname(fileURLToPath(import.meta.url)));
+
+function root_above(folder: string): string {
+  return existsSync(resolve(folder, 'CMakePresets.json')) ? folder : root_above(dirname(folder));
+}
 
 const program = resolve(process.env['ROIS_BINARY_DIR'] ?? `${root}/build/release`, 'bin/rois-gateway');
 

@@ -1,0 +1,21 @@
+# cmake -DDIST=folder -DSOURCE=file -P embed_console.cmake: writes the source that has what Vite has built (the names of its assets change
+# with their content), each file as it is and compressed, where that is smaller.
+include(${CMAKE_CURRENT_LIST_DIR}/embed.cmake)
+
+file(GLOB_RECURSE built LIST_DIRECTORIES false ${DIST}/*)
+set(folder ${SOURCE}.files)
+file(REMOVE_RECURSE ${folder})
+foreach(file IN LISTS built)
+    cmake_path(RELATIVE_PATH file BASE_DIRECTORY ${DIST} OUTPUT_VARIABLE name)
+    cmake_path(GET name PARENT_PATH inside)
+    file(COPY ${file} DESTINATION ${folder}/${inside})
+    execute_process(COMMAND gzip -9n --keep ${folder}/${name} COMMAND_ERROR_IS_FATAL ANY)
+    file(SIZE ${folder}/${name} plain)
+    file(SIZE ${folder}/${name}.gz compressed)
+    if(compressed GREATER_EQUAL plain)
+        file(REMOVE ${folder}/${name}.gz)
+    endif()
+endforeach()
+file(GLOB_RECURSE files LIST_DIRECTORIES false ${folder}/*)
+source_with_files(text console ${folder} ${files})
+file(WRITE ${SOURCE} "${text}")

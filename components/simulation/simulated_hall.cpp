@@ -1,0 +1,223 @@
+#include "simulation/simulated_hall.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "simulation/component_refs.hpp"
+#include "simulation/languages.hpp"
+#include "simulation/parameter_reading.hpp"
+#include "simulation/steering.hpp"
+#include "simulation/wire_units.hpp"
+#include "types/listing.hpp"
+#include "types/texts.hpp"
+
+namespace rois::simulation {
+namespace {
+
+constexpr std::size_t longest_name = 64, longest_text = 16'384;  // bytes
+constexpr WorldTime most_to_pass = std::chrono::hours{1};
+
+bool is_true(std::string_view text) { return text == "true" || text == "1"; }
+
+// Of each person, as a list of truth values is written.
+template <class Is>
+Parameter truths(std::string name, std::span<Person const> people, Is is) {
+    Identifier type{.code = "bool[]", .authority = {}, .codebook_ref = {}, .version = {}};
+    std::string text;
+    for (auto const& person : people) text += (text.empty() ? "" : " ") + std::string{is(person) ? "true" : "false"};
+    return {.name = std::move(name), .data_type_ref = std::move(type), .values = {std::move(text)}};
+}
+
+class SimulatedHall final : public Component, private Observer {
+public:
+    SimulatedHall(std::shared_ptr<Simulation> simulation, ComponentProfile profile) : simulation_{std::move(simulation)} {
+        description_.ref = {.code = std::string{simulated_hall_ref},
+                            .authority = profile.object.code_space,
+                            .codebook_ref = profile.object.identifier,
+                            .version = {}};
+        description_.profile = std::make_shared<ComponentProfile const>(std::move(profile));
+        description_.positions = {"target_position"};
+    }
+
+    ~SimulatedHall() override { simulation_->part(*this); }
+    SimulatedHall(SimulatedHall const&) = delete;
+    SimulatedHall& operator=(SimulatedHall const&) = delete;
+
+    ComponentDescription const& description() const override { return description_; }
+
+    void attach(ComponentPort& port) override {
+        port_ = &port;
+        simulation_->join(*this);
+    }
+
+    ComponentStatus status() const override { return stepped_ ? ComponentStatus::ready : ComponentStatus::uninitialized; }
+
+    std::optional<std::string> refusal(std::string_view command_type, ParameterList const& arguments) const override {
+        if (command_type == "let_pass") return no_time(arguments);
+        if (auto const* visitor = find(arguments, "visitor_ref"))
+            if (auto problem = no_visitor(text_of(arguments, visitor->name))) return problem;
+        if (command_type == "gesture") return no_gesture(text_of(arguments, "gesture"));
+        if (command_type == "walk") return no_way(*find(arguments, "target_position"));
+        if (command_type == "say")
+            if (auto problem = no_words(text_of(arguments, "text"))) return problem;
+        auto const language = text_of(arguments, "language");
+        return language.empty() && command_type != "enter" ? std::nullopt : no_language(language);
+    }
+
+    // There is nothing to start: visitors can be steered anyway. So what stops a `start` leaves them alone, and whatever else
+    // ends something ends all of it.
+    void start(CommandHandle command, ParameterList const&, Instant) override {
+        started_ = true;
+        port_->completed(command, CompletedStatus::ok, {}, Afterwards::active);
+    }
+    void halt(Instant) override {
+        if (std::exchange(started_, false)) return;
+        orders_.clear();
+        passing_.clear();
+        hall().stop_steering();
+        simulation_->stand_still();
+    }
+    void suspend(Instant) override {}
+    void resume(Instant) override {}
+
+    void perform(CommandHandle command, std::string_view command_type, ParameterList const& arguments, Instant) override {
+        port_->started(command);
+        if (command_type == "let_pass") {
+            passing_.push_back({command, simulation_->let_pass(WorldTime{integer_of(arguments, "time").value_or(0)})});
+        } else if (Ordered ordered{command, order(command_type, arguments)}; !tell(ordered)) {
+            orders_.push_back(std::move(ordered));
+        }
+    }
+
+    std::vector<Results> query(std::string_view query_type, Instant) override {
+        if (query_type != "visitors") return {};
+        auto const people = hall().people();
+        std::vector<std::string> refs, poses;
+        for (auto const& person : people) {
+            refs.push_back(person.role);
+            poses.push_back(to_wire(person.pose));
+        }
+        return one_row({{texts("visitor_ref", std::move(refs)), positions("position_data", std::move(poses), hall().plan().crs),
+                         truths("known", people, [](Person const& person) { return person.known; }),
+                         truths("steered", people, [](Person const& person) { return is_steered(person.id); })},
+                        {}});
+    }
+
+private:
+    struct Ordered {
+        CommandHandle command;
+        SharedDeed deed;
+    };
+    struct Passing {
+        CommandHandle command;
+        WorldTime until;
+    };
+
+    Hall& hall() { return simulation_->hall(); }
+    Hall const& hall() const { return simulation_->hall(); }
+
+    std::optional<std::string> no_visitor(std::string_view name) const {
+        if (is_name(name) && name.size() <= longest_name && !hall().find_robot(name)) return {};
+        return "parameter 'visitor_ref': " + quoted(name) +
+               " is no name for a visitor: one without blanks, dots and colons, of " + std::to_string(longest_name) +
+               " bytes at most, that no robot has";
+    }
+
+    static std::optional<std::string> no_gesture(std::string_view gesture) {
+        if (std::ranges::find(gestures(), gesture) != gestures().end()) return {};
+        return "parameter 'gesture': " + quoted(gesture) + " is none of " + listed(gestures());
+    }
+
+    static std::optional<std::string> no_words(std::string_view text) {
+        if (!text.empty() && text.size() <= longest_text) return {};
+        return "parameter 'text' must have 1 to " + std::to_string(longest_text) + " bytes";
+    }
+
+    static std::optional<std::string> no_language(std::string_view language) {
+        if (is_language(language)) return {};
+        return "parameter 'language': " + quoted(language) + " is none of " + names_of_languages();
+    }
+
+    std::optional<std::string> no_way(Parameter const& targets) const {
+        auto const& plan = hall().plan();
+        if (targets.values.empty()) return "parameter 'target_position' must name one position or more";
+        if (auto problem = not_targets(targets, plan, [&](auto const& text) { return hall().target(text).has_value(); }))
+            return problem;
+        for (auto const& text : targets.values)
+            if (plan.clearance(hall().target(text)->position) <= 0)
+                return "parameter 'target_position': nobody can stand at " + quoted(text);
+        return {};
+    }
+
+    std::optional<std::string> no_time(ParameterList const& arguments) const {
+        if (simulation_->runs_by_itself()) return "the world runs by itself: time can be let pass with --sim-speed 0 only";
+        WorldTime const time{integer_of(arguments, "time").value_or(0)};
+        if (time > WorldTime{0} && time <= most_to_pass && time % Hall::step_length == WorldTime{0}) return {};
+        return "parameter 'time' must be a multiple of " + std::to_string(Hall::step_length.count()) + ", 1 hour at most, not " +
+               std::to_string(time.count());
+    }
+
+    SharedDeed order(std::string_view command_type, ParameterList const& arguments) {
+        std::string const visitor{text_of(arguments, "visitor_ref")}, language{text_of(arguments, "language")};
+        if (command_type == "enter") return enter(visitor, language, is_true(text_of(arguments, "known")));
+        if (command_type == "say") return hall().steer(visitor, Say{language, std::string{text_of(arguments, "text")}});
+        if (command_type == "gesture") return hall().steer(visitor, Gesture{std::string{text_of(arguments, "gesture")}});
+        if (command_type == "leave") return hall().steer(visitor, Leave{});
+        Way way;
+        for (auto const& text : find(arguments, "target_position")->values) way.stops.push_back(*hall().target(text));
+        return hall().steer(visitor, std::move(way));
+    }
+
+    SharedDeed enter(std::string const& visitor, std::string const& language, bool known) {
+        Role role;
+        role.id = visitor;
+        role.known = known;
+        role.language = language;
+        return hall().let_in(std::move(role));
+    }
+
+    // What has become of an order; false when it goes on.
+    bool tell(Ordered const& ordered) {
+        switch (ordered.deed->state) {
+            case Deed::State::goes_on:
+                return false;
+            case Deed::State::done:
+                port_->completed(ordered.command, CompletedStatus::ok);
+                break;
+            case Deed::State::failed:
+                port_->completed(ordered.command, CompletedStatus::error, {{text("reason", ordered.deed->why)}, {}});
+                break;
+            case Deed::State::dropped:
+                port_->completed(ordered.command, CompletedStatus::abort);
+                break;
+        }
+        return true;
+    }
+
+    void observe(Instant) override {
+        stepped_ = true;
+        std::erase_if(orders_, [&](Ordered const& ordered) { return tell(ordered); });
+        for (; !passing_.empty() && passing_.front().until <= hall().now(); passing_.pop_front())
+            port_->completed(passing_.front().command, CompletedStatus::ok);
+    }
+
+    std::shared_ptr<Simulation> simulation_;
+    ComponentDescription description_;
+    ComponentPort* port_ = nullptr;
+    bool stepped_ = false;
+    bool started_ = false;
+    std::vector<Ordered> orders_;  // that go on
+    std::deque<Passing> passing_;
+};
+
+}  // namespace
+
+std::unique_ptr<Component> simulated_hall(std::shared_ptr<Simulation> simulation, ComponentProfile profile) {
+    return std::make_unique<SimulatedHall>(std::move(simulation), std::move(profile));
+}
+
+}  // namespace rois::simulation

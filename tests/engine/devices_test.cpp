@@ -1,0 +1,99 @@
+// Devices: moved by time, one turn after the other.
+#include <gmock/gmock.h>
+
+#include <optional>
+
+#include "world.hpp"
+
+namespace rois {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+
+namespace {
+
+// Ends what it was told to start when it is told so.
+class Machine final : public Component {
+public:
+    explicit Machine(Part const& part) {
+        description_.ref = Application::identifier(part.ref);
+        description_.profile = std::make_shared<ComponentProfile const>(part.profile);
+    }
+    void finish() {
+        if (running_) port_->completed(*std::exchange(running_, {}), CompletedStatus::ok);
+    }
+
+    ComponentDescription const& description() const override { return description_; }
+    void attach(ComponentPort& port) override { port_ = &port; }
+    ComponentStatus status() const override { return ComponentStatus::ready; }
+    std::optional<std::string> refusal(std::string_view, ParameterList const&) const override { return {}; }
+    void start(CommandHandle command, ParameterList const&, Instant) override { running_ = command; }
+    void halt(Instant) override { running_.reset(); }
+    void suspend(Instant) override {}
+    void resume(Instant) override {}
+
+private:
+    ComponentDescription description_;
+    ComponentPort* port_ = nullptr;
+    std::optional<CommandHandle> running_;
+};
+
+// Lets the machine finish in each of its turns.
+class Motor final : public Device {
+public:
+    explicit Motor(Machine& machine) : machine_{machine} {}
+    void advance(Instant) override {
+        ++turns;
+        machine_.finish();
+    }
+    bool goes_on() const override { return turns % goes_on_until != 0; }
+
+    int turns = 0;
+    int goes_on_until = 1;  // a multiple of this
+
+private:
+    Machine& machine_;
+};
+
+struct Devices : testing::Test {
+    World world{navigation};
+    std::shared_ptr<Motor> motor;
+    Application desk = connect();
+
+    Application connect() {
+        auto machine = std::make_unique<Machine>(named("machine", detection));
+        motor = std::make_shared<Motor>(*machine);
+        world.engine->add(std::move(machine));
+        world.engine->add(motor);
+        auto application = world.connect();
+        application.bind("machine");
+        return application;
+    }
+};
+
+}  // namespace
+
+TEST_F(Devices, HaveATurnInATick) {
+    desk.execute(named("one", start("machine")), named("two", start("machine")));
+    world.advance(50ms);
+    EXPECT_EQ(motor->turns, 1);
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed one OK"));
+}
+
+TEST_F(Devices, GoOnWhenTheEngineHasTakenInWhatCameOfTheirTurn) {
+    motor->goes_on_until = 3;
+    desk.execute(named("one", start("machine")), named("two", start("machine")), named("three", start("machine")));
+    world.advance(50ms);
+    EXPECT_EQ(motor->turns, 3);
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed one OK", "2 completed two OK", "3 completed three OK"));
+}
+
+TEST_F(Devices, KeepNobodyWaitingForLong) {
+    motor->goes_on_until = 1'000'000;
+    world.advance(50ms);
+    EXPECT_EQ(motor->turns, 100);
+    world.advance(50ms);
+    EXPECT_EQ(motor->turns, 200) << "the rest is for the next ticks";
+}
+
+}  // namespace rois

@@ -1,0 +1,221 @@
+// The hall as a component: steered visitors, and a world that stands still.
+#include "simulation/simulated_hall.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "simulation/component_stage.hpp"
+
+namespace rois::simulation::stage {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::MatchesRegex;
+
+// The component as the engine has it, in a world that the test moves.
+class Steerer final : public ComponentPort {
+public:
+    explicit Steerer(double speed = 0, std::vector<Role> roles = {})
+        : simulation{std::make_shared<Simulation>(reception(), Scenario{"test", {}, std::move(roles), {}, {}}, 7, speed)},
+          component{simulated_hall(simulation, profile())} {
+        component->attach(*this);
+    }
+
+    static ComponentProfile profile() {
+        auto const* const file = "simulated_hall.xml";
+        return xml::read_component_profile(schemas(), file, std::string{files::simulation().at(file)});
+    }
+
+    // What the engine would have refused.
+    std::string refusal(std::string const& type, ParameterList const& arguments) {
+        return component->refusal(type, arguments).value_or("");
+    }
+
+    std::uint64_t perform(std::string const& type, ParameterList const& arguments) {
+        EXPECT_EQ(refusal(type, arguments), "");
+        component->perform(CommandHandle{++last_}, type, arguments, now_);
+        return last_;
+    }
+    std::uint64_t enter(std::string const& name, bool known = false) {
+        return perform("enter", {text("visitor_ref", name), text("language", "en"), boolean("known", known)});
+    }
+    std::uint64_t walk(std::string const& name, std::vector<std::string> positions) {
+        return perform("walk", {text("visitor_ref", name), texts("target_position", std::move(positions))});
+    }
+    std::uint64_t let_pass(int milliseconds) { return perform("let_pass", {integer("time", milliseconds)}); }
+
+    // As the engine's ticks do it, until there is nothing more to do.
+    void advance() {
+        do {
+            now_ = now_ + std::chrono::milliseconds{10};
+            simulation->advance(now_);
+        } while (simulation->goes_on());
+    }
+
+    // "OK", "ERROR there is no visitor ...", "goes on"
+    std::string outcome(std::uint64_t command) const {
+        auto const found = ended_.find(command);
+        return found == ended_.end() ? "goes on" : found->second;
+    }
+    Results visitors() { return component->query("visitors", now_).at(0); }
+
+    void started(CommandHandle) override {}
+    void completed(CommandHandle command, CompletedStatus status, Results results, Afterwards) override {
+        auto const text = std::string{to_text(status)} + (results.parameters.empty() ? "" : " " + value(results, "reason"));
+        EXPECT_TRUE(ended_.emplace(static_cast<std::uint64_t>(command), text).second) << "a command ends once";
+    }
+    void event(std::string_view, Results) override { ADD_FAILURE() << "the hall has no events"; }
+    void error(ErrorType, std::string text, Report) override { ADD_FAILURE() << text; }
+
+    std::shared_ptr<Simulation> simulation;
+    std::unique_ptr<Component> component;
+
+private:
+    Instant now_{Steady{}, Utc{std::chrono::seconds{1'800'000'000}}};
+    std::uint64_t last_ = 0;
+    std::map<std::uint64_t, std::string> ended_;
+};
+
+TEST(SimulatedHall, BelongsToNoRobot) {
+    Steerer steerer;
+    auto const& description = steerer.component->description();
+    EXPECT_EQ(description.ref.code, "simulated_hall");
+    EXPECT_EQ(description.ref.codebook_ref, "urn:x-rois:def:component:simulation::Hall");
+    EXPECT_EQ(description.engine, "");
+    EXPECT_THAT(description.positions, ElementsAre("target_position"));
+    EXPECT_FALSE(steerer.component->location());
+    EXPECT_EQ(steerer.component->status(), ComponentStatus::uninitialized);
+    steerer.advance();
+    EXPECT_EQ(steerer.component->status(), ComponentStatus::ready);
+}
+
+TEST(SimulatedHall, LetsTimePass) {
+    Steerer steerer;
+    steerer.advance();
+    steerer.advance();
+    EXPECT_EQ(steerer.simulation->hall().now(), WorldTime{20}) << "the world has begun, and stands still";
+    auto const short_time = steerer.let_pass(100), long_time = steerer.let_pass(2'000);
+    EXPECT_EQ(steerer.outcome(short_time), "goes on");
+    while (steerer.simulation->hall().now() < WorldTime{120}) steerer.simulation->advance(Instant{});
+    EXPECT_EQ(steerer.outcome(short_time), "OK");
+    EXPECT_EQ(steerer.outcome(long_time), "goes on") << "one after the other";
+    steerer.advance();
+    EXPECT_EQ(steerer.simulation->hall().now(), WorldTime{2'120});
+    EXPECT_EQ(steerer.outcome(long_time), "OK");
+}
+
+TEST(SimulatedHall, LetsNoTimePassWhereItPassesByItself) {
+    Steerer steerer{1};
+    EXPECT_THAT(steerer.refusal("let_pass", {integer("time", 100)}), HasSubstr("the world runs by itself"));
+    steerer.enter("anna");
+    steerer.advance();
+    EXPECT_THAT(values(steerer.visitors(), "visitor_ref"), ElementsAre("anna")) << "but visitors are steered";
+}
+
+TEST(SimulatedHall, RefusesWhatCannotBe) {
+    Steerer steerer;
+    for (int const time : {0, -20, 30, 3'600'020})
+        EXPECT_THAT(steerer.refusal("let_pass", {integer("time", time)}), HasSubstr("a multiple of 20, 1 hour at most")) << time;
+    auto const anna = text("visitor_ref", "anna");
+    for (auto const* name : {"", "an na", "an:na", "an.na", "robot"})
+        EXPECT_THAT(steerer.refusal("leave", {text("visitor_ref", name)}), HasSubstr("is no name for a visitor")) << name;
+    EXPECT_THAT(steerer.refusal("leave", {text("visitor_ref", std::string(65, 'a'))}), HasSubstr("64 bytes"));
+    EXPECT_THAT(steerer.refusal("enter", {anna, text("language", "jp")}), HasSubstr("'jp' is none of de, en"));
+    EXPECT_THAT(steerer.refusal("enter", {anna, text("language", "")}), HasSubstr("'language'"));
+    EXPECT_EQ(steerer.refusal("say", {anna, text("text", "Hello"), text("language", "")}), "") << "theirs";
+    EXPECT_THAT(steerer.refusal("say", {anna, text("text", " ")}), HasSubstr("'text' must have 1 to 16384 bytes"));
+    EXPECT_THAT(steerer.refusal("say", {anna, text("text", "Hello"), text("language", "xx")}), HasSubstr("'xx'"));
+    EXPECT_THAT(steerer.refusal("gesture", {anna, text("gesture", "jump")}), HasSubstr("'jump' is none of wave, nod"));
+    auto const walk = [&](std::vector<std::string> to) { return steerer.refusal("walk", {anna, texts("target_position", to)}); };
+    EXPECT_THAT(walk({}), HasSubstr("one position or more"));
+    EXPECT_THAT(walk({"attic"}), HasSubstr("'attic' is neither"));
+    EXPECT_THAT(walk({"3000, 2000", "13000, 1000"}), HasSubstr("nobody can stand at '13000, 1000'"));
+    EXPECT_EQ(walk({"desk", "3000, 2000", "3000, 2000, 90"}), "");
+}
+
+TEST(SimulatedHall, TellsHowCommandsEnd) {
+    Steerer steerer;
+    steerer.advance();
+    auto const nobody = steerer.walk("anna", {"desk"});
+    EXPECT_EQ(steerer.outcome(nobody), "ERROR there is no visitor anna in the hall") << "at once";
+    auto const comes = steerer.enter("anna", true), too_early = steerer.walk("anna", {"desk"});
+    EXPECT_EQ(steerer.outcome(comes), "goes on");
+    EXPECT_THAT(steerer.outcome(too_early), HasSubstr("ERROR there is no visitor anna"));
+    steerer.let_pass(20);
+    steerer.advance();
+    EXPECT_EQ(steerer.outcome(comes), "OK");
+    EXPECT_EQ(steerer.outcome(steerer.enter("anna")), "ERROR anna is in the hall already");
+
+    auto const first = steerer.walk("anna", {"3000, 6000"}), second = steerer.walk("anna", {"desk"});
+    auto const says = steerer.perform("say", {text("visitor_ref", "anna"), text("text", "Hello."), text("language", "")});
+    auto const waves = steerer.perform("gesture", {text("visitor_ref", "anna"), text("gesture", "wave")});
+    steerer.let_pass(60'000);
+    steerer.advance();
+    EXPECT_EQ(steerer.outcome(first), "ABORT") << "the second took its place";
+    for (auto const command : {second, says, waves}) EXPECT_EQ(steerer.outcome(command), "OK");
+    EXPECT_THAT(values(steerer.visitors(), "position_data"), ElementsAre(MatchesRegex("(29|30).., (19|20).., 90")));
+
+    auto const leaves = steerer.perform("leave", {text("visitor_ref", "anna")});
+    steerer.let_pass(60'000);
+    steerer.advance();
+    EXPECT_EQ(steerer.outcome(leaves), "OK");
+    EXPECT_THAT(values(steerer.visitors(), "visitor_ref"), IsEmpty());
+}
+
+TEST(SimulatedHall, KnowsWhoIsThereInTruth) {
+    Steerer steerer{0, {known(visitor("tanaka", {does(Wait{60})})), visitor("late", {does(Wait{60})}, 100)}};
+    steerer.advance();
+    steerer.let_pass(1'000);
+    steerer.advance();
+    steerer.enter("anna");
+    steerer.let_pass(1'000);
+    steerer.advance();
+    EXPECT_THAT(values(steerer.visitors(), "visitor_ref"), ElementsAre("tanaka")) << "he stands in the entrance";
+    Steerer other{0, {visitor("late", {does(Walk{at(5, 5)}), does(Wait{60})})}};
+    other.advance();
+    other.let_pass(10'000);
+    other.advance();
+    other.enter("anna", true);
+    other.let_pass(20);
+    other.advance();
+    auto const all = other.visitors();
+    EXPECT_THAT(values(all, "visitor_ref"), ElementsAre("late", "anna")) << "in the order of their coming";
+    EXPECT_THAT(values(all, "position_data"), ElementsAre(testing::StartsWith("5"), "11000, 4000, 180"));
+    EXPECT_EQ(codebook_of(all, "position_data"), "urn:x-rois:def:crs:simulation::hall");
+    EXPECT_EQ(value(all, "known"), "false true");
+    EXPECT_EQ(value(all, "steered"), "false true");
+    EXPECT_TRUE(other.component->query("weather", {}).empty());
+}
+
+// What ends its commands from outside (release, the end of a session) ends them for the visitors, too; `stop` ends what `start`
+// began, which is nothing.
+TEST(SimulatedHall, IsHalted) {
+    Steerer steerer;
+    steerer.advance();
+    steerer.enter("anna");
+    steerer.let_pass(20);
+    steerer.advance();
+    steerer.component->start(CommandHandle{1'000}, {}, {});
+    EXPECT_EQ(steerer.outcome(1'000), "OK");
+    auto const walks = steerer.walk("anna", {"desk"}), waits = steerer.let_pass(10'000);
+    steerer.component->halt({});
+    steerer.simulation->advance({});
+    EXPECT_EQ(steerer.simulation->hall().now(), WorldTime{60}) << "it goes on";
+    steerer.component->halt({});
+    steerer.advance();
+    steerer.advance();
+    EXPECT_EQ(steerer.simulation->hall().now(), WorldTime{60}) << "it stands still";
+    steerer.let_pass(10'000);
+    steerer.advance();
+    EXPECT_THAT(values(steerer.visitors(), "position_data"), ElementsAre(testing::StartsWith("10")))
+        << "the visitor was on the way for a step, and stands there";
+    EXPECT_EQ(steerer.outcome(walks), "goes on") << "to be ended by whoever halts";
+    EXPECT_EQ(steerer.outcome(waits), "goes on");
+}
+
+}  // namespace
+}  // namespace rois::simulation::stage

@@ -1,0 +1,30 @@
+// What the engine has, as a tree of engines and components, and everything that can be done with the one that is chosen.
+import './components.css';
+
+import { useConsole, useWatch } from '../shell/context';
+import { EmptyState, SplitPane, useIsWide } from '../ui';
+import { Detail } from './detail';
+import { texts } from './texts';
+import { Tree } from './tree';
+
+export default function ComponentsPanel() {
+  const { profile, status, metrics, selection } = useConsole();
+  useWatch(status.poll);
+  useWatch(metrics.poll);
+  const [frame, is_wide] = useIsWide(820); // for the tree and the component side by side
+  const engine = profile.engine.value;
+  const ref = selection.component.value;
+  const view = profile.component(ref);
+  const detail = view ? <Detail key={ref} view={view} /> : <EmptyState icon="components" title={profile.is_empty.value ? texts().empty : ref === '' ? texts().pick : texts().gone(ref)} />;
+  return (
+    <div ref={frame} class="engine-panel">
+      {!engine ? (
+        <EmptyState icon="components" title={texts().none} />
+      ) : is_wide ? (
+        <SplitPane key="row" id="components.row" direction="row" share={0.34} label={texts().tree} first={<Tree engine={engine} />} second={detail} />
+      ) : (
+        <SplitPane key="column" id="components.column" direction="column" share={0.36} label={texts().tree} first={<Tree engine={engine} />} second={detail} />
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,66 @@
+// English and Japanese. Each part of the page has its own `texts.ts` with both.
+import { signal } from '@preact/signals';
+
+export type Language = 'en' | 'ja';
+export const languages: readonly { code: Language; name: string }[] = [
+  { code: 'en', name: 'English' },
+  { code: 'ja', name: '日本語' },
+];
+
+/** The language of the page. */
+export const language = signal<Language>('en');
+
+type Text = string | ((...given: never[]) => string);
+type SameShape<T> = { [Key in keyof T]: T[Key] extends (...given: infer Given) => string ? (...given: Given) => string : string };
+
+/**
+ * The texts of a part: `export const texts = in_both({ en: { ... }, ja: { ... } })`. A component calls `texts()` while it renders, and is
+ * rendered again when the language changes. What depends on numbers or names is a function.
+ */
+export function in_both<T extends Record<string, Text>>(both: { en: T; ja: SameShape<T> }): () => SameShape<T> {
+  return () => (language.value === 'ja' ? both.ja : (both.en as unknown as SameShape<T>));
+}
+
+/** The language that the browser wishes for, among those that there are. */
+export function wished_language(wishes: readonly string[]): Language {
+  for (const wish of wishes) {
+    if (wish.toLowerCase().startsWith('ja')) return 'ja';
+    if (wish.toLowerCase().startsWith('en')) return 'en';
+  }
+  return 'en';
+}
+
+// --- Numbers and times, in the language of the page ---
+
+/** `14:03:21.480`, in the time zone of the browser. */
+export function clock_time(at: number, with_ms = true): string {
+  const date = new Date(at);
+  const two = (n: number) => String(n).padStart(2, '0');
+  const time = `${two(date.getHours())}:${two(date.getMinutes())}:${two(date.getSeconds())}`;
+  return with_ms ? `${time}.${String(date.getMilliseconds()).padStart(3, '0')}` : time;
+}
+
+/** `0.4 s`, `12 s`, `3 min`, `2 h`: how long something is ago or takes. */
+export function duration(ms: number): string {
+  const japanese = language.value === 'ja';
+  const said = (n: number, digits: number, en: string, ja: string) => {
+    const text = n.toLocaleString(language.value, { maximumFractionDigits: digits, minimumFractionDigits: digits });
+    return japanese ? `${text}${ja}` : `${text} ${en}`;
+  };
+  if (ms < 1000) return said(Math.max(0, Math.round(ms)), 0, 'ms', 'ミリ秒');
+  if (ms < 9950) return said(ms / 1000, 1, 's', '秒');
+  if (ms < 60_000) return said(Math.floor(ms / 1000), 0, 's', '秒');
+  if (ms < 3_600_000) return said(Math.floor(ms / 60_000), 0, 'min', '分');
+  return said(Math.floor(ms / 3_600_000), 0, 'h', '時間');
+}
+
+export function count_text(n: number): string {
+  return n.toLocaleString(language.value);
+}
+
+/** `1.2 KiB` */
+export function bytes_text(n: number): string {
+  if (n < 1024) return `${n} B`;
+  if (n < 1024 * 1024) return `${(n / 1024).toFixed(1)} KiB`;
+  return `${(n / 1024 / 1024).toFixed(1)} MiB`;
+}

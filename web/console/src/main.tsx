@@ -1,0 +1,28 @@
+import './ui/tokens.css';
+import './ui/base.css';
+import './ui/widgets.css';
+import './shell/shell.css';
+
+import { render } from 'preact';
+
+import { type Language, language, wished_language } from './i18n/i18n';
+import { App } from './shell/app';
+import { browser } from './shell/environment';
+import { follow_window } from './shell/layout';
+import { follow_system, type Theme, theme } from './shell/theme';
+import { Console } from './state/console';
+
+theme.value = (browser.recall('theme') as Theme | undefined) ?? 'system';
+language.value = (browser.recall('language') as Language | undefined) ?? wished_language(navigator.languages);
+follow_system();
+follow_window(browser.recall('panels'));
+
+const state = new Console(browser);
+state.connect();
+// What this page runs must not go on when the page has gone.
+addEventListener('pagehide', () => void state.close());
+addEventListener('pageshow', (event) => {
+  if (event.persisted) state.connect(state.current_token);
+});
+
+render(<App console={state} />, document.getElementById('console')!);

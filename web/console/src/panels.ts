@@ -1,0 +1,24 @@
+// The panels of the page. A line here puts a panel into the navigation; docs/console.md says what it has to bring.
+import type { ComponentType } from 'preact';
+
+import { texts as components } from './components/texts';
+import { texts as messages } from './messages/texts';
+import type { IconName } from './ui/icon';
+
+/** Where a panel stands on a wide screen: the big one, the strip below it, or the column beside both. */
+export type Area = 'main' | 'below' | 'side';
+
+export interface Panel {
+  /** In addresses (`#components`) and in what is remembered. */
+  id: string;
+  title: () => string;
+  icon: IconName;
+  area: Area;
+  /** A chunk of its own, fetched when it is first shown. */
+  load: () => Promise<{ default: ComponentType }>;
+}
+
+export const panels: readonly Panel[] = [
+  { id: 'components', title: () => components().title, icon: 'components', area: 'side', load: () => import('./components/panel') },
+  { id: 'messages', title: () => messages().title, icon: 'messages', area: 'below', load: () => import('./messages/panel') },
+];

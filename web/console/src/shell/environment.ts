@@ -1,0 +1,37 @@
+// The browser as the state sees it.
+import { open_socket } from 'rois-client';
+
+import type { Environment } from '../state/environment';
+
+const prefix = 'rois-console.';
+
+export const browser: Environment = {
+  origin: location.origin,
+  now: () => Date.now(),
+  every: (ms, act) => {
+    const timer = setInterval(act, ms);
+    return () => clearInterval(timer);
+  },
+  after: (ms, act) => {
+    const timer = setTimeout(act, ms);
+    return () => clearTimeout(timer);
+  },
+  // A page that nobody sees draws no pictures, and its memory must stay bounded all the same.
+  before_picture: (act) => void (document.hidden ? setTimeout(act, 1000) : requestAnimationFrame(act)),
+  fetch: (path, init) => fetch(path, init),
+  open_socket,
+  recall: (name) => {
+    try {
+      return localStorage.getItem(prefix + name) ?? undefined;
+    } catch {
+      return undefined; // the user's settings forbid it
+    }
+  },
+  remember: (name, value) => {
+    try {
+      localStorage.setItem(prefix + name, value);
+    } catch {
+      // then it is not remembered
+    }
+  },
+};

@@ -1,0 +1,64 @@
+// Where the panels stand: on a wide screen in up to three areas at once, on a narrower one behind one row of tabs.
+import { signal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+
+import { type Area, type Panel, panels } from '../panels';
+import { SplitPane } from '../ui/split_pane';
+import { Tabs } from '../ui/tabs';
+import { useConsole } from './context';
+import { PanelFrame } from './panel_frame';
+import { texts } from './texts';
+
+const wide = signal(true);
+const areas: readonly Area[] = ['main', 'below', 'side'];
+
+/** Which panel is shown, in each area and, on a narrow screen, in all. */
+const shown = signal<Readonly<Record<Area | 'all', string>>>({ main: '', below: '', side: '', all: '' });
+
+/** Shows a panel, wherever it stands. Panels use it to lead from one to the other. */
+export function show_panel(id: string): void {
+  const panel = panels.find((one) => one.id === id);
+  if (!panel) return;
+  shown.value = { ...shown.value, [panel.area]: id, all: id };
+  history.replaceState(null, '', `#${id}`);
+}
+
+/** Follows the width of the window and the address. */
+export function follow_window(recalled: string | undefined): void {
+  const query = matchMedia('(min-width: 1100px)');
+  const read = () => (wide.value = query.matches);
+  query.addEventListener('change', read);
+  read();
+  const from_address = () => show_panel(location.hash.slice(1));
+  addEventListener('hashchange', from_address);
+  for (const id of (recalled ?? '').split(' ')) {
+    const panel = panels.find((one) => one.id === id);
+    if (panel) shown.value = { ...shown.value, [panel.area]: id, all: id };
+  }
+  from_address();
+}
+
+export function Layout() {
+  const { environment } = useConsole();
+  const now = shown.value;
+  useEffect(() => environment.remember('panels', `${now.main} ${now.below} ${now.side} ${now.all}`), [now]);
+  if (!wide.value) return <Group id="all" label={texts().panels} panels={panels} />;
+  const [main, below, side] = areas.map((area) => {
+    const those = panels.filter((one) => one.area === area);
+    return those.length === 0 ? undefined : <Group id={area} label={texts()[area]} panels={those} />;
+  });
+  const left = main && below ? <SplitPane id="below" direction="column" share={0.62} label={texts().below} first={main} second={below} /> : (main ?? below);
+  if (!left || !side) return left ?? side ?? null;
+  return <SplitPane id="side" direction="row" share={0.64} label={texts().side} first={left} second={side} />;
+}
+
+function Group({ id, label, panels: those }: { id: Area | 'all'; label: string; panels: readonly Panel[] }) {
+  const chosen = those.find((one) => one.id === shown.value[id]) ?? those[0];
+  if (!chosen) return null;
+  const tabs = those.map((one) => ({ id: one.id, title: one.title(), icon: one.icon }));
+  return (
+    <Tabs label={label} tabs={tabs} chosen={chosen.id} choose={show_panel}>
+      <PanelFrame key={chosen.id} panel={chosen} />
+    </Tabs>
+  );
+}

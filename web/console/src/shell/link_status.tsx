@@ -1,0 +1,68 @@
+// How the link is: a mark in the header, and a line below it when there is something to say.
+import { useConsole } from './context';
+import type { Phase } from '../state/link_state';
+import { Badge, type Tone } from '../ui/states';
+import { Button } from '../ui/button';
+import { texts } from './texts';
+
+const tones: Record<Phase, Tone> = {
+  connecting: 'busy', open: 'good', resumed: 'good', lost: 'bad', refused: 'bad', token: 'warning', draining: 'warning', closed: 'calm',
+};
+
+export function LinkMark() {
+  const { link, now } = useConsole();
+  const { phase, reason } = link.view.value;
+  const age = now.value - link.heard_at;
+  return (
+    <div class="link-mark">
+      <Badge tone={tones[phase]} title={reason}>
+        {texts().phase(phase)}
+      </Badge>
+      {link.heard_at > 0 && <span class="link-age">{texts().age(Math.max(0, age))}</span>}
+    </div>
+  );
+}
+
+export function LinkBanner() {
+  const console = useConsole();
+  const t = texts();
+  const { phase, reason, since } = console.link.view.value;
+  const missed = console.link.missed.value;
+  const heard = console.link.heard_at;
+  // A link that opens within a moment is not worth a line that comes and goes.
+  const is_long = console.now.value - since > 1500;
+  const said = () => {
+    if (phase === 'lost') return `${t.is_old(console.now.value - heard)} ${t.lost_hint}`;
+    if (phase === 'draining') return heard > 0 ? `${t.draining_hint} ${t.is_old(console.now.value - heard)}` : t.draining_hint;
+    if (phase === 'connecting') return is_long ? t.connecting_hint : '';
+    return { refused: t.refused_hint, closed: t.closed_hint }[phase as string] ?? '';
+  };
+  const text = said();
+  return (
+    <div class="banners" role="status" aria-live="polite">
+      {text !== '' && (
+        <p class={`banner banner-${tones[phase]}`}>
+          <strong>{t.phase(phase)}.</strong> {text} {reason !== '' && phase !== 'closed' && <code>{reason}</code>}
+          {phase === 'closed' && (
+            <Button small onClick={() => console.connect(console.current_token)}>
+              {t.connect}
+            </Button>
+          )}
+        </p>
+      )}
+      {missed && (
+        <p class="banner banner-warning">
+          {missed.gap.reason === 'lost' ? t.missed_lost(missed.gap.count) : t.missed_session}
+          <Button small onClick={() => console.link.forget_missed()}>
+            {t.seen}
+          </Button>
+        </p>
+      )}
+      {console.profile.is_empty.value && (
+        <p class="banner banner-calm">
+          <strong>{t.empty_engine}.</strong> {t.empty_engine_hint}
+        </p>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,38 @@
+import { Button, IconButton } from '../ui/button';
+import { Icon, type IconName } from '../ui/icon';
+import { texts as ui } from '../ui/texts';
+import type { Severity } from '../state/notices';
+import { useConsole } from './context';
+import { texts } from './texts';
+
+const signs: Record<Severity, IconName> = { info: 'info', good: 'check', warning: 'warning', error: 'warning' };
+
+/** At the edge of the page. Errors are said at once, all else when the screen reader has time. */
+export function NoticeArea() {
+  const { notices } = useConsole();
+  return (
+    <section class="notices" aria-label={texts().notices}>
+      {notices.list.value.map((one) => (
+        <div key={one.number} class={`notice notice-${one.severity}`} role={one.severity === 'error' ? 'alert' : 'status'}>
+          <Icon name={signs[one.severity]} />
+          <div class="notice-text">
+            <p>{one.text}</p>
+            {one.detail && <p class="notice-detail">{one.detail}</p>}
+          </div>
+          {one.action && (
+            <Button
+              small
+              onClick={() => {
+                one.action?.act();
+                notices.dismiss(one.number);
+              }}
+            >
+              {one.action.label}
+            </Button>
+          )}
+          <IconButton small icon="close" label={ui().close} onClick={() => notices.dismiss(one.number)} />
+        </div>
+      ))}
+    </section>
+  );
+}

@@ -1,0 +1,28 @@
+// Dark or light, as the user wishes or as their system is.
+import { computed, effect, signal } from '@preact/signals';
+
+export type Theme = 'system' | 'dark' | 'light';
+
+export const theme = signal<Theme>('system');
+const system_is_dark = signal(true);
+
+/** What is shown; for what is drawn on a canvas, which must be drawn anew when it changes. */
+export const shown_theme = computed<'dark' | 'light'>(() => {
+  if (theme.value !== 'system') return theme.value;
+  return system_is_dark.value ? 'dark' : 'light';
+});
+
+export function follow_system(): void {
+  const query = matchMedia('(prefers-color-scheme: dark)');
+  const read = () => (system_is_dark.value = query.matches);
+  query.addEventListener('change', read);
+  read();
+  effect(() => {
+    document.documentElement.dataset['theme'] = shown_theme.value;
+  });
+}
+
+/** The value of one of the custom properties of tokens.css, for a canvas. */
+export function color(name: `--${string}`): string {
+  return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+}

@@ -1,0 +1,47 @@
+// Asked for when the gateway wants a token. It is kept for this visit alone.
+import { useSignal } from '@preact/signals';
+
+import { Button } from '../ui/button';
+import { Dialog } from '../ui/dialog';
+import { TextField } from '../ui/field';
+import { useConsole } from './context';
+import { texts } from './texts';
+
+export function TokenDialog() {
+  const console = useConsole();
+  const t = texts();
+  const token = useSignal('');
+  const { phase, reason } = console.link.view.value;
+  const connect = () => {
+    if (token.value.trim() !== '') console.connect(token.value.trim());
+  };
+  return (
+    <Dialog
+      title={t.token_title}
+      open={phase === 'token'}
+      close={() => undefined}
+      closable={false}
+      actions={
+        <Button look="primary" onClick={connect} disabled={token.value.trim() === ''}>
+          {t.connect}
+        </Button>
+      }
+    >
+      <form
+        onSubmit={(event) => {
+          event.preventDefault();
+          connect();
+        }}
+      >
+        <TextField
+          label={t.token_label}
+          hint={t.token_hint}
+          error={console.current_token === undefined ? '' : `${t.token_wrong} ${reason}`}
+          value={token.value}
+          change={(value) => (token.value = value)}
+          input={{ type: 'password', autofocus: true }}
+        />
+      </form>
+    </Dialog>
+  );
+}

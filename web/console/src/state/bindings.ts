@@ -1,0 +1,116 @@
+// Which components this console has bound, and binding on demand.
+import { signal } from '@preact/signals';
+import { type Client, parse_xml } from 'rois-client';
+
+import type { LoggedDocument } from './documents';
+
+/** Who has a component: this console, another session by its number, or nobody. */
+export type Holder = { who: 'me' } | { who: 'other'; session: string } | { who: 'nobody' };
+
+/** Gives back what was borrowed; what was bound only for that is released. */
+export type GiveBack = () => Promise<void>;
+
+export class Bindings {
+  readonly mine = signal<ReadonlySet<string>>(new Set());
+  private readonly borrowed = new Map<string, number>(); // those that were bound to be lent, and how many have them
+  private readonly kept = new Set<string>();
+
+  constructor(
+    private readonly client: () => Client,
+    private readonly others: () => ReadonlyMap<string, string>,
+  ) {}
+
+  holder_of(ref: string): Holder {
+    if (this.mine.value.has(ref)) return { who: 'me' };
+    const session = this.others().get(ref);
+    return session === undefined ? { who: 'nobody' } : { who: 'other', session };
+  }
+
+  /** Binds and keeps it until `release`. */
+  async bind(ref: string): Promise<void> {
+    if (!this.mine.value.has(ref)) await this.client().bind(ref);
+    this.kept.add(ref);
+  }
+
+  /** Releases it: what this console runs there is stopped (decision 6). */
+  async release(ref: string): Promise<void> {
+    this.kept.delete(ref);
+    this.borrowed.delete(ref);
+    await this.client().release(ref);
+  }
+
+  async release_all(): Promise<void> {
+    await Promise.all([...this.mine.value].map((ref) => this.release(ref)));
+  }
+
+  /** Has all of these bound; those that were not are released when the last borrower gives them back. Nothing is bound when one cannot be. */
+  async borrow(refs: readonly string[]): Promise<GiveBack> {
+    const taken: string[] = [];
+    try {
+      for (const ref of new Set(refs)) {
+        await this.take(ref);
+        taken.push(ref);
+      }
+    } catch (error) {
+      await this.give_back(taken);
+      throw error;
+    }
+    let has = true;
+    return async () => {
+      if (has) await this.give_back(taken);
+      has = false;
+    };
+  }
+
+  private async take(ref: string): Promise<void> {
+    const count = this.borrowed.get(ref);
+    if (count === undefined && this.mine.value.has(ref)) return;
+    this.borrowed.set(ref, (count ?? 0) + 1);
+    if (count !== undefined && this.mine.value.has(ref)) return;
+    await this.client()
+      .bind(ref)
+      .catch((error: unknown) => {
+        this.lower(ref);
+        throw error;
+      });
+  }
+
+  private lower(ref: string): number {
+    const left = (this.borrowed.get(ref) ?? 0) - 1;
+    if (left > 0) this.borrowed.set(ref, left);
+    else this.borrowed.delete(ref);
+    return left;
+  }
+
+  private async give_back(refs: string[]): Promise<void> {
+    for (const ref of refs) {
+      if (!this.borrowed.has(ref) || this.lower(ref) > 0 || this.kept.has(ref) || !this.mine.value.has(ref)) continue;
+      await this.client()
+        .release(ref)
+        .catch(() => undefined); // the session is gone, and the binding with it
+    }
+  }
+
+  /** Learns from the answers, whoever has sent the requests. */
+  heard({ name, return_code, text, request }: LoggedDocument): void {
+    if (return_code !== 'OK' || request === undefined) return;
+    if (name === 'bind_response' && request.component !== undefined) this.add(request.component);
+    if (name === 'bind_any_response') {
+      const ref = parse_xml(text).child('component_ref')?.attribute('code', 'http://www.omg.org/spec/RoIS/20240801');
+      if (ref !== undefined) this.add(ref);
+    }
+    if (name === 'release_response' && request.component !== undefined && this.mine.value.has(request.component))
+      this.mine.value = new Set([...this.mine.value].filter((one) => one !== request.component));
+  }
+
+  /** The session is gone, and its bindings with it. */
+  forget(): void {
+    this.mine.value = new Set();
+    this.borrowed.clear();
+    this.kept.clear();
+  }
+
+  private add(ref: string): void {
+    this.mine.value = new Set([...this.mine.value, ref]);
+  }
+}

@@ -1,0 +1,294 @@
+// Everything that the page knows and can do. Made once, and handed down; the panels look and act through it alone.
+import { signal } from '@preact/signals';
+import {
+  type Arguments,
+  Client,
+  code_of,
+  command,
+  commands_of,
+  type CommandUnit,
+  component_ref,
+  type CompletedStatus,
+  type Gap,
+  type Identifier,
+  type Notification,
+  type Results,
+  type SubscribeOptions,
+  type Subscription,
+  type Writable,
+  type XmlElement,
+} from 'rois-client';
+
+import { Bindings } from './bindings';
+import { CommandsState } from './commands_state';
+import { Documents, type LoggedDocument } from './documents';
+import { EntitiesState } from './entities_state';
+import type { Environment, Stop } from './environment';
+import { EventsState } from './events_state';
+import { MapState } from './floor_map';
+import { LinkState } from './link_state';
+import { MetricsState } from './metrics_state';
+import { Notices } from './notices';
+import { ParametersState } from './parameters_state';
+import { ProfileState } from './profile_state';
+import { RobotsState } from './robots_state';
+import { Selection } from './selection';
+import { StatusState } from './status_state';
+import { SubscriptionsState } from './subscriptions_state';
+
+/** Commands that the engine has accepted. */
+export interface Accepted {
+  command_ids: string[];
+  /** How each of them ends. Rejects when the session is lost before. */
+  ends: Promise<CompletedStatus[]>;
+}
+
+export interface ExecuteOptions {
+  /** What had to be bound for it is released when all commands have ended. Leave it out for what goes on after `start` (detection, ...). */
+  give_back?: boolean;
+}
+
+/** What became of a document that was sent as text. */
+export interface Sent {
+  answer: XmlElement;
+  document: LoggedDocument | undefined; // the answer as it was logged
+}
+
+const forever = 2 ** 31 - 1; // ms; the longest that a timer takes
+
+export class Console {
+  /** ms since 1970; changes each second, for ages. */
+  readonly now = signal(0);
+  readonly notices: Notices;
+  readonly link: LinkState;
+  readonly documents: Documents;
+  readonly profile = new ProfileState();
+  readonly status: StatusState;
+  readonly parameters: ParametersState;
+  readonly metrics: MetricsState;
+  readonly bindings: Bindings;
+  readonly commands: CommandsState;
+  readonly events: EventsState;
+  readonly subscriptions: SubscriptionsState;
+  readonly robots: RobotsState;
+  readonly entities: EntitiesState;
+  readonly map: MapState;
+  readonly selection = new Selection();
+
+  private token: string | undefined;
+  private speaker: Client | undefined;
+  private stops: Stop[] = [];
+  private session = '';
+
+  constructor(readonly environment: Environment) {
+    const client = () => this.speaker;
+    const token = () => this.token;
+    const components = () => this.profile.components.value;
+    const is_open = () => this.link.is_open;
+    this.notices = new Notices(environment);
+    this.link = new LinkState(environment);
+    this.documents = new Documents(environment);
+    this.status = new StatusState(environment, this.documents, client, components, is_open);
+    this.parameters = new ParametersState(environment, this.documents, client, is_open);
+    this.metrics = new MetricsState(environment, token);
+    this.bindings = new Bindings(
+      () => this.client,
+      () => this.metrics.bound.value,
+    );
+    this.commands = new CommandsState(environment, this.documents, client);
+    this.events = new EventsState(environment, this.documents, client);
+    this.subscriptions = new SubscriptionsState(
+      environment,
+      () => this.client,
+      (event_type, error) => this.notices.tell('warning', event_type, { detail: error instanceof Error ? error.message : String(error) }),
+    );
+    this.robots = new RobotsState(environment, this.documents, client, components, is_open);
+    this.entities = new EntitiesState(
+      environment,
+      (event_type) => this.documents.as_own(() => this.subscriptions.subscribe(event_type, {}, true)),
+      (event_type) => this.profile.with_event(event_type).length > 0,
+    );
+    this.map = new MapState(environment, token);
+    this.now.value = environment.now();
+    environment.every(1000, () => (this.now.value = environment.now()));
+    this.documents.listen((document) => this.heard(document));
+  }
+
+  // --- The link ---
+
+  /** The client that speaks; the operations below are enough for most. */
+  get client(): Client {
+    if (!this.speaker) throw new Error('connect comes first');
+    return this.speaker;
+  }
+
+  /** The token that is used, for curl lines and for asking over HTTP. */
+  get current_token(): string | undefined {
+    return this.token;
+  }
+
+  /** Begins to connect, again with another token if need be; tries until it succeeds or a token is asked for. */
+  connect(token?: string): void {
+    this.leave();
+    this.token = token;
+    const client = new Client(this.environment.origin, token === undefined ? {} : { token }, this.environment.open_socket);
+    this.speaker = client;
+    this.stops = [
+      client.on('document', ({ direction, text }) => this.documents.note(direction, text)),
+      client.on('state', ({ state }) => this.link_changed(state)),
+      client.on('gap', (gap) => this.missed(gap)),
+      client.on('notification', (notification) => this.notified(notification)),
+      this.link.follow(client, token, () => void client.close({ deadline: 0 })),
+    ];
+    client.start(forever).catch(() => undefined); // the link's state says it
+  }
+
+  /** Ends the session at once: what this console runs is stopped. */
+  async close(): Promise<void> {
+    const client = this.speaker;
+    await client?.close({ deadline: 1000 });
+    this.link.turn('closed', '');
+  }
+
+  private leave(): void {
+    for (const stop of this.stops.splice(0)) stop();
+    void this.speaker?.close({ deadline: 1000 });
+    this.forget_session();
+  }
+
+  private link_changed(state: string): void {
+    if (state === 'lost' || state === 'connecting' || state === 'closed') this.documents.forget_waiting();
+    if (state !== 'open' && state !== 'resumed') return;
+    if (this.session !== '' && this.session !== this.client.session) this.forget_session();
+    this.session = this.client.session;
+    void this.read_profile();
+    void this.map.load();
+    this.status.poll.now();
+  }
+
+  private missed(gap: Gap): void {
+    if (gap.reason === 'buffer') return;
+    if (gap.reason === 'session') this.forget_session();
+    this.events.gap(gap);
+  }
+
+  private forget_session(): void {
+    this.session = '';
+    this.bindings.forget();
+    this.commands.forget_session();
+    this.subscriptions.forget_session();
+    this.entities.forget();
+  }
+
+  private async read_profile(): Promise<void> {
+    try {
+      this.profile.tell(await this.documents.as_own(() => this.client.get_profile()), this.environment.now());
+      this.entities.profile_changed();
+      this.status.poll.now();
+    } catch (error) {
+      if (this.link.is_open) this.notices.tell('error', error instanceof Error ? error.message : String(error));
+    }
+  }
+
+  // --- What comes ---
+
+  private heard(document: LoggedDocument): void {
+    if (document.kind !== 'answer') return;
+    this.bindings.heard(document);
+    this.commands.heard(document);
+    this.subscriptions.heard(document);
+  }
+
+  private notified(notification: Notification): void {
+    const logged = this.documents.ring.at(-1)!; // a document is logged before it is read
+    const document = logged.number;
+    switch (notification.name) {
+      case 'receive_event':
+        logged.is_own = this.subscriptions.is_own(notification.subscribe_id);
+        this.events.event(notification, document);
+        this.subscriptions.event(notification);
+        this.entities.event(notification);
+        break;
+      case 'receive_error':
+        this.events.error(notification, document);
+        break;
+      case 'completed':
+        this.commands.ended(notification.command_id, notification.status);
+        break;
+      case 'profile_changed':
+        void this.read_profile();
+        break;
+      case 'lost':
+        break; // told as a gap
+    }
+  }
+
+  // --- What can be done. Each rejects with RoisError. ---
+
+  /** Executes commands; components that are not bound are bound first. */
+  async execute(units: readonly CommandUnit[], { give_back = false }: ExecuteOptions = {}): Promise<Accepted> {
+    const refs = commands_of(units).map((one) => code_of(one.component_ref));
+    const back = give_back ? await this.bindings.borrow(refs) : await this.bind_all(refs);
+    try {
+      const execution = await this.client.execute(units);
+      const ends = execution.statuses().finally(() => back().catch(() => undefined));
+      ends.catch(() => undefined); // nobody has to wait for it
+      return { command_ids: execution.command_ids, ends };
+    } catch (error) {
+      await back();
+      throw error;
+    }
+  }
+
+  /** Executes one command. */
+  run(ref: string, command_type: string, named: Arguments = {}, options: ExecuteOptions = {}): Promise<Accepted> {
+    return this.execute([command(ref, command_type, named)], options);
+  }
+
+  /** Sets parameters of a component, which is bound first when it is not. */
+  async set_parameter(ref: string, named: Arguments): Promise<Accepted> {
+    await this.bindings.bind(ref);
+    const execution = await this.client.set_parameter(ref, named);
+    const ends = execution.statuses();
+    ends.catch(() => undefined);
+    return { command_ids: execution.command_ids, ends };
+  }
+
+  /** A component's parameters; needs no binding (decision 18). */
+  async get_parameter(ref: string): Promise<Results> {
+    return (await this.client.query('get_parameter', component_ref(ref))).results;
+  }
+
+  query(query_type: string, condition?: Writable): Promise<{ component_ref: Identifier; results: Results }> {
+    return this.client.query(query_type, condition);
+  }
+
+  search(condition?: Writable): Promise<Identifier[]> {
+    return this.client.search(condition);
+  }
+
+  /** Its events come to `events`, and to all that learn from events. It outlives sessions, until `subscriptions.unsubscribe`. */
+  subscribe(event_type: string, options: SubscribeOptions = {}): Promise<Subscription> {
+    return this.subscriptions.subscribe(event_type, options);
+  }
+
+  /** Sends a document as it is. The answer is given whatever it says; only a link that breaks, or a text that no client may send, rejects. */
+  async send(text: string): Promise<Sent> {
+    let sent: LoggedDocument | undefined;
+    let document: LoggedDocument | undefined;
+    const stop = this.documents.listen((one) => {
+      if (sent === undefined && one.direction === 'out' && one.text === text) sent = one;
+      if (sent !== undefined && one.request === sent) document = one;
+    });
+    try {
+      return { answer: await this.client.send(text), document };
+    } finally {
+      stop();
+    }
+  }
+
+  private async bind_all(refs: readonly string[]): Promise<() => Promise<void>> {
+    for (const ref of new Set(refs)) await this.bindings.bind(ref);
+    return () => Promise.resolve();
+  }
+}

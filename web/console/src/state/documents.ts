@@ -1,0 +1,123 @@
+// Every document in and out, as it was on the wire: the last ones, and how they belong together.
+import type { Environment } from './environment';
+import { Pulse } from './pulse';
+import { Ring } from './ring';
+
+export type Direction = 'in' | 'out';
+
+/** What a document is: by direction alone that cannot be told. */
+export type DocumentKind = 'request' | 'answer' | 'fault' | 'notification';
+
+export interface LoggedDocument {
+  number: number; // from 0, as they came
+  at: number; // ms since 1970
+  direction: Direction;
+  kind: DocumentKind;
+  name: string; // of its root: `bind`, `bind_response`, `receive_event`, `fault`; empty when it has none
+  text: string;
+  component?: string; // the first component_ref that it names
+  sequence?: number; // of a notification
+  return_code?: string; // of an answer
+  request?: LoggedDocument; // of an answer: what it answers
+  took?: number; // of an answer: ms since the request
+  is_own: boolean; // of the console itself, which asks for what it shows: hidden unless somebody wants to see it
+}
+
+export interface DocumentLimits {
+  most: number;
+  most_bytes: number;
+}
+
+const usual_limits: DocumentLimits = { most: 20_000, most_bytes: 16 * 1024 * 1024 };
+
+const root = /<((?:[\w.-]+:)?)([\w.-]+)([^>]*)/;
+const a_component = /<(?:[\w.-]+:)?component_ref\s[^>]*?\bcode\s*=\s*["']([^"']*)["']/;
+const the_sequence = /\ssequence\s*=\s*["'](\d+)["']/;
+const the_return_code = /\sreturn_code\s*=\s*["'](\w+)["']/;
+const notifications = ['receive_event', 'receive_error', 'completed', 'lost', 'profile_changed'];
+
+/** What is told to those who learn from documents. */
+export interface DocumentListener {
+  (document: LoggedDocument): void;
+}
+
+export class Documents {
+  readonly ring: Ring<LoggedDocument>;
+  readonly pulse: Pulse;
+  private waiting: LoggedDocument[] = []; // requests without their answers, in order
+  private next = 0;
+  private asks_itself = false;
+  private readonly listeners = new Set<DocumentListener>();
+
+  constructor(
+    private readonly environment: Environment,
+    limits: DocumentLimits = usual_limits,
+  ) {
+    // A text takes two bytes a unit at worst.
+    this.ring = new Ring(limits.most, limits.most_bytes, (one) => 2 * one.text.length + 200);
+    this.pulse = new Pulse(environment);
+  }
+
+  /** Gives the function that ends the listening. */
+  listen(listener: DocumentListener): () => void {
+    this.listeners.add(listener);
+    return () => this.listeners.delete(listener);
+  }
+
+  /** A document has gone in or out. */
+  note(direction: Direction, text: string): LoggedDocument {
+    const document = described(this.next++, this.environment.now(), direction, text);
+    document.is_own = direction === 'out' && (this.asks_itself || document.name === 'connect' || document.name === 'resume');
+    if (direction === 'out') this.waiting.push(document);
+    else if (document.kind !== 'notification') this.pair(document);
+    this.ring.push(document);
+    this.pulse.touch();
+    for (const listener of this.listeners) listener(document);
+    return document;
+  }
+
+  /** What this function sends at once is the console's own. */
+  as_own<T>(send: () => T): T {
+    const before = this.asks_itself;
+    this.asks_itself = true;
+    try {
+      return send();
+    } finally {
+      this.asks_itself = before;
+    }
+  }
+
+  /** The link is gone: nothing that was sent will be answered on it. */
+  forget_waiting(): void {
+    this.waiting = [];
+  }
+
+  // Answers come in the order of requests.
+  private pair(answer: LoggedDocument): void {
+    const request = this.waiting.shift();
+    if (request === undefined) return;
+    answer.request = request;
+    answer.is_own = request.is_own;
+    answer.took = answer.at - request.at;
+    if (answer.component === undefined && request.component !== undefined) answer.component = request.component;
+  }
+}
+
+// Without reading it whole: hundreds may come in a second.
+function described(number: number, at: number, direction: Direction, text: string): LoggedDocument {
+  const [, , name = '', attributes = ''] = root.exec(text.startsWith('<?') ? text.slice(text.indexOf('?>') + 2) : text) ?? [];
+  const document: LoggedDocument = { number, at, direction, kind: kind_of(direction, name), name, text, is_own: false };
+  const component = a_component.exec(text)?.[1];
+  if (component !== undefined) document.component = component;
+  const sequence = the_sequence.exec(attributes)?.[1];
+  if (sequence !== undefined) document.sequence = Number(sequence);
+  const return_code = the_return_code.exec(attributes)?.[1];
+  if (return_code !== undefined) document.return_code = return_code;
+  return document;
+}
+
+function kind_of(direction: Direction, name: string): DocumentKind {
+  if (direction === 'out') return 'request';
+  if (name === 'fault') return 'fault';
+  return notifications.includes(name) ? 'notification' : 'answer';
+}

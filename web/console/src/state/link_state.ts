@@ -1,0 +1,141 @@
+// How the link to the gateway is, as the user is told.
+import { batch, signal } from '@preact/signals';
+import type { Client, Gap, StateChange } from 'rois-client';
+
+import type { Environment } from './environment';
+
+/**
+ * - `connecting`: for the first time;
+ * - `open`: with a new session; `resumed`: open again with the session as it was;
+ * - `lost`: what is shown is stale, and the link is tried for;
+ * - `refused`: the gateway is there and will not have us (too many sessions, an origin that it does not know); it is asked again;
+ * - `token`: it wants a token, or another one; nothing is tried until there is one;
+ * - `draining`: it is starting or shutting down; it is asked again;
+ * - `closed`: for good, by the user.
+ */
+export type Phase = 'connecting' | 'open' | 'resumed' | 'lost' | 'refused' | 'token' | 'draining' | 'closed';
+
+export interface LinkView {
+  phase: Phase;
+  since: number; // ms since 1970
+  reason: string; // in English, as the gateway or the browser says it; empty when open
+}
+
+/** What was missed: the user is told until they have seen it. */
+export interface MissedNote {
+  at: number;
+  gap: Gap;
+}
+
+/** How a gateway answers to somebody who asks whether a link could be had. */
+type Outlook = { phase: Phase; reason: string } | 'reachable' | 'unreachable';
+
+export class LinkState {
+  readonly view = signal<LinkView>({ phase: 'connecting', since: 0, reason: '' });
+  readonly missed = signal<MissedNote | undefined>(undefined);
+  /** The session's id; empty without one. Whoever has it can act as this console. */
+  readonly session = signal('');
+  /** When the last document came; ms since 1970, 0 before the first. Not a signal: it changes all the time; the age is read each second. */
+  heard_at = 0;
+
+  constructor(private readonly environment: Environment) {
+    this.turn('connecting', '');
+  }
+
+  get is_open(): boolean {
+    const { phase } = this.view.value;
+    return phase === 'open' || phase === 'resumed';
+  }
+
+  /** A client speaks from now on. `wants_token` is called when the gateway refuses it for its token. */
+  follow(client: Client, token: string | undefined, wants_token: () => void): () => void {
+    this.turn('connecting', '');
+    let asked = 0;
+    let gave_up = false;
+    const changed = ({ state, reason }: StateChange) => {
+      if (gave_up) return;
+      asked += 1;
+      const question = asked;
+      batch(() => {
+        this.session.value = client.session;
+        if (state === 'connecting' || state === 'lost') this.trouble(state, reason);
+        else this.turn(state, reason);
+      });
+      if (state !== 'connecting' && state !== 'lost') return;
+      void this.outlook(token).then((outlook) => {
+        if (question !== asked) return;
+        if (outlook === 'unreachable' && this.view.value.phase === 'refused') this.turn(state, reason);
+        if (typeof outlook === 'string') return;
+        this.turn(outlook.phase, outlook.reason);
+        if (outlook.phase !== 'token') return;
+        gave_up = true; // it would only be told the same again
+        wants_token();
+      });
+    };
+    const stops = [
+      client.on('state', changed),
+      client.on('gap', (gap) => this.note_gap(gap)),
+      client.on('document', ({ direction }) => {
+        if (direction === 'in') this.heard_at = this.environment.now();
+      }),
+    ];
+    return () => {
+      asked += 1;
+      for (const stop of stops) stop();
+    };
+  }
+
+  /** The user has seen what was missed. */
+  forget_missed(): void {
+    this.missed.value = undefined;
+  }
+
+  turn(phase: Phase, reason: string): void {
+    const before = this.view.value;
+    if (before.phase === phase && before.reason === reason && before.since !== 0) return;
+    const since = before.phase === phase && before.since !== 0 ? before.since : this.environment.now();
+    this.view.value = { phase, since, reason };
+  }
+
+  private trouble(state: 'connecting' | 'lost', reason: string): void {
+    const before = this.view.value;
+    const phase = troubled(before, state, reason, this.environment.now());
+    // It was said why; a failed try does not say anything better.
+    const was_said = phase === before.phase && phase !== state && !refusals.test(reason) && !going_away.test(reason);
+    this.turn(phase, was_said ? before.reason : reason);
+  }
+
+  private note_gap(gap: Gap): void {
+    if (gap.reason === 'buffer') return; // only what the console does not read
+    const before = this.missed.value?.gap;
+    const sum = gap.reason === 'lost' && before?.reason === 'lost' ? { ...gap, first: before.first, count: gap.count + before.count } : gap;
+    this.missed.value = { at: this.environment.now(), gap: sum };
+  }
+
+  // A page is not told why its WebSocket does not open: a plain request is.
+  private async outlook(token: string | undefined): Promise<Outlook> {
+    const headers: HeadersInit = token === undefined ? {} : { Authorization: `Bearer ${token}` };
+    try {
+      const answer = await this.environment.fetch('/rois', { headers, cache: 'no-store' });
+      const reason = /<reason>([^<]*)<\/reason>/.exec(await answer.text())?.[1] ?? `status ${answer.status}`;
+      if (answer.status === 401) return { phase: 'token', reason: token === undefined ? '' : reason };
+      if (answer.status === 503) return { phase: 'draining', reason };
+      if (answer.status === 403 || answer.status === 429) return { phase: 'refused', reason };
+      return 'reachable';
+    } catch {
+      return 'unreachable';
+    }
+  }
+}
+
+const refusals = /^(too_many|not_allowed|unauthorized):/;
+const going_away = /closed with (1001|1012|1013)\b|^shutting_down:/;
+
+const restarts_within = 60_000; // ms: after that it is just not there
+
+function troubled(before: LinkView, state: 'connecting' | 'lost', reason: string, now: number): Phase {
+  if (refusals.test(reason)) return 'refused';
+  if (going_away.test(reason)) return 'draining';
+  if (before.phase === 'refused' || (before.phase === 'draining' && now - before.since < restarts_within)) return before.phase;
+  return state;
+}

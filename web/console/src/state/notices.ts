@@ -1,0 +1,38 @@
+// What the user is told without having looked for it: at the edge of the page, and aloud by a screen reader.
+import { signal } from '@preact/signals';
+
+import type { Environment } from './environment';
+
+export type Severity = 'info' | 'good' | 'warning' | 'error';
+
+/** Something that happened. Its text is in the user's language already. */
+export interface Notice {
+  number: number;
+  at: number;
+  severity: Severity;
+  text: string;
+  detail?: string;
+  /** What the user may do about it: an undo, say. */
+  action?: { label: string; act(): void };
+}
+
+const most_notices = 5;
+const shown_for = 8000; // ms; errors and those with an action stay until they are dismissed
+
+export class Notices {
+  readonly list = signal<readonly Notice[]>([]);
+  private next = 1;
+
+  constructor(private readonly environment: Pick<Environment, 'now' | 'after'>) {}
+
+  tell(severity: Severity, text: string, more: Pick<Notice, 'detail' | 'action'> = {}): number {
+    const notice: Notice = { number: this.next++, at: this.environment.now(), severity, text, ...more };
+    this.list.value = [...this.list.value, notice].slice(-most_notices);
+    if (severity !== 'error' && notice.action === undefined) this.environment.after(shown_for, () => this.dismiss(notice.number));
+    return notice.number;
+  }
+
+  dismiss(number: number): void {
+    if (this.list.value.some((one) => one.number === number)) this.list.value = this.list.value.filter((one) => one.number !== number);
+  }
+}

@@ -1,0 +1,155 @@
+// What the engine has: its profile, with what each component includes resolved.
+import { computed, signal } from '@preact/signals';
+import type { ComponentEntry, ComponentProfile, EngineProfile, MessageProfile, ParameterProfile, Profile } from 'rois-client';
+
+/** A message of a component, and the name of the profile that it is from. */
+export interface Offered extends MessageProfile {
+  from: string;
+}
+
+/** A component with everything that it can do, included profiles first resolved. */
+export interface ComponentView {
+  ref: string;
+  type: string; // URN
+  type_name: string; // the last part of it: `Navigation`
+  engine: string;
+  description: string;
+  includes: string[]; // URNs
+  unresolved: string[]; // URNs of included profiles that nobody has told of
+  commands: Offered[]; // what `execute` takes, without set_parameter
+  queries: Offered[]; // without get_parameter and set_parameter
+  events: Offered[];
+  parameters: ParameterProfile[];
+  profile?: ComponentProfile;
+}
+
+/** An engine, its own components, and the engines inside it. */
+export interface EngineView {
+  name: string;
+  identifier: string;
+  components: ComponentView[];
+  sub_engines: EngineView[];
+}
+
+const common = 'urn:x-rois:def:component:OMG::RoISCommon';
+
+// Table 32. An engine's profile names it and does not tell it: it is part of the specification.
+const own_profiles: ComponentProfile[] = [
+  {
+    id: 'profile.RoIS_Common',
+    identifier: common,
+    name: 'RoIS_Common',
+    description: '',
+    sub_profiles: [],
+    parameters: [],
+    messages: [
+      ...['start', 'stop', 'suspend', 'resume'].map((name): MessageProfile => ({ kind: 'command', name, results: [], arguments: [] })),
+      { kind: 'query', name: 'component_status', arguments: [], results: [{ name: 'status', data_type_ref: { code: 'Component_Status' } }] },
+    ],
+  },
+];
+
+export class ProfileState {
+  /** As the engine told it last; undefined before. */
+  readonly profile = signal<Profile | undefined>(undefined);
+  readonly told_at = signal(0);
+  readonly components = computed<readonly ComponentView[]>(() => (this.profile.value ? views_of(this.profile.value) : []));
+  readonly by_ref = computed<ReadonlyMap<string, ComponentView>>(() => new Map(this.components.value.map((one) => [one.ref, one])));
+  readonly engine = computed<EngineView | undefined>(() => {
+    const profile = this.profile.value;
+    return profile && engine_view(profile.engine, this.components.value);
+  });
+  /** An engine that is there and has no components. */
+  readonly is_empty = computed(() => this.profile.value !== undefined && this.components.value.length === 0);
+
+  component(ref: string): ComponentView | undefined {
+    return this.by_ref.value.get(ref);
+  }
+
+  /** Those of a type, by its URN or its last part, ignoring case; sub profiles count. */
+  of_type(type: string): ComponentView[] {
+    const is_it = (urn: string) => urn.toLowerCase() === type.toLowerCase() || type_name(urn).toLowerCase() === type.toLowerCase();
+    return this.components.value.filter((one) => is_it(one.type) || one.includes.some(is_it));
+  }
+
+  /** Those that have an event of this name. */
+  with_event(event_type: string): ComponentView[] {
+    return this.components.value.filter((one) => one.events.some((event) => event.name === event_type));
+  }
+
+  tell(profile: Profile, at: number): void {
+    this.profile.value = profile;
+    this.told_at.value = at;
+  }
+}
+
+/** `Navigation` of `urn:x-rois:def:component:OMG::Navigation`. */
+export function type_name(urn: string): string {
+  return urn.slice(urn.lastIndexOf(':') + 1);
+}
+
+export function views_of(profile: Profile): ComponentView[] {
+  const known = new Map([...own_profiles, ...profile.component_profiles].map((one) => [one.identifier.toLowerCase(), one]));
+  const by_id = new Map(profile.component_profiles.map((one) => [one.id, one]));
+  return profile.components
+    .map((entry) => view_of(entry, by_id.get(`profile.${entry.ref}`) ?? known.get(entry.type.toLowerCase()), known))
+    .sort((a, b) => a.ref.localeCompare(b.ref, 'en'));
+}
+
+function view_of(entry: ComponentEntry, profile: ComponentProfile | undefined, known: Map<string, ComponentProfile>): ComponentView {
+  const { all, missing } = with_included(profile, known);
+  const messages = unique(all.flatMap((one) => one.messages.map((message): Offered => ({ ...message, from: one.name }))));
+  const of_kind = (kind: MessageProfile['kind']) =>
+    messages.filter((one) => one.kind === kind && one.name !== 'set_parameter' && one.name !== 'get_parameter');
+  const view: ComponentView = {
+    ref: entry.ref,
+    type: entry.type,
+    type_name: type_name(entry.type),
+    engine: entry.engine,
+    description: profile?.description ?? '',
+    includes: all.slice(1).map((one) => one.identifier),
+    unresolved: missing,
+    commands: of_kind('command'),
+    queries: of_kind('query'),
+    events: of_kind('event'),
+    parameters: unique([...all.flatMap((one) => one.parameters), ...all.flatMap(set_by_message)]),
+  };
+  if (profile) view.profile = profile;
+  return view;
+}
+
+// Parameters that only the profile of the message tells.
+function set_by_message(profile: ComponentProfile): ParameterProfile[] {
+  return profile.messages.filter((one) => one.kind === 'command' && one.name === 'set_parameter').flatMap((one) => one.arguments);
+}
+
+// The profile itself, then those that it includes, each once.
+function with_included(profile: ComponentProfile | undefined, known: Map<string, ComponentProfile>) {
+  const all = profile ? [profile] : [];
+  const missing: string[] = [];
+  for (let i = 0; i < all.length; ++i)
+    for (const urn of all[i]!.sub_profiles) {
+      const included = known.get(urn.toLowerCase());
+      if (included === undefined) missing.push(urn);
+      else if (!all.includes(included)) all.push(included);
+    }
+  return { all, missing };
+}
+
+// Names have no case; the first of a name counts.
+function unique<T extends { name: string; kind?: string }>(list: T[]): T[] {
+  const seen = new Set<string>();
+  return list.filter((one) => {
+    const key = `${one.kind ?? ''} ${one.name.toLowerCase()}`;
+    return !seen.has(key) && seen.add(key);
+  });
+}
+
+function engine_view(engine: EngineProfile, components: readonly ComponentView[]): EngineView {
+  return {
+    name: engine.name,
+    identifier: engine.identifier,
+    components: components.filter((one) => one.engine === engine.name),
+    sub_engines: engine.sub_engines.map((sub) => engine_view(sub, components)),
+  };
+}

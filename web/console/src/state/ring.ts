@@ -1,0 +1,63 @@
+// A list that forgets its oldest entries.
+
+/** Bounded by number and, when a weight is given, by the sum of weights (bytes, say). Entries are numbered from 0 as they come. */
+export class Ring<T> implements Iterable<T> {
+  private entries: T[] = [];
+  private begin = 0; // of those in `entries` that are still there
+  private forgotten = 0;
+  private weight = 0;
+
+  constructor(
+    private readonly most: number,
+    private readonly most_weight = Infinity,
+    private readonly weigh: (one: T) => number = () => 0,
+  ) {}
+
+  push(one: T): void {
+    this.entries.push(one);
+    this.weight += this.weigh(one);
+    while (this.size > this.most || (this.weight > this.most_weight && this.size > 1)) this.forget();
+    if (this.begin > 64 && this.begin * 2 > this.entries.length) {
+      this.entries = this.entries.slice(this.begin);
+      this.begin = 0;
+    }
+  }
+
+  private forget(): void {
+    this.weight -= this.weigh(this.entries[this.begin]!);
+    this.entries[this.begin] = undefined as T; // so that it is not kept alive
+    this.begin += 1;
+    this.forgotten += 1;
+  }
+
+  get size(): number {
+    return this.entries.length - this.begin;
+  }
+  get bytes(): number {
+    return this.weight;
+  }
+  /** The number of the oldest that is there. */
+  get first(): number {
+    return this.forgotten;
+  }
+  /** By its place: 0 is the oldest that is there, -1 the newest. */
+  at(index: number): T | undefined {
+    return index < 0 ? (this.size + index < 0 ? undefined : this.entries[this.entries.length + index]) : this.entries[this.begin + index];
+  }
+  /** By its number: undefined when it is forgotten or not there yet. */
+  numbered(number: number): T | undefined {
+    return number < this.forgotten ? undefined : this.entries[this.begin + number - this.forgotten];
+  }
+  list(): T[] {
+    return this.entries.slice(this.begin);
+  }
+  clear(): void {
+    this.forgotten += this.size;
+    this.entries = [];
+    this.begin = 0;
+    this.weight = 0;
+  }
+  *[Symbol.iterator](): Iterator<T> {
+    for (let i = this.begin; i < this.entries.length; ++i) yield this.entries[i]!;
+  }
+}

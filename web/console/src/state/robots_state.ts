@@ -1,0 +1,48 @@
+// Where the robots are: `robot_position`, asked while somebody looks.
+import { type Client, component_ref } from 'rois-client';
+
+import type { Documents } from './documents';
+import type { Environment } from './environment';
+import { Poll } from './poll';
+import type { ComponentView } from './profile_state';
+import { Pulse } from './pulse';
+import { located_in, placed, type Robot } from './things';
+
+const forgotten_after = 60_000; // ms
+
+export class RobotsState {
+  /** By ref. Robots change in place: read `pulse.beat.value`, then this. */
+  readonly all = new Map<string, Robot>();
+  readonly pulse: Pulse;
+  readonly poll: Poll;
+
+  constructor(
+    private readonly environment: Environment,
+    private readonly documents: Documents,
+    private readonly client: () => Client | undefined,
+    private readonly components: () => readonly ComponentView[],
+    may_ask: () => boolean,
+    period = 100, // ms
+  ) {
+    this.pulse = new Pulse(environment);
+    this.poll = new Poll(environment, period, () => this.ask(), may_ask);
+  }
+
+  private async ask(): Promise<void> {
+    const client = this.client();
+    if (!client) return;
+    const askable = this.components().filter((one) => one.queries.some((query) => query.name === 'robot_position'));
+    await Promise.all(
+      askable.map(async ({ ref }) => {
+        const { results } = await this.documents.as_own(() => client.query('robot_position', component_ref(ref)));
+        const at = this.environment.now();
+        const codebook = results.get('robot_ref')?.data_type_ref.codebook_ref ?? '';
+        for (const located of located_in(results, 'robot_ref'))
+          this.all.set(located.ref, placed(this.all.get(located.ref), located, { codebook, component: ref, at }, (thing) => thing));
+      }),
+    );
+    const now = this.environment.now();
+    for (const [ref, robot] of this.all) if (now - robot.at > forgotten_after) this.all.delete(ref);
+    this.pulse.touch();
+  }
+}

@@ -1,0 +1,30 @@
+import type { ComponentChildren, JSX } from 'preact';
+
+import { Icon, type IconName } from './icon';
+
+type Native = Omit<JSX.IntrinsicElements['button'], 'icon' | 'label'>;
+
+export interface ButtonProps extends Native {
+  /** `primary`: the one thing to do here; `danger`: what stops or destroys; `quiet`: without a frame. */
+  look?: 'primary' | 'danger' | 'quiet';
+  icon?: IconName;
+  small?: boolean;
+  /** Whether it is at work: it cannot be pressed then. */
+  busy?: boolean;
+  children?: ComponentChildren;
+}
+
+export function Button({ look, icon, small, busy, children, disabled, class: more, ...native }: ButtonProps) {
+  const name = ['button', look && `button-${look}`, small && 'button-small', more].filter(Boolean).join(' ');
+  return (
+    <button type="button" {...native} class={name} disabled={disabled || busy || false} aria-busy={busy || undefined}>
+      {icon && <Icon name={icon} />}
+      {children !== undefined && <span>{children}</span>}
+    </button>
+  );
+}
+
+/** A button that shows a sign alone; its label is what a screen reader says and what hovering shows. */
+export function IconButton({ label, icon, ...rest }: Omit<ButtonProps, 'children' | 'icon'> & { label: string; icon: IconName }) {
+  return <Button look="quiet" {...rest} icon={icon} class={`button-icon ${rest.class ?? ''}`} aria-label={label} title={label} />;
+}

@@ -1,0 +1,48 @@
+// The browser's own dialog: it keeps the focus, closes with Escape and gives the focus back.
+import type { ComponentChildren } from 'preact';
+import { useEffect, useId, useRef } from 'preact/hooks';
+
+import { IconButton } from './button';
+import { texts } from './texts';
+
+export interface DialogProps {
+  title: string;
+  open: boolean;
+  /** Called when the user closes it, by whatever way. */
+  close: () => void;
+  /** Without it there is no way to close it but to do what it asks for. */
+  closable?: boolean;
+  /** Buttons at the bottom. */
+  actions?: ComponentChildren;
+  wide?: boolean;
+  children: ComponentChildren;
+}
+
+export function Dialog({ title, open, close, closable = true, actions, wide = false, children }: DialogProps) {
+  const element = useRef<HTMLDialogElement>(null);
+  const id = useId();
+  useEffect(() => {
+    const dialog = element.current;
+    if (!dialog) return;
+    if (open && !dialog.open) dialog.showModal();
+    if (!open && dialog.open) dialog.close();
+  }, [open]);
+  const cancelled = (event: Event) => {
+    event.preventDefault();
+    if (closable) close();
+  };
+  return (
+    <dialog ref={element} class={wide ? 'dialog dialog-wide' : 'dialog'} aria-labelledby={id} onCancel={cancelled} onClose={() => open && closable && close()}>
+      {open && (
+        <>
+          <header class="dialog-head">
+            <h2 id={id}>{title}</h2>
+            {closable && <IconButton icon="close" label={texts().close} onClick={close} />}
+          </header>
+          <div class="dialog-body">{children}</div>
+          {actions && <footer class="dialog-actions">{actions}</footer>}
+        </>
+      )}
+    </dialog>
+  );
+}

@@ -1,0 +1,68 @@
+// Two panes and a bar between them, which is dragged or moved by arrow keys. Where it stands is remembered.
+import type { ComponentChildren } from 'preact';
+import { useRef, useState } from 'preact/hooks';
+
+import { useConsole } from '../shell/context';
+import { texts } from './texts';
+
+export interface SplitPaneProps {
+  /** By which its place is remembered. */
+  id: string;
+  direction: 'row' | 'column';
+  /** The share of the first pane at first, 0 to 1. */
+  share?: number;
+  label?: string;
+  first: ComponentChildren;
+  second: ComponentChildren;
+}
+
+const least = 0.15;
+
+export function SplitPane({ id, direction, share: usual = 0.5, label, first, second }: SplitPaneProps) {
+  const { environment } = useConsole();
+  const frame = useRef<HTMLDivElement>(null);
+  const [share, set_share] = useState(() => within(Number(environment.recall(`split.${id}`) ?? usual) || usual));
+  const put = (to: number) => {
+    set_share(within(to));
+    environment.remember(`split.${id}`, within(to).toFixed(3));
+  };
+  const dragged = (event: PointerEvent) => {
+    if (!(event.currentTarget as HTMLElement).hasPointerCapture(event.pointerId)) return;
+    const box = frame.current!.getBoundingClientRect();
+    put(direction === 'row' ? (event.clientX - box.left) / box.width : (event.clientY - box.top) / box.height);
+  };
+  const pressed = (event: KeyboardEvent) => {
+    const [less, more] = direction === 'row' ? ['ArrowLeft', 'ArrowRight'] : ['ArrowUp', 'ArrowDown'];
+    const to = { [less]: share - 0.02, [more]: share + 0.02, Home: least, End: 1 - least }[event.key];
+    if (to === undefined) return;
+    event.preventDefault();
+    put(to);
+  };
+  return (
+    <div class={`split split-${direction}`} ref={frame}>
+      <div class="split-pane" style={{ flexGrow: share }}>
+        {first}
+      </div>
+      <div
+        class="split-bar"
+        role="separator"
+        tabIndex={0}
+        aria-orientation={direction === 'row' ? 'vertical' : 'horizontal'}
+        aria-label={label ?? texts().resize}
+        aria-valuenow={Math.round(share * 100)}
+        aria-valuemin={least * 100}
+        aria-valuemax={(1 - least) * 100}
+        onPointerDown={(event) => event.currentTarget.setPointerCapture(event.pointerId)}
+        onPointerMove={dragged}
+        onKeyDown={pressed}
+      />
+      <div class="split-pane" style={{ flexGrow: 1 - share }}>
+        {second}
+      </div>
+    </div>
+  );
+}
+
+function within(share: number): number {
+  return Math.min(1 - least, Math.max(least, share));
+}

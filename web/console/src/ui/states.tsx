@@ -1,0 +1,67 @@
+// What stands where there is nothing, or nothing yet; and small marks of how things are.
+import type { ComponentChildren } from 'preact';
+
+import { Button } from './button';
+import { error_text } from './error_text';
+import { Icon, type IconName } from './icon';
+import { texts } from './texts';
+
+export function EmptyState({ icon = 'info', title, children }: { icon?: IconName; title: string; children?: ComponentChildren }) {
+  return (
+    <div class="state">
+      <Icon name={icon} size={24} />
+      <p class="state-title">{title}</p>
+      {children && <div class="state-more">{children}</div>}
+    </div>
+  );
+}
+
+export function ErrorState({ error, retry }: { error: unknown; retry?: () => void }) {
+  return (
+    <div class="state state-error" role="alert">
+      <Icon name="warning" size={24} />
+      <p class="state-title">{error_text(error)}</p>
+      {retry && <Button onClick={retry}>{texts().retry}</Button>}
+    </div>
+  );
+}
+
+export function Loading() {
+  return (
+    <div class="state" role="status">
+      <p class="state-title">{texts().loading}</p>
+    </div>
+  );
+}
+
+/** `calm`: nothing to see; `good`, `busy` (at work), `warning`, `bad`. Never by colour alone: the text says it, too. */
+export type Tone = 'calm' | 'good' | 'busy' | 'warning' | 'bad';
+
+export function Badge({ tone = 'calm', title, children }: { tone?: Tone; title?: string | undefined; children: ComponentChildren }) {
+  return (
+    <span class={`badge badge-${tone}`} title={title}>
+      {children}
+    </span>
+  );
+}
+
+const tones: Record<string, Tone> = {
+  READY: 'good', OK: 'good', open: 'good', resumed: 'good',
+  BUSY: 'busy', RUNNING: 'busy', running: 'busy', connecting: 'busy',
+  WARNING: 'warning', UNINITIALIZED: 'calm', waiting: 'calm', WAITING: 'calm', unknown: 'calm',
+  ABORT: 'warning', TIMEOUT: 'bad', ERROR: 'bad', OUT_OF_RESOURCES: 'bad', BAD_PARAMETER: 'bad', UNSUPPORTED: 'bad',
+};
+
+/** The tone of a status or return code of the specification. */
+export function tone_of(code: string): Tone {
+  return tones[code] ?? 'calm';
+}
+
+/** A component's status, a command's state or a return code, as the specification names it. */
+export function StatusBadge({ status, title }: { status: string; title?: string | undefined }) {
+  return (
+    <Badge tone={tone_of(status)} title={title}>
+      {status}
+    </Badge>
+  );
+}

@@ -1,0 +1,294 @@
+// What the state knows and does, with an engine that answers as the test says.
+import { command, type XmlElement } from 'rois-client';
+import { beforeEach, describe, expect, test } from 'vitest';
+
+import type { Console } from '../../src/state/console';
+import { profile_xml, settled, World } from './world';
+
+const event = '<rois:MessageProfile xsi:type="rois:EventMessageProfileType" rois:name="person_localized"/>';
+let world: World;
+let console: Console;
+
+beforeEach(async () => {
+  world = new World();
+  world.answers.set('get_profile', () => profile_xml({ navigation: { type: 'Navigation' }, person_localization: { type: 'PersonLocalization', messages: event } }));
+  world.answers.set('get_command_result', () => result('status', 'RUNNING'));
+  world.answers.set('execute', echo);
+  world.pages.set('/rois/map', { status: 404, text: '' });
+  console = await world.console();
+});
+
+function result(name: string, ...values: string[]): string {
+  const texts = values.map((one) => `<rois:value>${one}</rois:value>`).join('');
+  return `<results><result rois:name="${name}"><rois:data_type_ref rois:code="string"/>${texts}</result></results>`;
+}
+
+function echo(request: XmlElement): string {
+  const units = request.child('CommandUnitSequence')!.children.map((unit) => {
+    const of = (name: string) => unit.attributes.find((one) => one.name === name)?.value ?? '';
+    return `<rois:command_unit_list xsi:type="rois:CommandMessageType" rois:command_type="${of('command_type')}" rois:command_id="${of('command_id')}"><rois:component_ref rois:code="${unit.child('component_ref')!.attributes[0]!.value}"/></rois:command_unit_list>`;
+  });
+  return `<rois:CommandUnitSequence>${units.join('')}</rois:CommandUnitSequence>`;
+}
+
+function localized(...people: [ref: string, x: number, y: number][]): string {
+  const located = people.map(([ref, x, y]) => `<located of="position_data" ref="${ref}" crs="hall"><position>${x} ${y} 0</position><orientation>0 0 90</orientation><covariance>2500 0 0 0 900 0 0 0 4</covariance></located>`);
+  return `<event_id>e</event_id><event_type>person_localized</event_type><subscribe_id>s-1</subscribe_id><expire>2026-11-20T12:01:00Z</expire><component_ref rois:code="person_localization"/><results><result rois:name="person_ref"><rois:data_type_ref rois:code="RoISIdentifier[]" rois:codebook_ref="tracks"/></result>${located.join('')}</results>`;
+}
+
+describe('the link', () => {
+  test('is open when there is a session, and the profile is read', () => {
+    expect(console.link.view.value.phase).toBe('open');
+    expect(console.link.session.value).toBe('session-1');
+    expect(console.profile.components.value.map((one) => one.ref)).toEqual(['navigation', 'person_localization']);
+    expect(console.map.view.value).toEqual({ state: 'none' });
+  });
+
+  test('is lost when it breaks, and goes on with the session', async () => {
+    world.breaks();
+    expect(console.link.view.value).toMatchObject({ phase: 'lost', reason: 'the WebSocket was closed with 1006' });
+    await world.tries_again();
+    await world.opens();
+    expect(console.link.view.value.phase).toBe('resumed');
+  });
+
+  test.each([
+    [503, 'draining'],
+    [429, 'refused'],
+    [403, 'refused'],
+    [426, 'lost'],
+  ])('a gateway that answers %i makes it %s', async (status, phase) => {
+    world.pages.set('/rois', { status, text: '<fault code="x"><reason>so it is</reason></fault>' });
+    world.breaks();
+    await settled();
+    expect(console.link.view.value.phase).toBe(phase);
+    if (phase !== 'lost') expect(console.link.view.value.reason).toBe('so it is');
+  });
+
+  test('a gateway that goes away says so when it closes', () => {
+    world.breaks('the WebSocket was closed with 1001, shutting down');
+    expect(console.link.view.value.phase).toBe('draining');
+  });
+
+  test('a gateway that goes away is waited for, and then is just not there', async () => {
+    world.breaks('the WebSocket was closed with 1001, shutting down');
+    await world.tries_again();
+    world.breaks();
+    expect(console.link.view.value).toMatchObject({ phase: 'draining', reason: 'the WebSocket was closed with 1001, shutting down' });
+    await world.passes(60_000);
+    await world.tries_again();
+    world.breaks();
+    expect(console.link.view.value.phase).toBe('lost');
+  });
+
+  test('a gateway that refused, and then is not there, is lost', async () => {
+    world.pages.set('/rois', { status: 429, text: '<fault code="too_many"><reason>so it is</reason></fault>' });
+    world.breaks();
+    await settled();
+    expect(console.link.view.value.phase).toBe('refused');
+    world.pages.clear();
+    await world.tries_again();
+    world.breaks();
+    await settled();
+    expect(console.link.view.value.phase).toBe('lost');
+  });
+
+  test('asks for a token when the gateway wants one, and tries with it', async () => {
+    const shy = new World();
+    shy.pages.set('/rois', { status: 401, text: '<fault code="unauthorized"><reason>no token</reason></fault>' });
+    const { Console: Made } = await import('../../src/state/console');
+    const closed = new Made(shy);
+    closed.connect();
+    shy.breaks();
+    await settled();
+    expect(closed.link.view.value.phase).toBe('token');
+    shy.pages.clear();
+    closed.connect('a secret');
+    await shy.opens();
+    expect(closed.link.view.value.phase).toBe('open');
+    expect(closed.current_token).toBe('a secret');
+  });
+
+  test('what was missed is told until it is seen', async () => {
+    await world.notifies('profile_changed');
+    world.says('<profile_changed xmlns="urn:x-rois:psm:xml:message:1" sequence="5"/>');
+    await settled();
+    expect(console.link.missed.value?.gap).toEqual({ reason: 'lost', count: 3, first: 2, last: 4 });
+    expect(console.events.gaps.size).toBe(1);
+    console.link.forget_missed();
+    expect(console.link.missed.value).toBeUndefined();
+  });
+});
+
+describe('documents', () => {
+  test('answers know what they answer, and how long it took', async () => {
+    await console.client.search();
+    const answer = console.documents.ring.at(-1)!;
+    expect(answer).toMatchObject({ direction: 'in', kind: 'answer', name: 'search_response', return_code: 'OK', took: 0, is_own: false });
+    expect(answer.request?.name).toBe('search');
+  });
+
+  test('what the console asks by itself is marked', () => {
+    const asked = console.documents.ring.list().filter((one) => one.name === 'get_profile');
+    expect(asked.map((one) => one.is_own)).toEqual([true]);
+  });
+
+  test('changes are told once a picture', async () => {
+    world.draws();
+    const before = console.documents.pulse.beat.value;
+    for (let i = 0; i < 5; ++i) await world.notifies('profile_changed');
+    expect(console.documents.pulse.beat.value).toBe(before);
+    world.draws();
+    expect(console.documents.pulse.beat.value).toBe(before + 1);
+  });
+
+  test('a text is sent as it is, and its answer found', async () => {
+    const { answer, document } = await console.send('<search xmlns="urn:x-rois:psm:xml:message:1"/>');
+    expect(answer.name).toBe('search_response');
+    expect(document?.request?.text).toBe('<search xmlns="urn:x-rois:psm:xml:message:1"/>');
+  });
+});
+
+describe('commands', () => {
+  test('bind what they need, run, and end', async () => {
+    const { command_ids, ends } = await console.run('navigation', 'start', { target_position: ['desk'] });
+    expect(world.names().slice(-2)).not.toContain('release');
+    expect(console.bindings.holder_of('navigation')).toEqual({ who: 'me' });
+    const entry = console.commands.find(command_ids[0]!)!;
+    await settled();
+    expect(entry).toMatchObject({ component: 'navigation', command_type: 'start', state: 'running', path: 'command_unit_list[1]' });
+    await world.notifies('completed', `<command_id>${entry.id}</command_id><status>OK</status>`);
+    expect(await ends).toEqual(['OK']);
+    expect(entry.state).toBe('OK');
+    expect(console.commands.open()).toEqual([]);
+  });
+
+  test('what was bound for them is given back when they have ended', async () => {
+    const { command_ids, ends } = await console.run('navigation', 'start', {}, { give_back: true });
+    await world.notifies('completed', `<command_id>${command_ids[0]}</command_id><status>ABORT</status>`);
+    await ends;
+    await settled();
+    expect(world.names()).toContain('release');
+    expect(console.bindings.mine.value.size).toBe(0);
+  });
+
+  test('a component that was bound on purpose is not given back', async () => {
+    await console.bindings.bind('navigation');
+    const { command_ids, ends } = await console.run('navigation', 'start', {}, { give_back: true });
+    await world.notifies('completed', `<command_id>${command_ids[0]}</command_id><status>OK</status>`);
+    await ends;
+    await settled();
+    expect(world.names()).not.toContain('release');
+  });
+
+  test('two that borrow the same at once give it back once', async () => {
+    const [one, other] = await Promise.all([console.bindings.borrow(['navigation']), console.bindings.borrow(['navigation'])]);
+    await one();
+    expect(world.names()).not.toContain('release');
+    await other();
+    expect(world.names().filter((name) => name === 'release')).toHaveLength(1);
+  });
+
+  test('nothing is bound when one of them cannot be', async () => {
+    world.answers.set('bind', (request) => (request.child('component_ref')!.attributes[0]!.value === 'move' ? 'OUT_OF_RESOURCES' : ''));
+    await expect(console.execute([command('navigation', 'start'), command('move', 'start')], { give_back: true })).rejects.toMatchObject({ return_code: 'OUT_OF_RESOURCES' });
+    expect(console.bindings.mine.value.size).toBe(0);
+    expect(world.names()).not.toContain('execute');
+  });
+
+  test('the results of one that has failed are fetched by themselves', async () => {
+    const { command_ids } = await console.run('navigation', 'start');
+    world.answers.set('get_command_result', () => result('status', 'ERROR'));
+    await world.notifies('completed', `<command_id>${command_ids[0]}</command_id><status>ERROR</status>`);
+    await settled();
+    expect(console.commands.find(command_ids[0]!)?.results?.text('status')).toBe('ERROR');
+  });
+
+  test('a lost session leaves them unknown', async () => {
+    const { command_ids, ends } = await console.run('navigation', 'start');
+    const entry = console.commands.find(command_ids[0]!)!;
+    world.answers.set('resume', () => 'ERROR');
+    world.breaks();
+    await world.tries_again();
+    await world.opens();
+    await expect(ends).rejects.toMatchObject({ failure: 'session_lost' });
+    expect(console.link.session.value).toBe('session-2');
+    expect(console.link.missed.value?.gap).toEqual({ reason: 'session' });
+    expect(entry.state).toBe('unknown');
+    expect(console.bindings.mine.value.size).toBe(0);
+  });
+});
+
+describe('people', () => {
+  test('are subscribed to while somebody looks', async () => {
+    world.answers.set('subscribe', () => '<subscribe_id>s-1</subscribe_id>');
+    const stop = console.entities.watch();
+    await settled();
+    expect([...console.subscriptions.all.value.values()].map((one) => one.event_type)).toEqual(['person_localized']);
+    stop();
+    await settled();
+    expect(console.subscriptions.all.value.size).toBe(0);
+  });
+
+  test('are told by events that nobody has asked for, also in a session that is made anew', async () => {
+    let next = 1;
+    world.answers.set('subscribe', () => `<subscribe_id>s-${next++}</subscribe_id>`);
+    console.entities.watch();
+    await settled();
+    const is_own = async (id: string) => {
+      await world.notifies('receive_event', localized(['person-1', 0, 0]).replace('s-1', id));
+      return console.documents.ring.at(-1)!.is_own;
+    };
+    expect(await is_own('s-1')).toBe(true);
+    await console.subscribe('person_localized');
+    expect(await is_own('s-2')).toBe(false);
+    world.answers.set('resume', () => 'ERROR');
+    world.breaks();
+    await world.tries_again();
+    await world.opens();
+    expect([await is_own('s-3'), await is_own('s-4')]).toEqual([true, false]);
+    await console.subscriptions.unsubscribe('s-4');
+    expect([...console.subscriptions.all.value.keys()]).toEqual(['s-3']);
+  });
+
+  test('have a place, a trail and a certainty, and go out of sight', async () => {
+    await world.notifies('receive_event', localized(['person-1', 1000, 2000], ['person-2', 0, 0]));
+    await world.notifies('receive_event', localized(['person-1', 1500, 2000]));
+    const one = console.entities.all.get('person person-1')!;
+    expect(one).toMatchObject({ x: 1500, y: 2000, th: 90, is_seen: true, codebook: 'tracks', crs: 'hall' });
+    expect(one.trail.list().map(({ x }) => x)).toEqual([1000, 1500]);
+    expect(console.entities.all.get('person person-2')!.is_seen).toBe(false);
+  });
+
+  test('are who identification says that stands where they stand', async () => {
+    await world.notifies('receive_event', localized(['person-1', 1000, 2000], ['person-2', 0, 0]));
+    const identified = `<event_id>f</event_id><event_type>person_identified</event_type><subscribe_id>s-2</subscribe_id><expire>2026-11-20T12:01:00Z</expire><component_ref rois:code="person_identification"/><results><result rois:name="person_ref"><rois:data_type_ref rois:code="RoISIdentifier[]" rois:codebook_ref="visitors"/><rois:value>ms-a</rois:value></result><located of="person_ref" ref="ms-a" crs="hall"><position>1100 2050 0</position></located></results>`;
+    await world.notifies('receive_event', identified);
+    expect(console.entities.all.get('person person-1')!.identity).toMatchObject({ ref: 'ms-a', codebook: 'visitors' });
+    expect(console.entities.all.get('person person-2')!.identity).toBeUndefined();
+  });
+});
+
+describe('polls', () => {
+  test('the status of each component is asked while somebody looks', async () => {
+    world.answers.set('query', () => `<component_ref rois:code="navigation"/>${result('status', 'READY')}`);
+    const stop = console.status.poll.watch();
+    await settled();
+    expect(console.status.of('navigation')).toMatchObject({ status: 'READY' });
+    const asked = world.names().length;
+    await world.passes(1000);
+    expect(world.names().length).toBe(asked + 2);
+    stop();
+    await world.passes(5000);
+    expect(world.names().length).toBe(asked + 2);
+  });
+
+  test('who has bound what comes from the metrics', async () => {
+    world.pages.set('/metrics', { status: 200, text: '# HELP x\nrois_component_bound{component_ref="move",session="3"} 1\nrois_sessions 2\n' });
+    const stop = console.metrics.poll.watch();
+    await settled();
+    expect(console.bindings.holder_of('move')).toEqual({ who: 'other', session: '3' });
+    expect(console.metrics.latest.value?.value('rois_sessions')).toBe(2);
+    stop();
+  });
+});

@@ -1,0 +1,24 @@
+import { defineConfig } from 'vitest/config';
+
+// Where `npm run dev` finds a gateway.
+const gateway = process.env['ROIS_URL'] ?? 'http://127.0.0.1:8080';
+
+export default defineConfig({
+  // All that it writes is in dist/ and build/; nothing is inlined, since the page's policy forbids it.
+  cacheDir: 'build/vite',
+  build: {
+    target: 'es2022',
+    assetsInlineLimit: 0,
+    modulePreload: { polyfill: false },
+    reportCompressedSize: false,
+  },
+  esbuild: { jsx: 'automatic', jsxImportSource: 'preact' },
+  server: { proxy: { '/rois': { target: gateway, ws: true }, '/metrics': gateway, '/readyz': gateway } },
+  test: {
+    include: ['tests/**/*.test.{ts,tsx}'],
+    environment: 'node',
+    testTimeout: 60_000,
+    hookTimeout: 60_000,
+    fileParallelism: false,
+  },
+});
