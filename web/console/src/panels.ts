@@ -2,6 +2,7 @@
 import type { ComponentType } from 'preact';
 
 import { texts as components } from './components/texts';
+import { texts as map } from './map/texts';
 import type { IconName } from './ui/icon';
 
 /** Where a panel stands on a wide screen: the big one, the strip below it, or the column beside both. */
@@ -18,5 +19,6 @@ export interface Panel {
 }
 
 export const panels: readonly Panel[] = [
+  { id: 'map', title: () => map().title, icon: 'map', area: 'main', load: () => import('./map/panel') },
   { id: 'components', title: () => components().title, icon: 'components', area: 'side', load: () => import('./components/panel') },
 ];
