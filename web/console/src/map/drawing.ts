@@ -6,6 +6,7 @@ import type { Stop } from '../state/environment';
 import { bearing, distance, type FloorPose, obstacle_at } from './floor';
 import { radius_of } from './glyphs';
 import { Glide } from './glide';
+import { goals_of } from './goals';
 import { draw_ground } from './ground';
 import { type Hit, type Input, stepped, type Surroundings } from './interaction';
 import { Labels } from './labels';
@@ -184,7 +185,7 @@ export class Drawing {
   private draw(): void {
     const context = this.sheet.getContext('2d');
     if (!context || this.size.width < 1 || this.size.height < 1) return;
-    const { interaction, layers, goals, hovered } = this.session;
+    const { interaction, layers, hovered } = this.session;
     const now = this.console.environment.now();
     this.palette ??= this.tools.read_palette();
     this.shown = untracked(() => this.session.scene().shown);
@@ -207,7 +208,7 @@ export class Drawing {
     const picture = untracked((): Picture => ({
       shown: this.shown,
       pose,
-      goals: goals.of(this.shown),
+      goals: goals_of(this.console, this.shown),
       places: this.session.map?.places ?? [],
       layers: layers.value,
       chosen,

@@ -2,7 +2,7 @@
 import { useConsole } from '../shell/context';
 import { Button, error_text } from '../ui';
 import { motions_of, stop } from './driving';
-import type { Goal } from './goals';
+import { type Goal, goals_of, useGoals } from './goals';
 import { age } from './says';
 import { session_of } from './session';
 import { texts } from './texts';
@@ -11,9 +11,9 @@ export function Motions() {
   const console = useConsole();
   const session = session_of(console);
   const t = texts();
-  void console.commands.pulse.beat.value;
+  useGoals();
   void console.now.value;
-  const goals = session.goals.of(session.scene().shown);
+  const goals = goals_of(console, session.scene().shown);
   const rows = session.drivers().flatMap((driver) => {
     const motion = motions_of(console, driver).at(-1);
     const goal = goals.find((one) => one.driver.engine === driver.engine);

@@ -20,11 +20,9 @@ import { type Point, round_step } from './view';
 
 export default function MapPanel() {
   const console = useConsole();
-  const session = session_of(console);
   useWatch(console.robots.poll);
   useWatch(console.entities);
   useWatch(console.status.poll);
-  useWatch(session.goals.poll);
   const drawing = useSignal<Drawing | undefined>(undefined);
   const pointer = useSignal<Point | undefined>(undefined);
   const sending = useSending();

@@ -4,7 +4,6 @@ import { signal } from '@preact/signals';
 import type { Console } from '../state/console';
 import type { FloorMap } from '../state/floor_map';
 import { type Driver, drivers_of } from './driving';
-import { Goals } from './goals';
 import { all_layers, type Layers } from './ground';
 import { at_rest, type Interaction } from './interaction';
 import { Observer } from './observer';
@@ -21,11 +20,9 @@ export class MapSession {
   readonly time_limit = signal('120'); // s; empty: none
   readonly gap = signal('1.0'); // m
   readonly observer: Observer;
-  readonly goals: Goals;
 
   constructor(private readonly console: Console) {
     this.observer = new Observer(console);
-    this.goals = new Goals(console);
     const hidden = new Set((console.environment.recall('map.hidden') ?? '').split(' '));
     this.layers.value = Object.fromEntries(Object.keys(all_layers).map((name) => [name, !hidden.has(name)])) as unknown as Layers;
     this.shows_table.value = console.environment.recall('map.table') === 'shown';
