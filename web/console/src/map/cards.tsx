@@ -3,6 +3,7 @@ import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 
 import { useConsole } from '../shell/context';
+import { show_panel } from '../shell/layout';
 import { Button, error_text, IconButton, SelectField, TextField } from '../ui';
 import { type Driver, follow, go, motions_of, stop, target_text } from './driving';
 import { distance, obstacle_at, turned } from './floor';
@@ -118,6 +119,7 @@ export function TargetCard({ target, sending }: { target: Target; sending: Sendi
           <NumberField label="y" unit="m" text={(target.y / 1000).toFixed(2)} put={(y) => y !== undefined && put(moved(target, { y: Math.round(y * 1000) }))} />
           <NumberField label={t.direction} unit="°" text={target.th === undefined ? '' : String(target.th)} hint={target.th === undefined ? t.as_it_arrives : t.turn_hint} put={(th) => put(th === undefined ? { x: target.x, y: target.y } : { x: target.x, y: target.y, th: Math.round(turned(th)) })} />
         </div>
+        <p class="field-hint">{t.turn_hint}</p>
         <TextField label={t.give_up} unit="s" value={session.time_limit.value} change={(to) => (session.time_limit.value = to)} error={limit === undefined ? t.no_number : undefined} hint={t.give_up_hint} input={{ inputMode: 'numeric' }} />
         <p class="map-fact">
           {driver.robot && t.straight(metres(distance(driver.robot, target), 1))} <code title={t.position}>{target_text(target)}</code>
@@ -174,11 +176,11 @@ export function ThingCard({ thing, close }: { thing: Shown; close: () => void })
     <Card title={`${t.kind(thing.kind)} ${thing.name}`} close={close}>
       <dl class="map-facts">
         {thing.kind === 'person' && <Fact name={t.name}>{identity ? t.identified(thing.thing.ref) : t.unidentified}</Fact>}
-        <Fact name={t.state}>{t.freshness(thing.freshness)}{thing.freshness !== 'live' && ` (${t.ago(age(thing.age))})`}</Fact>
+        <Fact name={t.state}>{t.freshness(thing.freshness, thing.kind)}{thing.freshness !== 'live' && ` (${t.ago(age(thing.age))})`}</Fact>
         <Fact name={t.position}>{position(thing)}</Fact>
         {th !== undefined && <Fact name={t.direction}>{degrees(th)}</Fact>}
         <Fact name={t.certainty}>{ellipse ? certainty(ellipse) : t.uncertain}</Fact>
-        <Fact name={t.told_by}><code>{thing.thing.component}</code></Fact>
+        <Fact name={t.told_by}><ComponentLink component={thing.thing.component} /></Fact>
         {thing.frame && <Fact name={t.own_frame}><code>{thing.frame.crs}</code></Fact>}
         {others?.robot && <Fact name={t.distance}>{t.near(others.name, metres(distance(others.robot, thing), 1))}</Fact>}
       </dl>
@@ -193,6 +195,20 @@ function Fact({ name, children }: { name: string; children: ComponentChildren })
       <dt>{name}</dt>
       <dd>{children}</dd>
     </div>
+  );
+}
+
+// Leads to the component.
+function ComponentLink({ component }: { component: string }) {
+  const { selection } = useConsole();
+  const go_to = () => {
+    selection.component.value = component;
+    show_panel('components');
+  };
+  return (
+    <button type="button" class="map-link" onClick={go_to}>
+      <code>{component}</code>
+    </button>
   );
 }
 

@@ -12,7 +12,7 @@ import { type Hit, type Input, stepped, type Surroundings } from './interaction'
 import { Labels } from './labels';
 import type { Palette } from './palette';
 import { type Context, Pen } from './pen';
-import { draw_picture, knob, type Picture, type Preview } from './picture';
+import { draw_picture, knob_distance, type Picture, type Preview } from './picture';
 import type { Shown } from './scene';
 import type { MapSession } from './session';
 import { Trails } from './trails';
@@ -135,8 +135,10 @@ export class Drawing {
     const { target } = this.session.interaction.value;
     if (target) {
       const th = ((target.th ?? this.arrival(target)) * Math.PI) / 180;
-      const [x, y] = [target.x + (knob / view.scale) * Math.cos(th), target.y + (knob / view.scale) * Math.sin(th)];
-      if (reached({ x, y }, 7 + around) || reached(target, 12)) return { what: 'target' };
+      const size = this.driven_radius() * view.scale;
+      const away = knob_distance(size) / view.scale;
+      const knob = { x: target.x + away * Math.cos(th), y: target.y + away * Math.sin(th) };
+      if (reached(knob, 7 + around) || reached(target, Math.max(12, size))) return { what: 'target' };
     }
     const pen = { length: (mm: number) => mm * view.scale };
     const thing = this.shown
@@ -169,6 +171,10 @@ export class Drawing {
   private driven(): Shown | undefined {
     const ref = this.session.driver()?.robot?.ref;
     return ref === undefined ? undefined : this.shown.find((one) => one.key === `robot ${ref}`);
+  }
+
+  private driven_radius(): number {
+    return this.driven()?.radius ?? usual_radius;
   }
 
   // --- Drawing ---
@@ -260,7 +266,7 @@ export class Drawing {
     const { target } = this.session.interaction.value;
     if (!target) return undefined;
     const robot = this.driven();
-    const radius = robot?.radius ?? usual_radius;
+    const radius = this.driven_radius();
     const from = robot && this.pose_of(robot);
     const is_blocked = target.place === undefined && obstacle_at(this.session.map, target, radius) !== undefined;
     return { target, radius, from, text: from ? this.tools.distance_text(distance(from, target)) : '', is_blocked };

@@ -160,5 +160,7 @@ function draw_axes(pen: Pen, frame: { x: number; y: number; heading: number }, n
   }
   pen.circle(at, 2.5);
   pen.fill(palette.ink, 0.75);
-  if (name !== '') pen.text(name, { x: at.x + 8, y: at.y - 12 }, palette.soft);
+  if (name === '') return;
+  const room = pen.size.width - 8 - context.measureText(name).width; // one at the edge is written before it
+  pen.text(name, { x: at.x > pen.size.width ? at.x + 8 : Math.min(at.x + 8, room), y: at.y - 12 }, palette.soft);
 }

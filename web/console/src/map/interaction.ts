@@ -209,7 +209,7 @@ function typed(before: Interaction, { key, shift, ctrl }: Input & { kind: 'key' 
 /** The keys that the map understands; all others belong to the page. */
 export function is_map_key({ key, ctrlKey, metaKey, altKey }: Pick<KeyboardEvent, 'key' | 'ctrlKey' | 'metaKey' | 'altKey'>): boolean {
   if (altKey || metaKey) return false;
-  return /^Arrow/.test(key) || (!ctrlKey && /^([-+=0qenp ]|Home|Enter|Escape)$/.test(key));
+  return /^(Arrow.*|Enter)$/.test(key) || (!ctrlKey && /^([-+=0qenp ]|Home|Escape)$/.test(key));
 }
 
 function to_thing(before: Interaction, step: number, around: Surroundings): Interaction {
@@ -240,6 +240,7 @@ function with_direction({ x, y }: Target, th: number): Target {
   return { x, y, th: Math.round(turned(th)) };
 }
 
+// As exactly as it is shown.
 function rounded({ x, y }: Point): Target {
-  return { x: Math.round(x), y: Math.round(y) };
+  return { x: Math.round(x / 10) * 10, y: Math.round(y / 10) * 10 };
 }

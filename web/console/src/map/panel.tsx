@@ -108,7 +108,7 @@ function Remarks() {
   const t = texts();
   const { link, map, now } = console;
   const view = map.view.value;
-  void console.robots.pulse.beat.value;
+  for (const pulse of [console.robots.pulse, console.entities.pulse]) void pulse.beat.value;
   const { lost } = session.scene();
   return (
     <>
@@ -123,6 +123,7 @@ function Remarks() {
           </Button>
         </p>
       )}
+      {link.is_open && console.entities.all.size === 0 && !session.observer.state.value.is_wanted && session.observer.components.length > 0 && <p class="map-remark map-soft">{t.nobody_hint}</p>}
       {lost.length > 0 && <p class="map-remark" title={[...new Set(lost.map((one) => one.crs))].join(', ')}>{t.unplaced(lost.length)}</p>}
     </>
   );

@@ -36,7 +36,10 @@ export interface Picture {
 }
 
 const order = { face: 0, sound: 1, person: 2, robot: 3 };
-export const knob = 46; // px between a target and what one turns it by
+/** How far from a target the knob is by which one turns it, in px. */
+export function knob_distance(radius: number): number {
+  return Math.max(46, radius + 26);
+}
 
 export function draw_picture(pen: Pen, picture: Picture, labels: Labels): void {
   const { layers, chosen } = picture;
@@ -99,6 +102,7 @@ function draw_preview(pen: Pen, { target, radius, from, text, is_blocked }: Prev
   const style = is_blocked ? palette.warning : palette.accent;
   const at = pen.at(target);
   const size = Math.max(10, pen.length(radius));
+  const knob = knob_distance(pen.length(radius));
   if (from) {
     const start = pen.at(from);
     pen.dashed(4, 4);

@@ -1,5 +1,5 @@
 // Numbers of the floor in words.
-import { duration } from '../i18n/i18n';
+import { duration, language } from '../i18n/i18n';
 import { confidence } from './glyphs';
 import type { Target } from './interaction';
 import { texts } from './texts';
@@ -21,9 +21,18 @@ export function degrees(th: number): string {
   return texts().degrees(Math.round(th).toFixed(0).replace(/^-0$/, '0'));
 }
 
-/** Whole seconds, since it is drawn anew once a second. */
+const ages = new Map<string, string>();
+
+/** Whole seconds, since it is drawn anew once a second. Pictures need the same ones again and again, and browsers are slow to write numbers. */
 export function age(ms: number): string {
-  return duration(ms < 1000 ? 1000 : Math.floor(ms / 1000) * 1000).replace('.0', '');
+  const whole = ms < 1000 ? 1000 : Math.floor(ms / 1000) * 1000;
+  const key = `${language.value} ${whole}`;
+  const known = ages.get(key);
+  if (known !== undefined) return known;
+  if (ages.size > 500) ages.clear();
+  const said = duration(whole).replace('.0', '');
+  ages.set(key, said);
+  return said;
 }
 
 /** `± 0.12 m (95 %)`, of both axes when they differ. */

@@ -1,7 +1,7 @@
 // What is on the floor now: robots, people, faces and sounds, each with how sure one can be that it is still there.
 import type { FloorMap, RobotFrame } from '../state/floor_map';
 import { ellipse_of, type Entity, type Robot, type Thing } from '../state/things';
-import { frame_named, out_of, turned_by } from './floor';
+import { distance, frame_named, out_of, turned_by } from './floor';
 import type { Point } from './view';
 
 export type Kind = 'robot' | Entity['kind'];
@@ -48,9 +48,12 @@ export interface Scene {
 
 const robot_radius = 250; // mm, of one that is not on the map
 const radii: Record<Entity['kind'], number> = { person: 220, face: 90, sound: 110 };
-const quiet_after: Record<Kind, number> = { robot: 2000, person: 5000, face: 5000, sound: 1500 }; // ms
+const quiet_after: Record<Kind, number> = { robot: 2000, person: 5000, face: 2000, sound: 1500 }; // ms
 const shown_for = 30_000; // ms, when it is gone
-const echo = 6000; // ms for which a sound is shown that nobody hears any more
+// Nobody tells that a sound is over, or that somebody has looked away: a sound that is not told of any more is over, and a face is where
+// it was as long as somebody is there.
+const echo = 6000; // ms for which they are shown then
+const head = 500; // mm
 const surely_sensed = 2000; // ms: who was told of just now is sensed, whatever one knows of bindings
 
 export function scene_of({ robots, entities, map, now, is_live, senses }: Told): Scene {
@@ -66,13 +69,15 @@ export function scene_of({ robots, entities, map, now, is_live, senses }: Told):
     if (frame) shown.frame = frame;
     scene.shown.push(shown);
   };
-  for (const entity of entities) {
+  const all = [...entities];
+  const people = all.filter((one) => one.kind === 'person' && one.is_seen);
+  for (const entity of all) {
     const { kind, identity } = entity;
     const age = now - entity.at;
     const is_there = is_live && entity.is_seen && (age < surely_sensed || senses(entity.component));
-    // A sound has no end of its own: nobody tells that it is over.
-    const freshness: Freshness = !is_there || (kind === 'sound' && age > quiet_after.sound) ? 'gone' : age > quiet_after[kind] ? 'quiet' : 'live';
-    if (is_live && freshness === 'gone' && age > (kind === 'sound' ? echo : shown_for)) continue;
+    const is_over = age > quiet_after[kind] && (kind === 'sound' || (kind === 'face' && !people.some((one) => distance(one, entity) < head)));
+    const freshness: Freshness = !is_there || is_over ? 'gone' : age > quiet_after[kind] ? 'quiet' : 'live';
+    if (is_live && freshness === 'gone' && age > (kind === 'person' ? shown_for : echo)) continue;
     add(entity, kind, { name: identity?.ref ?? entity.ref, radius: radii[kind], freshness, identity });
   }
   for (const robot of robots) {

@@ -31,7 +31,7 @@ export function ThingsTable() {
           <tr key={one.key} aria-selected={is_shown ? one.key === chosen : undefined}>
             <td>{t.kind(one.kind)}</td>
             <th scope="row">{one.name}{one.identity && <span class="map-soft"> {one.thing.ref}</span>}</th>
-            <td>{t.freshness(one.freshness)}</td>
+            <td>{t.freshness(one.freshness, one.kind)}</td>
             <td>{position(one)}</td>
             <td>{one.th === undefined ? '–' : degrees(one.th)}</td>
             <td>{one.ellipse ? certainty(one.ellipse) : '–'}</td>
@@ -51,7 +51,7 @@ export function ThingsTable() {
   if (!is_shown) return <div class="unseen">{table}</div>;
   return (
     <div class="map-table" role="region" aria-label={t.table_label} tabIndex={0}>
-      {shown.length === 0 ? <p class="map-soft">{t.nobody}</p> : table}
+      {shown.length === 0 ? <p class="map-soft">{t.nothing}</p> : table}
     </div>
   );
 }

@@ -243,6 +243,15 @@ describe('what is on the floor', () => {
     expect(scene_of(told({ entities: [sound(500)] })).shown[0]!.th).toBeUndefined();
   });
 
+  test('a face is there as long as somebody is: nobody tells that somebody has looked away', () => {
+    const face = (age: number, x = 1000) => person('f', { kind: 'face', at: now - age, x });
+    const body = person('a', { at: now - 9000 });
+    expect(states({ entities: [body, face(9000)] })).toEqual(['quiet', 'quiet']);
+    expect(states({ entities: [body, face(4000, 3000)] })).toEqual(['quiet', 'gone']);
+    expect(states({ entities: [body, face(9000, 3000)] })).toEqual(['quiet']);
+    expect(states({ entities: [face(500)] })).toEqual(['live']);
+  });
+
   test('a robot of which nothing is heard is old', () => {
     expect(states({ robots: [robot('robot1', { at: now - 3000 })] })).toEqual(['gone']);
   });
