@@ -119,8 +119,8 @@ export function TargetCard({ target, sending }: { target: Target; sending: Sendi
           <NumberField label="y" unit="m" text={(target.y / 1000).toFixed(2)} put={(y) => y !== undefined && put(moved(target, { y: Math.round(y * 1000) }))} />
           <NumberField label={t.direction} unit="°" text={target.th === undefined ? '' : String(target.th)} hint={target.th === undefined ? t.as_it_arrives : t.turn_hint} put={(th) => put(th === undefined ? { x: target.x, y: target.y } : { x: target.x, y: target.y, th: Math.round(turned(th)) })} />
         </div>
-        <p class="field-hint">{t.turn_hint}</p>
-        <TextField label={t.give_up} unit="s" value={session.time_limit.value} change={(to) => (session.time_limit.value = to)} error={limit === undefined ? t.no_number : undefined} hint={t.give_up_hint} input={{ inputMode: 'numeric' }} />
+        {target.th === undefined && <p class="field-hint">{t.turn_hint}</p>}
+        <TextField label={t.give_up} unit="s" value={session.time_limit.value} change={(to) => (session.time_limit.value = to)} error={limit === undefined ? t.no_number : undefined} input={{ inputMode: 'numeric', placeholder: t.never }} />
         <p class="map-fact">
           {driver.robot && t.straight(metres(distance(driver.robot, target), 1))} <code title={t.position}>{target_text(target)}</code>
         </p>

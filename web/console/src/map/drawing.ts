@@ -16,7 +16,7 @@ import { draw_picture, knob_distance, type Picture, type Preview } from './pictu
 import type { Shown } from './scene';
 import type { MapSession } from './session';
 import { Trails } from './trails';
-import { box_around, fitted, type Point, type Size, to_floor, to_screen, type View } from './view';
+import { box_around, fitted, margin_of, type Point, type Size, to_floor, to_screen, type View } from './view';
 
 /** As much of a canvas as this needs. */
 export interface Sheet {
@@ -34,7 +34,6 @@ export interface DrawingTools {
   distance_text: (mm: number) => string;
 }
 
-const margin = 36; // px around the whole floor
 const usual_radius = 250; // mm, of a robot that is not on the map
 const reach = { fine: 10, coarse: 20 }; // px around a thing that still hit it
 
@@ -160,7 +159,7 @@ export class Drawing {
   }
 
   private whole(): View {
-    return fitted(this.session.map?.bounds ?? box_around(this.shown), this.size, margin);
+    return fitted(this.session.map?.bounds ?? box_around(this.shown), this.size, margin_of(this.size));
   }
 
   private arrival(at: Point): number {

@@ -162,5 +162,5 @@ function draw_axes(pen: Pen, frame: { x: number; y: number; heading: number }, n
   pen.fill(palette.ink, 0.75);
   if (name === '') return;
   const room = pen.size.width - 8 - context.measureText(name).width; // one at the edge is written before it
-  pen.text(name, { x: at.x > pen.size.width ? at.x + 8 : Math.min(at.x + 8, room), y: at.y - 12 }, palette.soft);
+  pen.text(name, { x: at.x > pen.size.width ? at.x + 8 : Math.min(at.x + 8, room), y: at.y + 12 < pen.size.height - 6 ? at.y + 12 : at.y - 12 }, palette.soft);
 }

@@ -37,16 +37,16 @@ export default function MapPanel() {
           <Motions />
         </div>
         <Chosen sending={sending} />
-        <div class="map-corner map-zoom">
+      </div>
+      <div class="map-foot">
+        <div class="map-zoom">
           <IconButton icon="plus" label={t.zoom_in} onClick={() => drawing.value?.act({ kind: 'zoom', factor: key_zoom })} />
           <IconButton icon="minus" label={t.zoom_out} onClick={() => drawing.value?.act({ kind: 'zoom', factor: 1 / key_zoom })} />
           <IconButton icon="fit" label={t.fit} onClick={() => drawing.value?.act({ kind: 'fit' })} />
         </div>
-        <div class="map-corner map-foot">
-          {drawing.value && <Scale drawing={drawing.value} />}
-          <Frame />
-          {pointer.value && <span class="map-pointer">{position(pointer.value)}</span>}
-        </div>
+        {drawing.value && <Scale drawing={drawing.value} />}
+        <Frame />
+        {pointer.value && <span class="map-pointer">{position(pointer.value)}</span>}
       </div>
       <ThingsTable />
     </div>

@@ -5,7 +5,7 @@ import { draw_certainty, draw_choice, draw_thing, radius_of } from './glyphs';
 import type { Goal } from './goals';
 import { type Layers, name_box } from './ground';
 import type { Target } from './interaction';
-import { type Label, Labels } from './labels';
+import { type Label, Labels, type Place as LabelBox } from './labels';
 import type { Pen } from './pen';
 import type { Shown } from './scene';
 import type { Point } from './view';
@@ -155,6 +155,7 @@ function draw_names(pen: Pen, { chosen, hovered, age_text, places: named, layers
   }
   wanted.sort((a, b) => Number(b.must) - Number(a.must));
   const taken = layers.places ? named.map((place) => name_box(pen, place, width_of(pen, place.name))) : [];
+  for (const [one, , at] of seen) if (one.kind === 'robot' || one.kind === 'person') taken.push(box_of(at, radius_of(pen, one)));
   const places = labels.placed(wanted, size, taken);
   for (const [one] of seen) {
     const place = places.get(one.key);
@@ -165,6 +166,10 @@ function draw_names(pen: Pen, { chosen, hovered, age_text, places: named, layers
     if (one.key === chosen) pen.stroke(palette.accent, 1);
     pen.text(texts.get(one.key)!, { x: place.x + 5, y: place.y + place.height / 2 + 1 }, one.freshness === 'live' ? palette.ink : palette.soft);
   }
+}
+
+function box_of({ x, y }: Point, radius: number): LabelBox {
+  return { x: x - radius, y: y - radius, width: 2 * radius, height: 2 * radius };
 }
 
 const widths = new Map<string, number>();

@@ -60,6 +60,11 @@ export function fitted(box: Box, size: Size, margin: number): View {
   return { x: box.x + box.width / 2, y: box.y + box.depth / 2, scale: Math.min(greatest_scale, Math.max(least_scale, scale)) };
 }
 
+/** What is kept around a floor of which all is shown. */
+export function margin_of({ width, height }: Size): number {
+  return Math.min(36, 0.06 * Math.min(width, height));
+}
+
 /** Moved no farther than it takes to have the point on the screen, so many pixels from its edge. */
 export function with_point(view: View, size: Size, point: Point, margin: number): View {
   const at = to_screen(view, size, point);

@@ -3,7 +3,7 @@ import type { Page } from 'playwright-core';
 import { connect } from 'rois-client';
 import { afterAll, beforeAll, beforeEach, describe, expect, test } from 'vitest';
 
-import { fitted, type Point, to_screen } from '../../src/map/view';
+import { fitted, margin_of, type Point, to_screen } from '../../src/map/view';
 import { Hall, still_hall } from './hall';
 import { picture, sizes, Stage, violations } from './harness';
 
@@ -25,7 +25,7 @@ const bounds = { x: 0, y: 0, width: 20_000, depth: 12_000 };
 /** Where a point of the floor is on the page, while all of it is shown. */
 async function on_page(page: Page, at: Point): Promise<Point> {
   const box = (await page.locator('.map-canvas').boundingBox())!;
-  const point = to_screen(fitted(bounds, box, 36), box, at);
+  const point = to_screen(fitted(bounds, box, margin_of(box)), box, at);
   return { x: box.x + point.x, y: box.y + point.y };
 }
 async function click(page: Page, at: Point): Promise<void> {
@@ -147,7 +147,7 @@ describe('the robot', () => {
     stage.page(async (page) => {
       await ready(page);
       await click(page, { x: 4000, y: 4000 });
-      await page.getByText(/^\d\.\d m away, straight on/).waitFor();
+      await page.getByText(/^\d\.\d m away/).waitFor();
       const from = await on_page(page, { x: 4000, y: 4000 });
       await page.mouse.move(from.x, from.y);
       await page.mouse.down();
