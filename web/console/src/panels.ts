@@ -2,6 +2,7 @@
 import type { ComponentType } from 'preact';
 
 import { texts as components } from './components/texts';
+import { texts as map } from './map/texts';
 import { texts as messages } from './messages/texts';
 import type { IconName } from './ui/icon';
 
@@ -19,6 +20,7 @@ export interface Panel {
 }
 
 export const panels: readonly Panel[] = [
+  { id: 'map', title: () => map().title, icon: 'map', area: 'main', load: () => import('./map/panel') },
   { id: 'components', title: () => components().title, icon: 'components', area: 'side', load: () => import('./components/panel') },
   { id: 'messages', title: () => messages().title, icon: 'messages', area: 'below', load: () => import('./messages/panel') },
 ];

@@ -107,6 +107,7 @@ export class Console {
       environment,
       (event_type) => this.documents.as_own(() => this.subscriptions.subscribe(event_type, {}, true)),
       (event_type) => this.profile.with_event(event_type).length > 0,
+      (ref) => this.profile.component(ref)?.engine ?? '',
     );
     this.map = new MapState(environment, token);
     this.now.value = environment.now();

@@ -9,8 +9,8 @@ const most_entities = 500;
 const forgotten_after = 30_000; // ms since it was told of
 const same_place = 1000; // mm: somebody who is identified there is the one who is tracked there
 
-/** The events that tell of them. */
-export const entity_events = ['person_localized', 'face_localized', 'sound_localized', 'person_identified'];
+/** The events that tell of them; the last one tells when there is nobody. */
+export const entity_events = ['person_localized', 'face_localized', 'sound_localized', 'person_identified', 'person_detected'];
 
 export class EntitiesState {
   /** By kind and ref: `person person-1`. They change in place: read `pulse.beat.value`, then this. */
@@ -24,6 +24,7 @@ export class EntitiesState {
     private readonly environment: Environment,
     private readonly subscribe: (event_type: string) => Promise<Subscription>,
     private readonly has_event: (event_type: string) => boolean,
+    private readonly engine_of: (component: string) => string,
   ) {
     this.pulse = new Pulse(environment);
   }
@@ -64,6 +65,7 @@ export class EntitiesState {
     const kind = kind_told_by(event);
     if (kind) this.localized(kind, event);
     else if (event.event_type === 'person_identified') this.identified(event);
+    else if (event.event_type === 'person_detected' && event.results.number('number') === 0) this.nobody_there(event);
   }
 
   forget(): void {
@@ -89,6 +91,14 @@ export class EntitiesState {
       if (this.all.size <= most_entities) break;
       this.all.delete(key);
     }
+    this.pulse.touch();
+  }
+
+  // Localization tells nothing when the last one has left: detection does.
+  private nobody_there(event: ReceiveEvent): void {
+    const engine = this.engine_of(event.component_ref.code);
+    for (const entity of this.all.values())
+      if (entity.kind !== 'sound' && this.engine_of(entity.component) === engine) entity.is_seen = false;
     this.pulse.touch();
   }
 

@@ -1,0 +1,265 @@
+// What was chosen on the floor, and what can be done with it: a target to send a robot to, a person to follow, a robot.
+import { useSignal } from '@preact/signals';
+import type { ComponentChildren } from 'preact';
+
+import { useConsole } from '../shell/context';
+import { show_panel } from '../shell/layout';
+import { Button, error_text, IconButton, SelectField, TextField } from '../ui';
+import { type Driver, follow, go, motions_of, stop, target_text } from './driving';
+import { distance, obstacle_at, turned } from './floor';
+import type { Target } from './interaction';
+import { age, certainty, degrees, metres, position } from './says';
+import type { Shown } from './scene';
+import { session_of } from './session';
+import { texts } from './texts';
+
+const no_radius = 250; // mm
+
+/** Does something that can fail, and says beside the button why. */
+function useDeed(): { run(deed: () => Promise<void>): void; is_busy: boolean; trouble: ComponentChildren } {
+  const is_busy = useSignal(false);
+  const trouble = useSignal('');
+  return {
+    run: (deed) => {
+      is_busy.value = true;
+      trouble.value = '';
+      deed()
+        .catch((error: unknown) => (trouble.value = error_text(error)))
+        .finally(() => (is_busy.value = false));
+    },
+    is_busy: is_busy.value,
+    trouble: trouble.value !== '' && <p class="map-trouble" role="alert">{trouble.value}</p>,
+  };
+}
+
+function Card({ title, close, children }: { title: string; close: () => void; children: ComponentChildren }) {
+  return (
+    <section class="map-card" aria-label={title}>
+      <header class="map-card-head">
+        <h3>{title}</h3>
+        <IconButton small icon="close" label={texts().close} onClick={close} />
+      </header>
+      {children}
+    </section>
+  );
+}
+
+/** The robot that is sent, where there are several. */
+function DriverChoice() {
+  const session = session_of(useConsole());
+  const all = session.drivers();
+  if (all.length < 2) return null;
+  const choices = all.map((one) => ({ value: one.engine, label: one.name }));
+  return <SelectField label={texts().robot} value={session.driver()?.engine ?? ''} choices={choices} change={(engine) => (session.engine.value = engine)} />;
+}
+
+export interface Sending {
+  is_busy: boolean;
+  trouble: ComponentChildren;
+  /** Undefined: it cannot be sent now. */
+  send: (() => void) | undefined;
+}
+
+/** Sends the chosen robot to the target. */
+export function useSending(): Sending {
+  const console = useConsole();
+  const session = session_of(console);
+  const deed = useDeed();
+  const driver = session.driver();
+  const { target } = session.interaction.value;
+  const limit = seconds_of(session.time_limit.value);
+  const can = driver?.navigation !== undefined && target !== undefined && console.link.is_open && limit !== undefined && !deed.is_busy;
+  const send = () =>
+    deed.run(async () => {
+      await go(console, driver!, target!, limit! * 1000);
+      if (session.interaction.value.target === target) session.interaction.value = { ...session.interaction.value, target: undefined };
+    });
+  return { ...deed, send: can ? send : undefined };
+}
+
+function seconds_of(text: string): number | undefined {
+  const seconds = text.trim() === '' ? 0 : Number(text);
+  return Number.isFinite(seconds) && seconds >= 0 ? seconds : undefined;
+}
+
+export function TargetCard({ target, sending }: { target: Target; sending: Sending }) {
+  const console = useConsole();
+  const session = session_of(console);
+  const t = texts();
+  const driver = session.driver();
+  const map = session.map;
+  const put = (to: Target | undefined) => (session.interaction.value = { ...session.interaction.value, target: to });
+  const radius = map?.robots.find((one) => one.name === driver?.robot?.ref)?.radius ?? no_radius;
+  const blocked = target.place === undefined ? obstacle_at(map, target, radius) : undefined;
+  const limit = seconds_of(session.time_limit.value);
+  const places = [{ value: '', label: t.point }, ...(map?.places ?? []).map(({ name }) => ({ value: name, label: name }))];
+  const choose = (name: string) => {
+    const place = map?.places.find((one) => one.name === name);
+    put(place ? { x: place.x, y: place.y, th: place.heading, place: name } : { x: target.x, y: target.y, ...(target.th !== undefined && { th: target.th }) });
+  };
+  if (!driver?.navigation)
+    return (
+      <Card title={position(target)} close={() => put(undefined)}>
+        <p>{t.no_navigation}</p>
+      </Card>
+    );
+  return (
+    <Card title={t.send_title(driver.name)} close={() => put(undefined)}>
+      <form
+        class="map-form"
+        onSubmit={(event) => {
+          event.preventDefault();
+          sending.send?.();
+        }}
+      >
+        <DriverChoice />
+        {places.length > 1 && <SelectField label={t.place} value={target.place ?? ''} choices={places} change={choose} />}
+        <div class="map-pose">
+          <NumberField label="x" unit="m" text={(target.x / 1000).toFixed(2)} put={(x) => x !== undefined && put(moved(target, { x: Math.round(x * 1000) }))} />
+          <NumberField label="y" unit="m" text={(target.y / 1000).toFixed(2)} put={(y) => y !== undefined && put(moved(target, { y: Math.round(y * 1000) }))} />
+          <NumberField label={t.direction} unit="°" text={target.th === undefined ? '' : String(target.th)} hint={target.th === undefined ? t.as_it_arrives : t.turn_hint} put={(th) => put(th === undefined ? { x: target.x, y: target.y } : { x: target.x, y: target.y, th: Math.round(turned(th)) })} />
+        </div>
+        {target.th === undefined && <p class="field-hint">{t.turn_hint}</p>}
+        <TextField label={t.give_up} unit="s" value={session.time_limit.value} change={(to) => (session.time_limit.value = to)} error={limit === undefined ? t.no_number : undefined} input={{ inputMode: 'numeric', placeholder: t.never }} />
+        <p class="map-fact">
+          {driver.robot && t.straight(metres(distance(driver.robot, target), 1))} <code title={t.position}>{target_text(target)}</code>
+        </p>
+        {blocked && <p class="map-warning">{t.blocked(blocked)}</p>}
+        {sending.trouble}
+        {!console.link.is_open && <p class="map-warning">{t.unlinked}</p>}
+        <div class="map-actions">
+          <Button type="submit" look="primary" icon="send" busy={sending.is_busy} disabled={!sending.send} title={t.turn_hint}>
+            {t.send}
+          </Button>
+          <Button onClick={() => put(undefined)}>{t.cancel}</Button>
+        </div>
+      </form>
+    </Card>
+  );
+}
+
+// Another point is no longer the place.
+function moved({ x, y, th }: Target, to: Partial<Target>): Target {
+  return { x, y, ...(th !== undefined && { th }), ...to };
+}
+
+/** A number of the target. What is being typed stays as it is typed; `undefined`: nothing was. */
+function NumberField({ label, unit, text, hint, put }: { label: string; unit: string; text: string; hint?: string; put: (n: number | undefined) => void }) {
+  const draft = useSignal<string | undefined>(undefined);
+  const change = (typed: string) => {
+    draft.value = typed;
+    const n = Number(typed);
+    if (Number.isFinite(n)) put(typed.trim() === '' ? undefined : n);
+  };
+  const is_wrong = draft.value !== undefined && !Number.isFinite(Number(draft.value));
+  return (
+    <TextField
+      label={label}
+      unit={unit}
+      value={draft.value ?? text}
+      change={change}
+      error={is_wrong ? texts().no_number : undefined}
+      input={{ inputMode: 'decimal', placeholder: '–', title: hint ?? '', onBlur: () => (draft.value = undefined) }}
+    />
+  );
+}
+
+export function ThingCard({ thing, close }: { thing: Shown; close: () => void }) {
+  const console = useConsole();
+  const session = session_of(console);
+  const t = texts();
+  const driver = session.driver();
+  const own = session.drivers().find((one) => thing.kind === 'robot' && one.robot?.ref === thing.thing.ref);
+  const { ellipse, identity, th } = thing;
+  const others = own === undefined ? driver : undefined;
+  return (
+    <Card title={`${t.kind(thing.kind)} ${thing.name}`} close={close}>
+      <dl class="map-facts">
+        {thing.kind === 'person' && <Fact name={t.name}>{identity ? t.identified(thing.thing.ref) : t.unidentified}</Fact>}
+        <Fact name={t.state}>{t.freshness(thing.freshness, thing.kind)}{thing.freshness !== 'live' && ` (${t.ago(age(thing.age))})`}</Fact>
+        <Fact name={t.position}>{position(thing)}</Fact>
+        {th !== undefined && <Fact name={t.direction}>{degrees(th)}</Fact>}
+        <Fact name={t.certainty}>{ellipse ? certainty(ellipse) : t.uncertain}</Fact>
+        <Fact name={t.told_by}><ComponentLink component={thing.thing.component} /></Fact>
+        {thing.frame && <Fact name={t.own_frame}><code>{thing.frame.crs}</code></Fact>}
+        {others?.robot && <Fact name={t.distance}>{t.near(others.name, metres(distance(others.robot, thing), 1))}</Fact>}
+      </dl>
+      {own ? <OwnRobot driver={own} /> : others && thing.kind !== 'sound' && <Pursuit driver={others} thing={thing} />}
+    </Card>
+  );
+}
+
+function Fact({ name, children }: { name: string; children: ComponentChildren }) {
+  return (
+    <div>
+      <dt>{name}</dt>
+      <dd>{children}</dd>
+    </div>
+  );
+}
+
+// Leads to the component.
+function ComponentLink({ component }: { component: string }) {
+  const { selection } = useConsole();
+  const go_to = () => {
+    selection.component.value = component;
+    show_panel('components');
+  };
+  return (
+    <button type="button" class="map-link" onClick={go_to}>
+      <code>{component}</code>
+    </button>
+  );
+}
+
+function OwnRobot({ driver }: { driver: Driver }) {
+  const console = useConsole();
+  const deed = useDeed();
+  void console.commands.pulse.beat.value;
+  if (motions_of(console, driver).length === 0) return null;
+  return (
+    <>
+      {deed.trouble}
+      <div class="map-actions">
+        <Button look="danger" icon="stop" busy={deed.is_busy} onClick={() => deed.run(() => stop(console, driver))}>
+          {texts().stop_robot(driver.name)}
+        </Button>
+      </div>
+    </>
+  );
+}
+
+function Pursuit({ driver, thing }: { driver: Driver; thing: Shown }) {
+  const console = useConsole();
+  const session = session_of(console);
+  const t = texts();
+  const deed = useDeed();
+  const gap = Number(session.gap.value);
+  const is_number = session.gap.value.trim() !== '' && Number.isFinite(gap) && gap > 0;
+  const go_there = () => (session.interaction.value = { ...session.interaction.value, chosen: undefined, target: { x: Math.round(thing.x), y: Math.round(thing.y) } });
+  return (
+    <form
+      class="map-form"
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (is_number && driver.follow) deed.run(() => follow(console, driver, thing, Math.round(gap * 1000)));
+      }}
+    >
+      <DriverChoice />
+      {driver.follow ? (
+        <TextField label={t.gap} unit="m" value={session.gap.value} change={(to) => (session.gap.value = to)} error={is_number ? undefined : t.no_number} input={{ inputMode: 'decimal' }} />
+      ) : (
+        <p>{t.no_follow}</p>
+      )}
+      {deed.trouble}
+      <div class="map-actions">
+        {driver.follow && (
+          <Button type="submit" look="primary" icon="person" busy={deed.is_busy} disabled={!console.link.is_open || !is_number} title={t.follow_whom(thing.name)}>
+            {t.follow}
+          </Button>
+        )}
+        {driver.navigation && <Button icon="send" onClick={go_there}>{t.go_there}</Button>}
+      </div>
+    </form>
+  );
+}

@@ -1,0 +1,91 @@
+// The robots that can be sent about, with the components that move them, and what they are doing for this console.
+import { value } from 'rois-client';
+
+import { error_text } from '../ui/error_text';
+import { type CommandEntry, has_ended } from '../state/commands_state';
+import type { Console } from '../state/console';
+import type { Robot } from '../state/things';
+import type { Target } from './interaction';
+import type { Shown } from './scene';
+import { target_words } from './says';
+import { texts } from './texts';
+
+/** A robot, and the components of its engine that share its wheels. */
+export interface Driver {
+  engine: string;
+  name: string;
+  robot: Robot | undefined; // unless nobody tells where it is
+  navigation: string | undefined;
+  follow: string | undefined;
+  wheels: string[]; // all that move it
+}
+
+const moving_types = ['Navigation', 'Follow', 'Move'];
+
+export function drivers_of({ profile, robots }: Console): Driver[] {
+  const movers = moving_types.map((type) => profile.of_type(type));
+  const engines = new Set(movers.flatMap((those) => those.map((one) => one.engine)));
+  return [...engines].map((engine): Driver => {
+    const [navigation, follow, move] = movers.map((those) => those.find((one) => one.engine === engine)?.ref);
+    const there = [...robots.all.values()].filter((one) => profile.component(one.component)?.engine === engine);
+    const robot = there.find((one) => one.ref === engine) ?? there[0];
+    const wheels = [navigation, follow, move].filter((one) => one !== undefined);
+    return { engine, name: robot?.ref ?? engine, robot, navigation, follow, wheels };
+  });
+}
+
+/** What it does for this console: `start`s that have not ended, the newest last. */
+export function motions_of({ commands }: Pick<Console, 'commands'>, driver: Driver): CommandEntry[] {
+  return commands.open().filter((one) => one.command_type === 'start' && driver.wheels.includes(one.component));
+}
+
+/** As navigation takes it: the name of a place, `x, y`, or `x, y, th`. */
+export function target_text({ x, y, th, place }: Target): string {
+  return place ?? (th === undefined ? `${x}, ${y}` : `${x}, ${y}, ${th}`);
+}
+
+/** Sends it there. `time_limit` is in ms, 0 for none. Rejects when it was not accepted. */
+export async function go(console: Console, driver: Driver, target: Target, time_limit: number): Promise<void> {
+  const named = { target_position: value.strings([target_text(target)]), time_limit: value.int(time_limit) };
+  const said = target_words(target);
+  await drive(console, driver, driver.navigation!, named, texts().going(driver.name, said), texts().arrived(driver.name, said));
+}
+
+/** Has it follow somebody, by the permanent name when it is known. */
+export async function follow(console: Console, driver: Driver, { thing, identity, name }: Shown, distance: number): Promise<void> {
+  const { ref: code, codebook } = identity ?? thing;
+  const whom = value.identifier(codebook === '' ? code : { code, codebook_ref: codebook });
+  await drive(console, driver, driver.follow!, { target_object_ref: whom, distance: value.int(distance) }, texts().following(driver.name, name), texts().followed(driver.name, name));
+}
+
+/** Stops what this console has it do. */
+export async function stop(console: Console, driver: Driver): Promise<void> {
+  await end_all(console, motions_of(console, driver));
+}
+
+async function end_all(console: Console, motions: readonly CommandEntry[]): Promise<void> {
+  const components = [...new Set(motions.map((one) => one.component))];
+  const stops = await Promise.all(components.map((ref) => console.run(ref, 'stop', {}, { give_back: true })));
+  await Promise.all(stops.map((one) => one.ends));
+}
+
+// Another component of the same wheels is stopped first; a new start of the same one replaces what it did.
+async function drive(console: Console, driver: Driver, ref: string, named: Parameters<Console['run']>[2], begun: string, done: string): Promise<void> {
+  await end_all(console, motions_of(console, driver).filter((one) => one.component !== ref));
+  const { command_ids, ends } = await console.run(ref, 'start', named, { give_back: true });
+  const { notices } = console;
+  const halt = () => {
+    const entry = console.commands.find(command_ids[0] ?? '');
+    if (entry && !has_ended(entry)) stop(console, driver).catch((error: unknown) => notices.tell('error', error_text(error)));
+  };
+  const notice = notices.tell('info', begun, { action: { label: texts().stop, act: halt } });
+  ends.then(
+    ([status]) => {
+      notices.dismiss(notice);
+      if (status === 'OK') notices.tell('good', done);
+      else if (status !== 'ABORT') notices.tell('error', texts().failed(begun), { detail: status! });
+      else if (motions_of(console, driver).length === 0) notices.tell('info', texts().stopped(driver.name));
+    },
+    () => notices.dismiss(notice), // the session is gone; the link says so
+  );
+}

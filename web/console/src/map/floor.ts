@@ -1,0 +1,69 @@
+// Where things are on the floor: frames, directions, what stands in the way.
+import type { Bounds, FloorMap, RobotFrame } from '../state/floor_map';
+import type { Point } from './view';
+
+/** mm, degrees counter-clockwise. */
+export interface FloorPose extends Point {
+  th?: number;
+}
+
+/** Between -180 and 180. */
+export function turned(degrees: number): number {
+  const within = ((degrees % 360) + 360) % 360;
+  return within > 180 ? within - 360 : within;
+}
+
+export function distance(a: Point, b: Point): number {
+  return Math.hypot(a.x - b.x, a.y - b.y);
+}
+
+/** In which direction `to` lies, seen from `from`. */
+export function bearing(from: Point, to: Point): number {
+  return (Math.atan2(to.y - from.y, to.x - from.x) * 180) / Math.PI;
+}
+
+/** What is told in a robot's frame, in the map's. */
+export function out_of(frame: RobotFrame, pose: FloorPose): FloorPose {
+  const turn = (frame.heading * Math.PI) / 180;
+  const placed: FloorPose = {
+    x: frame.x + pose.x * Math.cos(turn) - pose.y * Math.sin(turn),
+    y: frame.y + pose.x * Math.sin(turn) + pose.y * Math.cos(turn),
+  };
+  if (pose.th !== undefined) placed.th = turned(pose.th + frame.heading);
+  return placed;
+}
+
+/** Brings poses of this frame to the map: `undefined` is the map's own frame, `unknown` is one of which nobody knows where it is. Frames have no case. */
+export function frame_named(map: FloorMap | undefined, crs: string): RobotFrame | undefined | 'unknown' {
+  const is = (name: string) => name.toLowerCase() === crs.toLowerCase();
+  if (!map || crs === '' || is(map.crs)) return undefined;
+  return map.robots.find((one) => one.frame && is(one.frame.crs))?.frame ?? 'unknown';
+}
+
+export function on_map(map: FloorMap | undefined, crs: string, pose: FloorPose): FloorPose | undefined {
+  const frame = frame_named(map, crs);
+  return frame === 'unknown' ? undefined : frame ? out_of(frame, pose) : pose;
+}
+
+/** What a round robot would stand in or against; undefined: nothing that is on the map. */
+export function obstacle_at(map: FloorMap | undefined, { x, y }: Point, radius: number): 'outside' | 'furniture' | 'wall' | undefined {
+  if (!map) return undefined;
+  const { bounds } = map;
+  if (x - radius < bounds.x || y - radius < bounds.y || x + radius > bounds.x + bounds.width || y + radius > bounds.y + bounds.depth) return 'outside';
+  if (map.furniture.some((one) => distance({ x, y }, nearest_of(one, { x, y })) < radius)) return 'furniture';
+  const near_wall = map.walls.some(({ x1, y1, x2, y2 }) => {
+    const length = (x2 - x1) ** 2 + (y2 - y1) ** 2;
+    const share = length === 0 ? 0 : Math.min(1, Math.max(0, ((x - x1) * (x2 - x1) + (y - y1) * (y2 - y1)) / length));
+    return distance({ x, y }, { x: x1 + share * (x2 - x1), y: y1 + share * (y2 - y1) }) < radius;
+  });
+  return near_wall ? 'wall' : undefined;
+}
+
+function nearest_of(box: Bounds, { x, y }: Point): Point {
+  return { x: Math.min(box.x + box.width, Math.max(box.x, x)), y: Math.min(box.y + box.depth, Math.max(box.y, y)) };
+}
+
+/** A covariance's ellipse, brought along. */
+export function turned_by(frame: RobotFrame | undefined | 'unknown', angle: number): number {
+  return frame && frame !== 'unknown' ? turned(angle + frame.heading) : angle;
+}

@@ -1,0 +1,78 @@
+// Where robots are under way to, whoever has sent them.
+import { useEffect } from 'preact/hooks';
+import { pose_of, type Parameter } from 'rois-client';
+
+import { useConsole } from '../shell/context';
+import type { Console } from '../state/console';
+import type { FloorMap } from '../state/floor_map';
+import { type Driver, drivers_of, motions_of } from './driving';
+import { distance, on_map } from './floor';
+import { position } from './says';
+import type { Shown } from './scene';
+import type { Point } from './view';
+
+export interface Goal extends Point {
+  driver: Driver;
+  kind: 'go' | 'follow';
+  th?: number;
+  text: string; // the name of the place or of whom it follows, or where it is
+  /** Sent by this console. Of others' one only knows what they have set last. */
+  is_mine: boolean;
+}
+
+type Place = Omit<Goal, 'driver' | 'is_mine'>;
+
+const arrived = 300; // mm
+
+/** Of all robots that are under way, as far as one can know. */
+export function goals_of(console: Console, shown: readonly Shown[]): Goal[] {
+  return drivers_of(console).flatMap((driver) => goal_of(console, driver, shown) ?? []);
+}
+
+function goal_of(console: Console, driver: Driver, shown: readonly Shown[]): Goal | undefined {
+  const mine = motions_of(console, driver).at(-1);
+  const view = console.map.view.value;
+  for (const ref of mine ? [mine.component] : components_of(console, driver)) {
+    const given = (name: string) => mine?.arguments.find((one) => one.name.toLowerCase() === name) ?? console.parameters.of(ref)?.get(name);
+    const goal = ref === driver.follow ? followed(given('target_object_ref'), shown) : place_of(given('target_position'), view.state === 'there' ? view.map : undefined);
+    if (!goal) continue;
+    const is_there = driver.robot !== undefined && distance(driver.robot, goal) < arrived;
+    if (mine || !is_there) return { ...goal, driver, is_mine: mine !== undefined };
+  }
+  return undefined;
+}
+
+/** Those whose parameters say where a robot goes: what others have bound, and what works for this console. */
+function components_of(console: Console, driver: Driver): string[] {
+  const at_work = motions_of(console, driver).map((one) => one.component);
+  return [driver.navigation, driver.follow].filter((ref) => ref !== undefined).filter((ref) => at_work.includes(ref) || console.status.of(ref)?.status === 'BUSY');
+}
+
+/** Asks for the parameters that it takes. */
+export function useGoals(): void {
+  const console = useConsole();
+  void console.commands.pulse.beat.value;
+  const refs = drivers_of(console).flatMap((driver) => components_of(console, driver));
+  useEffect(() => {
+    const stops = refs.map((ref) => console.parameters.poll(ref).watch());
+    return () => stops.forEach((stop) => stop());
+  }, [refs.join(' ')]);
+}
+
+// The last position is where it ends.
+function place_of(target: Parameter | undefined, map: FloorMap | undefined): Place | undefined {
+  const text = target?.values.at(-1)?.trim();
+  if (text === undefined) return undefined;
+  const place = map?.places.find((one) => one.name.toLowerCase() === text.toLowerCase());
+  if (place) return { kind: 'go', x: place.x, y: place.y, th: place.heading, text: place.name };
+  const pose = pose_of(text);
+  const has_direction = text.split(',').length > 2;
+  const placed = pose && on_map(map, target?.data_type_ref.codebook_ref ?? '', has_direction ? pose : { x: pose.x, y: pose.y });
+  return placed && { kind: 'go', ...placed, text: position(placed) };
+}
+
+function followed(target: Parameter | undefined, shown: readonly Shown[]): Place | undefined {
+  const ref = target?.values[0];
+  const whom = shown.find((one) => (one.kind === 'person' || one.kind === 'robot') && (one.identity?.ref === ref || one.thing.ref === ref));
+  return whom && { kind: 'follow', x: whom.x, y: whom.y, text: whom.name };
+}

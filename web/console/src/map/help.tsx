@@ -1,0 +1,66 @@
+// How the map is worked with, and what its signs mean.
+import { Dialog } from '../ui';
+import { texts } from './texts';
+
+export function Help({ open, close }: { open: boolean; close: () => void }) {
+  const t = texts();
+  const keys: [string[], string][] = [
+    [['←', '→', '↑', '↓'], t.key_arrows],
+    [['Enter'], t.key_enter],
+    [['Q', 'E'], t.key_turn],
+    [['Ctrl+Enter'], t.key_send],
+    [['N', 'P'], t.key_step],
+    [['+', '−', '0'], t.key_zoom],
+    [['Esc'], t.key_escape],
+  ];
+  const signs = [
+    ['robot', t.kind('robot')],
+    ['person', t.kind('person')],
+    ['known', `${t.kind('person')}, ${t.sign_known}`],
+    ['face', t.kind('face')],
+    ['sound', t.kind('sound')],
+    ['gone', t.sign_gone],
+  ] as const;
+  return (
+    <Dialog title={t.help_title} open={open} close={close}>
+      <div class="map-help">
+        <h3>{t.pointers}</h3>
+        <p>{t.pointer_click}</p>
+        <p>{t.pointer_aim}</p>
+        <p>{t.pointer_pan}</p>
+        <h3>{t.keys}</h3>
+        <dl class="map-keys">
+          {keys.map(([those, what]) => (
+            <div key={what}>
+              <dt>
+                {those.map((key) => (
+                  <kbd key={key}>{key}</kbd>
+                ))}
+              </dt>
+              <dd>{what}</dd>
+            </div>
+          ))}
+        </dl>
+        <h3>{t.signs}</h3>
+        <ul class="map-signs">
+          {signs.map(([sign, what]) => (
+            <li key={sign}>
+              <Sign of={sign} /> {what}
+            </li>
+          ))}
+        </ul>
+      </div>
+    </Dialog>
+  );
+}
+
+function Sign({ of }: { of: 'robot' | 'person' | 'known' | 'face' | 'sound' | 'gone' }) {
+  return (
+    <svg class={`map-sign map-sign-${of}`} width="26" height="26" viewBox="-13 -13 26 26" aria-hidden="true">
+      {of === 'robot' && <><circle r="10" /><path class="map-sign-inner" d="M7 0-5-5-2 0-5 5z" /></>}
+      {(of === 'person' || of === 'known' || of === 'gone') && <><path class="map-sign-nose" d="M12 0 6-3.5v7z" /><ellipse rx="5.5" ry="9" /><circle class="map-sign-inner" r="4" /></>}
+      {of === 'face' && <path d="M5 0 0 5-5 0 0-5z" />}
+      {of === 'sound' && <><circle r="3" /><path class="map-sign-wave" d="M5-4.5a7 7 0 0 1 0 9M8-7a11 11 0 0 1 0 14M-5-4.5a7 7 0 0 0 0 9M-8-7a11 11 0 0 0 0 14" /></>}
+    </svg>
+  );
+}

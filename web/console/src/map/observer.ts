@@ -1,0 +1,127 @@
+// The switch `observe`: has the engine look for people, faces and sounds, so that they appear though no application has asked for them.
+import { effect, signal, untracked } from '@preact/signals';
+import { command, RoisError } from 'rois-client';
+
+import type { GiveBack } from '../state/bindings';
+import type { Console } from '../state/console';
+
+/** What is bound and started for it, where the engine has it. */
+export const observing_types = ['PersonDetection', 'PersonLocalization', 'PersonIdentification', 'FaceLocalization', 'SoundLocalization'];
+
+export interface Observing {
+  is_wanted: boolean;
+  is_busy: boolean; // starting, or giving back
+  /** Components that sense for it. */
+  on: readonly string[];
+  /** Components that it could not have, and why. */
+  refused: readonly { ref: string; error: unknown }[];
+}
+
+const off: Observing = { is_wanted: false, is_busy: false, on: [], refused: [] };
+
+/** Goes on when the panel is taken down, and through new sessions, until it is switched off. */
+export class Observer {
+  readonly state = signal<Observing>(off);
+  private readonly held = new Map<string, { give_back: GiveBack; was_running: boolean }>();
+  private session = '';
+  private turn: Promise<void> = Promise.resolve();
+
+  constructor(private readonly console: Console) {
+    effect(() => {
+      const { link, profile } = console;
+      const [session, is_open] = [link.session.value, link.is_open];
+      void profile.components.value; // what the engine has got since is started, too
+      untracked(() => {
+        if (session !== this.session) this.forget(session);
+        if (is_open && this.state.value.is_wanted) this.next(() => this.take());
+      });
+    });
+    // What was released elsewhere is not sensed for us any more.
+    effect(() => {
+      const mine = console.bindings.mine.value;
+      untracked(() => {
+        for (const ref of this.held.keys()) if (!mine.has(ref)) this.held.delete(ref);
+        const { on, is_busy } = this.state.value;
+        const left = on.filter((ref) => mine.has(ref));
+        if (left.length < on.length && !is_busy) this.tell(left.length > 0 || !console.link.is_open ? { on: left } : off);
+      });
+    });
+  }
+
+  /** Those of the engine that it is about. */
+  get components(): string[] {
+    return observing_types.flatMap((type) => this.console.profile.of_type(type).map((one) => one.ref));
+  }
+
+  /** Resolves when they sense, or have been given back. */
+  async turn_to(is_wanted: boolean): Promise<void> {
+    this.tell({ is_wanted, refused: [] });
+    await this.next(() => (this.state.value.is_wanted ? this.take() : this.give_back()));
+  }
+
+  private next(act: () => Promise<void>): Promise<void> {
+    this.turn = this.turn.then(async () => {
+      this.tell({ is_busy: true });
+      await act();
+      this.tell({ is_busy: false });
+    });
+    return this.turn;
+  }
+
+  private async take(): Promise<void> {
+    for (const ref of this.components) {
+      if (this.held.has(ref) || !this.state.value.is_wanted) continue;
+      try {
+        await this.start(ref);
+        this.tell({ on: [...this.held.keys()], refused: this.state.value.refused.filter((one) => one.ref !== ref) });
+      } catch (error) {
+        if (error instanceof RoisError && ['link_lost', 'session_lost', 'closed'].includes(error.failure)) return; // it is tried again with the next link
+        this.tell({ refused: [...this.state.value.refused.filter((one) => one.ref !== ref), { ref, error }] });
+      }
+    }
+  }
+
+  private async start(ref: string): Promise<void> {
+    const was_running = this.is_running(ref);
+    const give_back = await this.console.bindings.borrow([ref]);
+    this.held.set(ref, { give_back, was_running });
+    if (was_running) return;
+    try {
+      const status = await (await this.console.client.execute([command(ref, 'start')])).status();
+      if (status !== 'OK') throw new Error(status);
+    } catch (error) {
+      this.held.delete(ref);
+      await give_back();
+      throw error;
+    }
+  }
+
+  // Releasing stops what was bound for it; what the user had bound before is stopped, unless it was at work already.
+  private async give_back(): Promise<void> {
+    const { console } = this;
+    for (const [ref, { give_back, was_running }] of [...this.held]) {
+      this.held.delete(ref);
+      await give_back();
+      if (!was_running && console.bindings.mine.value.has(ref)) await console.client.execute([command(ref, 'stop')]).catch(() => undefined);
+    }
+    this.tell(this.state.value.is_wanted ? { on: [] } : off);
+  }
+
+  // Whether this console has it sense already.
+  private is_running(ref: string): boolean {
+    if (!this.console.bindings.mine.value.has(ref)) return false;
+    const told = this.console.commands.all.list().filter((one) => one.component === ref && one.state === 'OK' && /^(start|stop)$/.test(one.command_type));
+    return told.at(-1)?.command_type === 'start';
+  }
+
+  private forget(session: string): void {
+    this.session = session;
+    this.held.clear();
+    this.tell({ on: [], refused: [] });
+  }
+
+  private tell(more: Partial<Observing>): void {
+    this.state.value = { ...this.state.value, ...more };
+  }
+}
+

@@ -1,0 +1,130 @@
+// The floor map: where robots and people are, and where robots are sent from.
+import './map.css';
+
+import { useSignal } from '@preact/signals';
+
+import { useConsole, useWatch } from '../shell/context';
+import { Button, IconButton } from '../ui';
+import { Board } from './board';
+import { TargetCard, ThingCard, useSending } from './cards';
+import type { Drawing } from './drawing';
+import { short_name } from './ground';
+import { key_zoom } from './interaction';
+import { Motions } from './motions';
+import { age, metres, position } from './says';
+import { session_of } from './session';
+import { texts } from './texts';
+import { ThingsTable } from './things_table';
+import { Toolbar } from './toolbar';
+import { type Point, round_step } from './view';
+
+export default function MapPanel() {
+  const console = useConsole();
+  useWatch(console.robots.poll);
+  useWatch(console.entities);
+  useWatch(console.status.poll);
+  const drawing = useSignal<Drawing | undefined>(undefined);
+  const pointer = useSignal<Point | undefined>(undefined);
+  const sending = useSending();
+  const t = texts();
+  return (
+    <div class="map">
+      <Toolbar />
+      <div class="map-floor">
+        <Board begun={(one) => (drawing.value = one)} pointed={(at) => (pointer.value = at)} send={() => sending.send?.()} />
+        <div class="map-corner map-top">
+          <Remarks />
+          <Motions />
+        </div>
+        <Chosen sending={sending} />
+      </div>
+      <div class="map-foot">
+        <div class="map-zoom">
+          <IconButton icon="plus" label={t.zoom_in} onClick={() => drawing.value?.act({ kind: 'zoom', factor: key_zoom })} />
+          <IconButton icon="minus" label={t.zoom_out} onClick={() => drawing.value?.act({ kind: 'zoom', factor: 1 / key_zoom })} />
+          <IconButton icon="fit" label={t.fit} onClick={() => drawing.value?.act({ kind: 'fit' })} />
+        </div>
+        {drawing.value && <Scale drawing={drawing.value} />}
+        <Frame />
+        {pointer.value && <span class="map-pointer">{position(pointer.value)}</span>}
+      </div>
+      <ThingsTable />
+    </div>
+  );
+}
+
+function Chosen({ sending }: { sending: ReturnType<typeof useSending> }) {
+  const console = useConsole();
+  const session = session_of(console);
+  const { target, chosen } = session.interaction.value;
+  if (target) return <TargetCard target={target} sending={sending} />;
+  if (chosen === undefined) return null;
+  return <ChosenThing chosen={chosen} />;
+}
+
+// As often as positions come in.
+function ChosenThing({ chosen }: { chosen: string }) {
+  const console = useConsole();
+  const session = session_of(console);
+  for (const one of [console.robots.pulse.beat, console.entities.pulse.beat, console.now]) void one.value;
+  const thing = session.scene().shown.find((one) => one.key === chosen);
+  return thing ? <ThingCard key={chosen} thing={thing} close={() => (session.interaction.value = { ...session.interaction.value, chosen: undefined })} /> : null;
+}
+
+const least_bar = 60; // px
+
+function Scale({ drawing }: { drawing: Drawing }) {
+  const scale = drawing.scale.value;
+  if (scale === 0) return null;
+  const length = round_step(least_bar / scale);
+  const text = metres(length, length < 100 ? 2 : length < 1000 ? 1 : 0);
+  return (
+    <span class="map-scale" role="img" aria-label={texts().scale(text)}>
+      <span class="map-scale-bar" style={{ width: `${length * scale}px` }} />
+      <span>{text}</span>
+    </span>
+  );
+}
+
+// Of the map, or of what is told when there is none.
+function Frame() {
+  const console = useConsole();
+  const session = session_of(console);
+  void console.robots.pulse.beat.value;
+  const crs = session.map?.crs ?? [...console.robots.all.values()][0]?.crs ?? '';
+  if (crs === '') return null;
+  return (
+    <span class="map-frame" title={`${texts().frame}: ${crs}`}>
+      <span class="unseen">{texts().frame}: </span>
+      {short_name(crs)}
+    </span>
+  );
+}
+
+/** What there is to say of the whole picture. */
+function Remarks() {
+  const console = useConsole();
+  const session = session_of(console);
+  const t = texts();
+  const { link, map, now } = console;
+  const view = map.view.value;
+  for (const pulse of [console.robots.pulse, console.entities.pulse]) void pulse.beat.value;
+  const { lost } = session.scene();
+  return (
+    <>
+      {!link.is_open && link.heard_at > 0 && <p class="map-remark map-stale">{t.not_live(age(now.value - link.heard_at))}</p>}
+      {view.state === 'unknown' && link.is_open && <p class="map-remark">{t.loading_map}</p>}
+      {view.state === 'none' && <p class="map-remark">{t.no_map}</p>}
+      {view.state === 'trouble' && (
+        <p class="map-remark">
+          {t.map_trouble(view.reason)}{' '}
+          <Button small icon="refresh" onClick={() => void map.load()}>
+            {t.reload}
+          </Button>
+        </p>
+      )}
+      {link.is_open && console.entities.all.size === 0 && !session.observer.state.value.is_wanted && session.observer.components.length > 0 && <p class="map-remark map-soft">{t.nobody_hint}</p>}
+      {lost.length > 0 && <p class="map-remark" title={[...new Set(lost.map((one) => one.crs))].join(', ')}>{t.unplaced(lost.length)}</p>}
+    </>
+  );
+}

@@ -1,0 +1,63 @@
+// What is on the floor as a table: always there for screen readers, and shown to all who ask for it. It changes once a second.
+import { useConsole } from '../shell/context';
+import { Button } from '../ui';
+import { age, certainty, degrees, position } from './says';
+import type { Shown } from './scene';
+import { session_of } from './session';
+import { texts } from './texts';
+
+export function ThingsTable() {
+  const console = useConsole();
+  const session = session_of(console);
+  const t = texts();
+  void console.now.value;
+  const is_shown = session.shows_table.value;
+  const { shown } = session.scene();
+  const { chosen } = session.interaction.value;
+  const choose = (key: string) => (session.interaction.value = { ...session.interaction.value, target: undefined, chosen: key });
+  const table = (
+    <table class={is_shown ? 'table' : undefined}>
+      <caption class="unseen">{t.table_label}</caption>
+      <thead>
+        <tr>
+          {[t.kind_column, t.name, t.state, t.position, t.direction, t.certainty, t.told].map((title) => (
+            <th key={title} scope="col">{title}</th>
+          ))}
+          {is_shown && <th scope="col"><span class="unseen">{t.choose}</span></th>}
+        </tr>
+      </thead>
+      <tbody>
+        {sorted(shown).map((one) => (
+          <tr key={one.key} aria-selected={is_shown ? one.key === chosen : undefined}>
+            <td>{t.kind(one.kind)}</td>
+            <th scope="row">{one.name}{one.identity && <span class="map-soft"> {one.thing.ref}</span>}</th>
+            <td>{t.freshness(one.freshness, one.kind)}</td>
+            <td>{position(one)}</td>
+            <td>{one.th === undefined ? '–' : degrees(one.th)}</td>
+            <td>{one.ellipse ? certainty(one.ellipse) : '–'}</td>
+            <td>{t.ago(age(one.age))}</td>
+            {is_shown && (
+              <td>
+                <Button small aria-label={`${t.choose}: ${one.name}`} onClick={() => choose(one.key)}>
+                  {t.choose}
+                </Button>
+              </td>
+            )}
+          </tr>
+        ))}
+      </tbody>
+    </table>
+  );
+  if (!is_shown) return <div class="unseen">{table}</div>;
+  return (
+    <div class="map-table" role="region" aria-label={t.table_label} tabIndex={0}>
+      {shown.length === 0 ? <p class="map-soft">{t.nothing}</p> : table}
+    </div>
+  );
+}
+
+const order = ['robot', 'person', 'face', 'sound'];
+
+function sorted(shown: readonly Shown[]): Shown[] {
+  return [...shown].sort((a, b) => order.indexOf(a.kind) - order.indexOf(b.kind) || a.name.localeCompare(b.name, 'en', { numeric: true }));
+}

@@ -1,0 +1,126 @@
+// Above the map: observing, places by name, layers, table, help.
+import { useSignal } from '@preact/signals';
+import { useRef } from 'preact/hooks';
+
+import { useConsole } from '../shell/context';
+import { Badge, Button, Checkbox, error_text } from '../ui';
+import { all_layers, type Layers } from './ground';
+import { Help } from './help';
+import { session_of } from './session';
+import { texts } from './texts';
+
+export function Toolbar() {
+  const session = session_of(useConsole());
+  const t = texts();
+  const is_helping = useSignal(false);
+  const shows_table = session.shows_table.value;
+  return (
+    <div class="map-bar">
+      <h2>{session.map?.name || t.title}</h2>
+      <Observe />
+      <div class="map-bar-end">
+        <PlaceChoice />
+        <LayerChoice />
+        <Button small icon="table" aria-pressed={shows_table} onClick={() => session.show_table(!shows_table)}>
+          {t.table}
+        </Button>
+        <Button small icon="help" onClick={() => (is_helping.value = true)}>
+          {t.help}
+        </Button>
+      </div>
+      <Help open={is_helping.value} close={() => (is_helping.value = false)} />
+    </div>
+  );
+}
+
+function Observe() {
+  const console = useConsole();
+  const { observer } = session_of(console);
+  const t = texts();
+  const { is_wanted, is_busy, on, refused } = observer.state.value;
+  const of = observer.components.length;
+  const why = refused.map(({ ref, error }) => `${ref}: ${error_text(error)}`).join('\n');
+  return (
+    <div class="map-observe">
+      <button
+        type="button"
+        role="switch"
+        class="map-switch"
+        aria-checked={is_wanted}
+        aria-busy={is_busy}
+        disabled={of === 0 || (!console.link.is_open && !is_wanted)}
+        title={of === 0 ? t.observe_none : t.observe_hint}
+        onClick={() => void observer.turn_to(!is_wanted)}
+      >
+        <span class="map-switch-track" aria-hidden="true" />
+        {t.observe}
+      </button>
+      {is_wanted && <Badge tone={refused.length > 0 ? 'warning' : on.length === of ? 'good' : 'busy'} title={why || undefined}>{t.observing(on.length, of)}</Badge>}
+      {refused.length > 0 && (
+        <details class="map-pop">
+          <summary>{t.observe_refused}</summary>
+          <ul class="map-pop-box plain-list">
+            {refused.map(({ ref, error }) => (
+              <li key={ref}>
+                <code>{ref}</code>: {error_text(error)}
+              </li>
+            ))}
+          </ul>
+        </details>
+      )}
+    </div>
+  );
+}
+
+function PlaceChoice() {
+  const session = session_of(useConsole());
+  const t = texts();
+  const places = session.map?.places ?? [];
+  const target = session.interaction.value.target;
+  if (places.length === 0) return null;
+  const choose = (name: string) => {
+    const place = places.find((one) => one.name === name);
+    if (place) session.interaction.value = { ...session.interaction.value, chosen: undefined, target: { x: place.x, y: place.y, th: place.heading, place: name } };
+  };
+  return (
+    <label class="map-places">
+      <span class="unseen">{t.go_to_place}</span>
+      <select value={target?.place ?? ''} onChange={(event) => choose(event.currentTarget.value)}>
+        <option value="">{t.go_to} …</option>
+        {places.map(({ name }) => (
+          <option key={name} value={name}>
+            {name}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
+function LayerChoice() {
+  const session = session_of(useConsole());
+  const box = useRef<HTMLDetailsElement>(null);
+  const shut = () => box.current?.removeAttribute('open');
+  const names = Object.keys(all_layers) as (keyof Layers)[];
+  return (
+    <details
+      ref={box}
+      class="map-pop"
+      onKeyDown={(event) => {
+        if (event.key !== 'Escape' || !box.current?.open) return;
+        shut();
+        box.current.querySelector('summary')?.focus();
+      }}
+      onFocusOut={(event) => {
+        if (event.relatedTarget && !box.current?.contains(event.relatedTarget as Node)) shut();
+      }}
+    >
+      <summary>{texts().layers}</summary>
+      <div class="map-pop-box">
+        {names.map((name) => (
+          <Checkbox key={name} label={texts().layer(name)} checked={session.layers.value[name]} change={(is_shown) => session.show(name, is_shown)} />
+        ))}
+      </div>
+    </details>
+  );
+}

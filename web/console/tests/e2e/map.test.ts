@@ -1,0 +1,301 @@
+// The floor map: what is drawn, sending and stopping the robot, following, observing; by mouse, fingers and keys.
+import type { Page } from 'playwright-core';
+import { connect } from 'rois-client';
+import { afterAll, beforeAll, beforeEach, describe, expect, test } from 'vitest';
+
+import { fitted, margin_of, type Point, to_screen } from '../../src/map/view';
+import { Hall, still_hall } from './hall';
+import { picture, sizes, Stage, violations } from './harness';
+
+let stage: Stage;
+let hall: Hall;
+
+beforeAll(async () => {
+  stage = await Stage.set(...still_hall);
+  hall = await Hall.of(stage);
+  await hall.pass(1000);
+});
+afterAll(async () => {
+  await hall.close();
+  await stage.strike();
+});
+
+const bounds = { x: 0, y: 0, width: 20_000, depth: 12_000 };
+
+/** Where a point of the floor is on the page, while all of it is shown. */
+async function on_page(page: Page, at: Point): Promise<Point> {
+  const box = (await page.locator('.map-canvas').boundingBox())!;
+  const point = to_screen(fitted(bounds, box, margin_of(box)), box, at);
+  return { x: box.x + point.x, y: box.y + point.y };
+}
+async function click(page: Page, at: Point): Promise<void> {
+  const point = await on_page(page, at);
+  await page.mouse.click(point.x, point.y);
+}
+/** The row of a thing in the table that screen readers find. */
+const row = (page: Page, name: string | RegExp) => page.locator('.map table tbody tr').filter({ has: page.getByRole('rowheader', { name }) });
+const scale = (page: Page) => page.locator('.map-scale').getAttribute('aria-label');
+const ready = (page: Page) => row(page, 'robot1').getByText('Now').waitFor();
+
+async function observe(page: Page): Promise<void> {
+  await page.getByRole('switch', { name: 'Observe' }).click();
+  await page.getByText('5 components look').waitFor();
+  await page.locator('.map-switch[aria-busy="false"]').waitFor();
+}
+/** Lets the world go on until the page shows something. */
+async function pass_until(page: Page, shown: ReturnType<Page['locator']>, step = 500): Promise<void> {
+  for (let i = 0; i < 240; ++i) {
+    if ((await shown.count()) > 0) return;
+    await hall.pass(step);
+    await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+  }
+  await shown.first().waitFor({ timeout: 1 });
+}
+
+describe('the map', () => {
+  test.each([
+    ['wide', 'dark', 'en'],
+    ['tablet', 'light', 'ja'],
+    ['small', 'light', 'en'],
+  ] as const)('shows the hall and its robot, with frame and scale: %s, %s, %s', (size, look, language) =>
+    stage.page(
+      async (page) => {
+        await page.getByRole('heading', { name: 'Reception hall' }).waitFor();
+        await row(page, 'robot1').waitFor();
+        expect(await row(page, 'robot1').textContent()).toMatch(/x 6\.\d\d? m.\s?y (5\.9|6\.0)/);
+        expect(await scale(page)).toMatch(/[12] m$/);
+        await page.locator('.map-frame', { hasText: 'hall' }).waitFor();
+        expect(await violations(page)).toBe('');
+        await picture(page, `map-${size}-${look}-${language}`);
+      },
+      { ...sizes[size], look, language, touch: size !== 'wide' },
+    ),
+  );
+
+  test('is a plain grid when the engine has none', () =>
+    stage.page(async (page) => {
+      await page.route('**/rois/map', (route) => route.fulfill({ status: 404, body: '' }));
+      await page.reload();
+      await page.getByText('This engine has no map: a plain grid is shown').waitFor();
+      await ready(page);
+      expect(await scale(page)).toMatch(/m$/);
+      await picture(page, 'map-none');
+    }));
+
+  test('tells that it is not live when the link is lost, and how old it is', () =>
+    stage.page(
+      async (page) => {
+        await ready(page);
+        stage.front.cut();
+        await page.getByText(/^Not live: as it was \d+ s ago$/).waitFor();
+        await row(page, 'robot1').getByText('No news').waitFor();
+        expect(await violations(page)).toBe('');
+        await picture(page, 'map-lost');
+        stage.front.mend();
+        await ready(page);
+        await page.getByText(/^Not live/).waitFor({ state: 'detached' });
+      },
+      { may_complain: /WebSocket|Failed to load resource|ERR_/ },
+    ));
+
+  test('is zoomed by wheel and buttons, panned by dragging, and fitted again', () =>
+    stage.page(async (page) => {
+      await ready(page);
+      const whole = await scale(page);
+      const desk = await on_page(page, { x: 9500, y: 9300 });
+      await page.mouse.move(desk.x, desk.y);
+      await page.mouse.wheel(0, -900);
+      await page.waitForFunction((before) => document.querySelector('.map-scale')!.getAttribute('aria-label') !== before, whole);
+      await page.locator('.map-pointer', { hasText: /x 9\.(49|50) m, y 9\.(29|30) m|x 9\.5\d? m, y 9\.3/ }).waitFor(); // what is under the pointer stays there
+      await page.mouse.down();
+      await page.mouse.move(desk.x - 150, desk.y + 60, { steps: 4 });
+      await page.mouse.up();
+      await page.locator('.map-pointer', { hasText: /x 9\.(49|5\d?) m, y 9\.(29|3\d?) m/ }).waitFor();
+      expect(await page.getByText('Send robot1').count()).toBe(0);
+      await page.getByRole('button', { name: 'Show all of the floor' }).click();
+      await page.waitForFunction((before) => document.querySelector('.map-scale')!.getAttribute('aria-label') === before, whole);
+      await page.getByRole('button', { name: 'Larger' }).click({ clickCount: 4 });
+      await page.waitForFunction((before) => document.querySelector('.map-scale')!.getAttribute('aria-label') !== before, whole);
+    }));
+
+  test('is zoomed by two fingers, and a tap is a click', () =>
+    stage.page(
+      async (page) => {
+        await ready(page);
+        const whole = await scale(page);
+        const at = await on_page(page, { x: 9000, y: 5000 });
+        const touches = await page.context().newCDPSession(page);
+        const touch = (type: 'touchStart' | 'touchMove' | 'touchEnd', ...points: number[]) =>
+          touches.send('Input.dispatchTouchEvent', { type, touchPoints: points.map((x, id) => ({ x: at.x + x, y: at.y, id })) });
+        await touch('touchStart', -40);
+        await touch('touchStart', -40, 40);
+        for (const apart of [60, 90, 120, 160]) await touch('touchMove', -apart, apart);
+        await touch('touchEnd');
+        await page.waitForFunction((before) => document.querySelector('.map-scale')!.getAttribute('aria-label') !== before, whole);
+        expect(await page.getByRole('heading', { name: 'Send robot1' }).count()).toBe(0);
+        await page.touchscreen.tap(at.x, at.y);
+        await page.getByRole('heading', { name: 'Send robot1' }).waitFor();
+        expect(await violations(page)).toBe('');
+        await picture(page, 'map-touch');
+      },
+      { ...sizes.small, touch: true },
+    ));
+});
+
+describe('the robot', () => {
+  test('is sent to a point with a direction, which is shown before, and arrives', () =>
+    stage.page(async (page) => {
+      await ready(page);
+      await click(page, { x: 4000, y: 4000 });
+      await page.getByText(/^\d\.\d m away/).waitFor();
+      const from = await on_page(page, { x: 4000, y: 4000 });
+      await page.mouse.move(from.x, from.y);
+      await page.mouse.down();
+      await page.mouse.move(from.x, from.y - 80, { steps: 4 });
+      await page.mouse.up();
+      await page.locator('.map-fact code', { hasText: /, 90$/ }).waitFor();
+      await picture(page, 'map-preview');
+      expect(await violations(page)).toBe('');
+      await page.getByRole('button', { name: 'Send here' }).click();
+      await page.getByText(/^robot1 is going to x [34]\.\d\d m/).waitFor();
+      await page.getByRole('button', { name: 'Stop robot1' }).waitFor();
+      await pass_until(page, row(page, 'robot1').getByText(/x [45]\.[2-9]/), 200);
+      await picture(page, 'map-going');
+      expect(await violations(page)).toBe('');
+      await pass_until(page, page.getByText(/^robot1 has reached/));
+      await row(page, 'robot1').getByText(/^(8[6-9]|9[0-4])°$/).waitFor();
+      await page.getByText('0 bound').waitFor();
+    }));
+
+  test('is stopped by the undo of the notice', () =>
+    stage.page(async (page) => {
+      await ready(page);
+      await page.getByLabel('Place to go to').selectOption('exhibit');
+      await page.getByRole('button', { name: 'Send here' }).click();
+      await hall.pass(2000);
+      await page.getByRole('region', { name: 'Notices' }).getByRole('button', { name: 'Stop' }).click();
+      await pass_until(page, page.getByText('robot1 was stopped'), 100);
+      expect(await page.getByText(/has reached/).count()).toBe(0);
+      await page.getByText('0 bound').waitFor();
+    }));
+
+  test('is sent to a place by its name', () =>
+    stage.page(async (page) => {
+      await ready(page);
+      await page.getByLabel('Place to go to').selectOption('desk');
+      await page.locator('.map-fact code', { hasText: /^desk$/ }).waitFor();
+      await page.getByRole('button', { name: 'Send here' }).click();
+      await page.getByText('robot1 → desk').waitFor();
+      await pass_until(page, page.getByText('robot1 has reached desk'));
+      await row(page, 'robot1').getByText(/x 9\.[45]\d m, y 9\.[23]\d m/).waitFor();
+    }));
+
+  test('is not sent to where it cannot be without a word; what the engine says is shown', () =>
+    stage.page(async (page) => {
+      await ready(page);
+      await click(page, { x: 9000, y: 10_600 });
+      await page.getByText('Furniture is in the way here.').waitFor();
+      await page.getByRole('button', { name: 'Send here' }).click();
+      await pass_until(page, page.getByText(/^Not reached:/));
+      await page.getByRole('alert').filter({ hasText: 'ERROR' }).waitFor();
+      expect(await violations(page)).toBe('');
+    }));
+
+  test('is sent with keys alone', () =>
+    stage.page(async (page) => {
+      await ready(page);
+      await page.getByRole('application').focus();
+      for (const key of ['Shift+ArrowLeft', 'Shift+ArrowLeft', 'ArrowDown', 'Enter', 'q']) await page.keyboard.press(key);
+      await page.getByRole('status').filter({ hasText: /^x 8\.00 m, y 5\.75 m/ }).waitFor();
+      await page.locator('.map-fact code', { hasText: /^8000, 5750, -?\d+$/ }).waitFor();
+      await picture(page, 'map-keys');
+      await page.keyboard.press('Control+Enter');
+      await pass_until(page, page.getByText('robot1 has reached x 8.00 m, y 5.75 m'));
+      await page.keyboard.press('Escape');
+      await page.keyboard.press('n');
+      await page.getByRole('heading', { name: 'Robot robot1' }).waitFor();
+      await page.keyboard.press('Escape');
+      await page.getByRole('heading', { name: 'Robot robot1' }).waitFor({ state: 'detached' });
+    }));
+});
+
+describe('people', () => {
+  let is_there = false;
+  beforeEach(async () => {
+    if (!is_there) await hall.visit('tanaka', '11000, 5750, 180', { known: true });
+    is_there = true;
+  });
+
+  test('appear when the engine observes for the console, with who they are, and it gives back what it bound', () =>
+    stage.page(async (page) => {
+      await ready(page);
+      expect(await row(page, /tanaka|person-/).count()).toBe(0);
+      await observe(page);
+      await page.getByText('5 bound').waitFor();
+      // Somebody is identified who is near and turned to the robot.
+      await page.getByLabel('Place to go to').selectOption('start');
+      await page.getByRole('button', { name: 'Send here' }).click();
+      await pass_until(page, page.getByText('robot1 has reached start'));
+      await hall.walk('tanaka', '8000, 6000, 180');
+      await pass_until(page, row(page, /tanaka/), 200);
+      await row(page, /tanaka person-\d/).getByText(/x (7\.9|8\.[01])\d m, y (5\.9|6\.0)/).waitFor();
+      await hall.say('tanaka', 'Good morning, is anybody there? I have come for the meeting at ten.');
+      await pass_until(page, row(page, /^sound-/), 200);
+      await page.getByRole('button', { name: 'Table' }).click();
+      await page.getByRole('button', { name: 'Choose: tanaka' }).click();
+      await page.getByText(/^Tracked as person-\d/).waitFor();
+      await page.getByText(/^± 0\.12 m \(95 %\)$/).first().waitFor();
+      expect(await violations(page)).toBe('');
+      await picture(page, 'map-people');
+      await page.getByRole('switch', { name: 'Observe' }).click();
+      await page.getByText('0 bound').waitFor();
+    }));
+
+  test('are followed, until it is stopped', () =>
+    stage.page(
+      async (page) => {
+        await ready(page);
+        await observe(page);
+        await pass_until(page, row(page, /tanaka|person-/), 200);
+        await hall.walk('tanaka', '12000, 4000, 180');
+        await page.getByRole('application').focus();
+        await page.keyboard.press('n');
+        const person = page.getByRole('region', { name: /^Person/ });
+        await person.waitFor();
+        await page.getByLabel('How near it comes').fill('1.5');
+        await person.getByRole('button', { name: 'Follow' }).click();
+        await page.locator('.map-motion', { hasText: /robot1 follows/ }).waitFor();
+        await pass_until(page, person.getByText(/robot1 1\.[3-7] m away/));
+        await picture(page, 'map-follow');
+        expect(await violations(page)).toBe('');
+        await page.locator('.map-motion').getByRole('button', { name: 'Stop robot1' }).click();
+        await pass_until(page, page.locator('.notices').getByText(/no longer follows|was stopped/), 100);
+        await page.getByText('5 bound').waitFor();
+      },
+      { look: 'light' },
+    ));
+
+  test('who have left are drawn as gone, and then no more', () =>
+    stage.page(async (page) => {
+      await ready(page);
+      await observe(page);
+      await pass_until(page, row(page, /tanaka|person-/), 200);
+      await hall.leave('tanaka');
+      is_there = false;
+      await pass_until(page, row(page, /tanaka|person-/).getByText('Out of sight'), 500);
+    }));
+
+  test('are looked for as far as other applications let it', async () => {
+    const other = await connect(stage.gateway.url);
+    await other.bind('person_localization');
+    await stage.page(async (page) => {
+      await ready(page);
+      await page.getByRole('switch', { name: 'Observe' }).click();
+      await page.getByText('4 of 5 components look').waitFor();
+      await page.getByText('Not everything can be observed').click();
+      await page.getByText(/person_localization: .*Another application has it/).waitFor();
+      expect(await violations(page)).toBe('');
+    });
+    await other.close();
+  });
+});

@@ -1,0 +1,37 @@
+// When nobody is there any more: localization is silent then.
+import { expect, test } from 'vitest';
+
+import { profile_xml, World } from './world';
+
+const event = (name: string) => `<rois:MessageProfile xsi:type="rois:EventMessageProfileType" rois:name="${name}"/>`;
+
+function told(event_type: string, component: string, results: string): string {
+  return `<event_id>e</event_id><event_type>${event_type}</event_type><subscribe_id>s-1</subscribe_id><expire>2026-11-20T12:01:00Z</expire><component_ref rois:code="${component}"/><results>${results}</results>`;
+}
+
+function people(component: string, ...refs: string[]): string {
+  const located = refs.map((ref) => `<located of="position_data" ref="${ref}" crs="hall"><position>1000 2000 0</position></located>`);
+  return told('person_localized', component, `<result rois:name="person_ref"><rois:data_type_ref rois:code="RoISIdentifier[]"/></result>${located.join('')}`);
+}
+
+function number(component: string, n: number): string {
+  return told('person_detected', component, `<result rois:name="number"><rois:data_type_ref rois:code="int"/><rois:value>${n}</rois:value></result>`);
+}
+
+test('those are out of sight of whom detection says that nobody is there, each robot for itself', async () => {
+  const world = new World();
+  const parts = { PersonDetection: event('person_detected'), PersonLocalization: event('person_localized') };
+  const components = Object.entries(parts).flatMap(([type, messages]) => ['', 'robot2.'].map((prefix) => [prefix + type, { type, messages, engine: prefix === '' ? 'hall' : 'robot2' }] as const));
+  world.answers.set('get_profile', () => profile_xml(Object.fromEntries(components)));
+  const console = await world.console();
+  console.entities.watch();
+  await world.notifies('receive_event', people('PersonLocalization', 'person-1'));
+  await world.notifies('receive_event', people('robot2.PersonLocalization', 'person-2'));
+  const seen = () => [...console.entities.all.values()].filter((one) => one.is_seen).map((one) => one.ref);
+  await world.notifies('receive_event', number('PersonDetection', 1));
+  expect(seen()).toEqual(['person-1', 'person-2']);
+  await world.notifies('receive_event', number('PersonDetection', 0));
+  expect(seen()).toEqual(['person-2']);
+  await world.passes(31_000);
+  expect([...console.entities.all.keys()]).toEqual(['person person-2']);
+});

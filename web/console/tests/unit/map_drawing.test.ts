@@ -1,0 +1,340 @@
+// How much is drawn when: counted, not timed. And what the map does with the engine: sending, following, observing.
+import type { XmlElement } from 'rois-client';
+import { beforeEach, describe, expect, test } from 'vitest';
+
+import { Drawing, type Sheet } from '../../src/map/drawing';
+import { drivers_of, follow, go, motions_of, stop } from '../../src/map/driving';
+import { goals_of } from '../../src/map/goals';
+import type { Palette } from '../../src/map/palette';
+import { MapSession } from '../../src/map/session';
+import type { Console } from '../../src/state/console';
+import { profile_xml, settled, World } from './world';
+
+const map = `<floor_map xmlns="urn:x-rois:map:1" name="Hall" crs="hall"><bounds x="0" y="0" width="20000" depth="12000"/>
+  <wall x1="15000" y1="12000" x2="15000" y2="9600"/><furniture x="7500" y="10200" width="4000" depth="800"/>
+  <place name="desk" x="9500" y="9300" heading="90" width="2000" depth="2000"/><robot name="robot1" radius="280"/></floor_map>`;
+const event = (name: string) => `<rois:MessageProfile xsi:type="rois:EventMessageProfileType" rois:name="${name}"/>`;
+const position_query = '<rois:MessageProfile xsi:type="rois:QueryMessageProfileType" rois:name="robot_position"/>';
+
+let world: World;
+let console: Console;
+let session: MapSession;
+let calls = 0;
+
+// A canvas that only counts.
+function sheet(): Sheet {
+  const context = new Proxy({} as Record<string, unknown>, {
+    get: (target, name: string) => target[name] ?? ((): unknown => (++calls, name === 'measureText' ? { width: 40 } : undefined)),
+    set: (target, name: string, value) => ((target[name] = value), true),
+  });
+  return { width: 0, height: 0, getContext: () => context as never };
+}
+
+function drawing(): Drawing {
+  const palette = new Proxy({}, { get: () => 'black' }) as Palette;
+  const made = new Drawing(console, session, sheet(), { make_sheet: sheet, read_palette: () => palette, theme: () => 'dark', age_text: String, distance_text: String });
+  made.resize({ width: 800, height: 600 }, 2);
+  return made;
+}
+
+function result(name: string, ...values: string[]): string {
+  return `<results><result rois:name="${name}"><rois:data_type_ref rois:code="string[]"/>${values.map((one) => `<rois:value>${one}</rois:value>`).join('')}</result></results>`;
+}
+
+function where(x: number, y: number): string {
+  return `${result('robot_ref', 'robot1').replace('</results>', '')}<result rois:name="position_data"><rois:data_type_ref rois:code="string[]" rois:codebook_ref="hall"/><rois:value>${x}, ${y}, 0</rois:value></result></results>`;
+}
+
+function people(...all: [x: number, y: number][]): string {
+  const located = all.map(([x, y], i) => `<located of="position_data" ref="person-${i}" crs="hall"><position>${x} ${y} 0</position><orientation>0 0 90</orientation><covariance>2500 0 0 0 900 0 0 0 4</covariance></located>`);
+  return `<event_id>e</event_id><event_type>person_localized</event_type><subscribe_id>s-1</subscribe_id><expire>2026-11-20T12:01:00Z</expire><component_ref rois:code="person_localization"/><results><result rois:name="person_ref"><rois:data_type_ref rois:code="RoISIdentifier[]" rois:codebook_ref="tracks"/></result>${located.join('')}</results>`;
+}
+
+// Of an execute: the component and what it is to do, with its arguments.
+function asked(request: XmlElement): string[] {
+  return request.child('CommandUnitSequence')!.children.map((unit) => {
+    const ref = unit.child('component_ref')!.attributes[0]!.value;
+    const type = unit.attributes.find((one) => one.name === 'command_type')!.value;
+    const given = (unit.child('arguments')?.all('parameter') ?? []).map((one) => `${one.attributes.find(({ name }) => name === 'name')!.value}=${one.text_of('value')}`);
+    return [ref, type, ...given].join(' ');
+  });
+}
+
+function accepted(request: XmlElement): string {
+  const units = request.child('CommandUnitSequence')!.children.map((unit) => {
+    const of = (name: string) => unit.attributes.find((one) => one.name === name)?.value ?? '';
+    const given = (unit.child('arguments')?.all('parameter') ?? []).map((one) => `<rois:parameter rois:name="${one.attributes.find(({ name }) => name === 'name')!.value}"><rois:data_type_ref rois:code="string[]"/><rois:value>${one.text_of('value')}</rois:value></rois:parameter>`);
+    return `<rois:command_unit_list xsi:type="rois:CommandMessageType" rois:command_type="${of('command_type')}" rois:command_id="${of('command_id')}"><rois:component_ref rois:code="${unit.child('component_ref')!.attributes[0]!.value}"/><rois:arguments>${given.join('')}</rois:arguments></rois:command_unit_list>`;
+  });
+  return `<rois:CommandUnitSequence>${units.join('')}</rois:CommandUnitSequence>`;
+}
+
+function ids(): string[] {
+  return world.requests.filter((one) => one.name === 'execute').map((one) => one.child('CommandUnitSequence')!.children[0]!.attributes.find(({ name }) => name === 'command_id')!.value);
+}
+
+function executed(): string[] {
+  return world.requests.filter((one) => one.name === 'execute').flatMap(asked);
+}
+
+async function ends(id: string, status: string): Promise<void> {
+  await world.notifies('completed', `<command_id>${id}</command_id><status>${status}</status>`);
+}
+
+beforeEach(async () => {
+  world = new World();
+  calls = 0;
+  const parts = {
+    system_information: { type: 'SystemInformation', messages: position_query, includes: [] },
+    navigation: { type: 'Navigation' },
+    follow: { type: 'Follow' },
+    person_localization: { type: 'PersonLocalization', messages: event('person_localized') },
+    sound_localization: { type: 'SoundLocalization', messages: event('sound_localized') },
+  };
+  world.answers.set('get_profile', () => profile_xml(parts));
+  world.answers.set('get_command_result', () => result('status', 'RUNNING'));
+  world.answers.set('execute', accepted);
+  world.answers.set('query', () => `<component_ref rois:code="system_information"/>${where(1000, 2000)}`);
+  world.pages.set('/rois/map', { status: 200, text: map });
+  console = await world.console();
+  session = new MapSession(console);
+});
+
+describe('drawing', () => {
+  test('happens when something has changed, once a picture, and the ground only when the view changes', async () => {
+    console.robots.poll.watch();
+    await settled();
+    world.draws();
+    const made = drawing();
+    made.start();
+    world.draws();
+    world.draws();
+    const { pictures, grounds } = made.counts;
+    for (let i = 0; i < 10; ++i) world.draws();
+    expect(made.counts).toMatchObject({ pictures, grounds });
+    for (let i = 0; i < 5; ++i) await world.notifies('receive_event', people([1000 + i * 100, 1000]));
+    world.draws(); // tells those who look
+    world.draws(); // draws
+    expect(made.counts).toMatchObject({ pictures: pictures + 1, grounds });
+    made.act({ kind: 'zoom', factor: 2 });
+    world.draws();
+    expect(made.counts.grounds).toBe(grounds + 1);
+  });
+
+  test('of 20 people who move 20 times a second costs a bounded number of calls, and the ground and the trails once', async () => {
+    const made = drawing();
+    made.start();
+    world.draws();
+    await world.notifies('receive_event', people(...Array.from({ length: 20 }, (_, i): [number, number] => [i * 900, 1000])));
+    world.draws();
+    world.draws();
+    const before = { ...made.counts };
+    calls = 0;
+    for (let picture = 0; picture < 60; ++picture) {
+      if (picture % 3 === 0) await world.notifies('receive_event', people(...Array.from({ length: 20 }, (_, i): [number, number] => [i * 900 + picture * 3, 1000 + picture * 18])));
+      await world.passes(16);
+      world.draws();
+    }
+    expect(made.counts.pictures - before.pictures).toBeLessThanOrEqual(60);
+    expect(made.counts.pictures - before.pictures).toBeGreaterThanOrEqual(55); // they glide from one told place to the next
+    expect(made.counts.grounds).toBe(before.grounds);
+    expect(made.counts.trails).toBe(before.trails);
+    expect(calls / 60 / 20).toBeLessThan(80); // calls of the canvas for a person in a picture
+  });
+
+  test('with reduced motion things jump: one picture for what was told', async () => {
+    const made = drawing();
+    made.is_still = true;
+    made.start();
+    await world.notifies('receive_event', people([1000, 1000]));
+    for (let i = 0; i < 3; ++i) world.draws();
+    const { pictures } = made.counts;
+    await world.passes(100);
+    await world.notifies('receive_event', people([1300, 1000]));
+    for (let i = 0; i < 5; ++i) world.draws();
+    expect(made.counts.pictures).toBe(pictures + 1);
+  });
+
+  test('ends when it is over', async () => {
+    const made = drawing();
+    const end = made.start();
+    world.draws();
+    end();
+    const { pictures } = made.counts;
+    session.hovered.value = 'person person-0';
+    await world.notifies('receive_event', people([1000, 1000]));
+    for (let i = 0; i < 3; ++i) world.draws();
+    expect(made.counts.pictures).toBe(pictures);
+  });
+
+  test('knows what is under the pointer', async () => {
+    console.robots.poll.watch();
+    await settled();
+    const made = drawing();
+    await world.notifies('receive_event', people([5000, 5000]));
+    made.resize({ width: 800, height: 600 }, 1);
+    const { x, y, scale } = made.view;
+    const at = (to: { x: number; y: number }) => ({ x: 400 + (to.x - x) * scale, y: 300 - (to.y - y) * scale });
+    expect(made.hit(at({ x: 1000, y: 2000 }))).toEqual({ what: 'thing', key: 'robot robot1' });
+    expect(made.hit(at({ x: 5000, y: 5100 }))).toEqual({ what: 'thing', key: 'person person-0' });
+    expect(made.hit(at({ x: 9500, y: 9300 }))).toEqual({ what: 'place', name: 'desk', x: 9500, y: 9300, th: 90 });
+    expect(made.hit(at({ x: 12_000, y: 4000 }))).toEqual({ what: 'floor' });
+    made.act({ kind: 'target', target: { x: 12_000, y: 4000, th: 0 } });
+    expect(made.hit(at({ x: 12_000, y: 4000 }))).toEqual({ what: 'target' });
+    expect(made.hit({ x: at({ x: 12_000, y: 4000 }).x + 46, y: at({ x: 12_000, y: 4000 }).y })).toEqual({ what: 'target' });
+  });
+});
+
+describe('driving', () => {
+  const said = () => console.notices.list.value.map((one) => one.text);
+
+  beforeEach(async () => {
+    console.robots.poll.watch();
+    await settled();
+  });
+
+  test('sends the robot, says so with a way to stop it, and tells how it ended', async () => {
+    const [driver] = drivers_of(console);
+    expect(driver).toMatchObject({ name: 'robot1', navigation: 'navigation', follow: 'follow' });
+    await go(console, driver!, { x: 4000, y: 3000, th: 90 }, 60_000);
+    expect(executed()).toEqual(['navigation start target_position=4000, 3000, 90 time_limit=60000']);
+    expect(said()).toEqual(['robot1 is going to x 4.00 m, y 3.00 m']);
+    expect(motions_of(console, driver!)).toHaveLength(1);
+    await ends(ids()[0]!, 'OK');
+    expect(said()).toEqual(['robot1 has reached x 4.00 m, y 3.00 m']);
+    expect(world.names()).toContain('release');
+  });
+
+  test('the notice\'s button stops it', async () => {
+    const [driver] = drivers_of(console);
+    await go(console, driver!, { x: 9500, y: 9300, th: 90, place: 'desk' }, 0);
+    expect(executed()[0]).toBe('navigation start target_position=desk time_limit=0');
+    console.notices.list.value[0]!.action!.act();
+    await settled();
+    expect(executed()[1]).toBe('navigation stop');
+    await ends(ids()[0]!, 'ABORT');
+    await ends(ids()[1]!, 'OK');
+    expect(said()).toEqual(['robot1 was stopped']);
+  });
+
+  test('a way that ends badly is told; one that is replaced is not', async () => {
+    const [driver] = drivers_of(console);
+    await go(console, driver!, { x: 1, y: 2 }, 0);
+    await go(console, driver!, { x: 3, y: 4 }, 0);
+    await ends(ids()[0]!, 'ABORT');
+    expect(said()).toEqual(['robot1 is going to x 0.00 m, y 0.00 m']);
+    await ends(ids()[1]!, 'TIMEOUT');
+    expect(console.notices.list.value).toMatchObject([{ severity: 'error', detail: 'TIMEOUT' }]);
+  });
+
+  test('follows by the permanent name, after stopping what else moves it', async () => {
+    const [driver] = drivers_of(console);
+    await go(console, driver!, { x: 1, y: 2 }, 0);
+    await world.notifies('receive_event', people([5000, 5000]));
+    console.entities.all.get('person person-0')!.identity = { ref: 'tanaka', codebook: 'visitors', at: 0 };
+    const followed = follow(console, driver!, session.scene().shown.find((one) => one.name === 'tanaka')!, 1200);
+    await settled();
+    expect(executed().at(-1)).toBe('navigation stop');
+    await ends(ids()[0]!, 'ABORT');
+    await ends(ids()[1]!, 'OK');
+    await followed;
+    expect(executed().at(-1)).toBe('follow start target_object_ref=tanaka distance=1200');
+    expect(goals_of(console, session.scene().shown)).toMatchObject([{ kind: 'follow', x: 5000, y: 5000, text: 'tanaka', is_mine: true }]);
+    const stopped = stop(console, driver!);
+    await settled();
+    await ends(ids()[2]!, 'OK');
+    await ends(ids()[3]!, 'OK');
+    await stopped;
+    expect(motions_of(console, driver!)).toEqual([]);
+  });
+
+  test('a goal is where it was sent, by name or by numbers', async () => {
+    const [driver] = drivers_of(console);
+    await go(console, driver!, { x: 9500, y: 9300, place: 'desk' }, 0);
+    expect(goals_of(console, [])).toMatchObject([{ kind: 'go', x: 9500, y: 9300, th: 90, text: 'desk', is_mine: true }]);
+    await go(console, driver!, { x: 3000, y: 4000 }, 0);
+    expect(goals_of(console, [])[0]).toMatchObject({ x: 3000, y: 4000 });
+    expect(goals_of(console, [])[0]!.th).toBeUndefined();
+  });
+
+  test('what is refused rejects, and nothing is left bound', async () => {
+    world.answers.set('execute', () => 'BAD_PARAMETER');
+    const [driver] = drivers_of(console);
+    await expect(go(console, driver!, { x: 1, y: 2 }, 0)).rejects.toMatchObject({ return_code: 'BAD_PARAMETER' });
+    expect(console.bindings.mine.value.size).toBe(0);
+    expect(said()).toEqual([]);
+  });
+});
+
+describe('observing', () => {
+  async function ending(): Promise<void> {
+    for (let known = -1; known !== ids().length; ) {
+      known = ids().length;
+      await ends(ids()[known - 1] ?? '', 'OK');
+      await settled();
+    }
+  }
+
+  test('binds and starts what looks for people, and gives it back', async () => {
+    const { observer } = session;
+    const on = observer.turn_to(true);
+    await settled();
+    await ending();
+    await on;
+    expect(executed()).toEqual(['person_localization start', 'sound_localization start']);
+    expect(observer.state.value).toMatchObject({ is_wanted: true, is_busy: false, on: ['person_localization', 'sound_localization'], refused: [] });
+    expect([...console.bindings.mine.value]).toEqual(['person_localization', 'sound_localization']);
+    await observer.turn_to(false);
+    expect(console.bindings.mine.value.size).toBe(0);
+    expect(observer.state.value).toMatchObject({ is_wanted: false, on: [] });
+  });
+
+  test('takes what it can get, and says what it cannot', async () => {
+    world.answers.set('bind', (request) => (request.child('component_ref')!.attributes[0]!.value.startsWith('person') ? 'OUT_OF_RESOURCES' : ''));
+    const on = session.observer.turn_to(true);
+    await settled();
+    await ending();
+    await on;
+    expect(session.observer.state.value).toMatchObject({ on: ['sound_localization'], refused: [{ ref: 'person_localization', error: { return_code: 'OUT_OF_RESOURCES' } }] });
+  });
+
+  test('leaves running what the user had started, and bound what the user had bound', async () => {
+    const started = console.run('person_localization', 'start');
+    await settled();
+    await ends(ids()[0]!, 'OK');
+    await started;
+    const on = session.observer.turn_to(true);
+    await settled();
+    await ending();
+    await on;
+    expect(executed()).toEqual(['person_localization start', 'sound_localization start']);
+    await session.observer.turn_to(false);
+    expect([...console.bindings.mine.value]).toEqual(['person_localization']);
+    expect(executed()).toHaveLength(2);
+  });
+
+  test('is off when all of it was released elsewhere', async () => {
+    const on = session.observer.turn_to(true);
+    await settled();
+    await ending();
+    await on;
+    await console.bindings.release_all();
+    expect(session.observer.state.value.is_wanted).toBe(false);
+  });
+
+  test('begins again in a new session', async () => {
+    const on = session.observer.turn_to(true);
+    await settled();
+    await ending();
+    await on;
+    world.answers.set('resume', () => 'BAD_PARAMETER');
+    world.breaks();
+    await world.tries_again();
+    await world.opens();
+    await settled();
+    await ending();
+    expect(console.link.session.value).toBe('session-2');
+    expect(executed().slice(2)).toEqual(['person_localization start', 'sound_localization start']);
+    expect(session.observer.state.value).toMatchObject({ is_wanted: true, on: ['person_localization', 'sound_localization'] });
+  });
+});
