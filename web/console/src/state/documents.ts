@@ -19,7 +19,7 @@ export interface LoggedDocument {
   sequence?: number; // of a notification
   return_code?: string; // of an answer
   request?: LoggedDocument; // of an answer: what it answers
-  took?: number; // of an answer: ms since the request
+  took?: number; // of an answer: ms since the request, with fractions
   is_own: boolean; // of the console itself, which asks for what it shows: hidden unless somebody wants to see it
 }
 
@@ -44,7 +44,7 @@ export interface DocumentListener {
 export class Documents {
   readonly ring: Ring<LoggedDocument>;
   readonly pulse: Pulse;
-  private waiting: LoggedDocument[] = []; // requests without their answers, in order
+  private waiting: { request: LoggedDocument; since: number }[] = []; // requests without their answers, in order; since by the precise clock
   private next = 0;
   private asks_itself = false;
   private readonly listeners = new Set<DocumentListener>();
@@ -68,7 +68,7 @@ export class Documents {
   note(direction: Direction, text: string): LoggedDocument {
     const document = described(this.next++, this.environment.now(), direction, text);
     document.is_own = direction === 'out' && (this.asks_itself || document.name === 'connect' || document.name === 'resume');
-    if (direction === 'out') this.waiting.push(document);
+    if (direction === 'out') this.waiting.push({ request: document, since: this.environment.precise() });
     else if (document.kind !== 'notification') this.pair(document);
     this.ring.push(document);
     this.pulse.touch();
@@ -94,11 +94,12 @@ export class Documents {
 
   // Answers come in the order of requests.
   private pair(answer: LoggedDocument): void {
-    const request = this.waiting.shift();
-    if (request === undefined) return;
+    const asked = this.waiting.shift();
+    if (asked === undefined) return;
+    const { request, since } = asked;
     answer.request = request;
     answer.is_own = request.is_own;
-    answer.took = answer.at - request.at;
+    answer.took = this.environment.precise() - since;
     if (answer.component === undefined && request.component !== undefined) answer.component = request.component;
   }
 }
