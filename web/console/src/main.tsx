@@ -19,6 +19,7 @@ follow_window(browser.recall('panels'));
 
 const state = new Console(browser);
 state.connect();
+state.history.record();
 // What this page runs must not go on when the page has gone.
 addEventListener('pagehide', () => void state.close());
 addEventListener('pageshow', (event) => {

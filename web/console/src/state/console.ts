@@ -26,6 +26,7 @@ import { EntitiesState } from './entities_state';
 import type { Environment, Stop } from './environment';
 import { EventsState } from './events_state';
 import { MapState } from './floor_map';
+import { History } from './history';
 import { LinkState } from './link_state';
 import { MetricsState } from './metrics_state';
 import { Notices } from './notices';
@@ -33,6 +34,7 @@ import { ProfileState } from './profile_state';
 import { RobotsState } from './robots_state';
 import { StatusState } from './status_state';
 import { SubscriptionsState } from './subscriptions_state';
+import { Traffic } from './traffic';
 
 /** Commands that the engine has accepted. */
 export interface Accepted {
@@ -70,6 +72,8 @@ export class Console {
   readonly robots: RobotsState;
   readonly entities: EntitiesState;
   readonly map: MapState;
+  readonly traffic: Traffic;
+  readonly history: History;
 
   private token: string | undefined;
   private speaker: Client | undefined;
@@ -104,6 +108,8 @@ export class Console {
       (event_type) => this.profile.with_event(event_type).length > 0,
     );
     this.map = new MapState(environment, token);
+    this.traffic = new Traffic(environment, this.documents, client, is_open);
+    this.history = new History(environment, this);
     this.now.value = environment.now();
     environment.every(1000, () => (this.now.value = environment.now()));
     this.documents.listen((document) => this.heard(document));
