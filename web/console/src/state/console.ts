@@ -30,8 +30,10 @@ import { History } from './history';
 import { LinkState } from './link_state';
 import { MetricsState } from './metrics_state';
 import { Notices } from './notices';
+import { ParametersState } from './parameters_state';
 import { ProfileState } from './profile_state';
 import { RobotsState } from './robots_state';
+import { Selection } from './selection';
 import { StatusState } from './status_state';
 import { SubscriptionsState } from './subscriptions_state';
 import { Traffic } from './traffic';
@@ -64,6 +66,7 @@ export class Console {
   readonly documents: Documents;
   readonly profile = new ProfileState();
   readonly status: StatusState;
+  readonly parameters: ParametersState;
   readonly metrics: MetricsState;
   readonly bindings: Bindings;
   readonly commands: CommandsState;
@@ -74,6 +77,7 @@ export class Console {
   readonly map: MapState;
   readonly traffic: Traffic;
   readonly history: History;
+  readonly selection = new Selection();
 
   private token: string | undefined;
   private speaker: Client | undefined;
@@ -89,6 +93,7 @@ export class Console {
     this.link = new LinkState(environment);
     this.documents = new Documents(environment);
     this.status = new StatusState(environment, this.documents, client, components, is_open);
+    this.parameters = new ParametersState(environment, this.documents, client, is_open);
     this.metrics = new MetricsState(environment, token);
     this.bindings = new Bindings(
       () => this.client,
