@@ -5,7 +5,7 @@ import { useCallback, useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import { useConsole } from '../shell/context';
 import { shown_theme } from '../shell/theme';
 import { useDrawing } from '../ui/drawing';
-import { describe, sentence } from './describe';
+import { describe, phase_text, sentence } from './describe';
 import { type Lane, lay_out, type Layout, next_thing, type Placed, thing_at, time_of } from './layout';
 import { axis_height, paint } from './paint';
 import { Pointing } from './pointing';
@@ -28,7 +28,7 @@ export function Chart({ view, opened, open }: ChartProps) {
   const layout = useRef<Layout>();
   const lanes = useSignal<readonly Lane[]>([]);
   const hovered = useSignal<{ thing: Thing; x: number; y: number } | undefined>(undefined);
-  const focused = useSignal<Thing | undefined>(undefined);
+  const focused = useSignal<Placed | undefined>(undefined);
   const choice = useSignal<{ from: number; to: number } | undefined>(undefined);
   const drawn = useRef(0); // until when the last picture showed; for the step of a pixel
   void shown_theme.value; // its colours are read anew
@@ -43,8 +43,17 @@ export function Chart({ view, opened, open }: ChartProps) {
     const at = view.sources.at;
     drawn.current = at;
     if (shape_of(next.lanes) !== shape_of(lanes.peek())) lanes.value = next.lanes;
-    const key = (thing: Thing | undefined) => thing && key_of(thing);
-    paint(sheet, { layout: next, at, scroll: frame.current!.scrollTop, hovered: key(hovered.peek()?.thing), focused: key(focused.peek()), opened: key(opened), choice: choice.peek() });
+    const under = hovered.peek();
+    paint(sheet, {
+      layout: next,
+      at,
+      scroll: frame.current!.scrollTop,
+      hovered: under && key_of(under.thing),
+      opened: opened && key_of(opened),
+      focused: focused.peek()?.spot,
+      choice: choice.peek(),
+      phase_text,
+    });
   });
   const { canvas, redraw } = drawing;
 
@@ -122,8 +131,8 @@ export function Chart({ view, opened, open }: ChartProps) {
     view.pause();
     const next = place(canvas.current!.clientWidth);
     const from = focused.peek();
-    const placed = next_thing(next, from && next.placed.find((one) => one.key === key_of(from)), key);
-    focused.value = placed?.thing;
+    const placed = next_thing(next, from && next.placed.find((one) => one.spot === from.spot), key);
+    focused.value = placed;
     if (placed) bring_into_sight(frame.current!, placed);
   };
   const pressed = (event: KeyboardEvent) => {
@@ -131,7 +140,7 @@ export function Chart({ view, opened, open }: ChartProps) {
     const third = view.stretch.peek().span / 3;
     const acts: Record<string, () => void> = {
       ArrowLeft: () => go('ArrowLeft'), ArrowRight: () => go('ArrowRight'), ArrowUp: () => go('ArrowUp'), ArrowDown: () => go('ArrowDown'),
-      Enter: () => focused.peek() && open(focused.peek()!),
+      Enter: () => focused.peek() && open(focused.peek()!.thing),
       ' ': () => (view.is_live ? view.pause() : view.go_live()),
       '+': () => view.zoom(1 / zoom_step), '=': () => view.zoom(1 / zoom_step), '-': () => view.zoom(zoom_step),
       PageUp: () => view.move(-third), PageDown: () => view.move(third),
@@ -177,7 +186,7 @@ export function Chart({ view, opened, open }: ChartProps) {
         </div>
       </div>
       <p id="timeline-help" class="unseen">{texts().help}</p>
-      <p class="unseen" role="status">{told ? sentence(describe(told, view.sources.at)) : ''}</p>
+      <p class="unseen" role="status">{told ? sentence(describe(told.thing, view.sources.at)) : ''}</p>
     </div>
   );
 }
@@ -201,14 +210,14 @@ interface TipProps {
   layout: { current: Layout | undefined };
   frame: { current: HTMLDivElement | null };
   hovered: { thing: Thing; x: number; y: number } | undefined;
-  focused: Thing | undefined;
+  focused: Placed | undefined;
 }
 
 // Beside the pointer, or where the thing stands that the keys have chosen.
 function Tip({ view, layout, frame, hovered, focused }: TipProps) {
   const at = view.sources.at;
   if (hovered) return <Tooltip description={describe(hovered.thing, at)} x={hovered.x} y={hovered.y} />;
-  const placed = focused && layout.current?.placed.find((one) => one.key === key_of(focused));
+  const placed = focused && layout.current?.placed.find((one) => one.spot === focused.spot);
   if (!placed) return null;
   const { x, y, width, height } = placed.box;
   return <Tooltip description={describe(placed.thing, at)} x={Math.max(0, x) + Math.min(width, 40) / 2} y={y + height + axis_height - (frame.current?.scrollTop ?? 0)} />;

@@ -1,7 +1,9 @@
 // Things of the time line in words: for what hovers, for tables, for screen readers.
 import { clock_time, duration } from '../i18n/i18n';
 import type { CommandEntry } from '../state/commands_state';
+import { texts as shell } from '../shell/texts';
 import type { Span } from '../state/history';
+import type { Phase } from '../state/link_state';
 import { began_at, type Mark, mark_ref, type Thing } from './things';
 import { texts } from './texts';
 
@@ -14,6 +16,11 @@ export interface Description {
   state: string;
   /** What else there is: names and values. */
   facts: [name: string, value: string][];
+}
+
+/** How the link is, in the words of the header. */
+export function phase_text(phase: string): string {
+  return shell().phase(phase as Phase);
 }
 
 /** `at`: until when anything is known. */
@@ -38,7 +45,8 @@ function of_span({ kind, ref, value, from, to, note }: Span, at: number): Descri
   ];
   if (note !== '') times.push([t.reason, note]);
   if (kind === 'holder') return { at: from, kind: t.holder, title: value === 'me' ? t.by_me : t.by_session(value), component: ref, state: '', facts: times };
-  return { at: from, kind: kind === 'link' ? t.link : t.status, title: value, component: ref, state: value, facts: times };
+  if (kind === 'link') return { at: from, kind: t.link, title: phase_text(value), component: '', state: '', facts: times };
+  return { at: from, kind: t.status, title: value, component: ref, state: value, facts: times };
 }
 
 function of_command(entry: CommandEntry, at: number): Description {

@@ -1,12 +1,14 @@
 // What is known of one thing, beside the lanes.
 import { useEffect, useRef } from 'preact/hooks';
+import { Results } from 'rois-client';
 
 import { clock_time } from '../i18n/i18n';
+import { CommandProgress, ResultsTable } from '../forms';
 import { useConsole } from '../shell/context';
+import { show_panel } from '../shell/layout';
 import type { CommandEntry } from '../state/commands_state';
 import type { Details } from '../state/events_state';
 import { Button, EmptyState, IconButton, StatusBadge, XmlView } from '../ui';
-import { ParameterTable } from '../ui/parameters';
 import { describe, of_mark } from './describe';
 import { key_of, type Mark, mark_key, type Thing } from './things';
 import { texts } from './texts';
@@ -31,6 +33,10 @@ export function DetailsPane({ view, thing, open, close }: DetailsProps) {
   void console.commands.pulse.beat.value;
   if (thing.kind === 'span') void console.now.value;
   const { kind, title, component, state, facts } = describe(thing, view.sources.at);
+  const show_component = (ref: string) => {
+    console.selection.component.value = ref;
+    show_panel('components');
+  };
   const closed = (event: KeyboardEvent) => {
     if (event.key !== 'Escape') return;
     event.stopPropagation();
@@ -46,8 +52,15 @@ export function DetailsPane({ view, thing, open, close }: DetailsProps) {
       </header>
       <div class="timeline-details-body" tabIndex={0} role="region" aria-label={title}>
         <dl class="timeline-facts">
-          {component !== '' && <Fact name={t.component} value={component} />}
-          {state !== '' && (
+          {component !== '' && (
+            <div>
+              <dt>{t.component}</dt>
+              <dd>
+                <button type="button" class="timeline-link" onClick={() => show_component(component)}>{component}</button>
+              </dd>
+            </div>
+          )}
+          {state !== '' && thing.kind !== 'command' && (
             <div>
               <dt>{t.state}</dt>
               <dd><StatusBadge status={state} /></dd>
@@ -90,16 +103,17 @@ function CommandDetails({ entry }: { entry: CommandEntry }) {
   }, [entry, entry.ended_at]);
   return (
     <>
+      <CommandProgress entry={entry} />
       {entry.arguments.length > 0 && (
         <>
           <h4>{t.arguments}</h4>
-          <ParameterTable label={t.arguments} parameters={entry.arguments} />
+          <ResultsTable label={t.arguments} results={new Results(entry.arguments)} />
         </>
       )}
       {entry.results && (
         <>
           <h4>{t.results}</h4>
-          {entry.results.parameters.length === 0 ? <p>{t.no_results}</p> : <ParameterTable label={t.results} parameters={entry.results.parameters} />}
+          {entry.results.parameters.length === 0 ? <p>{t.no_results}</p> : <ResultsTable label={t.results} results={entry.results} />}
         </>
       )}
       <LoggedText title={t.request} number={entry.sequence.document} />
@@ -129,16 +143,28 @@ function Fetched({ details }: { details: Details }) {
   if (details.state === 'gone') return <p>{t.gone(details.reason)}</p>;
   if (details.state !== 'there') return <p role="status">{t.fetching}</p>;
   if (details.results.parameters.length === 0) return <p>{t.no_results}</p>;
-  return <ParameterTable label={t.results} parameters={details.results.parameters} />;
+  return <ResultsTable label={t.results} results={details.results} />;
 }
 
 function LoggedText({ title, number }: { title: string; number: number }) {
-  const { documents } = useConsole();
+  const { documents, selection } = useConsole();
+  const t = texts();
   const logged = documents.ring.numbered(number);
+  const show = () => {
+    selection.document.value = number;
+    show_panel('messages');
+  };
   return (
     <details class="timeline-document">
       <summary>{title}</summary>
-      {logged ? <XmlView text={logged.text} label={title} /> : <p>{texts().document_gone}</p>}
+      {logged ? (
+        <>
+          <XmlView text={logged.text} label={title} />
+          <Button small look="quiet" icon="messages" onClick={show}>{t.in_messages}</Button>
+        </>
+      ) : (
+        <p>{t.document_gone}</p>
+      )}
     </details>
   );
 }

@@ -1,7 +1,7 @@
 // Where everything stands: from what there is and what is shown to lanes and boxes. Draws nothing.
 import type { CommandEntry } from '../state/commands_state';
 import type { Span } from '../state/history';
-import { end_of, first_since, type Rows, type Sources } from './sources';
+import { end_of, first_since, oldest_of, type Rows, type Sources } from './sources';
 import { key_of, type Mark, mark_ref, type Thing } from './things';
 import type { Range } from './view';
 
@@ -15,7 +15,8 @@ export interface Box {
 
 export interface Placed {
   thing: Thing;
-  key: string;
+  key: string; // of the thing
+  spot: string; // of the thing in its lane: a command stands in two
   lane: number; // index
   box: Box;
 }
@@ -31,6 +32,7 @@ export interface Lane {
 
 export interface Layout {
   range: Range;
+  oldest: number; // before it nothing is known
   width: number;
   height: number; // of all lanes
   lanes: Lane[];
@@ -47,7 +49,7 @@ export interface LayoutOptions {
 const heights = { link: 20, row: 18, events: 28, component: 30 };
 const most_rows = 6; // of commands at once; what is more lies in the last one
 /** Marks nearer to each other than this are one. Where the borders are depends on the time alone, so that nothing flickers while it moves. */
-const together = { events: 22, component: 7 }; // px
+const together = { events: 30, component: 7 }; // px
 
 export function x_of(at: number, { from, to }: Range, width: number): number {
   return ((at - from) / (to - from)) * width;
@@ -67,11 +69,15 @@ export function lay_out(sources: Sources, range: Range, { width, hides_quiet }: 
   const by_ref = new Map(lanes.map((lane, index) => [lane.kind === 'component' ? lane.ref : ` ${lane.kind}`, index]));
   const placed: Placed[] = [];
 
+  const place = (thing: Thing, lane: number, box: Box) => {
+    const key = key_of(thing);
+    placed.push({ thing, key, spot: `${lanes[lane]!.kind} ${key}`, lane, box });
+  };
   const put = (thing: Thing, lane: number | undefined, from: number, to: number, top: number, height: number, least = 1) => {
     if (lane === undefined) return;
     const x = Math.max(-4, x_of(from, range, width));
     const end = Math.min(width + 4, x_of(to, range, width));
-    placed.push({ thing, key: key_of(thing), lane, box: { x, y: lanes[lane]!.y + top, width: Math.max(least, end - x), height } });
+    place(thing, lane, { x, y: lanes[lane]!.y + top, width: Math.max(least, end - x), height });
   };
 
   for (const { span, to } of spans) {
@@ -90,14 +96,14 @@ export function lay_out(sources: Sources, range: Range, { width, hides_quiet }: 
     for (const { marks: one, from, to } of clusters(those, ((range.to - range.from) / width) * most)) {
       const middle = x_of((from + to) / 2, range, width);
       const wide = one.length === 1 ? side : Math.max(side, x_of(to, range, width) - x_of(from, range, width));
-      if (lane !== undefined) placed.push({ thing: { kind: 'marks', marks: one }, key: key_of({ kind: 'marks', marks: one }), lane, box: { x: middle - wide / 2, y: lanes[lane]!.y + top, width: wide, height } });
+      if (lane !== undefined) place({ kind: 'marks', marks: one }, lane, { x: middle - wide / 2, y: lanes[lane]!.y + top, width: wide, height });
     }
   };
   for (const [ref, those] of grouped(marks, mark_ref)) if (ref !== '') put_marks(those, by_ref.get(ref), together.component, 19, 9, 3);
   const [events, troubles] = [marks.filter((one) => one.kind === 'event'), marks.filter((one) => one.kind !== 'event')];
   put_marks(events, by_ref.get(' events'), together.events, 6, 16, 12);
   put_marks(troubles, by_ref.get(' events'), together.events, 6, 16, 14);
-  return { range, width, height: lanes.at(-1)!.y + lanes.at(-1)!.height, lanes, placed };
+  return { range, oldest: oldest_of(sources), width, height: lanes.at(-1)!.y + lanes.at(-1)!.height, lanes, placed };
 }
 
 function lanes_of(refs: readonly string[], rows: number): Lane[] {
@@ -213,7 +219,7 @@ export function next_thing({ lanes, placed }: Layout, from: Placed | undefined, 
   if (!from) return placed.length === 0 ? undefined : in_lane(Math.min(...placed.map((one) => one.lane))).at(-1);
   if (key === 'ArrowLeft' || key === 'ArrowRight') {
     const row = in_lane(from.lane);
-    const index = row.findIndex((one) => one.key === from.key) + (key === 'ArrowLeft' ? -1 : 1);
+    const index = row.findIndex((one) => one.spot === from.spot) + (key === 'ArrowLeft' ? -1 : 1);
     return row[Math.max(0, Math.min(row.length - 1, index))] ?? from;
   }
   const step = key === 'ArrowUp' ? -1 : 1;

@@ -16,9 +16,10 @@ export interface Look {
   scroll: number; // px that the lanes are moved up
   at: number; // until when anything is known: now, or when time was stopped
   hovered: string | undefined; // keys
-  focused: string | undefined;
   opened: string | undefined;
+  focused: string | undefined; // a spot
   choice: Range | undefined; // a stretch that is being chosen
+  phase_text: (phase: string) => string; // of the link
 }
 
 type Ink = ReturnType<typeof inks>;
@@ -43,8 +44,10 @@ export function paint(sheet: Sheet, look: Look): void {
   paint_ground(pen, look, ink, height);
   const below = [...layout.placed].sort((a, b) => order(a) - order(b));
   for (const one of below) if (one.box.y + one.box.height >= scroll && one.box.y <= scroll + height) paint_thing(pen, one, look, ink);
-  for (const key of [look.opened, look.hovered, look.focused])
-    for (const one of layout.placed) if (key !== undefined && one.key === key) outline(pen, one.box, key === look.focused ? ink.accent : ink.ink);
+  for (const one of layout.placed) {
+    if (one.key === look.opened || one.key === look.hovered) outline(pen, one.box, ink.ink);
+    if (one.spot === look.focused) outline(pen, one.box, ink.accent);
+  }
   pen.restore();
   if (choice) paint_choice(pen, choice, layout, ink, height);
   paint_axis(pen, look, ink, width, height);
@@ -63,11 +66,10 @@ function paint_ground(pen: CanvasRenderingContext2D, { layout, at, scroll }: Loo
   // While the link was away nothing was heard of anybody.
   for (const { thing, box } of layout.placed)
     if (thing.kind === 'span' && thing.span.kind === 'link' && !/^(open|resumed)$/.test(thing.span.value)) hatch(pen, { x: box.x, y: scroll, width: box.width, height }, ink.line);
-  const end = x_of(at, range, width);
-  if (end < width) {
-    pen.fillStyle = ink.ground;
-    pen.fillRect(end, scroll, width - end, height);
-  }
+  const [begin, end] = [x_of(layout.oldest, range, width), x_of(at, range, width)];
+  pen.fillStyle = ink.ground;
+  if (begin > 0) pen.fillRect(0, scroll, begin, height);
+  if (end < width) pen.fillRect(end, scroll, width - end, height);
 }
 
 function paint_thing(pen: CanvasRenderingContext2D, placed: Placed, look: Look, ink: Ink): void {
@@ -78,7 +80,7 @@ function paint_thing(pen: CanvasRenderingContext2D, placed: Placed, look: Look, 
     fill(pen, box, soft, 2);
     pen.fillStyle = full;
     pen.fillRect(box.x, box.y, Math.min(2, box.width), box.height);
-    text_in(pen, thing.span.value, box, full, ink.sans);
+    text_in(pen, thing.span.kind === 'link' ? look.phase_text(thing.span.value) : thing.span.value, box, full, ink.sans);
   } else if (thing.kind === 'command') paint_command(pen, placed, look, ink);
   else if (look.layout.lanes[placed.lane]!.kind === 'component') {
     // The more there are, the higher it stands.
