@@ -2,6 +2,7 @@
 import type { ComponentType } from 'preact';
 
 import { texts as components } from './components/texts';
+import { texts as health } from './health/texts';
 import { texts as timeline } from './timeline/texts';
 import type { IconName } from './ui/icon';
 
@@ -21,4 +22,5 @@ export interface Panel {
 export const panels: readonly Panel[] = [
   { id: 'components', title: () => components().title, icon: 'components', area: 'side', load: () => import('./components/panel') },
   { id: 'timeline', title: () => timeline().title, icon: 'timeline', area: 'below', load: () => import('./timeline/panel') },
+  { id: 'health', title: () => health().title, icon: 'health', area: 'side', load: () => import('./health/panel') },
 ];
