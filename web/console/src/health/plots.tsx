@@ -2,6 +2,7 @@ import { useSignal } from '@preact/signals';
 
 import { count_text, language } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
+import type { LoggedDocument } from '../state/documents';
 import type { Scrape } from '../state/metrics_state';
 import type { Second } from '../state/traffic';
 import { Plot } from './plot';
@@ -47,7 +48,7 @@ export function Plots() {
               { name: t.inside, ink: 'third', series: inside(metrics.history, from) },
             ]}
           />
-          {worst && <p class="health-note">{t.slowest_was(`${worst.request?.name ?? worst.name} ${worst.request?.component ?? ''}`.trim(), ms_text(worst.took ?? 0))}</p>}
+          {worst && <p class="health-note">{t.slowest_was(asked(worst), ms_text(worst.took ?? 0))}</p>}
         </div>
         <Plot
           title={t.gateway_plot}
@@ -73,6 +74,12 @@ export function Plots() {
       </div>
     </section>
   );
+}
+
+// What `search` finds is not whom it asks.
+function asked({ name, component, request }: LoggedDocument): string {
+  const operation = request?.name ?? name;
+  return operation === 'search' || component === undefined ? operation : `${operation} ${component}`;
 }
 
 function worst_of(seconds: readonly Second[]) {

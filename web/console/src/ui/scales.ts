@@ -26,7 +26,7 @@ export function time_marks(from: number, to: number, least: number): AxisMark[] 
 function time_text(at: number, step: number): string {
   if (step >= minute) return clock_time(at, false).slice(0, 5);
   if (step >= second) return clock_time(at, false);
-  return clock_time(at).slice(3, step < 100 ? 12 : 11);
+  return clock_time(at).slice(3, step < 100 ? 11 : 10);
 }
 
 /** Round values from 0 to the first one that is not below `most`, `count` of them or a few more. */
