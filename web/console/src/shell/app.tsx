@@ -15,12 +15,14 @@ export function App({ console }: { console: Console }) {
     document.documentElement.lang = language.value;
     document.title = texts().title;
   }, [language.value]);
+  const { phase } = console.link.view.value;
+  const is_stale = console.link.heard_at > 0 && (phase === 'lost' || phase === 'draining' || phase === 'refused');
   return (
     <ConsoleContext.Provider value={console}>
       <div class="app">
         <Header />
         <LinkBanner />
-        <main id="panels" class={console.link.view.value.phase === 'lost' ? 'app-main app-stale' : 'app-main'} tabIndex={-1}>
+        <main id="panels" class={is_stale ? 'app-main app-stale' : 'app-main'} tabIndex={-1}>
           <Layout />
         </main>
         <NoticeArea />

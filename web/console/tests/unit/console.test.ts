@@ -70,6 +70,29 @@ describe('the link', () => {
     expect(console.link.view.value.phase).toBe('draining');
   });
 
+  test('a gateway that goes away is waited for, and then is just not there', async () => {
+    world.breaks('the WebSocket was closed with 1001, shutting down');
+    await world.tries_again();
+    world.breaks();
+    expect(console.link.view.value).toMatchObject({ phase: 'draining', reason: 'the WebSocket was closed with 1001, shutting down' });
+    await world.passes(60_000);
+    await world.tries_again();
+    world.breaks();
+    expect(console.link.view.value.phase).toBe('lost');
+  });
+
+  test('a gateway that refused, and then is not there, is lost', async () => {
+    world.pages.set('/rois', { status: 429, text: '<fault code="too_many"><reason>so it is</reason></fault>' });
+    world.breaks();
+    await settled();
+    expect(console.link.view.value.phase).toBe('refused');
+    world.pages.clear();
+    await world.tries_again();
+    world.breaks();
+    await settled();
+    expect(console.link.view.value.phase).toBe('lost');
+  });
+
   test('asks for a token when the gateway wants one, and tries with it', async () => {
     const shy = new World();
     shy.pages.set('/rois', { status: 401, text: '<fault code="unauthorized"><reason>no token</reason></fault>' });
