@@ -206,7 +206,7 @@ export class Console {
   }
 
   private notified(notification: Notification): void {
-    const document = this.documents.ring.at(-1)?.number ?? 0; // a document is logged before it is read
+    const document = this.documents.ring.last?.number ?? 0; // a document is logged before it is read
     switch (notification.name) {
       case 'receive_event':
         this.events.event(notification, document);

@@ -1,7 +1,7 @@
 // Every document in and out, as it was on the wire: the last ones, and how they belong together.
+import { type DocumentLimits, DocumentLog } from './document_log';
 import type { Environment } from './environment';
 import { Pulse } from './pulse';
-import { Ring } from './ring';
 
 export type Direction = 'in' | 'out';
 
@@ -23,11 +23,6 @@ export interface LoggedDocument {
   is_own: boolean; // of the console itself, which asks for what it shows: hidden unless somebody wants to see it
 }
 
-export interface DocumentLimits {
-  most: number;
-  most_bytes: number;
-}
-
 const usual_limits: DocumentLimits = { most: 20_000, most_bytes: 16 * 1024 * 1024 };
 
 const root = /<((?:[\w.-]+:)?)([\w.-]+)([^>]*)/;
@@ -42,7 +37,7 @@ export interface DocumentListener {
 }
 
 export class Documents {
-  readonly ring: Ring<LoggedDocument>;
+  readonly ring: DocumentLog;
   readonly pulse: Pulse;
   private waiting: { request: LoggedDocument; since: number }[] = []; // requests without their answers, in order; since by the precise clock
   private next = 0;
@@ -53,8 +48,7 @@ export class Documents {
     private readonly environment: Environment,
     limits: DocumentLimits = usual_limits,
   ) {
-    // A text takes two bytes a unit at worst.
-    this.ring = new Ring(limits.most, limits.most_bytes, (one) => 2 * one.text.length + 200);
+    this.ring = new DocumentLog(limits);
     this.pulse = new Pulse(environment);
   }
 

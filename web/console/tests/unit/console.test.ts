@@ -123,7 +123,7 @@ describe('the link', () => {
 describe('documents', () => {
   test('answers know what they answer, and how long it took', async () => {
     await console.client.search();
-    const answer = console.documents.ring.at(-1)!;
+    const answer = console.documents.ring.last!;
     expect(answer).toMatchObject({ direction: 'in', kind: 'answer', name: 'search_response', return_code: 'OK', took: 0, is_own: false });
     expect(answer.request?.name).toBe('search');
   });
