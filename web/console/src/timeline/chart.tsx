@@ -43,6 +43,8 @@ export function Chart({ view, opened, open }: ChartProps) {
     const at = view.sources.at;
     drawn.current = at;
     if (shape_of(next.lanes) !== shape_of(lanes.peek())) lanes.value = next.lanes;
+    // For whoever wants to know where a time is: tests, say.
+    Object.assign(sheet.pen.canvas.dataset, { from: String(next.range.from), to: String(next.range.to) });
     const under = hovered.peek();
     paint(sheet, {
       layout: next,

@@ -21,11 +21,11 @@ const least_span = 50;
 const always_allowed = 15 * 60_000; // even when less is known
 const most_undone = 30;
 
-/** Between what is known first and now; not shorter than what can be told apart. */
-export function within(stretch: Stretch, oldest: number, now: number): Stretch {
+/** Between what is known first and now, or as far `ahead` of it; not shorter than what can be told apart. */
+export function within(stretch: Stretch, oldest: number, now: number, ahead = 0): Stretch {
   const span = Math.min(Math.max(stretch.span, least_span), Math.max(always_allowed, (now - oldest) * 1.1));
   if (stretch.end === undefined) return { span };
-  return { span, end: Math.min(now, Math.max(stretch.end, Math.min(oldest + span * 0.25, now))) };
+  return { span, end: Math.min(now + ahead * span, Math.max(stretch.end, Math.min(oldest + span * 0.25, now))) };
 }
 
 /** More or less of the time, where `at` stays in its place. What is live stays live. */
@@ -70,7 +70,7 @@ export class TimeView {
 
   /** `at`: the time that stays in its place. */
   zoom(factor: number, at?: number): void {
-    this.put(zoomed(this.stretch.value, factor, at ?? this.middle));
+    this.put(zoomed(this.stretch.value, factor, at ?? this.middle), 0.5); // or what is pointed at could not stay in its place
   }
   move(ms: number): void {
     this.pause();
@@ -118,9 +118,9 @@ export class TimeView {
     this.before.push(this.stretch.value);
     if (this.before.length > most_undone) this.before.shift();
   }
-  private put(stretch: Stretch): void {
+  private put(stretch: Stretch, ahead = 0): void {
     const { sources } = this;
-    this.stretch.value = within(stretch, oldest_of(sources), sources.at);
+    this.stretch.value = within(stretch, oldest_of(sources), sources.at, ahead);
   }
 }
 
