@@ -6,21 +6,20 @@ import { useConsole } from '../shell/context';
 import { texts as shell } from '../shell/texts';
 import type { Phase } from '../state/link_state';
 import { Badge, type Tone } from '../ui';
-import { growth, latencies, type Series } from './series';
+import { fresh_for, growth, latencies, type Series } from './series';
 import { texts } from './texts';
 import { ms_text } from './plots';
 
 const tones: Record<Phase, Tone> = {
   connecting: 'busy', open: 'good', resumed: 'good', lost: 'bad', refused: 'bad', token: 'warning', draining: 'warning', closed: 'calm',
 };
-const most_age = 5000; // ms; older is not now
 
 export function Figures() {
   const { link, metrics, traffic, now } = useConsole();
   const t = texts();
   const { phase, since, reason } = link.view.value;
   const scrape = metrics.latest.value;
-  const from = now.value - most_age;
+  const from = now.value - fresh_for;
   const number = (name: string) => {
     const value = scrape?.value(name);
     return value === undefined ? t.none : count_text(value);

@@ -7,7 +7,7 @@ import { shown_theme } from '../shell/theme';
 import { Table } from '../ui';
 import { type Sheet, useDrawing } from '../ui/drawing';
 import { time_marks, value_marks } from '../ui/scales';
-import { highest, longest_gap, point_near, type Series, shown_for } from './series';
+import { fresh_for, highest, longest_gap, point_near, type Series, shown_for } from './series';
 import { texts } from './texts';
 
 /** Lines differ in colour and in their dashes. */
@@ -56,7 +56,8 @@ export function Plot({ title, lines, now, text, short, cursor }: PlotProps) {
     cursor.value = Math.max(from, Math.min(now, to));
   };
   const value_at = (line: Line) => {
-    const point = pointed === undefined ? line.series.at(-1) : point_near(line.series, pointed);
+    const last = line.series.at(-1);
+    const point = pointed !== undefined ? point_near(line.series, pointed) : last && now - last.at <= fresh_for ? last : undefined;
     return point === undefined ? t.none : text(point.value);
   };
   const told = lines.map((line) => `${line.name} ${value_at(line)}`).join(', ');

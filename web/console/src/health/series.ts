@@ -12,6 +12,8 @@ export type Series = readonly Point[];
 
 /** What a plot shows. */
 export const shown_for = 60_000; // ms
+/** An older value is not that of now. */
+export const fresh_for = 5000; // ms
 export const longest_gap = 2600; // ms
 
 const since = <T extends { at: number }>(all: Iterable<T>, from: number) => [...all].filter((one) => one.at >= from);

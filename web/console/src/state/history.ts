@@ -81,9 +81,10 @@ export class History {
         if (!is_open()) return;
         for (const ref of mine) this.see('holder', ref, 'me', this.environment.now());
         const told_at = metrics.latest.peek()?.at ?? 0;
-        const others = at - told_at < stale_after ? [...all].filter(([ref]) => !mine.has(ref) && !this.was_mine(ref, told_at)) : [];
+        const is_fresh = at - told_at < stale_after;
+        const others = is_fresh ? [...all].filter(([ref]) => !mine.has(ref) && !this.was_mine(ref, told_at)) : [];
         for (const [ref, session] of others) this.see('holder', ref, session, this.environment.now());
-        this.end_others('holder', (ref) => mine.has(ref) || others.some(([one]) => one === ref));
+        this.end_others('holder', (ref, value) => mine.has(ref) || (value !== 'me' && (!is_fresh || all.get(ref) === value)));
       }),
     ];
     return () => {
@@ -114,9 +115,9 @@ export class History {
     this.pulse.touch();
   }
 
-  private end_others(kind: SpanKind, is_there: (ref: string) => boolean): void {
+  private end_others(kind: SpanKind, is_there: (ref: string, value: string) => boolean): void {
     for (const [key, span] of this.present) {
-      if (span.kind !== kind || is_there(span.ref)) continue;
+      if (span.kind !== kind || is_there(span.ref, span.value)) continue;
       this.present.delete(key);
       this.past.push(span);
       this.pulse.touch();
