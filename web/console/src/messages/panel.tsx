@@ -10,8 +10,8 @@ import { Button, EmptyState, SplitPane, useIsWide, VirtualList } from '../ui';
 import { Feed, is_gap, no_filter, type Row, type Source } from './feed';
 import { Reader } from './reader';
 import { RowView } from './row';
-import { filter, paused, recording, type ShownRecording } from './shown';
-import { command_of } from './summary';
+import { chosen_of_recording, filter, paused, recording, type ShownRecording } from './shown';
+import { command_of, component_of } from './summary';
 import { texts } from './texts';
 import { Toolbar } from './toolbar';
 
@@ -27,8 +27,13 @@ export default function MessagesPanel() {
   useEffect(() => console.environment.every(look_every, () => feed.update() && again((n) => n + 1)), [feed]);
   const held = tape ? undefined : paused.value;
   const rows = held ? held.rows : feed.rows;
-  const { selection } = console;
-  const chosen = selection.document.value;
+  const picked = console.selection.document;
+  const choice = tape ? chosen_of_recording : picked;
+  const chosen = choice.value;
+  // Whoever picks a document elsewhere wants to see what happens.
+  useEffect(() => {
+    if (recording.value && picked.value !== undefined) recording.value = undefined;
+  }, [picked.value]);
   const document = chosen === undefined ? undefined : tape ? tape.documents[chosen] : (console.documents.ring.numbered(chosen) ?? held?.rows.find((one): one is LoggedDocument => !is_gap(one) && one.number === chosen));
   const all = tape ? tape.documents.length : console.documents.ring.size;
 
@@ -41,15 +46,15 @@ export default function MessagesPanel() {
         key_of={key_of}
         render={(row) => <RowView row={row} is_live={!tape} />}
         chosen={chosen}
-        choose={(row) => (selection.document.value = is_gap(row) ? undefined : row.number)}
+        choose={(row) => (choice.value = is_gap(row) ? undefined : row.number)}
         follow={!tape && !held}
       />
     ) : (
-      <EmptyState icon="messages" title={all > 0 ? t.none_pass : t.none}>
+      <EmptyState icon="messages" title={all === 0 ? t.none : filter.value === no_filter ? t.only_own : t.none_pass}>
         {all > 0 && <Button onClick={() => (filter.value = { ...no_filter, with_own: true })}>{t.clear}</Button>}
       </EmptyState>
     );
-  const reader = document ? <Reader key={document.number} document={document} tape={tape} /> : <EmptyState icon="messages" title={t.pick} />;
+  const reader = document ? <Reader key={document.number} document={document} tape={tape} choose={(one) => (choice.value = one.number)} /> : <EmptyState icon="messages" title={t.pick} />;
   const direction = is_wide ? 'row' : 'column';
   return (
     <div class="messages" ref={frame}>
@@ -63,16 +68,11 @@ export default function MessagesPanel() {
 }
 
 function TapeBanner({ tape }: { tape: ShownRecording }) {
-  const { selection } = useConsole();
   const t = texts();
-  const leave = () => {
-    recording.value = undefined;
-    selection.document.value = undefined;
-  };
   return (
     <p class="banner banner-warning" role="status">
       <strong>{t.not_live}</strong> {t.recording(tape.file, tape.documents.length, tape.begun, tape.url)}
-      <Button small onClick={leave}>{t.to_live}</Button>
+      <Button small onClick={() => (recording.value = undefined)}>{t.to_live}</Button>
     </p>
   );
 }
@@ -85,11 +85,11 @@ function live({ documents, events, commands }: Console): Source {
   return {
     documents: documents.ring,
     gaps: events.gaps,
-    component_of: (one) => one.component ?? (one.name === 'completed' ? commands.find(command_of(one))?.component : undefined) ?? '',
+    component_of: (one) => component_of(one) || (one.name === 'completed' ? (commands.find(command_of(one))?.component ?? '') : ''),
   };
 }
 
 function source_of({ documents }: ShownRecording): Source {
   const none = { first: 0, size: 0, numbered: () => undefined };
-  return { documents: { first: 0, end: documents.length, numbered: (number) => documents[number] }, gaps: none, component_of: (one) => one.component ?? '' };
+  return { documents: { first: 0, end: documents.length, numbered: (number) => documents[number] }, gaps: none, component_of };
 }

@@ -12,17 +12,23 @@ import type { Details, ErrorEntry, EventEntry } from '../state/events_state';
 import type { Ring } from '../state/ring';
 import { Badge, Button, Checkbox, CurlButton, StatusBadge, XmlView } from '../ui';
 import type { ShownRecording } from './shown';
-import { command_of, expire_of } from './summary';
+import { command_of, component_of, expire_of } from './summary';
 import { texts } from './texts';
 
-export function Reader({ document, tape }: { document: LoggedDocument; tape: ShownRecording | undefined }) {
+export interface ReaderProps {
+  document: LoggedDocument;
+  tape: ShownRecording | undefined;
+  choose: (document: LoggedDocument) => void;
+}
+
+export function Reader({ document, tape, choose }: ReaderProps) {
   const console = useConsole();
   const t = texts();
   const [raw, set_raw] = useState(false);
-  const { name, component, return_code, direction } = document;
+  const { name, return_code, direction } = document;
+  const component = component_of(document);
   const place = place_of(document);
   const answer = document.kind === 'request' ? answer_to(console, tape, document) : undefined;
-  const go = (to: LoggedDocument) => (console.selection.document.value = to.number);
   const open = (ref: string) => {
     console.selection.component.value = ref;
     show_panel('components');
@@ -39,9 +45,9 @@ export function Reader({ document, tape }: { document: LoggedDocument; tape: Sho
         </span>
       </div>
       <div class="messages-head">
-        {document.request && <Button small icon="up" onClick={() => go(document.request!)}>{t.to_request}</Button>}
-        {answer && <Button small icon="down" onClick={() => go(answer)}>{t.to_answer}</Button>}
-        {component !== undefined && !tape && console.profile.component(component) && (
+        {document.request && <Button small icon="up" onClick={() => choose(document.request!)}>{t.to_request}</Button>}
+        {answer && <Button small icon="down" onClick={() => choose(answer)}>{t.to_answer}</Button>}
+        {component !== '' && !tape && console.profile.component(component) && (
           <Button small icon="components" onClick={() => open(component)}>{t.to_component(component)}</Button>
         )}
         {direction === 'out' && !tape && <CurlButton request={document.text} />}
@@ -65,7 +71,7 @@ function Live({ document }: { document: LoggedDocument }) {
   }
   if (document.name === 'receive_event') {
     void events.pulse.beat.value;
-    const entry = entry_of(events.events, document);
+    const entry = entry_of(document.is_own ? events.own_events : events.events, document);
     return entry ? <DetailsOf details={entry.details} expire={expire_of(document)} ask={() => void events.fetch_event(entry)} /> : <p class="messages-soft">{texts().not_kept}</p>;
   }
   if (document.name === 'receive_error') {

@@ -13,3 +13,5 @@ export const filter = signal<Filter>(no_filter);
 export const recording = signal<ShownRecording | undefined>(undefined);
 /** The rows as they were when the user stopped time. */
 export const paused = signal<{ rows: readonly Row[]; until: number } | undefined>(undefined);
+/** Of the recording: the number of the document that is read. Of what happens it is `console.selection.document`. */
+export const chosen_of_recording = signal<number | undefined>(undefined);

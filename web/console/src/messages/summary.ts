@@ -16,6 +16,12 @@ function event_type_of({ text }: LoggedDocument): string {
   return first_text(text, 'event_type');
 }
 
+/** The component that a document names, be it in a condition; empty: none. */
+export function component_of({ component, text, kind }: LoggedDocument): string {
+  if (component !== undefined || kind !== 'request') return component ?? '';
+  return plain(/>component_ref<\/[^>]*>\s*<(?:[\w.-]+:)?Literal>([^<]*)</.exec(text)?.[1] ?? '');
+}
+
 /** Of a completed: the command's id. */
 export function command_of({ text }: LoggedDocument): string {
   return first_text(text, 'command_id');

@@ -6,7 +6,7 @@ import { read_recording, recording_of } from '../state/recording';
 import { Button, Checkbox, SelectField, TextField } from '../ui';
 import { categories, type Category, type Feed, type Filter, type Row } from './feed';
 import { save } from './save';
-import { filter, paused, recording } from './shown';
+import { chosen_of_recording, filter, paused, recording } from './shown';
 import { texts } from './texts';
 
 const most_bytes = 64 * 1024 * 1024; // of a recording that is opened
@@ -74,6 +74,7 @@ function Recordings() {
     try {
       if (file.size > most_bytes) throw new Error(t.too_large(most_bytes));
       recording.value = { ...read_recording(await file.text()), file: file.name };
+      chosen_of_recording.value = undefined;
       console.selection.document.value = undefined;
     } catch (error) {
       console.notices.tell('error', t.import_failed(file.name), { detail: error instanceof Error ? error.message : String(error) });

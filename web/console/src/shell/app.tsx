@@ -2,7 +2,7 @@ import { useEffect } from 'preact/hooks';
 
 import { language } from '../i18n/i18n';
 import type { Console } from '../state/console';
-import { ConsoleContext } from './context';
+import { ConsoleContext, useConsole, useWatch } from './context';
 import { Header } from './header';
 import { Layout } from './layout';
 import { LinkBanner } from './link_status';
@@ -27,7 +27,14 @@ export function App({ console }: { console: Console }) {
         </main>
         <NoticeArea />
         <TokenDialog />
+        <Watch />
       </div>
     </ConsoleContext.Provider>
   );
+}
+
+// People are told of when they come or move: whoever begins to listen later does not know of those who stand still.
+function Watch() {
+  useWatch(useConsole().entities);
+  return null;
 }

@@ -109,7 +109,7 @@ export class Console {
     this.robots = new RobotsState(environment, this.documents, client, components, is_open);
     this.entities = new EntitiesState(
       environment,
-      (event_type) => this.documents.as_own(() => this.subscriptions.subscribe(event_type)),
+      (event_type) => this.documents.as_own(() => this.subscriptions.subscribe(event_type, {}, true)),
       (event_type) => this.profile.with_event(event_type).length > 0,
     );
     this.map = new MapState(environment, token);
@@ -117,6 +117,7 @@ export class Console {
     this.history = new History(environment, this);
     this.now.value = environment.now();
     environment.every(1000, () => (this.now.value = environment.now()));
+    this.documents.is_own_subscription = (id) => this.subscriptions.is_own(id);
     this.documents.listen((document) => this.heard(document));
   }
 
@@ -206,10 +207,10 @@ export class Console {
   }
 
   private notified(notification: Notification): void {
-    const document = this.documents.ring.last?.number ?? 0; // a document is logged before it is read
+    const { number: document, is_own } = this.documents.ring.last!; // a document is logged before it is read
     switch (notification.name) {
       case 'receive_event':
-        this.events.event(notification, document);
+        this.events.event(notification, document, is_own);
         this.subscriptions.event(notification);
         this.entities.event(notification);
         break;

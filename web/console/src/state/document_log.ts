@@ -1,4 +1,5 @@
-// The last documents, by number. What the console asks again and again by itself has a bound of its own, so that it does not push out the rest.
+// The last documents, by number. What the console asks again and again by itself, and what it listens for, has a bound of its own, so that it
+// does not push out the rest.
 import type { LoggedDocument } from './documents';
 import { Ring } from './ring';
 
@@ -8,7 +9,7 @@ export interface DocumentLimits {
 }
 
 const share_of_polls = 0.1; // of both bounds, beside them
-const polls = /^(query|search|get_command_result)(_response)?$/;
+const polls = /^((query|search|get_command_result)(_response)?|receive_event)$/;
 
 /** Numbers go up without end; those that are forgotten, and there may be some between others, are not there any more. */
 export class DocumentLog implements Iterable<LoggedDocument> {

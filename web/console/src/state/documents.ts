@@ -28,6 +28,7 @@ const usual_limits: DocumentLimits = { most: 20_000, most_bytes: 16 * 1024 * 102
 const root = /<((?:[\w.-]+:)?)([\w.-]+)([^>]*)/;
 const a_component = /<(?:[\w.-]+:)?component_ref\s[^>]*?\bcode\s*=\s*["']([^"']*)["']/;
 const the_sequence = /\ssequence\s*=\s*["'](\d+)["']/;
+const the_subscription = /<(?:[\w.-]+:)?subscribe_id>([^<]*)</;
 const the_return_code = /\sreturn_code\s*=\s*["'](\w+)["']/;
 const notifications = ['receive_event', 'receive_error', 'completed', 'lost', 'profile_changed'];
 
@@ -39,6 +40,8 @@ export interface DocumentListener {
 export class Documents {
   readonly ring: DocumentLog;
   readonly pulse: Pulse;
+  /** Whether the console itself has subscribed to what an event is told for. */
+  is_own_subscription: (subscribe_id: string) => boolean = () => false;
   private waiting: { request: LoggedDocument; since: number }[] = []; // requests without their answers, in order; since by the precise clock
   private next = 0;
   private asks_itself = false;
@@ -62,6 +65,7 @@ export class Documents {
   note(direction: Direction, text: string): LoggedDocument {
     const document = described(this.next++, this.environment.now(), direction, text);
     document.is_own = direction === 'out' && (this.asks_itself || document.name === 'connect' || document.name === 'resume');
+    if (document.name === 'receive_event') document.is_own = this.is_own_subscription(the_subscription.exec(text)?.[1] ?? '');
     if (direction === 'out') this.waiting.push({ request: document, since: this.environment.precise() });
     else if (document.kind !== 'notification') this.pair(document);
     this.ring.push(document);

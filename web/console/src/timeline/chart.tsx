@@ -35,7 +35,7 @@ export function Chart({ view, opened, open }: ChartProps) {
 
   const place = (width: number): Layout => {
     const { sources } = view;
-    return lay_out(sources, view.range(sources.at), { width, hides_quiet: view.hides_quiet.peek() });
+    return lay_out(sources, view.range(sources.at), { width, hides_quiet: view.hides_quiet.peek(), with_own: view.with_own.peek() });
   };
   const drawing = useDrawing((sheet) => {
     const next = place(sheet.width);
@@ -63,7 +63,7 @@ export function Chart({ view, opened, open }: ChartProps) {
   useEffect(
     () =>
       effect(() => {
-        for (const one of [view.stretch, view.hides_quiet, hovered, focused, choice, console.profile.components]) void one.value;
+        for (const one of [view.stretch, view.hides_quiet, view.with_own, hovered, focused, choice, console.profile.components]) void one.value;
         if (view.is_live) for (const one of [console.commands.pulse, console.events.pulse, console.history.pulse]) void one.beat.value;
         redraw();
       }),

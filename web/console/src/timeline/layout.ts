@@ -44,6 +44,8 @@ export interface LayoutOptions {
   width: number;
   /** Leaves out components of which nothing is shown but that they are there. */
   hides_quiet: boolean;
+  /** With the events that the console listens for by itself. */
+  with_own: boolean;
 }
 
 const heights = { link: 20, row: 18, events: 28, component: 30 };
@@ -59,10 +61,10 @@ export function time_of(x: number, { from, to }: Range, width: number): number {
   return from + (x / width) * (to - from);
 }
 
-export function lay_out(sources: Sources, range: Range, { width, hides_quiet }: LayoutOptions): Layout {
+export function lay_out(sources: Sources, range: Range, { width, hides_quiet, with_own }: LayoutOptions): Layout {
   const spans = spans_in(sources, range);
   const commands = [...sources.commands].filter((one) => one.sent_at <= range.to && (one.ended_at ?? sources.at) >= range.from);
-  const marks = marks_in(sources, range);
+  const marks = marks_in(sources, range, with_own);
   const rows = rows_of(sources.commands);
   const only = hides_quiet ? loud(spans, commands, marks) : undefined;
   const lanes = lanes_of(sources.refs.filter((ref) => !only || only.has(ref)), rows.count);
@@ -135,7 +137,7 @@ function spans_in(sources: Sources, { from, to }: Range): Lasting[] {
   return found;
 }
 
-function marks_in({ events, errors, gaps }: Sources, { from, to }: Range): Mark[] {
+function marks_in({ events, own_events, errors, gaps }: Sources, { from, to }: Range, with_own: boolean): Mark[] {
   const marks: Mark[] = [];
   const since = <T extends { at: number }>(rows: Rows<T>, mark_of: (entry: T) => Mark) => {
     for (let i = first_since(rows, (one) => one.at, from); i < rows.size; ++i) {
@@ -145,9 +147,10 @@ function marks_in({ events, errors, gaps }: Sources, { from, to }: Range): Mark[
     }
   };
   since(events, (entry) => ({ kind: 'event', entry }));
+  if (with_own) since(own_events, (entry) => ({ kind: 'event', entry }));
   since(errors, (entry) => ({ kind: 'error', entry }));
   since(gaps, (entry) => ({ kind: 'gap', entry }));
-  return marks;
+  return marks.sort((a, b) => a.entry.at - b.entry.at);
 }
 
 export interface Cluster {

@@ -20,7 +20,6 @@ export function Listing({ view, open }: { view: TimeView; open: (thing: Thing) =
   const console = useConsole();
   const t = texts();
   if (view.is_live) void console.now.value; // once a second is enough to read
-  void view.hides_quiet.value;
   const { at } = view.sources;
   const { rows, count } = rows_of(view, at);
   if (count === 0) return <EmptyState icon="timeline" title={t.nothing} />;
@@ -53,7 +52,7 @@ export function Listing({ view, open }: { view: TimeView; open: (thing: Thing) =
 
 // Each thing once, each mark by itself, the newest first.
 function rows_of(view: TimeView, at: number): { rows: Row[]; count: number } {
-  const { placed } = lay_out(view.sources, view.range(at), { width: 1000, hides_quiet: view.hides_quiet.peek() });
+  const { placed } = lay_out(view.sources, view.range(at), { width: 1000, hides_quiet: view.hides_quiet.value, with_own: view.with_own.value });
   const things = new Map<string, Thing>();
   for (const { thing } of placed)
     for (const one of thing.kind === 'marks' ? thing.marks.map((mark): Thing => ({ kind: 'marks', marks: [mark] })) : [thing]) things.set(key_of(one), one);

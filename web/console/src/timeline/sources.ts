@@ -16,6 +16,7 @@ export interface Sources {
   refs: readonly string[]; // of components, as they are listed
   commands: Rows<CommandEntry>;
   events: Rows<EventEntry>;
+  own_events: Rows<EventEntry>;
   errors: Rows<ErrorEntry>;
   gaps: Rows<GapEntry>;
   past: Rows<Span>;
@@ -24,14 +25,14 @@ export interface Sources {
 
 export function live_sources(console: Console): Sources {
   const { commands, events, history } = console;
-  const rings = { commands: commands.all, events: events.events, errors: events.errors, gaps: events.gaps, past: history.past };
+  const rings = { commands: commands.all, events: events.events, own_events: events.own_events, errors: events.errors, gaps: events.gaps, past: history.past };
   return { at: console.environment.now(), refs: refs_of(console), ...rings, present: [...history.present.values()] };
 }
 
 /** A copy, which stays as it is; as bounded as what it is a copy of. */
 export function stopped_sources(console: Console): Sources {
-  const { commands, events, errors, gaps, past, present, ...rest } = live_sources(console);
-  return { ...rest, commands: copy(commands), events: copy(events), errors: copy(errors), gaps: copy(gaps), past: copy(past), present: present.map((one) => ({ ...one })) };
+  const { commands, events, own_events, errors, gaps, past, present, ...rest } = live_sources(console);
+  return { ...rest, commands: copy(commands), events: copy(events), own_events: copy(own_events), errors: copy(errors), gaps: copy(gaps), past: copy(past), present: present.map((one) => ({ ...one })) };
 }
 
 function copy<T>(rows: Rows<T>): Rows<T> {

@@ -44,6 +44,7 @@ export function Toolbar({ view, as_table, choose_table }: { view: TimeView; as_t
       </span>
       <span class="timeline-switches">
         <Checkbox label={t.hide_quiet} checked={view.hides_quiet.value} change={(is_chosen) => (view.hides_quiet.value = is_chosen)} />
+        <Checkbox label={t.with_own} checked={view.with_own.value} change={(is_chosen) => (view.with_own.value = is_chosen)} />
         <Checkbox label={t.as_table} checked={as_table} change={choose_table} />
       </span>
     </div>

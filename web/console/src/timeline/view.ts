@@ -38,6 +38,7 @@ export function zoomed(stretch: Stretch, factor: number, at: number): Stretch {
 export class TimeView {
   readonly stretch = signal<Stretch>({ span: usual_span });
   readonly hides_quiet = signal(false);
+  readonly with_own = signal(false);
   private readonly stopped = signal<Sources | undefined>(undefined);
   private readonly before: Stretch[] = [];
 

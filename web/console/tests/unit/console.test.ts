@@ -230,6 +230,27 @@ describe('people', () => {
     expect(console.subscriptions.all.value.size).toBe(0);
   });
 
+  test('are told by events that nobody has asked for, also in a session that is made anew', async () => {
+    let next = 1;
+    world.answers.set('subscribe', () => `<subscribe_id>s-${next++}</subscribe_id>`);
+    console.entities.watch();
+    await settled();
+    const is_own = async (id: string) => {
+      await world.notifies('receive_event', localized(['person-1', 0, 0]).replace('s-1', id));
+      return console.documents.ring.last!.is_own;
+    };
+    expect(await is_own('s-1')).toBe(true);
+    await console.subscribe('person_localized');
+    expect(await is_own('s-2')).toBe(false);
+    world.answers.set('resume', () => 'ERROR');
+    world.breaks();
+    await world.tries_again();
+    await world.opens();
+    expect([await is_own('s-3'), await is_own('s-4')]).toEqual([true, false]);
+    await console.subscriptions.unsubscribe('s-4');
+    expect([...console.subscriptions.all.value.keys()]).toEqual(['s-3']);
+  });
+
   test('have a place, a trail and a certainty, and go out of sight', async () => {
     await world.notifies('receive_event', localized(['person-1', 1000, 2000], ['person-2', 0, 0]));
     await world.notifies('receive_event', localized(['person-1', 1500, 2000]));

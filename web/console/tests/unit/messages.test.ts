@@ -2,7 +2,7 @@
 import { describe, expect, test } from 'vitest';
 
 import { category_of, Feed, type Filter, is_gap, no_filter, type Source } from '../../src/messages/feed';
-import { expire_of, summary } from '../../src/messages/summary';
+import { component_of, expire_of, summary } from '../../src/messages/summary';
 import { Documents, type LoggedDocument } from '../../src/state/documents';
 import type { GapEntry } from '../../src/state/events_state';
 import { read_recording, recording_of } from '../../src/state/recording';
@@ -88,6 +88,8 @@ describe('the list', () => {
     expect(said('out', '<query><query_type>robot_position</query_type></query>')).toBe('robot_position');
     expect(said('in', '<search_response return_code="OK"><component_ref_list><component_ref rois:code="a"/><component_ref rois:code="b"/></component_ref_list></search_response>')).toBe('a, b');
     expect(said('in', 'no XML')).toBe('');
+    expect(component_of(documents.note('in', event))).toBe('person_detection');
+    expect(component_of(documents.note('out', '<query><condition><fes:Filter><fes:PropertyIsEqualTo><fes:ValueReference>component_ref</fes:ValueReference><fes:Literal>move</fes:Literal></fes:PropertyIsEqualTo></fes:Filter></condition></query>'))).toBe('move');
     expect(expire_of(documents.note('in', event))).toBe(Date.UTC(2026, 10, 20, 12, 1));
     expect(expire_of(documents.note('in', completed))).toBeUndefined();
     expect(category_of(documents.note('in', '<fault code="invalid"><reason>r</reason></fault>'))).toBe('error');

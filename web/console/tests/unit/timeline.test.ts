@@ -37,10 +37,10 @@ function span(kind: Span['kind'], ref: string, value: string, from: number, to: 
   return { number: next++, kind, ref, value, from, to, note: '' };
 }
 function sources(some: Partial<Sources> = {}): Sources {
-  return { at: 100_000, refs: ['follow', 'navigation', 'person_detection'], commands: ring(), events: ring(), errors: ring(), gaps: ring(), past: ring(), present: [], ...some };
+  return { at: 100_000, refs: ['follow', 'navigation', 'person_detection'], commands: ring(), events: ring(), own_events: ring(), errors: ring(), gaps: ring(), past: ring(), present: [], ...some };
 }
 const range = { from: 40_000, to: 100_000 };
-const wide = { width: 600, hides_quiet: false }; // 100 ms a pixel
+const wide = { width: 600, hides_quiet: false, with_own: false }; // 100 ms a pixel
 
 const lanes_of = ({ lanes }: Layout) => lanes.map(({ kind, ref }) => ref || kind);
 const boxes = ({ placed }: Layout, kind: string) => placed.filter((one) => one.thing.kind === kind).map(({ box }) => [box.x, box.x + box.width]);
@@ -101,6 +101,12 @@ describe('events', () => {
     expect(layout.placed.length).toBeLessThan(150);
     const counted = layout.placed.filter(({ lane }) => lanes_of(layout)[lane] === 'events').reduce((sum, { thing }) => sum + (thing.kind === 'marks' ? thing.marks.length : 0), 0);
     expect(counted).toBe(5000);
+  });
+
+  test('that the console listens for by itself are there when they are wished for', () => {
+    const some = sources({ events: ring(event(60_000), event(80_000)), own_events: ring(event(70_000)) });
+    const count = (with_own: boolean) => lay_out(some, range, { ...wide, with_own }).placed.length;
+    expect([count(false), count(true)]).toEqual([4, 6]);
   });
 
   test('are found by time', () => {
