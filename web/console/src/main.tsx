@@ -19,6 +19,9 @@ follow_window(browser.recall('panels'));
 
 const state = new Console(browser);
 state.connect();
+state.history.record();
+// At hand in the developer tools, and for tests: `rois.run('navigation', 'start', { target_position: ['desk'] })`.
+Object.assign(window, { rois: state });
 // What this page runs must not go on when the page has gone.
 addEventListener('pagehide', () => void state.close());
 addEventListener('pageshow', (event) => {

@@ -2,8 +2,10 @@
 import type { ComponentType } from 'preact';
 
 import { texts as components } from './components/texts';
+import { texts as health } from './health/texts';
 import { texts as map } from './map/texts';
 import { texts as messages } from './messages/texts';
+import { texts as timeline } from './timeline/texts';
 import type { IconName } from './ui/icon';
 
 /** Where a panel stands on a wide screen: the big one, the strip below it, or the column beside both. */
@@ -22,5 +24,7 @@ export interface Panel {
 export const panels: readonly Panel[] = [
   { id: 'map', title: () => map().title, icon: 'map', area: 'main', load: () => import('./map/panel') },
   { id: 'components', title: () => components().title, icon: 'components', area: 'side', load: () => import('./components/panel') },
+  { id: 'timeline', title: () => timeline().title, icon: 'timeline', area: 'below', load: () => import('./timeline/panel') },
   { id: 'messages', title: () => messages().title, icon: 'messages', area: 'below', load: () => import('./messages/panel') },
+  { id: 'health', title: () => health().title, icon: 'health', area: 'side', load: () => import('./health/panel') },
 ];

@@ -106,12 +106,12 @@ function Subscriptions({ event_type }: { event_type: string }) {
 }
 
 function LastEvents({ view, event_type }: { view: ComponentView; event_type: string }) {
-  const { events, subscriptions } = useConsole();
+  const { events } = useConsole();
   void events.pulse.beat.value;
   const last = [];
   for (let i = 1; i <= events.events.size && last.length < most_shown; ++i) {
     const one = events.events.at(-i)!;
-    if (one.event.event_type === event_type && one.event.component_ref.code === view.ref && !subscriptions.is_own(one.event.subscribe_id)) last.push(one);
+    if (one.event.event_type === event_type && one.event.component_ref.code === view.ref) last.push(one);
   }
   if (last.length === 0) return null;
   return (

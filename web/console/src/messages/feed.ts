@@ -29,17 +29,20 @@ export function category_of({ kind, name, return_code }: LoggedDocument): Catego
 
 /** What rows come from: rings, or the list of a recording. */
 export interface Source {
-  documents: { readonly first: number; readonly size: number; numbered(number: number): LoggedDocument | undefined };
+  documents: { readonly first: number; readonly end: number; numbered(number: number): LoggedDocument | undefined };
   gaps: { readonly first: number; readonly size: number; numbered(number: number): GapEntry | undefined };
   /** The component that a document is about, also where it does not name it. */
   component_of(document: LoggedDocument): string;
 }
+
+const swept_after = 1000; // more rows
 
 export class Feed {
   /** Grows in place. */
   readonly rows: Row[] = [];
   private next_document: number;
   private next_gap: number;
+  private swept_at = swept_after;
   private readonly text: string;
 
   constructor(
@@ -56,9 +59,11 @@ export class Feed {
   update(): boolean {
     const { documents, gaps } = this.source;
     let changed = this.forget();
-    const end = documents.first + documents.size;
+    if (this.rows.length >= this.swept_at) changed = this.sweep() || changed;
+    const { end } = documents;
     for (this.next_document = Math.max(this.next_document, documents.first); this.next_document < end; ++this.next_document) {
-      const document = documents.numbered(this.next_document)!;
+      const document = documents.numbered(this.next_document);
+      if (!document) continue; // forgotten before others
       changed = (this.passes(document) && this.rows.push(document) > 0) || changed;
     }
     const gaps_end = gaps.first + gaps.size;
@@ -76,6 +81,17 @@ export class Feed {
     }
     if (gone > 0) this.rows.splice(0, gone);
     return gone > 0;
+  }
+
+  // Some are forgotten before others that are older.
+  private sweep(): boolean {
+    const { documents } = this.source;
+    const before = this.rows.length;
+    let kept = 0;
+    for (const row of this.rows) if (is_gap(row) || documents.numbered(row.number)) this.rows[kept++] = row;
+    this.rows.length = kept;
+    this.swept_at = kept + swept_after;
+    return kept < before;
   }
 
   private passes(document: LoggedDocument): boolean {

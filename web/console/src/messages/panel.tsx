@@ -91,5 +91,5 @@ function live({ documents, events, commands }: Console): Source {
 
 function source_of({ documents }: ShownRecording): Source {
   const none = { first: 0, size: 0, numbered: () => undefined };
-  return { documents: { first: 0, size: documents.length, numbered: (number) => documents[number] }, gaps: none, component_of };
+  return { documents: { first: 0, end: documents.length, numbered: (number) => documents[number] }, gaps: none, component_of };
 }

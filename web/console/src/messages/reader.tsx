@@ -71,7 +71,7 @@ function Live({ document }: { document: LoggedDocument }) {
   }
   if (document.name === 'receive_event') {
     void events.pulse.beat.value;
-    const entry = entry_of(events.events, document);
+    const entry = entry_of(document.is_own ? events.own_events : events.events, document);
     return entry ? <DetailsOf details={entry.details} expire={expire_of(document)} ask={() => void events.fetch_event(entry)} /> : <p class="messages-soft">{texts().not_kept}</p>;
   }
   if (document.name === 'receive_error') {

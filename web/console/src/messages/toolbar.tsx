@@ -46,7 +46,7 @@ function Pause({ feed }: { feed: Feed }) {
   const { documents } = useConsole();
   const t = texts();
   const held = paused.value;
-  const end = () => documents.ring.first + documents.ring.size;
+  const end = () => documents.ring.end;
   if (!held)
     return (
       <Button small icon="pause" onClick={() => (paused.value = { rows: [...feed.rows], until: end() })}>

@@ -8,6 +8,7 @@ const prefix = 'rois-console.';
 export const browser: Environment = {
   origin: location.origin,
   now: () => Date.now(),
+  precise: () => performance.now(),
   every: (ms, act) => {
     const timer = setInterval(act, ms);
     return () => clearInterval(timer);

@@ -26,6 +26,7 @@ import { EntitiesState } from './entities_state';
 import type { Environment, Stop } from './environment';
 import { EventsState } from './events_state';
 import { MapState } from './floor_map';
+import { History } from './history';
 import { LinkState } from './link_state';
 import { MetricsState } from './metrics_state';
 import { Notices } from './notices';
@@ -35,6 +36,7 @@ import { RobotsState } from './robots_state';
 import { Selection } from './selection';
 import { StatusState } from './status_state';
 import { SubscriptionsState } from './subscriptions_state';
+import { Traffic } from './traffic';
 
 /** Commands that the engine has accepted. */
 export interface Accepted {
@@ -73,6 +75,8 @@ export class Console {
   readonly robots: RobotsState;
   readonly entities: EntitiesState;
   readonly map: MapState;
+  readonly traffic: Traffic;
+  readonly history: History;
   readonly selection = new Selection();
 
   private token: string | undefined;
@@ -110,8 +114,11 @@ export class Console {
       (ref) => this.profile.component(ref)?.engine ?? '',
     );
     this.map = new MapState(environment, token);
+    this.traffic = new Traffic(environment, this.documents, client, is_open);
+    this.history = new History(environment, this);
     this.now.value = environment.now();
     environment.every(1000, () => (this.now.value = environment.now()));
+    this.documents.is_own_subscription = (id) => this.subscriptions.is_own(id);
     this.documents.listen((document) => this.heard(document));
   }
 
@@ -201,12 +208,10 @@ export class Console {
   }
 
   private notified(notification: Notification): void {
-    const logged = this.documents.ring.at(-1)!; // a document is logged before it is read
-    const document = logged.number;
+    const { number: document, is_own } = this.documents.ring.last!; // a document is logged before it is read
     switch (notification.name) {
       case 'receive_event':
-        logged.is_own = this.subscriptions.is_own(notification.subscribe_id);
-        this.events.event(notification, document);
+        this.events.event(notification, document, is_own);
         this.subscriptions.event(notification);
         this.entities.event(notification);
         break;

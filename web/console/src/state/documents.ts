@@ -1,7 +1,7 @@
 // Every document in and out, as it was on the wire: the last ones, and how they belong together.
+import { type DocumentLimits, DocumentLog } from './document_log';
 import type { Environment } from './environment';
 import { Pulse } from './pulse';
-import { Ring } from './ring';
 
 export type Direction = 'in' | 'out';
 
@@ -19,13 +19,8 @@ export interface LoggedDocument {
   sequence?: number; // of a notification
   return_code?: string; // of an answer
   request?: LoggedDocument; // of an answer: what it answers
-  took?: number; // of an answer: ms since the request
+  took?: number; // of an answer: ms since the request, with fractions
   is_own: boolean; // of the console itself, which asks for what it shows: hidden unless somebody wants to see it
-}
-
-export interface DocumentLimits {
-  most: number;
-  most_bytes: number;
 }
 
 const usual_limits: DocumentLimits = { most: 20_000, most_bytes: 16 * 1024 * 1024 };
@@ -33,6 +28,7 @@ const usual_limits: DocumentLimits = { most: 20_000, most_bytes: 16 * 1024 * 102
 const root = /<((?:[\w.-]+:)?)([\w.-]+)([^>]*)/;
 const a_component = /<(?:[\w.-]+:)?component_ref\s[^>]*?\bcode\s*=\s*["']([^"']*)["']/;
 const the_sequence = /\ssequence\s*=\s*["'](\d+)["']/;
+const the_subscription = /<(?:[\w.-]+:)?subscribe_id>([^<]*)</;
 const the_return_code = /\sreturn_code\s*=\s*["'](\w+)["']/;
 const notifications = ['receive_event', 'receive_error', 'completed', 'lost', 'profile_changed'];
 
@@ -42,9 +38,11 @@ export interface DocumentListener {
 }
 
 export class Documents {
-  readonly ring: Ring<LoggedDocument>;
+  readonly ring: DocumentLog;
   readonly pulse: Pulse;
-  private waiting: LoggedDocument[] = []; // requests without their answers, in order
+  /** Whether the console itself has subscribed to what an event is told for. */
+  is_own_subscription: (subscribe_id: string) => boolean = () => false;
+  private waiting: { request: LoggedDocument; since: number }[] = []; // requests without their answers, in order; since by the precise clock
   private next = 0;
   private asks_itself = false;
   private readonly listeners = new Set<DocumentListener>();
@@ -53,8 +51,7 @@ export class Documents {
     private readonly environment: Environment,
     limits: DocumentLimits = usual_limits,
   ) {
-    // A text takes two bytes a unit at worst.
-    this.ring = new Ring(limits.most, limits.most_bytes, (one) => 2 * one.text.length + 200);
+    this.ring = new DocumentLog(limits);
     this.pulse = new Pulse(environment);
   }
 
@@ -68,7 +65,8 @@ export class Documents {
   note(direction: Direction, text: string): LoggedDocument {
     const document = described(this.next++, this.environment.now(), direction, text);
     document.is_own = direction === 'out' && (this.asks_itself || document.name === 'connect' || document.name === 'resume');
-    if (direction === 'out') this.waiting.push(document);
+    if (document.name === 'receive_event') document.is_own = this.is_own_subscription(the_subscription.exec(text)?.[1] ?? '');
+    if (direction === 'out') this.waiting.push({ request: document, since: this.environment.precise() });
     else if (document.kind !== 'notification') this.pair(document);
     this.ring.push(document);
     this.pulse.touch();
@@ -94,11 +92,12 @@ export class Documents {
 
   // Answers come in the order of requests.
   private pair(answer: LoggedDocument): void {
-    const request = this.waiting.shift();
-    if (request === undefined) return;
+    const asked = this.waiting.shift();
+    if (asked === undefined) return;
+    const { request, since } = asked;
     answer.request = request;
     answer.is_own = request.is_own;
-    answer.took = answer.at - request.at;
+    answer.took = this.environment.precise() - since;
     if (answer.component === undefined && request.component !== undefined) answer.component = request.component;
   }
 }

@@ -9,6 +9,8 @@ export interface Environment {
   readonly origin: string;
   /** ms since 1970. */
   now(): number;
+  /** ms, with fractions, of a clock that nobody sets: for how long something takes. */
+  precise(): number;
   every(ms: number, act: () => void): Stop;
   after(ms: number, act: () => void): Stop;
   /** Once, before the next picture is drawn. */

@@ -31,12 +31,15 @@ export interface GapEntry {
 }
 
 const most_events = 5000;
+const most_own_events = 1000;
 const most_errors = 500;
 const most_gaps = 100;
 const most_fetched_at_once = 8;
 
 export class EventsState {
   readonly events = new Ring<EventEntry>(most_events);
+  /** Those that the console listens for by itself: they come often, and must not push out what somebody has asked for. */
+  readonly own_events = new Ring<EventEntry>(most_own_events);
   readonly errors = new Ring<ErrorEntry>(most_errors);
   readonly gaps = new Ring<GapEntry>(most_gaps);
   readonly pulse: Pulse;
@@ -52,10 +55,10 @@ export class EventsState {
     this.pulse = new Pulse(environment);
   }
 
-  event(event: ReceiveEvent, document: number): EventEntry {
+  event(event: ReceiveEvent, document: number, is_own = false): EventEntry {
     const details: Details = event.results.parameters.length > 0 ? { state: 'there', results: event.results } : { state: 'none' };
     const entry: EventEntry = { number: this.next_event++, at: this.environment.now(), event, document, details };
-    this.events.push(entry);
+    (is_own ? this.own_events : this.events).push(entry);
     this.pulse.touch();
     return entry;
   }

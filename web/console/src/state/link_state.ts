@@ -35,6 +35,8 @@ export class LinkState {
   readonly missed = signal<MissedNote | undefined>(undefined);
   /** The session's id; empty without one. Whoever has it can act as this console. */
   readonly session = signal('');
+  /** When that session began; ms since 1970. Resuming it is no beginning. */
+  session_since = 0;
   /** When the last document came; ms since 1970, 0 before the first. Not a signal: it changes all the time; the age is read each second. */
   heard_at = 0;
 
@@ -57,6 +59,7 @@ export class LinkState {
       asked += 1;
       const question = asked;
       batch(() => {
+        if (client.session !== this.session.value) this.session_since = this.environment.now();
         this.session.value = client.session;
         if (state === 'connecting' || state === 'lost') this.trouble(state, reason);
         else this.turn(state, reason);

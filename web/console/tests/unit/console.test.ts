@@ -123,7 +123,7 @@ describe('the link', () => {
 describe('documents', () => {
   test('answers know what they answer, and how long it took', async () => {
     await console.client.search();
-    const answer = console.documents.ring.at(-1)!;
+    const answer = console.documents.ring.last!;
     expect(answer).toMatchObject({ direction: 'in', kind: 'answer', name: 'search_response', return_code: 'OK', took: 0, is_own: false });
     expect(answer.request?.name).toBe('search');
   });
@@ -237,7 +237,7 @@ describe('people', () => {
     await settled();
     const is_own = async (id: string) => {
       await world.notifies('receive_event', localized(['person-1', 0, 0]).replace('s-1', id));
-      return console.documents.ring.at(-1)!.is_own;
+      return console.documents.ring.last!.is_own;
     };
     expect(await is_own('s-1')).toBe(true);
     await console.subscribe('person_localized');

@@ -24,6 +24,20 @@ function stage(most = 100) {
 }
 
 describe('the list', () => {
+  test('stays bounded with what the console asks itself, which is forgotten before the rest', () => {
+    const { documents, source } = stage(1000);
+    const feed = new Feed(source, { ...no_filter, with_own: true });
+    documents.note('in', event);
+    for (let i = 0; i < 5000; ++i) {
+      documents.as_own(() => documents.note('out', '<query/>'));
+      feed.update();
+    }
+    expect(documents.ring.size).toBe(101);
+    expect(feed.rows.length).toBeLessThan(1200);
+    const [oldest] = feed.rows;
+    expect(oldest && !is_gap(oldest) && oldest.name).toBe('receive_event');
+  });
+
   test('takes what comes, and drops what is forgotten', async () => {
     const { world, documents, gaps, source, names } = stage(3);
     const feed = new Feed(source, no_filter);

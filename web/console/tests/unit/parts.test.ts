@@ -33,7 +33,22 @@ test('documents stay within their bounds', () => {
   for (let i = 0; i < 5000; ++i) documents.note('in', `<receive_event sequence="${i}">${'x'.repeat(500)}</receive_event>`);
   expect(documents.ring.size).toBeLessThan(100);
   expect(documents.ring.bytes).toBeLessThanOrEqual(100_000);
-  expect(documents.ring.at(-1)).toMatchObject({ kind: 'notification', sequence: 4999 });
+  expect(documents.ring.last).toMatchObject({ kind: 'notification', sequence: 4999 });
+});
+
+test('what the console asks again and again does not push out what others said', () => {
+  const documents = new Documents(new World(), { most: 100, most_bytes: 1_000_000 });
+  for (let i = 0; i < 90; ++i) documents.note('in', `<receive_event sequence="${i}"/>`);
+  for (let i = 0; i < 500; ++i) {
+    documents.as_own(() => documents.note('out', '<query/>'));
+    documents.note('in', '<query_response return_code="OK"/>');
+  }
+  documents.note('out', '<execute/>');
+  const { ring } = documents;
+  expect([ring.size, ring.first, ring.end, ring.last?.name]).toEqual([101, 0, 1091, 'execute']);
+  expect([ring.numbered(89)?.name, ring.numbered(90), ring.numbered(1089)?.name]).toEqual(['receive_event', undefined, 'query_response']);
+  const numbers = ring.list().map((one) => one.number);
+  expect(numbers).toEqual([...numbers].sort((a, b) => a - b));
 });
 
 test('metrics are read', () => {

@@ -37,6 +37,9 @@ export class World implements Environment {
   now(): number {
     return this.time;
   }
+  precise(): number {
+    return this.time;
+  }
   every(ms: number, act: () => void): Stop {
     return this.alarm({ at: this.time + ms, every: ms, act });
   }

@@ -1,0 +1,29 @@
+// What went wrong, as the session was told: errors, what was missed, what was refused, when the link was away.
+import type { Console } from '../state/console';
+import type { LoggedDocument } from '../state/documents';
+import type { ErrorEntry, GapEntry } from '../state/events_state';
+import type { Span } from '../state/history';
+
+export type LogEntry = { at: number; key: string } & (
+  | { kind: 'error'; entry: ErrorEntry }
+  | { kind: 'gap'; entry: GapEntry }
+  | { kind: 'refused'; document: LoggedDocument }
+  | { kind: 'link'; span: Span }
+);
+
+/** The newest first. All of it is bounded, since the rings are. */
+export function log_of({ events, traffic, history }: Console): LogEntry[] {
+  const entries: LogEntry[] = [];
+  for (const entry of events.errors) entries.push({ kind: 'error', at: entry.at, key: `error ${entry.number}`, entry });
+  for (const entry of events.gaps) entries.push({ kind: 'gap', at: entry.at, key: `gap ${entry.at}`, entry });
+  for (const document of traffic.refused) entries.push({ kind: 'refused', at: document.at, key: `document ${document.number}`, document });
+  for (const span of [...history.past, ...history.present.values()])
+    if (span.kind === 'link' && /^(lost|refused|draining|token)$/.test(span.value)) entries.push({ kind: 'link', at: span.from, key: `span ${span.number}`, span });
+  return entries.sort((a, b) => b.at - a.at);
+}
+
+/** What the engine says for a refusal; empty when it says nothing. */
+export function reason_of({ text }: LoggedDocument): string {
+  const said = /<(?:\w+:)?reason>([^<]*)</.exec(text)?.[1] ?? '';
+  return said.replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&quot;', '"').replaceAll('&apos;', "'").replaceAll('&amp;', '&');
+}

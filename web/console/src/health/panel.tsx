@@ -1,0 +1,29 @@
+// How the link, the gateway and the session are: numbers, plots of the last minute, who has what, limits, and what went wrong.
+import './health.css';
+
+import { useConsole, useWatch } from '../shell/context';
+import { Figures } from './figures';
+import { ErrorLog } from './error_log';
+import { Plots } from './plots';
+import { Limits, Sessions, Troubles } from './tables';
+import { texts } from './texts';
+
+export default function HealthPanel() {
+  const { metrics, traffic } = useConsole();
+  const t = texts();
+  useWatch(metrics.poll);
+  useWatch(traffic.ping);
+  return (
+    <div class="health" role="region" aria-label={t.all} tabIndex={0}>
+      <h2 class="unseen">{t.title}</h2>
+      <Figures />
+      <Plots />
+      <div class="health-tables">
+        <Sessions />
+        <Limits />
+        <Troubles />
+        <ErrorLog />
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,131 @@
+// What was so from when to when: how each component was, who had bound it, how the link was. For the time line.
+import { effect, type ReadonlySignal } from '@preact/signals';
+
+import type { Bindings } from './bindings';
+import type { Environment, Stop } from './environment';
+import type { LinkState } from './link_state';
+import type { MetricsState } from './metrics_state';
+import { Pulse } from './pulse';
+import { Ring } from './ring';
+import type { StatusState } from './status_state';
+
+/** `status`: of a component; `holder`: who has bound it, `me` or the number of a session; `link`: its phase. */
+export type SpanKind = 'status' | 'holder' | 'link';
+
+/** Something that stayed as it was. */
+export interface Span {
+  number: number; // in the order in which they began
+  kind: SpanKind;
+  ref: string; // of the component; empty for the link
+  value: string;
+  from: number; // when it was seen first, ms since 1970
+  to: number; // when it was seen last
+  note: string; // in English, why it is so; mostly empty
+}
+
+interface Sources {
+  link: LinkState;
+  status: StatusState;
+  metrics: MetricsState;
+  bindings: Bindings;
+  now: ReadonlySignal<number>;
+}
+
+const most_spans = 20_000;
+/** Longer without a look, and nothing is said of the time between. A status that nobody answers takes some seconds. */
+export const longest_blink = 15_000; // ms
+const stale_after = 5000; // ms without metrics: then nothing is said of others' bindings
+
+export class History {
+  /** Those that are over, in the order in which they ended. */
+  readonly past: Ring<Span>;
+  /** Those that go on: one at most for each kind and component. */
+  readonly present = new Map<string, Span>();
+  /** Beats when a span begins or ends. */
+  readonly pulse: Pulse;
+  private readonly freed = new Map<string, number>(); // when
+  private next = 0;
+
+  constructor(
+    private readonly environment: Environment,
+    private readonly sources: Sources,
+    most = most_spans,
+  ) {
+    this.past = new Ring(most);
+    this.pulse = new Pulse(environment);
+  }
+
+  /** Looks from now on, and asks for what it wants to know, until the function is called that this gives. */
+  record(): Stop {
+    const { link, status, metrics, bindings, now } = this.sources;
+    const is_open = () => /^(open|resumed)$/.test(link.view.peek().phase);
+    const stops = [
+      status.poll.watch(),
+      metrics.poll.watch(),
+      effect(() => {
+        const { phase, since, reason } = link.view.value;
+        this.see('link', '', phase, since, reason);
+        if (phase !== 'open' && phase !== 'resumed') this.break_off();
+      }),
+      effect(() => {
+        const all = status.all.value;
+        if (!is_open()) return;
+        for (const [ref, { status: value, at, trouble }] of all) this.see('status', ref, value, at, trouble ?? '');
+        this.end_others('status', (ref) => all.has(ref));
+      }),
+      effect(() => {
+        const at = now.value;
+        const mine = bindings.mine.value;
+        const all = metrics.bound.value;
+        this.see('link', '', link.view.peek().phase, at, link.view.peek().reason);
+        if (!is_open()) return;
+        for (const ref of mine) this.see('holder', ref, 'me', this.environment.now());
+        const told_at = metrics.latest.peek()?.at ?? 0;
+        const is_fresh = at - told_at < stale_after;
+        const others = is_fresh ? [...all].filter(([ref]) => !mine.has(ref) && !this.was_mine(ref, told_at)) : [];
+        for (const [ref, session] of others) this.see('holder', ref, session, this.environment.now());
+        this.end_others('holder', (ref, value) => mine.has(ref) || (value !== 'me' && (!is_fresh || all.get(ref) === value)));
+      }),
+    ];
+    return () => {
+      for (const stop of stops) stop();
+      this.break_off();
+    };
+  }
+
+  // What the metrics said before it was released still names this console's session.
+  private was_mine(ref: string, told_at: number): boolean {
+    if (this.present.get(`holder ${ref}`)?.value === 'me') this.freed.set(ref, this.environment.now());
+    if ((this.freed.get(ref) ?? 0) >= told_at) return true;
+    this.freed.delete(ref);
+    return false;
+  }
+
+  private see(kind: SpanKind, ref: string, value: string, at: number, note = ''): void {
+    const key = `${kind} ${ref}`;
+    const before = this.present.get(key);
+    if (before && at < before.to) return; // told again
+    const goes_on = before !== undefined && (kind === 'link' || at - before.to <= longest_blink);
+    if (before && goes_on) {
+      before.to = at; // or so: it has changed between two looks
+      if (before.value === value && before.note === note) return;
+    }
+    if (before) this.past.push(before);
+    this.present.set(key, { number: this.next++, kind, ref, value, from: at, to: at, note });
+    this.pulse.touch();
+  }
+
+  private end_others(kind: SpanKind, is_there: (ref: string, value: string) => boolean): void {
+    for (const [key, span] of this.present) {
+      if (span.kind !== kind || is_there(span.ref, span.value)) continue;
+      this.present.delete(key);
+      this.past.push(span);
+      this.pulse.touch();
+    }
+  }
+
+  // Nothing is known from now on: neither that it stayed so nor that it changed.
+  private break_off(): void {
+    for (const kind of ['status', 'holder'] as const) this.end_others(kind, () => false);
+  }
+}

@@ -1,0 +1,80 @@
+// How much goes in and out, how long answers take, and what was refused: the last two minutes, second by second.
+import type { Client } from 'rois-client';
+
+import type { Documents, LoggedDocument } from './documents';
+import type { Environment } from './environment';
+import { Poll } from './poll';
+import { Ring } from './ring';
+
+export interface Second {
+  at: number; // when it began, ms since 1970
+  sent: number; // documents
+  received: number;
+  tooks: number[]; // ms, of the first answers in it
+  slowest?: LoggedDocument; // the answer that took longest
+}
+
+const most_seconds = 120;
+const most_tooks = 64;
+const most_refused = 200;
+const most_refused_bytes = 1024 * 1024;
+
+export class Traffic {
+  /** The oldest is first; seconds in which nothing happened are not there. */
+  readonly seconds = new Ring<Second>(most_seconds);
+  /** Faults, and answers that say no, to what the console has not asked by itself. */
+  readonly refused = new Ring<LoggedDocument>(most_refused, most_refused_bytes, (one) => 2 * one.text.length + 200);
+  /** While somebody looks, and nothing else is said, something light is asked each second: so the latency is always known. */
+  readonly ping: Poll;
+  private answered_at = 0;
+
+  constructor(
+    private readonly environment: Environment,
+    private readonly documents: Documents,
+    private readonly client: () => Client | undefined,
+    may_ask: () => boolean,
+    private readonly period = 1000, // ms
+  ) {
+    documents.listen((document) => this.heard(document));
+    this.ping = new Poll(environment, period, () => this.ask(), may_ask);
+  }
+
+  private heard(document: LoggedDocument): void {
+    const second = this.second_of(document.at);
+    if (document.direction === 'out') {
+      second.sent += 1;
+      return;
+    }
+    second.received += 1;
+    const { took, kind, return_code, is_own } = document;
+    if (took !== undefined) {
+      this.answered_at = document.at;
+      if (second.tooks.length < most_tooks) second.tooks.push(took);
+      if (took > (second.slowest?.took ?? -1)) second.slowest = document;
+    }
+    if (!is_own && (kind === 'fault' || (kind === 'answer' && return_code !== undefined && return_code !== 'OK'))) this.refused.push(document);
+  }
+
+  private second_of(at: number): Second {
+    const begun = Math.floor(at / 1000) * 1000;
+    const last = this.seconds.at(-1);
+    if (last && last.at >= begun) return last; // a clock that was set back counts for the same second
+    const second: Second = { at: begun, sent: 0, received: 0, tooks: [] };
+    this.seconds.push(second);
+    return second;
+  }
+
+  // `search` is answered by the engine itself; components are asked often enough by others.
+  private async ask(): Promise<void> {
+    const client = this.client();
+    if (!client || this.environment.now() - this.answered_at < 0.9 * this.period) return;
+    await this.documents.as_own(() => client.search());
+  }
+}
+
+/** The middle one of some numbers; undefined of none. */
+export function median(numbers: readonly number[]): number | undefined {
+  const sorted = [...numbers].sort((a, b) => a - b);
+  const half = sorted.length >> 1;
+  return sorted.length % 2 === 1 ? sorted[half] : sorted.length === 0 ? undefined : (sorted[half - 1]! + sorted[half]!) / 2;
+}

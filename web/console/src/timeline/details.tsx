@@ -1,0 +1,205 @@
+// What is known of one thing, beside the lanes.
+import { useEffect, useRef } from 'preact/hooks';
+import { Results } from 'rois-client';
+
+import { clock_time } from '../i18n/i18n';
+import { CommandProgress, ResultsTable } from '../forms';
+import { useConsole } from '../shell/context';
+import { show_panel } from '../shell/layout';
+import type { CommandEntry } from '../state/commands_state';
+import type { Details } from '../state/events_state';
+import { Button, EmptyState, IconButton, StatusBadge, XmlView } from '../ui';
+import { describe, of_mark } from './describe';
+import { key_of, type Mark, mark_key, type Thing } from './things';
+import { texts } from './texts';
+import type { TimeView } from './view';
+
+export interface DetailsProps {
+  view: TimeView;
+  thing: Thing;
+  open: (thing: Thing) => void;
+  close: () => void;
+}
+
+const most_listed = 200;
+
+export function DetailsPane({ view, thing, open, close }: DetailsProps) {
+  const console = useConsole();
+  const t = texts();
+  const heading = useRef<HTMLHeadingElement>(null);
+  const key = key_of(thing);
+  useEffect(() => heading.current?.focus(), [key]);
+  void console.events.pulse.beat.value; // details come, commands end
+  void console.commands.pulse.beat.value;
+  if (thing.kind === 'span') void console.now.value;
+  const { kind, title, component, state, facts } = describe(thing, view.sources.at);
+  const show_component = (ref: string) => {
+    console.selection.component.value = ref;
+    show_panel('components');
+  };
+  const closed = (event: KeyboardEvent) => {
+    if (event.key !== 'Escape') return;
+    event.stopPropagation();
+    close();
+  };
+  return (
+    <section class="timeline-details" aria-label={t.details} onKeyDown={closed}>
+      <header class="timeline-details-head">
+        <h3 ref={heading} tabIndex={-1}>
+          {kind !== '' && <span class="timeline-kind">{kind}</span>} {title}
+        </h3>
+        <IconButton icon="close" small label={t.close} onClick={close} />
+      </header>
+      <div class="timeline-details-body" tabIndex={0} role="region" aria-label={title}>
+        <dl class="timeline-facts">
+          {component !== '' && (
+            <div>
+              <dt>{t.component}</dt>
+              <dd>
+                <button type="button" class="timeline-link" onClick={() => show_component(component)}>{component}</button>
+              </dd>
+            </div>
+          )}
+          {state !== '' && thing.kind !== 'command' && (
+            <div>
+              <dt>{t.state}</dt>
+              <dd><StatusBadge status={state} /></dd>
+            </div>
+          )}
+          {facts.map(([name, value]) => <Fact key={name} name={name} value={value} />)}
+          {thing.kind === 'command' && thing.entry.sequence.commands.length > 1 && <Fact name={t.place} value={thing.entry.path} />}
+          {single(thing)?.kind === 'event' && <Expiry mark={single(thing)!} />}
+        </dl>
+        {thing.kind === 'command' && <CommandDetails entry={thing.entry} />}
+        {thing.kind === 'marks' && thing.marks.length > 1 && <Many marks={thing.marks} view={view} open={open} />}
+        {thing.kind === 'marks' && thing.marks.length === 1 && <MarkDetails mark={thing.marks[0]!} />}
+      </div>
+    </section>
+  );
+}
+
+function single(thing: Thing): Mark | undefined {
+  return thing.kind === 'marks' && thing.marks.length === 1 ? thing.marks[0] : undefined;
+}
+
+function Fact({ name, value }: { name: string; value: string }) {
+  return (
+    <div>
+      <dt>{name}</dt>
+      <dd>{value}</dd>
+    </div>
+  );
+}
+
+function Expiry({ mark }: { mark: Mark }) {
+  return mark.kind === 'event' ? <Fact name={texts().expires} value={clock_time(mark.entry.event.expire.getTime(), false)} /> : null;
+}
+
+function CommandDetails({ entry }: { entry: CommandEntry }) {
+  const { commands } = useConsole();
+  const t = texts();
+  useEffect(() => {
+    if (entry.ended_at !== undefined && entry.state !== 'unknown') void commands.fetch_results(entry);
+  }, [entry, entry.ended_at]);
+  return (
+    <>
+      <CommandProgress entry={entry} />
+      {entry.arguments.length > 0 && (
+        <>
+          <h4>{t.arguments}</h4>
+          <ResultsTable label={t.arguments} results={new Results(entry.arguments)} />
+        </>
+      )}
+      {entry.results && (
+        <>
+          <h4>{t.results}</h4>
+          {entry.results.parameters.length === 0 ? <p>{t.no_results}</p> : <ResultsTable label={t.results} results={entry.results} />}
+        </>
+      )}
+      <LoggedText title={t.request} number={entry.sequence.document} />
+    </>
+  );
+}
+
+function MarkDetails({ mark }: { mark: Mark }) {
+  const { events } = useConsole();
+  useEffect(() => {
+    if (mark.kind === 'event' && !events.is_expired(mark.entry)) void events.fetch_event(mark.entry);
+    if (mark.kind === 'error') void events.fetch_error(mark.entry);
+  }, [mark_key(mark)]);
+  if (mark.kind === 'gap') return null;
+  const is_expired = mark.kind === 'event' && mark.entry.details.state === 'none' && events.is_expired(mark.entry);
+  return (
+    <>
+      <h4>{texts().results}</h4>
+      {is_expired ? <p>{texts().expired}</p> : <Fetched details={mark.entry.details} />}
+      <LoggedText title={texts().document} number={mark.entry.document} />
+    </>
+  );
+}
+
+function Fetched({ details }: { details: Details }) {
+  const t = texts();
+  if (details.state === 'gone') return <p>{t.gone(details.reason)}</p>;
+  if (details.state !== 'there') return <p role="status">{t.fetching}</p>;
+  if (details.results.parameters.length === 0) return <p>{t.no_results}</p>;
+  return <ResultsTable label={t.results} results={details.results} />;
+}
+
+function LoggedText({ title, number }: { title: string; number: number }) {
+  const { documents, selection } = useConsole();
+  const t = texts();
+  const logged = documents.ring.numbered(number);
+  const show = () => {
+    selection.document.value = number;
+    show_panel('messages');
+  };
+  return (
+    <details class="timeline-document">
+      <summary>{title}</summary>
+      {logged ? (
+        <>
+          <XmlView text={logged.text} label={title} />
+          <Button small look="quiet" icon="messages" onClick={show}>{t.in_messages}</Button>
+        </>
+      ) : (
+        <p>{t.document_gone}</p>
+      )}
+    </details>
+  );
+}
+
+function Many({ marks, view, open }: { marks: readonly Mark[]; view: TimeView; open: (thing: Thing) => void }) {
+  const t = texts();
+  const [from, to] = [marks[0]!.entry.at, marks.at(-1)!.entry.at];
+  const around = Math.max(20, (to - from) * 0.2);
+  return (
+    <>
+      <p>
+        <Button small icon="search" onClick={() => view.show(from - around, to + around)}>
+          {t.zoom_here}
+        </Button>
+      </p>
+      {marks.length > most_listed && <p>{t.shown_of(most_listed, marks.length)}</p>}
+      <ul class="plain-list timeline-many">
+        {marks.slice(-most_listed).map((mark) => {
+          const { kind, title, component } = of_mark(mark);
+          return (
+            <li key={mark_key(mark)}>
+              <button type="button" onClick={() => open({ kind: 'marks', marks: [mark] })}>
+                <span class="timeline-many-time">{clock_time(mark.entry.at)}</span>
+                <span class="unseen">{kind}</span>
+                <span class={mark.kind === 'event' ? undefined : 'timeline-bad'}>{title}</span>
+                <span class="timeline-many-ref">{component}</span>
+              </button>
+            </li>
+          );
+        })}
+      </ul>
+    </>
+  );
+}
+
+export function NothingOpened() {
+  return <EmptyState title={texts().nothing} />;
+}

@@ -1,0 +1,72 @@
+// The time line a second time, as a table: for those who do not see the lanes, and for reading off.
+import { clock_time, duration } from '../i18n/i18n';
+import { useConsole } from '../shell/context';
+import { EmptyState, StatusBadge, Table } from '../ui';
+import { describe, type Description, sentence } from './describe';
+import { lay_out } from './layout';
+import { key_of, type Thing } from './things';
+import { texts } from './texts';
+import type { TimeView } from './view';
+
+const most_rows = 200;
+
+interface Row extends Description {
+  thing: Thing;
+  key: string;
+  lasted: string;
+}
+
+export function Listing({ view, open }: { view: TimeView; open: (thing: Thing) => void }) {
+  const console = useConsole();
+  const t = texts();
+  if (view.is_live) void console.now.value; // once a second is enough to read
+  const { at } = view.sources;
+  const { rows, count } = rows_of(view, at);
+  if (count === 0) return <EmptyState icon="timeline" title={t.nothing} />;
+  return (
+    <div class="timeline-listing">
+      {count > rows.length && <p class="timeline-listing-note">{t.shown_of(rows.length, count)}</p>}
+      <Table
+        label={t.label}
+        rows={rows}
+        key_of={(row) => row.key}
+        columns={[
+          { id: 'when', title: t.when, cell: (row) => clock_time(row.at) },
+          {
+            id: 'what',
+            title: t.what,
+            cell: (row) => (
+              <button type="button" class="timeline-row" aria-label={t.open(sentence(row))} onClick={() => open(row.thing)}>
+                <span class="timeline-kind">{row.kind}</span> {row.title}
+              </button>
+            ),
+          },
+          { id: 'component', title: t.component, cell: (row) => row.component },
+          { id: 'state', title: t.state, cell: (row) => row.state !== '' && <StatusBadge status={row.state} /> },
+          { id: 'lasted', title: t.lasted, cell: (row) => row.lasted, numeric: true },
+        ]}
+      />
+    </div>
+  );
+}
+
+// Each thing once, each mark by itself, the newest first.
+function rows_of(view: TimeView, at: number): { rows: Row[]; count: number } {
+  const { placed } = lay_out(view.sources, view.range(at), { width: 1000, hides_quiet: view.hides_quiet.value, with_own: view.with_own.value });
+  const things = new Map<string, Thing>();
+  for (const { thing } of placed)
+    for (const one of thing.kind === 'marks' ? thing.marks.map((mark): Thing => ({ kind: 'marks', marks: [mark] })) : [thing]) things.set(key_of(one), one);
+  const newest = [...things.values()].sort((a, b) => time_of_thing(b) - time_of_thing(a)).slice(0, most_rows);
+  const rows = newest.map((thing): Row => ({ ...describe(thing, at), thing, key: key_of(thing), lasted: lasted(thing, at) }));
+  return { rows, count: things.size };
+}
+
+function time_of_thing(thing: Thing): number {
+  if (thing.kind === 'span') return thing.span.from;
+  return thing.kind === 'command' ? thing.entry.sent_at : thing.marks[0]!.entry.at;
+}
+
+function lasted(thing: Thing, at: number): string {
+  if (thing.kind === 'span') return duration(thing.span.to - thing.span.from);
+  return thing.kind === 'command' ? duration((thing.entry.ended_at ?? at) - thing.entry.sent_at) : '';
+}

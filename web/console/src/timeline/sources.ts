@@ -1,0 +1,72 @@
+// What there is to draw: as it goes on, or as it was when time was stopped.
+import type { CommandEntry } from '../state/commands_state';
+import type { Console } from '../state/console';
+import type { ErrorEntry, EventEntry, GapEntry } from '../state/events_state';
+import { longest_blink, type Span } from '../state/history';
+import type { Ring } from '../state/ring';
+
+/** What a ring and a copy of one have in common. */
+export interface Rows<T> extends Iterable<T> {
+  readonly size: number;
+  at(index: number): T | undefined;
+}
+
+export interface Sources {
+  at: number; // now, or when time was stopped; ms since 1970
+  refs: readonly string[]; // of components, as they are listed
+  commands: Rows<CommandEntry>;
+  events: Rows<EventEntry>;
+  own_events: Rows<EventEntry>;
+  errors: Rows<ErrorEntry>;
+  gaps: Rows<GapEntry>;
+  past: Rows<Span>;
+  present: readonly Span[];
+}
+
+export function live_sources(console: Console): Sources {
+  const { commands, events, history } = console;
+  const rings = { commands: commands.all, events: events.events, own_events: events.own_events, errors: events.errors, gaps: events.gaps, past: history.past };
+  return { at: console.environment.now(), refs: refs_of(console), ...rings, present: [...history.present.values()] };
+}
+
+/** A copy, which stays as it is; as bounded as what it is a copy of. */
+export function stopped_sources(console: Console): Sources {
+  const { commands, events, own_events, errors, gaps, past, present, ...rest } = live_sources(console);
+  return { ...rest, commands: copy(commands), events: copy(events), own_events: copy(own_events), errors: copy(errors), gaps: copy(gaps), past: copy(past), present: present.map((one) => ({ ...one })) };
+}
+
+function copy<T>(rows: Rows<T>): Rows<T> {
+  const list = (rows as Ring<T>).list();
+  return { size: list.length, at: (index) => list.at(index), [Symbol.iterator]: () => list.values() };
+}
+
+/** Until when a span is drawn: one that goes on is taken to go on until now, unless nobody has looked for long. */
+export function end_of(span: Span, is_present: boolean, at: number): number {
+  return is_present && at - span.to <= longest_blink ? at : span.to;
+}
+
+/** The time of the oldest thing that is known. */
+export function oldest_of(sources: Sources): number {
+  let oldest = sources.at;
+  for (const from of [sources.commands.at(0)?.sent_at, sources.events.at(0)?.at, sources.errors.at(0)?.at, sources.past.at(0)?.from, ...sources.present.map((one) => one.from)])
+    if (from !== undefined && from < oldest) oldest = from;
+  return oldest;
+}
+
+/** The index of the first entry that is not before a time; entries are in order. */
+export function first_since<T>(rows: Rows<T>, time_of: (one: T) => number, from: number): number {
+  let [low, high] = [0, rows.size];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (time_of(rows.at(middle)!) < from) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+// Those of the profile, then those that were there before.
+function refs_of({ profile, history }: Console): string[] {
+  const refs = new Set(profile.components.value.map((one) => one.ref));
+  for (const span of history.past) if (span.ref !== '') refs.add(span.ref);
+  return [...refs];
+}

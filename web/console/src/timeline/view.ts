@@ -1,0 +1,134 @@
+// Which stretch of time is shown, and how one moves in it.
+import { signal } from '@preact/signals';
+
+import type { Console } from '../state/console';
+import { live_sources, oldest_of, type Sources, stopped_sources } from './sources';
+
+/** ms since 1970. */
+export interface Range {
+  from: number;
+  to: number;
+}
+
+/** How much is shown, and until when: without an end, until now. */
+export interface Stretch {
+  span: number; // ms
+  end?: number; // ms since 1970
+}
+
+export const usual_span = 60_000; // ms
+const least_span = 50;
+const always_allowed = 15 * 60_000; // even when less is known
+const most_undone = 30;
+
+/** Between what is known first and now, or as far `ahead` of it; not shorter than what can be told apart. */
+export function within(stretch: Stretch, oldest: number, now: number, ahead = 0): Stretch {
+  const span = Math.min(Math.max(stretch.span, least_span), Math.max(always_allowed, (now - oldest) * 1.1));
+  if (stretch.end === undefined) return { span };
+  return { span, end: Math.min(now + ahead * span, Math.max(stretch.end, Math.min(oldest + span * 0.25, now))) };
+}
+
+/** More or less of the time, where `at` stays in its place. What is live stays live. */
+export function zoomed(stretch: Stretch, factor: number, at: number): Stretch {
+  const span = Math.max(least_span, stretch.span * factor);
+  return stretch.end === undefined ? { span } : { span, end: at + ((stretch.end - at) * span) / stretch.span };
+}
+
+/** What a panel of the time line looks at. It stays when the panel is taken down. */
+export class TimeView {
+  readonly stretch = signal<Stretch>({ span: usual_span });
+  readonly hides_quiet = signal(false);
+  readonly with_own = signal(false);
+  private readonly stopped = signal<Sources | undefined>(undefined);
+  private readonly before: Stretch[] = [];
+
+  constructor(private readonly console: Console) {}
+
+  /** Whether it goes with the time. */
+  get is_live(): boolean {
+    return this.stretch.value.end === undefined;
+  }
+  get sources(): Sources {
+    return this.stopped.value ?? live_sources(this.console);
+  }
+  range(at: number): Range {
+    const { span, end = at } = this.stretch.value;
+    return { from: end - span, to: end };
+  }
+
+  go_live(): void {
+    this.stopped.value = undefined;
+    this.stretch.value = { span: Math.min(this.stretch.value.span, always_allowed) };
+  }
+
+  /** Stops time where it is. */
+  pause(): void {
+    if (!this.is_live) return;
+    const sources = stopped_sources(this.console);
+    this.stopped.value = sources;
+    this.stretch.value = { ...this.stretch.value, end: sources.at };
+  }
+
+  /** `at`: the time that stays in its place. */
+  zoom(factor: number, at?: number): void {
+    this.put(zoomed(this.stretch.value, factor, at ?? this.middle), 0.5); // or what is pointed at could not stay in its place
+  }
+  move(ms: number): void {
+    this.pause();
+    const { span, end = 0 } = this.stretch.value;
+    this.put({ span, end: end + ms });
+  }
+  show(from: number, to: number): void {
+    this.remember();
+    this.pause();
+    this.put({ span: to - from, end: to });
+  }
+  show_all(): void {
+    const { sources } = this;
+    const oldest = oldest_of(sources);
+    const span = (sources.at - oldest) * 1.02;
+    this.remember();
+    this.put(this.is_live ? { span } : { span, end: sources.at });
+  }
+  go_to_oldest(): void {
+    this.pause();
+    const { span } = this.stretch.value;
+    this.put({ span, end: oldest_of(this.sources) + span * 0.98 });
+  }
+  set_span(span: number): void {
+    const { end } = this.stretch.value;
+    this.put(end === undefined ? { span } : { span, end: this.middle + span / 2 });
+  }
+
+  /** Back to what was shown before the last choice of a stretch. */
+  undo(): void {
+    const before = this.before.pop();
+    if (!before) return;
+    if (before.end === undefined) this.go_live();
+    this.put(before);
+  }
+  get can_undo(): boolean {
+    return this.before.length > 0;
+  }
+
+  private get middle(): number {
+    const { from, to } = this.range(this.sources.at);
+    return (from + to) / 2;
+  }
+  private remember(): void {
+    this.before.push(this.stretch.value);
+    if (this.before.length > most_undone) this.before.shift();
+  }
+  private put(stretch: Stretch, ahead = 0): void {
+    const { sources } = this;
+    this.stretch.value = within(stretch, oldest_of(sources), sources.at, ahead);
+  }
+}
+
+const kept = new WeakMap<Console, TimeView>();
+
+export function view_of(console: Console): TimeView {
+  const view = kept.get(console) ?? new TimeView(console);
+  kept.set(console, view);
+  return view;
+}

@@ -1,0 +1,153 @@
+// The health panel: numbers, plots, sessions, limits, the log, and how it looks.
+import type { Page } from 'playwright-core';
+import { connect, type Client } from 'rois-client';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+
+import type { Console } from '../../src/state/console';
+import { picture, root, Stage, violations } from './harness';
+
+let stage: Stage;
+const wide = { width: 1600, height: 1000 };
+const lost_link = /WebSocket|Failed to load resource|ERR_/;
+
+beforeAll(async () => {
+  stage = await Stage.set('--scenario', `${root}/tests/server/data/unwell.xml`, '--sim-speed', '1', '--seed', '7', '--max-sessions', '3');
+});
+afterAll(() => stage.strike());
+
+type Page_ = Window & { rois: Console };
+const figure = (page: Page, name: string) => page.locator('.health-figures > div').filter({ has: page.getByText(name, { exact: true }) });
+const plot = (page: Page, name: RegExp) => page.locator('.health-plot').filter({ has: page.getByRole('heading', { name }) });
+const table = (page: Page, name: string) => page.getByRole('region', { name, exact: true });
+const row = (page: Page, name: string, text: RegExp) => table(page, name).locator('tbody tr').filter({ hasText: text });
+const log = (page: Page) => page.locator('.health-log li');
+
+/** Another application, which has bound something. */
+async function with_other(act: (other: Client) => Promise<void>): Promise<void> {
+  const other = await connect(stage.gateway.url);
+  try {
+    await other.bind('follow');
+    await other.bind('move');
+    await act(other);
+  } finally {
+    await other.close();
+  }
+}
+
+describe('health', () => {
+  test('tells how the link and the gateway are, in numbers and plots', () =>
+    stage.page(
+      async (page) => {
+        await figure(page, 'Link').getByText('Connected').waitFor();
+        for (const [name, text] of [['Round trip', /\d ms/], ['Requests', /\d \/s/], ['Sessions', /^1$/], ['Components', /^15$/], ['Memory', /MiB/], ['Processor', /\d %/], ['Open files', /\d/]] as const)
+          await figure(page, name).locator('dd').getByText(text).waitFor();
+        const latency = plot(page, /^How long answers take/);
+        await latency.locator('.health-legend li').filter({ hasText: /In the gateway\s*[\d.]+ ms/ }).waitFor();
+        await page.getByText(/^Slowest in the last minute: \w+/).waitFor();
+        // Once more as a table, and by keys.
+        await latency.getByText('As a table').click();
+        await expect.poll(() => table(page, 'How long answers take, ms: values').locator('tbody tr').first().innerText()).toMatch(/^[\d:]+\s+[\d.]+ ms\s+[\d.]+ ms/);
+        const slider = latency.getByRole('slider');
+        await slider.focus();
+        await page.keyboard.press('ArrowLeft');
+        await page.keyboard.press('ArrowLeft');
+        expect(await slider.getAttribute('aria-valuetext')).toMatch(/^[\d:]+: Round trip [\d.]+ ms, Slowest [\d.]+ ms/);
+        expect(Number(await slider.getAttribute('aria-valuenow'))).toBeLessThan(0);
+        await plot(page, /^The gateway/).locator('.health-legend li').filter({ hasText: /Requests\s*[1-9][\d.]* \/s/ }).waitFor();
+        await plot(page, /^This console/).locator('.health-legend li').filter({ hasText: /Received\s*[1-9][\d.]* \/s/ }).waitFor();
+        expect(await violations(page)).toBe('');
+      },
+      wide,
+      '/#health',
+    ));
+
+  test('tells who has bound what, and which limit is reached', () =>
+    stage.page(
+      (page) =>
+        with_other(async () => {
+          await figure(page, 'Link').getByText('Connected').waitFor();
+          await page.evaluate(() => (window as unknown as Page_).rois.bindings.bind('navigation'));
+          await row(page, 'Sessions', /this console.*navigation/).waitFor();
+          await row(page, 'Sessions', /follow.*move/).waitFor();
+          await row(page, 'Limits', /^Sessions23never$/).waitFor();
+          const third = await connect(stage.gateway.url);
+          const refused = await fetch(`${stage.gateway.url}/rois`, { method: 'POST', headers: { 'Content-Type': 'application/xml' }, body: '<connect xmlns="urn:x-rois:psm:xml:message:1"/>' });
+          expect(refused.status).toBe(429);
+          await row(page, 'Limits', /^Sessions33/).waitFor();
+          await row(page, 'Limits', /^Sessions331 time 1 lately$/).waitFor();
+          await row(page, 'What went wrong since the gateway began', /too_many11$/).waitFor();
+          await third.close();
+          await row(page, 'Limits', /^Sessions23/).waitFor();
+          expect(await violations(page)).toBe('');
+          await picture(page, 'health-sessions');
+        }),
+      wide,
+      '/#health',
+    ));
+
+  test('has a log of errors with their details, and of what was refused', () =>
+    stage.page(
+      (page) =>
+        with_other(async () => {
+          await figure(page, 'Link').getByText('Connected').waitFor();
+          await page.getByText('This session was told of no error.').waitFor();
+          await page.evaluate(async () => {
+            const { rois } = window as unknown as Page_;
+            await rois.bindings.bind('move').catch(() => undefined);
+            await (await rois.run('navigation', 'start', { target_position: ['desk'] })).ends;
+          });
+          const error = log(page).filter({ hasText: /COMPONENT_INTERNAL_ERROR\s*navigation/ }).first();
+          await error.locator('summary').click();
+          await error.getByRole('region', { name: /^Details/ }).getByText('component_ref').waitFor();
+          await error.getByRole('region', { name: /^The document/ }).getByText('receive_error').first().waitFor();
+          const refused = log(page).filter({ hasText: 'bind: OUT_OF_RESOURCES' });
+          await refused.getByText(/bound by another session/).first().waitFor();
+          await refused.locator('summary').click();
+          expect(await violations(page)).toBe('');
+          await log(page).first().scrollIntoViewIfNeeded();
+          await picture(page, 'health-log');
+          await refused.getByRole('button', { name: 'Show in messages' }).click();
+          await page.locator('.panel-messages').getByRole('option', { selected: true }).getByText('bind').first().waitFor();
+        }),
+      wide,
+      '/#health',
+    ));
+
+  test('says that the link is lost, when it was, and what it can no longer tell', () =>
+    stage.page(
+      async (page) => {
+        await figure(page, 'Round trip').getByText(/ms$/).waitFor();
+        stage.front.cut();
+        await figure(page, 'Link').getByText('Connection lost').waitFor();
+        await page.getByText(/^The gateway's numbers cannot be had/).waitFor();
+        await figure(page, 'Round trip').getByText('–').waitFor();
+        expect(await violations(page)).toBe('');
+        await picture(page, 'health-lost');
+        stage.front.mend();
+        await figure(page, 'Link').getByText('Connected again').waitFor();
+        await log(page).filter({ hasText: 'Connection lost' }).waitFor();
+        await page.getByText(/^The gateway's numbers cannot be had/).waitFor({ state: 'detached' });
+      },
+      { ...wide, may_complain: lost_link },
+      '/#health',
+    ));
+
+  test.each([
+    ['wide', 'dark', 1600, 1000],
+    ['wide', 'light', 1600, 1000],
+    ['tablet', 'dark', 1024, 768],
+    ['upright', 'light', 820, 1180],
+  ] as const)('looks well and is accessible: %s %s', (size, look, width, height) =>
+    stage.page(
+      (page) =>
+        with_other(async () => {
+          await page.locator('.health-legend strong').first().getByText(/\d/).waitFor();
+          await page.getByText('follow', { exact: true }).last().waitFor();
+          expect(await violations(page)).toBe('');
+          await picture(page, `health-${size}-${look}`);
+        }),
+      { width, height, look, touch: size !== 'wide', language: size === 'upright' ? 'ja' : 'en' },
+      '/#health',
+    ),
+  );
+});

@@ -1,0 +1,216 @@
+// The time line: what stands on it, what points at it and the keys say, going back in time, and how it looks.
+import type { Page } from 'playwright-core';
+import { connect } from 'rois-client';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+
+import type { Console } from '../../src/state/console';
+import { picture, root, Stage, violations } from './harness';
+
+let stage: Stage;
+const wide = { width: 1600, height: 1000 };
+const lost_link = /WebSocket|Failed to load resource|ERR_/;
+
+beforeAll(async () => {
+  stage = await Stage.set('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '20', '--seed', '7');
+});
+afterAll(() => stage.strike());
+
+type Page_ = Window & { rois: Console };
+const lane = (page: Page, name: string) => page.locator('.timeline-name', { hasText: new RegExp(`^${name}$`) });
+const rows = (page: Page, text: RegExp) => page.locator('.timeline-listing tbody tr').filter({ hasText: text });
+const details = (page: Page) => page.getByRole('region', { name: 'Details', exact: true });
+
+/** Two commands on the way to the desk, one that fails; somebody else has bound `follow`. */
+async function day(page: Page): Promise<void> {
+  await lane(page, 'navigation').waitFor();
+  await page.evaluate(async () => {
+    const { rois } = window as unknown as Page_;
+    await rois.subscribe('person_detected', { inline_results: true });
+    for (const run of [
+      () => rois.run('person_detection', 'start'),
+      () => rois.run('speech_synthesis', 'start', { speech_text: 'Welcome.' }),
+      () => rois.run('navigation', 'start', { target_position: ['desk'] }),
+      () => rois.run('navigation', 'start', { target_position: ['100000, 4'] }),
+    ])
+      await (await run()).ends;
+  });
+}
+
+/** Where a time is in a lane; time has been stopped. */
+async function point(page: Page, name: string, at: number, below = 0.8): Promise<{ x: number; y: number }> {
+  const label = (await lane(page, name).boundingBox())!;
+  const canvas = page.locator('.timeline-canvas');
+  const box = (await canvas.boundingBox())!;
+  const { from, to } = await canvas.evaluate(({ dataset }) => ({ from: Number(dataset['from']), to: Number(dataset['to']) }));
+  return { x: box.x + ((at - from) / (to - from)) * box.width, y: label.y + label.height * below };
+}
+const sent_at = (page: Page, index: number) => page.evaluate((i) => (window as unknown as Page_).rois.commands.all.at(i)!.sent_at, index);
+const middle_of = (page: Page, index: number) =>
+  page.evaluate((i) => {
+    const { sent_at: from, ended_at: to } = (window as unknown as Page_).rois.commands.all.at(i)!;
+    return (from + to!) / 2;
+  }, index);
+const span = (page: Page) => page.locator('.timeline-canvas').evaluate(({ dataset }) => Number(dataset['to']) - Number(dataset['from']));
+
+describe('the time line', () => {
+  test('tells of the link, components, who has them, commands and events: as a table, too', () =>
+    stage.page(
+      async (page) => {
+        const other = await connect(stage.gateway.url);
+        await other.bind('follow');
+        await day(page);
+        await page.getByLabel('As a table').check();
+        await rows(page, /Link Connected/).first().waitFor();
+        await rows(page, /Status READYnavigation/).first().waitFor();
+        await rows(page, /Status BUSYfollow/).first().waitFor();
+        await rows(page, /Bound by this consolenavigation/).first().waitFor();
+        await rows(page, /Bound by session \d+follow/).first().waitFor();
+        await rows(page, /Command startspeech_synthesisOK/).waitFor();
+        await rows(page, /Command startnavigationOK/).waitFor();
+        await rows(page, /Command startnavigationERROR/).waitFor();
+        await rows(page, /Event person_detectedperson_detection/).first().waitFor();
+        expect(await violations(page)).toBe('');
+        await picture(page, 'timeline-table');
+        await page.getByRole('button', { name: 'Stop time' }).click();
+        await rows(page, /Command startnavigationERROR/).getByRole('button').click();
+        await details(page).getByText('The component could not do it.').waitFor();
+        await other.close();
+      },
+      wide,
+      '/#timeline',
+    ));
+
+  test('shows values under the pointer, and opens what is clicked', () =>
+    stage.page(
+      async (page) => {
+        await day(page);
+        await page.getByLabel('Stretch of time').selectOption('10 s');
+        await page.getByRole('button', { name: 'Stop time' }).click();
+        await expect.poll(() => span(page)).toBe(10_000);
+        const walk = await point(page, 'navigation', await middle_of(page, -2));
+        await page.mouse.move(walk.x, walk.y);
+        const tip = page.locator('.timeline-tip');
+        await tip.getByText('navigation').waitFor();
+        expect(await tip.innerText()).toMatch(/Command start[^]*OK[^]*Sent[^]*Ran/);
+        const failed = await point(page, 'navigation', await middle_of(page, -1));
+        await page.mouse.click(failed.x, failed.y);
+        await details(page).getByText('The component could not do it.').waitFor();
+        await details(page).getByRole('region', { name: 'Arguments' }).getByText('100000, 4').waitFor();
+        await details(page).getByText('The request').click();
+        expect(await details(page).getByRole('region', { name: 'The request' }).textContent()).toContain('100000, 4');
+        expect(await violations(page)).toBe('');
+        await picture(page, 'timeline-details');
+        await details(page).getByRole('button', { name: 'Show in messages' }).click();
+        await page.locator('.panel-messages').getByRole('option', { selected: true }).getByText('execute').waitFor();
+      },
+      wide,
+      '/#timeline',
+    ));
+
+  test('is worked with keys alone', () =>
+    stage.page(
+      async (page) => {
+        await day(page);
+        const chart = page.getByRole('application', { name: /^Time line of/ });
+        const told = page.locator('.timeline-frame [role=status]');
+        await chart.focus();
+        await page.keyboard.press('ArrowDown');
+        await page.getByText('Stopped', { exact: true }).waitFor();
+        await page.keyboard.press('ArrowDown');
+        await told.getByText(/^Command, start/).waitFor({ state: 'attached' });
+        for (let i = 0; i < 6; ++i) await page.keyboard.press('ArrowRight');
+        await told.getByText(/^Command, start, navigation, ERROR, Sent .* Ran /).waitFor({ state: 'attached' });
+        await page.locator('.timeline-tip').getByText('ERROR').waitFor();
+        await page.keyboard.press('Enter');
+        await details(page).getByText('The component could not do it.').waitFor();
+        await page.keyboard.press('Escape');
+        await details(page).waitFor({ state: 'detached' });
+        expect(await chart.evaluate((one) => one === document.activeElement)).toBe(true);
+        const before = await span(page);
+        await page.keyboard.press('+');
+        await expect.poll(() => span(page)).toBeCloseTo(before / 1.5, 3);
+        await page.keyboard.press('-');
+        await page.keyboard.press('Home');
+        await page.getByText('Stopped', { exact: true }).waitFor();
+        await page.keyboard.press(' ');
+        await page.getByText('Live', { exact: true }).waitFor();
+      },
+      wide,
+      '/#timeline',
+    ));
+
+  test('zooms by dragging and with the wheel, goes back in time, and on live', () =>
+    stage.page(
+      async (page) => {
+        await day(page);
+        await page.getByRole('button', { name: 'Stop time' }).click();
+        const at = await sent_at(page, 0);
+        const [from, to] = [await point(page, 'navigation', at - 2000), await point(page, 'navigation', at)];
+        await page.mouse.move(from.x, from.y);
+        await page.mouse.down();
+        await page.mouse.move((from.x + to.x) / 2, from.y);
+        await page.mouse.move(to.x, to.y);
+        await page.mouse.up();
+        await expect.poll(async () => Math.abs((await span(page)) - 2000)).toBeLessThan(300);
+        await picture(page, 'timeline-zoomed');
+        const chosen = await span(page);
+        const middle = await point(page, 'navigation', at - 1000);
+        const under = async () => (await point(page, 'navigation', at - 1000)).x;
+        await page.mouse.move(middle.x, middle.y);
+        await page.mouse.wheel(0, 200);
+        await expect.poll(() => span(page)).toBeGreaterThan(chosen * 1.2);
+        expect(Math.abs((await under()) - middle.x)).toBeLessThan(2); // what was under the pointer is still there
+        await page.getByRole('button', { name: 'Back to the stretch before' }).click();
+        await expect.poll(() => span(page)).toBe(60_000);
+        await page.getByRole('button', { name: 'Earlier' }).click();
+        await page.getByText('Stopped', { exact: true }).waitFor();
+        // What happens meanwhile is not lost, and does not move what is looked at.
+        const still = await page.locator('.timeline-canvas').getAttribute('data-to');
+        await page.evaluate(async () => (await (window as unknown as Page_).rois.run('speech_synthesis', 'start', { speech_text: 'Good bye.' })).ends);
+        expect(await page.locator('.timeline-canvas').getAttribute('data-to')).toBe(still);
+        await page.getByRole('button', { name: 'Go on live' }).click();
+        await page.getByLabel('As a table').check();
+        await expect.poll(() => rows(page, /Command startspeech_synthesisOK/).count()).toBe(2);
+      },
+      wide,
+      '/#timeline',
+    ));
+
+  test('does not say that anything went on while the link was away', () =>
+    stage.page(
+      async (page) => {
+        await lane(page, 'navigation').waitFor();
+        stage.front.cut();
+        await page.getByText('Connection lost', { exact: true }).first().waitFor();
+        stage.front.mend();
+        await page.getByText('Connected again', { exact: true }).first().waitFor();
+        await expect.poll(() => page.evaluate(() => [...(window as unknown as Page_).rois.history.past].filter((one) => one.ref === 'navigation' && one.kind === 'status').length)).toBe(1);
+        await page.getByLabel('As a table').check();
+        await rows(page, /Link Connection lost/).waitFor();
+        await expect.poll(() => rows(page, /Status READYnavigation/).count()).toBe(2);
+      },
+      { ...wide, may_complain: lost_link },
+      '/#timeline',
+    ));
+
+  test.each([
+    ['wide', 'dark', 1600, 1000],
+    ['wide', 'light', 1600, 1000],
+    ['tablet', 'dark', 1024, 768],
+    ['upright', 'light', 820, 1180],
+  ] as const)('looks well and is accessible: %s %s', (size, look, width, height) =>
+    stage.page(
+      async (page) => {
+        await day(page);
+        expect(await violations(page)).toBe('');
+        await page.getByRole('application').focus();
+        await page.keyboard.press('ArrowDown');
+        await page.keyboard.press('ArrowDown');
+        await page.locator('.timeline-tip').waitFor();
+        await picture(page, `timeline-${size}-${look}`);
+      },
+      { width, height, look, touch: size !== 'wide', language: size === 'upright' ? 'ja' : 'en' },
+      '/#timeline',
+    ),
+  );
+});

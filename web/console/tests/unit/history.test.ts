@@ -1,0 +1,131 @@
+// What the state remembers of how things were, and of what goes in and out.
+import { beforeEach, describe, expect, test } from 'vitest';
+
+import type { Console } from '../../src/state/console';
+import { History, type Span } from '../../src/state/history';
+import { median } from '../../src/state/traffic';
+import { profile_xml, settled, World } from './world';
+
+let world: World;
+let console: Console;
+let status = 'READY';
+
+beforeEach(async () => {
+  world = new World();
+  status = 'READY';
+  world.answers.set('get_profile', () => profile_xml({ navigation: { type: 'Navigation' } }));
+  world.answers.set('query', () => `<component_ref rois:code="navigation"/><results><result rois:name="status"><rois:data_type_ref rois:code="Component_Status"/><rois:value>${status}</rois:value></result></results>`);
+  world.pages.set('/rois/map', { status: 404, text: '' });
+  world.pages.set('/metrics', { status: 200, text: '' });
+  console = await world.console();
+});
+
+/** `READY 0-2000`, times from the world's beginning. */
+function told(history: History, kind: Span['kind']): string[] {
+  const spans = [...history.past, ...history.present.values()].filter((one) => one.kind === kind).sort((a, b) => a.number - b.number);
+  return spans.map(({ value, from, to }) => `${value} ${from - began}-${to - began}`);
+}
+const began = Date.UTC(2026, 10, 20, 12);
+
+describe('history', () => {
+  test('holds from when to when a component was how', async () => {
+    const stop = console.history.record();
+    await settled();
+    await world.passes(2000);
+    status = 'BUSY';
+    await world.passes(3000);
+    expect(told(console.history, 'status')).toEqual(['READY 0-3000', 'BUSY 3000-5000']);
+    stop();
+    await world.passes(3000);
+    expect(told(console.history, 'status')).toEqual(['READY 0-3000', 'BUSY 3000-5000']);
+  });
+
+  test('says nothing of the time in which the link was away', async () => {
+    console.history.record();
+    await settled();
+    await world.passes(2000);
+    world.breaks();
+    await world.passes(40);
+    await world.tries_again();
+    await world.passes(4960);
+    await world.opens();
+    await world.passes(1000);
+    expect(told(console.history, 'status')).toEqual(['READY 0-2000', 'READY 7000-8000']);
+    expect(told(console.history, 'link')).toEqual(['open 0-2000', 'lost 2000-7000', 'resumed 7000-8000']);
+  });
+
+  test('holds who had bound what', async () => {
+    const bound = (session: string) => ({ status: 200, text: `rois_component_bound{component_ref="navigation",session="${session}"} 1\n` });
+    console.history.record();
+    await world.passes(1000);
+    await console.bindings.bind('navigation');
+    world.pages.set('/metrics', bound('1'));
+    await world.passes(2000);
+    await console.bindings.release('navigation');
+    world.pages.set('/metrics', bound('7'));
+    await world.passes(3000);
+    world.pages.set('/metrics', { status: 200, text: '' });
+    await world.passes(2000);
+    expect(told(console.history, 'holder').map((one) => one.split(' ')[0])).toEqual(['me', '7']);
+    expect([...console.history.present.values()].map((one) => one.kind)).not.toContain('holder');
+  });
+
+  test('has a bound', async () => {
+    const history = new History(world, console, 10);
+    history.record();
+    for (let i = 0; i < 100; ++i) {
+      status = i % 2 === 0 ? 'BUSY' : 'READY';
+      await world.passes(1000);
+    }
+    expect(history.past.size).toBe(10);
+    expect(history.present.size).toBe(2);
+  });
+});
+
+describe('traffic', () => {
+  test('counts by the second, and knows how long answers took', async () => {
+    await world.passes(1000);
+    for (let i = 0; i < 100; ++i) await console.client.search();
+    const second = console.traffic.seconds.at(-1)!;
+    expect(second).toMatchObject({ sent: 100, received: 100, at: began + 1000 });
+    expect(second.tooks).toHaveLength(64);
+    expect(second.slowest?.name).toBe('search_response');
+  });
+
+  test('asks something light when nothing else is said and somebody looks', async () => {
+    await world.passes(3000);
+    const before = world.requests.length;
+    await world.passes(3000);
+    expect(world.requests.length).toBe(before);
+    const stop = console.traffic.ping.watch();
+    await settled();
+    await world.passes(2000);
+    expect(world.names().slice(before)).toEqual(['search', 'search', 'search']);
+    stop();
+    console.status.poll.watch();
+    await world.passes(100);
+    console.traffic.ping.watch();
+    await world.passes(5000);
+    expect(world.names().slice(before + 3).filter((name) => name === 'search')).toEqual([]);
+  });
+
+  test('keeps what was refused, but not what the console asked by itself', async () => {
+    world.answers.set('search', () => 'ERROR');
+    await console.client.search().catch(() => undefined);
+    await console.documents.as_own(() => console.client.search()).catch(() => undefined);
+    expect(console.traffic.refused.list().map((one) => one.name)).toEqual(['search_response']);
+  });
+
+  test('keeps two minutes', async () => {
+    for (let i = 0; i < 200; ++i) {
+      await world.passes(1000);
+      world.says(`<profile_changed xmlns="urn:x-rois:psm:xml:message:1" sequence="${i + 1}"/>`);
+      await settled();
+    }
+    expect(console.traffic.seconds.size).toBe(120);
+  });
+
+  test('the middle of numbers', () => {
+    expect([[], [3], [5, 1], [9, 1, 2]].map(median)).toEqual([undefined, 3, 3, 2]);
+  });
+});
