@@ -2,6 +2,7 @@
 import type { ComponentType } from 'preact';
 
 import { texts as components } from './components/texts';
+import { texts as conditions } from './conditions/texts';
 import type { IconName } from './ui/icon';
 
 /** Where a panel stands on a wide screen: the big one, the strip below it, or the column beside both. */
@@ -19,4 +20,5 @@ export interface Panel {
 
 export const panels: readonly Panel[] = [
   { id: 'components', title: () => components().title, icon: 'components', area: 'side', load: () => import('./components/panel') },
+  { id: 'conditions', title: () => conditions().title, icon: 'conditions', area: 'main', load: () => import('./conditions/panel') },
 ];

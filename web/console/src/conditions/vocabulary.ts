@@ -1,0 +1,160 @@
+// What a condition can refer to (docs/conditions.md): the words of the vocabulary, and the parameters and results of the profiles.
+import type { ParameterProfile } from 'rois-client';
+
+import type { ComponentView } from '../state/profile_state';
+import type { Draft, Operator } from './model';
+
+export type ValueType = 'text' | 'number' | 'bool' | 'time' | 'position';
+
+export interface Reference {
+  path: string;
+  type: ValueType;
+  /** Whether it may have several values. */
+  is_list: boolean;
+  of: 'component' | 'parameter' | 'result';
+  description: string;
+  unit: string; // empty: none
+  /** Values that there are. */
+  options: readonly string[];
+  /** Whether there are no others. */
+  is_closed: boolean;
+}
+
+/** What is known of the engine. */
+export interface Known {
+  components: readonly ComponentView[];
+  engines: readonly string[];
+  robots: readonly string[];
+  places: readonly string[];
+  /** Codes of people, faces, ... by the name of the result that tells them: `person_ref`. */
+  entities: Readonly<Record<string, readonly string[]>>;
+}
+
+const statuses = ['READY', 'BUSY', 'WARNING', 'ERROR', 'UNINITIALIZED'];
+const words = ['component_ref', 'component_type', 'name', 'identifier', 'engine', 'robotid', 'status', 'bound', 'location', 'located'];
+
+/** All that a condition for this purpose can refer to. */
+export function references_of(known: Known, { purpose, event_type, query_type }: Draft): Reference[] {
+  const word = (path: string, options: readonly string[], more: Partial<Reference> = {}): Reference => ({
+    path, type: 'text', is_list: false, of: 'component', description: '', unit: '', options, is_closed: true, ...more,
+  });
+  const { components } = known;
+  const results = purpose === 'subscribe' ? results_of(components, 'events', event_type) : purpose === 'query' ? results_of(components, 'queries', query_type) : [];
+  const told = results.map((one) => typed(words.includes(one.name.toLowerCase()) ? `Result/${one.name}` : one.name, one, 'result', known));
+  if (told.some((one) => one.type === 'position')) told.push(word('located', [], { type: 'position', is_list: true, of: 'result' }));
+  return [
+    ...told,
+    word('component_ref', components.map((one) => one.ref)),
+    word('component_type', unique(components.flatMap((one) => [one.type, ...one.includes])).sort()),
+    word('status', statuses),
+    word('bound', ['true', 'false'], { type: 'bool' }),
+    word('location', known.places, { type: 'position' }),
+    word('engine', known.engines),
+    word('RobotId', unique([...known.robots, ...known.engines]), { is_closed: false }),
+    ...parameters_of(components).map((one) => typed(`Property/${one.name}`, one, 'parameter', known)),
+  ];
+}
+
+/** Whether a path means a result, so that only an event or an answer can tell it. */
+export function is_of_results(path: string, references: readonly Reference[]): boolean {
+  const name = first_step(path);
+  return name === 'result' || name === 'timestamp' || resolved(path, references)?.of === 'result';
+}
+
+/** What a path refers to; undefined when it is not known here. Names have no case. */
+export function resolved(path: string, references: readonly Reference[]): Reference | undefined {
+  const plain = path.trim().toLowerCase().replace(/\w+:/g, '').replace(/\[[^\]]*\]/g, '');
+  const whole = plain === 'name' || plain === 'identifier' ? 'component_ref' : plain;
+  const by_path = (wanted: string) => references.find((one) => one.path.toLowerCase() === wanted);
+  const found = by_path(whole) ?? by_path(`property/${whole}`) ?? by_path(whole.replace(/^(result|property)\//, ''));
+  if (found || !whole.includes('/@')) return found;
+  const owner = by_path(whole.slice(0, whole.indexOf('/@')));
+  return owner && { ...owner, path, type: 'text', options: [], is_closed: false };
+}
+
+function first_step(path: string): string {
+  return path.trim().toLowerCase().replace(/^\w+:/, '').split('/')[0] ?? '';
+}
+
+// Everything that some component of an engine has by this name; the first of a name counts.
+function results_of(components: readonly ComponentView[], kind: 'events' | 'queries', name: string): ParameterProfile[] {
+  return unique_names(components.flatMap((one) => one[kind].filter((message) => message.name === name).flatMap((message) => message.results)));
+}
+
+function parameters_of(components: readonly ComponentView[]): ParameterProfile[] {
+  const readable = (one: ComponentView) =>
+    (one.profile?.messages ?? []).filter((message) => message.kind === 'query' && message.name === 'get_parameter').flatMap((message) => message.results);
+  return unique_names(components.flatMap((one) => [...one.parameters, ...readable(one)])).sort((a, b) => a.name.localeCompare(b.name, 'en'));
+}
+
+function typed(path: string, { name, data_type_ref, description = '' }: ParameterProfile, of: Reference['of'], known: Known): Reference {
+  const code = data_type_ref.code.slice(data_type_ref.code.lastIndexOf(':') + 1).toLowerCase();
+  const base = code.replace('[]', '');
+  const entities = known.entities[name] ?? [];
+  const options = base === 'bool' ? ['true', 'false'] : base === 'component_status' ? statuses : entities.length > 0 ? entities : quoted_in(description);
+  const type = type_of(base, name);
+  return {
+    path, type, is_list: code.endsWith('[]'), of, description, unit: type === 'number' ? unit_in(description) : '',
+    options: type === 'position' ? known.places : options, is_closed: base === 'component_status',
+  };
+}
+
+function type_of(base: string, name: string): ValueType {
+  if (/^(int|integer|long|short|double|float|number)$/.test(base)) return 'number';
+  if (/^bool(ean)?$/.test(base)) return 'bool';
+  if (base === 'datetime') return 'time';
+  return base === 'string' && /position|^target$|^location$/.test(name) ? 'position' : 'text';
+}
+
+// Profiles name the values that there are in back quotes.
+function quoted_in(description: string): string[] {
+  return [...description.matchAll(/`([^`\s]+)`/g)].map((one) => one[1]!);
+}
+
+const units: [RegExp, string][] = [[/\bin millimetre/i, 'mm'], [/\bin millisecond/i, 'ms'], [/\bin degree/i, '°'], [/\bpercent/i, '%']];
+
+function unit_in(description: string): string {
+  return units.find(([pattern]) => pattern.test(description))?.[1] ?? '';
+}
+
+function unique(list: readonly string[]): string[] {
+  return [...new Set(list)];
+}
+
+function unique_names(list: readonly ParameterProfile[]): ParameterProfile[] {
+  const seen = new Set<string>();
+  return list.filter(({ name }) => !seen.has(name.toLowerCase()) && seen.add(name.toLowerCase()));
+}
+
+// --- What can be said of values of a type ---
+
+const equality: Operator[] = ['EqualTo', 'NotEqualTo'];
+const order: Operator[] = ['LessThan', 'LessThanOrEqualTo', 'GreaterThan', 'GreaterThanOrEqualTo', 'Between'];
+
+export function operators_for(type: ValueType): readonly Operator[] {
+  switch (type) {
+    case 'number':
+      return [...equality, ...order, 'Null'];
+    case 'bool':
+      return [...equality, 'Null'];
+    case 'time':
+      return ['After', 'Before', 'During', 'Null'];
+    case 'position':
+      return ['Within', 'DWithin', 'Disjoint', 'Beyond', 'Null'];
+    case 'text':
+      return [...equality, 'Like', 'Null'];
+  }
+}
+
+export function is_spatial(operator: Operator): boolean {
+  return ['Within', 'Intersects', 'Disjoint', 'DWithin', 'Beyond'].includes(operator);
+}
+export function is_temporal(operator: Operator): boolean {
+  return ['After', 'Before', 'During'].includes(operator);
+}
+export function has_distance(operator: Operator): boolean {
+  return operator === 'DWithin' || operator === 'Beyond';
+}
+export function has_two_values(operator: Operator): boolean {
+  return operator === 'Between' || operator === 'During';
+}
