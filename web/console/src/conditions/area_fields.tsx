@@ -9,14 +9,15 @@ import type { Known } from './vocabulary';
 export interface AreaFieldsProps {
   area: Area;
   change: (area: Area) => void;
-  error?: string | undefined;
+  error?: string;
+  hint?: string;
   known: Known;
   distance?: string;
   change_distance?: (distance: string) => void;
-  distance_error?: string | undefined;
+  distance_complaint?: { error?: string; hint?: string };
 }
 
-export function AreaFields({ area, change, error, known, distance, change_distance, distance_error }: AreaFieldsProps) {
+export function AreaFields({ area, change, error, hint, known, distance, change_distance, distance_complaint }: AreaFieldsProps) {
   const t = texts();
   const set = (name: keyof Area) => (value: string) => change({ ...area, [name]: value });
   const number = (name: 'x' | 'y' | 'x2' | 'y2', label: string) => (
@@ -26,7 +27,7 @@ export function AreaFields({ area, change, error, known, distance, change_distan
   return (
     <div class="conditions-area">
       <div class="conditions-numbers">
-        {area.kind === 'place' && <TextField label={t.place} value={area.place} change={set('place')} options={known.places} error={error} />}
+        {area.kind === 'place' && <TextField label={t.place} value={area.place} change={set('place')} options={known.places} error={error} hint={hint} />}
         {area.kind === 'box' && (
           <>
             {number('x', t.corner(1, 'x'))}
@@ -41,9 +42,8 @@ export function AreaFields({ area, change, error, known, distance, change_distan
             {number('y', t.at('y'))}
           </>
         )}
-        {change_distance && <TextField label={t.distance} unit="mm" value={distance ?? ''} change={change_distance} error={distance_error} input={{ inputMode: 'numeric' }} />}
+        {change_distance && <TextField label={t.distance} unit="mm" value={distance ?? ''} change={change_distance} {...distance_complaint} input={{ inputMode: 'numeric' }} />}
         {area.kind !== 'place' && <FrameField crs={area.crs} change={set('crs')} />}
-        {area.kind !== 'place' && error && <p class="field-error conditions-area-error">{error}</p>}
       </div>
       <AreaPicker area={area} change={change} radius={radius} />
     </div>

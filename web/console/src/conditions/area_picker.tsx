@@ -3,7 +3,7 @@ import { useRef, useState } from 'preact/hooks';
 
 import { useConsole, useWatch } from '../shell/context';
 import type { Console } from '../state/console';
-import type { Bounds, FloorMap } from '../state/floor_map';
+import type { Bounds, FloorMap, Place } from '../state/floor_map';
 import { is_number } from './checking';
 import type { Area } from './model';
 import { texts } from './texts';
@@ -41,13 +41,16 @@ export function AreaPicker({ area, change, radius }: { area: Area; change: (area
     pick(drag.from, at(event));
   };
   const pick = (from: Point, to: Point) => {
-    const place = map?.places.find((one) => to.x >= one.x && to.x <= one.x + one.width && to.y >= one.y && to.y <= one.y + one.depth);
+    const place = map?.places.find((one) => Math.abs(to.x - one.x) <= one.width / 2 && Math.abs(to.y - one.y) <= one.depth / 2);
     if (area.kind === 'place') return place && change({ ...area, place: place.name });
     if (area.kind === 'point') return change({ ...area, x: String(to.x), y: String(to.y) });
     if (Math.abs(from.x - to.x) >= least_box && Math.abs(from.y - to.y) >= least_box)
       return change({ ...area, x: String(Math.min(from.x, to.x)), y: String(Math.min(from.y, to.y)), x2: String(Math.max(from.x, to.x)), y2: String(Math.max(from.y, to.y)) });
     // A click on a place takes the place's box.
-    if (place) change({ ...area, x: String(place.x), y: String(place.y), x2: String(place.x + place.width), y2: String(place.y + place.depth) });
+    if (place) {
+      const { x, y, width, depth } = ground_of(place);
+      change({ ...area, x: String(x), y: String(y), x2: String(x + width), y2: String(y + depth) });
+    }
   };
   const box = drag && area.kind === 'box' ? box_between(drag.from, drag.to) : chosen_box(area, map);
   const point = drag && area.kind === 'point' ? drag.to : chosen_point(area);
@@ -75,7 +78,7 @@ export function AreaPicker({ area, change, radius }: { area: Area; change: (area
           {point && <circle class="conditions-chosen" cx={point.x} cy={point.y} r={120} />}
         </g>
         {map?.places.map((one) => (
-          <text key={one.name} class="conditions-place-name" x={one.x + one.width / 2} y={-(one.y + one.depth / 2)}>
+          <text key={one.name} class="conditions-place-name" x={one.x} y={-one.y}>
             {one.name}
           </text>
         ))}
@@ -89,7 +92,7 @@ function Furnishing({ map, chosen }: { map: FloorMap; chosen: string }) {
   return (
     <>
       {map.furniture.map((one, i) => <rect key={i} class="conditions-furniture" {...rect(one)} />)}
-      {map.places.map((one) => <rect key={one.name} class={one.name === chosen ? 'conditions-place conditions-chosen' : 'conditions-place'} {...rect(one)} />)}
+      {map.places.map((one) => <rect key={one.name} class={one.name === chosen ? 'conditions-place conditions-chosen' : 'conditions-place'} {...rect(ground_of(one))} />)}
       {map.walls.map((one, i) => <line key={i} class="conditions-wall" {...one} />)}
     </>
   );
@@ -124,6 +127,11 @@ function Things() {
   );
 }
 
+// The area around a place.
+function ground_of({ x, y, width, depth }: Place): Bounds {
+  return { x: x - width / 2, y: y - depth / 2, width, depth };
+}
+
 function rect({ x, y, width, depth }: Bounds) {
   return { x, y, width, height: depth };
 }
@@ -133,7 +141,10 @@ function box_between(a: Point, b: Point): Bounds {
 }
 
 function chosen_box(area: Area, map: FloorMap | undefined): Bounds | undefined {
-  if (area.kind === 'place') return map?.places.find((one) => one.name === area.place);
+  if (area.kind === 'place') {
+    const place = map?.places.find((one) => one.name === area.place);
+    return place && ground_of(place);
+  }
   if (area.kind !== 'box' || ![area.x, area.y, area.x2, area.y2].every(is_number)) return undefined;
   return box_between({ x: Number(area.x), y: Number(area.y) }, { x: Number(area.x2), y: Number(area.y2) });
 }

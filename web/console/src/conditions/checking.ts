@@ -8,16 +8,20 @@ import { wrapped } from './xml_writing';
 export type ProblemField = 'reference' | 'value' | 'upper' | 'area' | 'distance' | 'xml';
 export type Problem = 'no_reference' | 'no_value' | 'no_number' | 'no_time' | 'no_place' | 'no_box' | 'no_point' | 'no_distance' | 'reversed' | 'no_xml';
 
+const wrong: readonly Problem[] = ['no_number', 'reversed', 'no_xml'];
+
 export interface Found {
   field: ProblemField;
   problem: Problem;
+  /** It is not there yet, rather than wrong. */
+  is_missing: boolean;
 }
 
 export function problems_of(node: Node, references: readonly Reference[]): Found[] {
   if (node.kind === 'group') return node.members.flatMap((one) => problems_of(one, references));
-  if (node.kind === 'written') return is_xml(node.xml) ? [] : [{ field: 'xml', problem: 'no_xml' }];
+  if (node.kind === 'written') return is_xml(node.xml) ? [] : [{ field: 'xml', problem: 'no_xml', is_missing: false }];
   const found: Found[] = [];
-  const add = (field: ProblemField, problem: Problem | undefined) => problem && found.push({ field, problem });
+  const add = (field: ProblemField, problem: Problem | undefined) => problem && found.push({ field, problem, is_missing: !wrong.includes(problem) });
   if (node.reference.trim() === '') add('reference', 'no_reference');
   if (node.operator === 'Null') return found;
   if (is_spatial(node.operator)) {

@@ -31,12 +31,13 @@ export function MatchesView({ store }: { store: ConditionStore }) {
       {missing > 0 && <p class="field-hint">{t.incomplete(missing)}</p>}
       {waits_for_results(draft, references) && <p class="field-hint">{t.on_results}</p>}
       <ol class="conditions-found" aria-label={t.found} tabIndex={0}>
-        {shown.map((ref) => {
+        {shown.map((ref, i) => {
           const entry = status.of(ref);
           return (
             <li key={ref}>
+              {draft.order.length > 0 && <span class="conditions-type">{i + 1}</span>}
               <span class="conditions-ref">{ref}</span>
-              <span class="conditions-type">{profile.component(ref)?.type_name}</span>
+              <span class="conditions-type conditions-fill">{profile.component(ref)?.type_name}</span>
               {entry && <StatusBadge status={entry.status} />}
             </li>
           );

@@ -25,7 +25,7 @@ export default function ConditionsPanel() {
   const is_empty = root.members.length === 0 && order.length === 0;
   return (
     <div class="conditions">
-      <div class="conditions-frame" tabIndex={0} role="region" aria-label={t.title}>
+      <div class="conditions-frame">
         <div class="conditions-build">
           <PurposeView store={store} />
           <section class="conditions-part" aria-label={t.conditions}>

@@ -22,22 +22,22 @@ export function PredicateView({ store, predicate, remove, wrap }: { store: Condi
     <div class="conditions-predicate">
       <div class="conditions-line">
         {predicate.is_not && <Badge tone="warning">{t.negated}</Badge>}
-        <ReferenceField value={predicate.reference} references={references} error={error_of(found, 'reference')} change={(path) => change(about(predicate, path, references))} />
+        <ReferenceField value={predicate.reference} references={references} {...complaint_of(found, 'reference')} change={(path) => change(about(predicate, path, references))} />
         <OperatorField predicate={predicate} reference={reference} change={change} />
-        {is_spatial(predicate.operator) ? undefined : <ValueFields predicate={predicate} reference={reference} found={found} change={change} />}
-        <div class="conditions-tools">
-          <IconButton small icon="more" label={t.more} aria-expanded={more || !is_usual} onClick={() => set_more(!more)} />
-          <IconButton small icon="components" label={t.wrap} onClick={wrap} />
-          <IconButton small icon="close" label={t.remove} onClick={remove} />
-        </div>
+        {!is_spatial(predicate.operator) && <ValueFields predicate={predicate} reference={reference} found={found} change={change} />}
+      </div>
+      <div class="conditions-tools">
+        <IconButton small icon="more" label={t.more} aria-expanded={more || !is_usual} onClick={() => set_more(!more)} />
+        <IconButton small icon="components" label={t.wrap} onClick={wrap} />
+        <IconButton small icon="close" label={t.remove} onClick={remove} />
       </div>
       {is_spatial(predicate.operator) && (
         <AreaFields
           area={predicate.area}
           change={(area) => change({ area })}
-          error={error_of(found, 'area')}
+          {...complaint_of(found, 'area')}
           known={store.known.value}
-          {...(needs_distance(predicate) && { distance: predicate.distance, change_distance: (distance: string) => change({ distance }), distance_error: error_of(found, 'distance') })}
+          {...(needs_distance(predicate) && { distance: predicate.distance, change_distance: (distance: string) => change({ distance }), distance_complaint: complaint_of(found, 'distance') })}
         />
       )}
       {(more || !is_usual) && (
@@ -58,9 +58,12 @@ export function PredicateView({ store, predicate, remove, wrap }: { store: Condi
   );
 }
 
-export function error_of(found: readonly Found[], field: ProblemField): string | undefined {
+/** What is wrong, or what is only not there yet: the first is an error, the second a hint. */
+export function complaint_of(found: readonly Found[], field: ProblemField): { error?: string; hint?: string } {
   const one = found.find((each) => each.field === field);
-  return one && texts()[one.problem];
+  if (!one) return {};
+  const text = texts()[one.problem];
+  return one.is_missing ? { hint: text } : { error: text };
 }
 
 function needs_distance({ operator }: Predicate): boolean {
@@ -92,12 +95,12 @@ export function about(predicate: Predicate, path: string, references: readonly R
 export interface ReferenceFieldProps {
   value: string;
   references: readonly Reference[];
-  error?: string | undefined;
+  error?: string;
+  hint?: string;
   change: (path: string) => void;
-  label?: string;
 }
 
-export function ReferenceField({ value, references, error, change, label }: ReferenceFieldProps) {
+export function ReferenceField({ value, references, error, hint, change }: ReferenceFieldProps) {
   const t = texts();
   const chosen = resolved(value, references);
   const groups = [['result', t.results], ['component', t.component], ['parameter', t.parameters]] as const;
@@ -105,9 +108,9 @@ export function ReferenceField({ value, references, error, change, label }: Refe
   return (
     <div class="conditions-reference">
       <Field
-        label={label ?? t.reference}
+        label={t.reference}
         error={error}
-        hint={value !== '' && !chosen ? t.unknown_reference : undefined}
+        hint={value !== '' && !chosen ? t.unknown_reference : hint}
         control={(props) => (
           <select {...props} value={value} title={chosen?.description} onChange={(event) => change(event.currentTarget.value)}>
             {value === '' && <option value="">{t.choose}</option>}

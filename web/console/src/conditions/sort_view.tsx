@@ -44,11 +44,11 @@ function Key({ store, sort_key: key, change, remove }: { store: ConditionStore; 
         <SelectField label={t.sort_by} value={key.by} change={choose_by} choices={[{ value: 'value', label: t.sort_value }, { value: 'distance', label: t.sort_distance }]} />
         <ReferenceField value={key.reference} references={key.by === 'distance' ? positions : references} change={(reference) => change({ reference })} />
         <SelectField label={t.sort} value={key.order} change={(order) => change({ order })} choices={[{ value: 'ASC', label: t.ascending }, { value: 'DESC', label: t.descending }]} />
-        <div class="conditions-tools">
-          <IconButton small icon="close" label={t.remove_sort} onClick={remove} />
-        </div>
       </div>
-      {key.by === 'distance' && <AreaFields area={key.area} change={(area) => change({ area })} error={problem && t[problem]} known={store.known.value} />}
+      <div class="conditions-tools">
+        <IconButton small icon="close" label={t.remove_sort} onClick={remove} />
+      </div>
+      {key.by === 'distance' && <AreaFields area={key.area} change={(area) => change({ area })} {...(problem && { hint: t[problem] })} known={store.known.value} />}
     </div>
   );
 }

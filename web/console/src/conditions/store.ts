@@ -54,12 +54,11 @@ function known_to({ profile, map, robots, entities }: Console): Known {
   const components = profile.components.value;
   const view = map.view.value;
   const floor_map = view.state === 'there' ? view.map : undefined;
-  const codes = (kind: string) => [...entities.all.values()].filter((one) => one.kind === kind).map((one) => one.ref);
   return {
     components,
     engines: [...new Set(components.map((one) => one.engine))],
-    robots: [...new Set([...robots.all.keys(), ...(floor_map?.robots ?? []).map((one) => one.name)])],
+    robots: { [Symbol.iterator]: () => robots.all.values() },
+    entities: { [Symbol.iterator]: () => entities.all.values() },
     places: floor_map ? [floor_map.name, ...floor_map.places.map((one) => one.name)].filter((one) => one !== '') : [],
-    entities: { person_ref: codes('person'), face_ref: codes('face'), sound_ref: codes('sound') },
   };
 }

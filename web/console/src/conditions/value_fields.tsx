@@ -2,7 +2,7 @@
 import { Field, SelectField, TextField } from '../ui';
 import type { Found } from './checking';
 import type { Predicate } from './model';
-import { error_of } from './predicate_view';
+import { complaint_of } from './predicate_view';
 import { texts } from './texts';
 import { has_two_values, is_temporal, type Reference } from './vocabulary';
 
@@ -19,8 +19,8 @@ export function ValueFields({ predicate, reference, found, change }: Props) {
   const two = has_two_values(predicate.operator);
   return (
     <div class="conditions-values">
-      <ValueField label={two ? t.lower : t.value} value={predicate.value} change={(value) => change({ value })} error={error_of(found, 'value')} predicate={predicate} reference={reference} />
-      {two && <ValueField label={t.upper} value={predicate.upper} change={(upper) => change({ upper })} error={error_of(found, 'upper')} predicate={predicate} reference={reference} />}
+      <ValueField label={two ? t.lower : t.value} value={predicate.value} change={(value) => change({ value })} {...complaint_of(found, 'value')} predicate={predicate} reference={reference} />
+      {two && <ValueField label={t.upper} value={predicate.upper} change={(upper) => change({ upper })} {...complaint_of(found, 'upper')} predicate={predicate} reference={reference} />}
     </div>
   );
 }
@@ -29,23 +29,25 @@ interface FieldProps {
   label: string;
   value: string;
   change: (value: string) => void;
-  error: string | undefined;
+  error?: string;
+  hint?: string;
   predicate: Predicate;
   reference: Reference | undefined;
 }
 
-function ValueField({ label, value, change, error, predicate: { operator }, reference }: FieldProps) {
+function ValueField({ predicate: { operator }, reference, ...field }: FieldProps) {
   const t = texts();
-  if (is_temporal(operator)) return <TimeField label={label} value={value} change={change} error={error} />;
-  if (operator === 'Like') return <TextField label={label} value={value} change={change} error={error} hint={t.pattern_hint} />;
+  if (is_temporal(operator)) return <TimeField {...field} />;
+  if (operator === 'Like') return <TextField {...field} hint={field.hint ?? t.pattern_hint} />;
   const { options = [], is_closed = false, type = 'text', unit = '' } = reference ?? {};
   if (type === 'bool' || (is_closed && options.length > 0)) {
+    const { value } = field;
     const listed = type === 'bool' ? ['true', 'false'] : options;
     const all = value === '' || listed.includes(value) ? listed : [value, ...listed];
     const choices = all.map((one) => ({ value: one, label: shown(one, t) }));
-    return <SelectField label={label} value={value} change={change} error={error} choices={value === '' ? [{ value: '', label: t.choose }, ...choices] : choices} />;
+    return <SelectField {...field} choices={value === '' ? [{ value: '', label: t.choose }, ...choices] : choices} />;
   }
-  return <TextField label={label} value={value} change={change} error={error} unit={unit || undefined} options={options} input={type === 'number' ? { inputMode: 'decimal' } : {}} />;
+  return <TextField {...field} unit={unit || undefined} options={options} input={type === 'number' ? { inputMode: 'decimal' } : {}} />;
 }
 
 // Of a URN the last part tells what it is.
@@ -56,12 +58,11 @@ function shown(option: string, t: ReturnType<typeof texts>): string {
 }
 
 /** The browser's own field; it shows local time, and the condition has UTC. */
-export function TimeField({ label, value, change, error }: { label: string; value: string; change: (value: string) => void; error: string | undefined }) {
+function TimeField({ value, change, ...field }: Omit<FieldProps, 'predicate' | 'reference'>) {
   const read = (text: string) => (Number.isNaN(new Date(text).getTime()) ? '' : new Date(text).toISOString());
   return (
     <Field
-      label={label}
-      error={error}
+      {...field}
       control={(props) => <input {...props} type="datetime-local" step="1" value={local_text(value)} onChange={(event) => change(read(event.currentTarget.value))} />}
     />
   );

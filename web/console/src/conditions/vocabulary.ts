@@ -1,6 +1,9 @@
 // What a condition can refer to (docs/conditions.md): the words of the vocabulary, and the parameters and results of the profiles.
 import type { ParameterProfile } from 'rois-client';
 
+import { all_values, data_type, type DataType } from '../forms/data_type';
+import { is_position, units_of } from '../forms/describe';
+import { options_for, type World } from '../forms/options';
 import type { ComponentView } from '../state/profile_state';
 import type { Draft, Operator } from './model';
 
@@ -20,17 +23,13 @@ export interface Reference {
   is_closed: boolean;
 }
 
-/** What is known of the engine. */
-export interface Known {
+/** What is known of the engine, and what there is around it. */
+export interface Known extends Omit<World, 'components' | 'told'> {
   components: readonly ComponentView[];
   engines: readonly string[];
-  robots: readonly string[];
-  places: readonly string[];
-  /** Codes of people, faces, ... by the name of the result that tells them: `person_ref`. */
-  entities: Readonly<Record<string, readonly string[]>>;
 }
 
-const statuses = ['READY', 'BUSY', 'WARNING', 'ERROR', 'UNINITIALIZED'];
+const statuses = all_values(data_type('Component_Status')) ?? [];
 const words = ['component_ref', 'component_type', 'name', 'identifier', 'engine', 'robotid', 'status', 'bound', 'location', 'located'];
 
 /** All that a condition for this purpose can refer to. */
@@ -50,7 +49,7 @@ export function references_of(known: Known, { purpose, event_type, query_type }:
     word('bound', ['true', 'false'], { type: 'bool' }),
     word('location', known.places, { type: 'position' }),
     word('engine', known.engines),
-    word('RobotId', unique([...known.robots, ...known.engines]), { is_closed: false }),
+    word('RobotId', unique([...[...known.robots].map((one) => one.ref), ...known.engines]), { is_closed: false }),
     ...parameters_of(components).map((one) => typed(`Property/${one.name}`, one, 'parameter', known)),
   ];
 }
@@ -87,34 +86,20 @@ function parameters_of(components: readonly ComponentView[]): ParameterProfile[]
   return unique_names(components.flatMap((one) => [...one.parameters, ...readable(one)])).sort((a, b) => a.name.localeCompare(b.name, 'en'));
 }
 
-function typed(path: string, { name, data_type_ref, description = '' }: ParameterProfile, of: Reference['of'], known: Known): Reference {
-  const code = data_type_ref.code.slice(data_type_ref.code.lastIndexOf(':') + 1).toLowerCase();
-  const base = code.replace('[]', '');
-  const entities = known.entities[name] ?? [];
-  const options = base === 'bool' ? ['true', 'false'] : base === 'component_status' ? statuses : entities.length > 0 ? entities : quoted_in(description);
-  const type = type_of(base, name);
-  return {
-    path, type, is_list: code.endsWith('[]'), of, description, unit: type === 'number' ? unit_in(description) : '',
-    options: type === 'position' ? known.places : options, is_closed: base === 'component_status',
-  };
+function typed(path: string, profile: ParameterProfile, of: Reference['of'], known: Known): Reference {
+  const of_type = data_type(profile.data_type_ref.code);
+  const type = type_of(of_type, profile);
+  const { list, is_closed } = options_for({ ...profile, need: { kind: 'optional' } }, { ...known, components: known.components.map((one) => one.ref), told: undefined });
+  const options = list.map((one) => one.value);
+  const unit = type === 'number' ? (units_of(profile.description)[0] ?? '') : '';
+  return { path, type, is_list: of_type.is_list, of, description: profile.description ?? '', unit, options, is_closed };
 }
 
-function type_of(base: string, name: string): ValueType {
-  if (/^(int|integer|long|short|double|float|number)$/.test(base)) return 'number';
-  if (/^bool(ean)?$/.test(base)) return 'bool';
-  if (base === 'datetime') return 'time';
-  return base === 'string' && /position|^target$|^location$/.test(name) ? 'position' : 'text';
-}
-
-// Profiles name the values that there are in back quotes.
-function quoted_in(description: string): string[] {
-  return [...description.matchAll(/`([^`\s]+)`/g)].map((one) => one[1]!);
-}
-
-const units: [RegExp, string][] = [[/\bin millimetre/i, 'mm'], [/\bin millisecond/i, 'ms'], [/\bin degree/i, '°'], [/\bpercent/i, '%']];
-
-function unit_in(description: string): string {
-  return units.find(([pattern]) => pattern.test(description))?.[1] ?? '';
+function type_of({ kind }: DataType, profile: ParameterProfile): ValueType {
+  if (kind === 'integer' || kind === 'number') return 'number';
+  if (kind === 'bool') return 'bool';
+  if (kind === 'date_time') return 'time';
+  return is_position(profile) || (kind === 'text' && /^target$/.test(profile.name)) ? 'position' : 'text';
 }
 
 function unique(list: readonly string[]): string[] {

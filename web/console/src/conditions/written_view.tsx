@@ -15,6 +15,8 @@ export function WrittenView({ store, node, remove }: { store: ConditionStore; no
         <div class="conditions-wide">
           <TextArea label={t.as_xml} value={node.xml} change={(xml) => change({ xml })} error={problem} rows={3} />
         </div>
+      </div>
+      <div class="conditions-tools">
         <IconButton small icon="close" label={t.remove} onClick={remove} />
       </div>
       <Checkbox label={t.negate} checked={node.is_not} change={(is_not) => change({ is_not })} />
