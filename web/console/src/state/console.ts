@@ -32,6 +32,7 @@ import { Notices } from './notices';
 import { ParametersState } from './parameters_state';
 import { ProfileState } from './profile_state';
 import { RobotsState } from './robots_state';
+import { Selection } from './selection';
 import { StatusState } from './status_state';
 import { SubscriptionsState } from './subscriptions_state';
 
@@ -72,6 +73,7 @@ export class Console {
   readonly robots: RobotsState;
   readonly entities: EntitiesState;
   readonly map: MapState;
+  readonly selection = new Selection();
 
   private token: string | undefined;
   private speaker: Client | undefined;

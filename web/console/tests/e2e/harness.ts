@@ -148,6 +148,7 @@ export class Stage {
       locale: language,
       reducedMotion: motion,
       hasTouch: touch,
+      permissions: ['clipboard-read', 'clipboard-write'],
     });
     const page = await context.newPage();
     page.setDefaultTimeout(15_000);
