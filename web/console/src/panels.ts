@@ -3,6 +3,7 @@ import type { ComponentType } from 'preact';
 
 import { texts as components } from './components/texts';
 import { texts as conditions } from './conditions/texts';
+import { texts as sequence } from './sequence/texts';
 import type { IconName } from './ui/icon';
 
 /** Where a panel stands on a wide screen: the big one, the strip below it, or the column beside both. */
@@ -21,4 +22,5 @@ export interface Panel {
 export const panels: readonly Panel[] = [
   { id: 'components', title: () => components().title, icon: 'components', area: 'side', load: () => import('./components/panel') },
   { id: 'conditions', title: () => conditions().title, icon: 'conditions', area: 'main', load: () => import('./conditions/panel') },
+  { id: 'sequence', title: () => sequence().title, icon: 'sequence', area: 'main', load: () => import('./sequence/panel') },
 ];

@@ -6,9 +6,11 @@ import { has_distance, has_two_values, is_spatial, is_temporal, type Reference, 
 import { wrapped } from './xml_writing';
 
 export type ProblemField = 'reference' | 'value' | 'upper' | 'area' | 'distance' | 'xml';
-export type Problem = 'no_reference' | 'no_value' | 'no_number' | 'no_time' | 'no_place' | 'no_box' | 'no_point' | 'no_distance' | 'reversed' | 'no_xml';
+export type Problem = 'no_reference' | 'no_value' | 'no_number' | 'no_time' | 'no_place' | 'no_box' | 'no_point' | 'no_distance' | 'reversed' | 'no_xml' | 'unwritable';
 
-const wrong: readonly Problem[] = ['no_number', 'reversed', 'no_xml'];
+const wrong: readonly Problem[] = ['no_number', 'reversed', 'no_xml', 'unwritable'];
+
+const unwritable = /[^\t\n\r\u0020-\uD7FF\uE000-\uFFFD\u{10000}-\u{10FFFF}]/u; // in XML 1.0
 
 export interface Found {
   field: ProblemField;
@@ -44,6 +46,7 @@ export function is_complete({ root, purpose, event_type, query_type }: Draft, re
 function value_problem({ operator, reference }: Predicate, value: string, references: readonly Reference[]): Problem | undefined {
   if (is_temporal(operator)) return is_time(value) ? undefined : 'no_time';
   if (value.trim() === '') return 'no_value';
+  if (unwritable.test(value)) return 'unwritable';
   if (operator !== 'Like' && resolved(reference, references)?.type === 'number' && !is_number(value)) return 'no_number';
   return undefined;
 }
@@ -54,7 +57,7 @@ function is_reversed({ operator, value, upper }: Predicate): boolean {
 }
 
 export function area_problem({ kind, place, x, y, x2, y2 }: Area): Problem | undefined {
-  if (kind === 'place') return place.trim() === '' ? 'no_place' : undefined;
+  if (kind === 'place') return place.trim() === '' ? 'no_place' : unwritable.test(place) ? 'unwritable' : undefined;
   const numbers = kind === 'box' ? [x, y, x2, y2] : [x, y];
   return numbers.every(is_number) ? undefined : kind === 'box' ? 'no_box' : 'no_point';
 }

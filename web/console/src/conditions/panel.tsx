@@ -12,6 +12,7 @@ import { new_group, type Purpose, purposes } from './model';
 import { PasteDialog } from './paste_dialog';
 import { SortView } from './sort_view';
 import { type ConditionStore, store_of } from './store';
+import { Subscriptions } from './subscriptions';
 import { texts } from './texts';
 import { UseView } from './use_view';
 
@@ -22,10 +23,14 @@ export default function ConditionsPanel() {
   const [pasting, set_pasting] = useState(false);
   if (!console.profile.profile.value) return <EmptyState icon="conditions" title={t.looking} />;
   const { root, order, purpose } = store.draft.value;
+  const clear = () => {
+    store.is_strict.value = false;
+    store.change({ root: new_group(), order: [] });
+  };
   const is_empty = root.members.length === 0 && order.length === 0;
   return (
     <div class="conditions">
-      <div class="conditions-frame">
+      <form class="conditions-frame" noValidate onSubmit={(event) => event.preventDefault()}>
         <div class="conditions-build">
           <PurposeView store={store} />
           <section class="conditions-part" aria-label={t.conditions}>
@@ -35,7 +40,7 @@ export default function ConditionsPanel() {
                 <Button small look="quiet" icon="upload" onClick={() => set_pasting(true)}>
                   {t.paste}
                 </Button>
-                <Button small look="quiet" icon="close" disabled={is_empty} onClick={() => store.change({ root: new_group(), order: [] })}>
+                <Button small look="quiet" icon="close" disabled={is_empty} onClick={() => clear()}>
                   {t.clear}
                 </Button>
               </div>
@@ -47,9 +52,10 @@ export default function ConditionsPanel() {
         </div>
         <div class="conditions-outcomes">
           <MatchesView store={store} />
+          <Subscriptions store={store} />
           <UseView store={store} />
         </div>
-      </div>
+      </form>
       <PasteDialog store={store} open={pasting} close={() => set_pasting(false)} />
     </div>
   );
