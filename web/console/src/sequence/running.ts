@@ -32,7 +32,7 @@ function step_end(step: Step, turn: End, entries: ReadonlyMap<number, CommandEnt
     case 'command': {
       const entry = entries.get(step.id);
       if (!entry) return turn; // added since
-      view.set(step.id, state_of_entry(entry));
+      view.set(step.id, state_of_entry(entry, turn));
       return entry.state === 'OK' ? (entry.ended_at ?? now) : has_ended(entry) ? 'failed' : undefined;
     }
     case 'wait': {
@@ -55,10 +55,12 @@ function step_end(step: Step, turn: End, entries: ReadonlyMap<number, CommandEnt
   }
 }
 
-function state_of_entry(entry: CommandEntry): StepState {
-  const { state, started_at, sent_at, ended_at } = entry;
+// When it has begun is told late, or never of what is over at once: then it was its turn.
+function state_of_entry(entry: CommandEntry, turn: End): StepState {
+  const { state, ended_at } = entry;
+  const started_at = entry.started_at ?? (typeof turn === 'number' ? turn : undefined);
   if (state === 'running') return { state, ...(started_at !== undefined && { since: started_at }) };
-  return has_ended(entry) && ended_at !== undefined && state !== 'ABORT' ? { state, took: ended_at - (started_at ?? sent_at) } : { state };
+  return ended_at !== undefined && started_at !== undefined ? { state, took: Math.max(0, ended_at - started_at) } : { state };
 }
 
 // All branches have to come to an end before it has one.

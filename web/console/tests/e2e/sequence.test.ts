@@ -1,0 +1,227 @@
+// The sequence editor: drawn, checked, run and shown while it runs.
+import type { Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+
+import { picture, root, Stage, violations } from './harness';
+
+let stage: Stage;
+const path = '/#sequence';
+
+beforeAll(async () => {
+  stage = await Stage.set('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '4', '--seed', '7', '--profiles', `${root}/components/simulation/profiles`);
+});
+afterAll(() => stage.strike());
+
+const box = (page: Page, text: string) => page.locator('.sequence-box', { hasText: text });
+const component = (page: Page) => page.getByLabel('Component', { exact: true });
+const open_library = (page: Page) => page.getByRole('button', { name: 'Open and keep' }).click();
+
+/** Two branches: speech, and a way. */
+async function greeting(page: Page, target = 'desk'): Promise<void> {
+  await page.getByRole('button', { name: 'Two at the same time' }).click();
+  await component(page).selectOption('speech_synthesis');
+  await page.getByLabel('speech_text', { exact: true }).fill('This way, please.');
+  await page.locator('.sequence-branch').nth(1).locator('.sequence-box').click();
+  await component(page).selectOption('navigation');
+  await page.getByLabel('target_position, item 1').fill(target);
+}
+
+describe('sequences', () => {
+  test('a parallel sequence is built with the mouse, run, and shown while it runs', () =>
+    stage.page(
+      async (page) => {
+        await greeting(page, 'exit');
+        // Behind both: a wait, and a reaction.
+        await page.locator('.sequence-drawing > .sequence-lane > .sequence-last').hover();
+        await page.locator('.sequence-drawing > .sequence-lane > .sequence-last').getByRole('button', { name: 'Add a step here' }).click();
+        await page.getByRole('button', { name: 'Wait', exact: true }).click();
+        await page.getByLabel('How long').fill('300');
+        await page.getByRole('button', { name: 'Add a step', exact: true }).click();
+        await page.getByRole('button', { name: 'Command', exact: true }).click();
+        await component(page).selectOption('reaction');
+        await page.getByLabel('reaction_ref').fill('28');
+        await page.getByRole('tab', { name: 'XML' }).click();
+        const xml = await page.getByRole('region', { name: 'The execute request as XML' }).textContent();
+        expect(xml).toMatch(/ConcurrentCommandsType[^]*branch_list[^]*speech_synthesis[^]*branch_list[^]*navigation[^]*delay_time="300"[^]*reaction/);
+        await page.getByRole('button', { name: 'Copy as curl' }).click();
+        expect(await page.evaluate(() => navigator.clipboard.readText())).toContain('<execute');
+        await page.getByRole('button', { name: 'Run', exact: true }).click();
+        await box(page, 'navigation').getByText('running').waitFor();
+        await box(page, 'branches at once').getByText('running').waitFor();
+        await picture(page, 'sequence-running');
+        await page.getByText(/^All is done, after/).waitFor();
+        await box(page, 'reaction').getByText('OK').waitFor();
+        await page.getByText('0 bound').waitFor();
+        expect(await violations(page)).toBe('');
+      },
+      {},
+      path,
+    ));
+
+  test('steps are dragged into a branch, and back by undo', () =>
+    stage.page(
+      async (page) => {
+        await greeting(page);
+        await page.locator('.sequence-parallel > .sequence-box').click();
+        await page.keyboard.press('Insert');
+        await page.getByRole('button', { name: 'Wait', exact: true }).click();
+        const order = () => page.locator('.sequence-box').evaluateAll((all) => all.map((one) => (one.querySelector('.sequence-title') ?? one).textContent!.trim()));
+        expect(await order()).toEqual(['2 branches at once', 'speech_synthesis', 'navigation', 'Wait']);
+        const from = (await box(page, 'Wait').boundingBox())!;
+        const to = (await box(page, 'speech_synthesis').boundingBox())!;
+        await page.mouse.move(from.x + 20, from.y + 10);
+        await page.mouse.down();
+        await page.mouse.move(to.x + 30, to.y + 20, { steps: 6 });
+        await page.locator('.sequence-target').waitFor();
+        await picture(page, 'sequence-drag');
+        await page.mouse.up();
+        expect(await order()).toEqual(['2 branches at once', 'Wait', 'speech_synthesis', 'navigation']);
+        await page.getByRole('button', { name: /^Undo/ }).click();
+        expect(await order()).toEqual(['2 branches at once', 'speech_synthesis', 'navigation', 'Wait']);
+      },
+      {},
+      path,
+    ));
+
+  test('all of it is done with the keyboard', () =>
+    stage.page(
+      async (page) => {
+        await page.getByRole('button', { name: 'A command', exact: true }).press('Enter');
+        await page.waitForFunction(() => document.activeElement?.tagName === 'SELECT');
+        await component(page).selectOption('speech_synthesis');
+        await page.getByLabel('speech_text', { exact: true }).fill('Good day.');
+        await box(page, 'speech_synthesis').focus();
+        await page.keyboard.press('Insert');
+        await page.keyboard.press('Tab');
+        await page.keyboard.press('Tab');
+        await page.keyboard.press('Enter'); // branches
+        const parallel = box(page, 'branches at once');
+        await parallel.waitFor();
+        await page.waitForFunction(() => document.activeElement?.textContent?.includes('branches'));
+        await page.keyboard.press('ArrowLeft');
+        await page.keyboard.press('Alt+ArrowDown');
+        expect(await page.locator('.sequence-branch').first().locator('.sequence-box').textContent()).toContain('speech_synthesis');
+        await page.keyboard.press('Alt+ArrowDown');
+        expect(await page.locator('.sequence-branch').nth(1).locator('.sequence-box').textContent()).toContain('speech_synthesis');
+        await page.keyboard.press('Alt+ArrowRight');
+        expect(await page.locator('.sequence-branch .sequence-box').count()).toBe(0);
+        await page.waitForFunction(() => document.activeElement?.textContent?.includes('speech_synthesis'));
+        await page.keyboard.press('ArrowLeft');
+        await page.keyboard.press('Delete');
+        await parallel.waitFor({ state: 'detached' });
+        await page.waitForFunction(() => document.activeElement?.textContent?.includes('speech_synthesis'));
+        await page.keyboard.press('Enter');
+        await page.waitForFunction(() => document.activeElement?.tagName === 'SELECT');
+        await page.getByRole('button', { name: 'Run', exact: true }).press('Enter');
+        await page.getByText(/^All is done, after/).waitFor();
+        expect(await violations(page)).toBe('');
+      },
+      {},
+      path,
+    ));
+
+  test('what is missing, what is refused and what fails is shown where it is', () =>
+    stage.page(
+      async (page) => {
+        await greeting(page, 'nowhere');
+        await page.getByRole('button', { name: 'Add a step', exact: true }).click();
+        await page.getByRole('button', { name: 'Command', exact: true }).click();
+        await component(page).selectOption('follow');
+        await page.getByRole('button', { name: 'Run', exact: true }).click();
+        await page.getByText('This is needed.').first().waitFor();
+        await box(page, 'follow').getByText('not complete').waitFor();
+        await box(page, 'follow').press('Delete');
+        await page.getByRole('button', { name: 'Run', exact: true }).click();
+        await box(page, 'navigation').getByText('refused').waitFor();
+        await page.locator('.sequence-form').getByText(/neither "x, y" nor/).waitFor();
+        await page.getByLabel('target_position, item 1').fill('100000, 2000');
+        await page.getByRole('button', { name: 'Run', exact: true }).click();
+        await box(page, 'navigation').getByText('ERROR').waitFor();
+        await box(page, 'speech_synthesis').getByText('OK').waitFor();
+        await page.getByText('navigation start ended with ERROR.').waitFor();
+        await page.getByRole('button', { name: 'Show the step' }).click();
+        await page.getByText('The component could not do it.').waitFor();
+        await picture(page, 'sequence-failed');
+        expect(await violations(page)).toBe('');
+      },
+      {},
+      path,
+    ));
+
+  test('what runs is stopped, and so is what waits', () =>
+    stage.page(
+      async (page) => {
+        await greeting(page);
+        await component(page).selectOption('follow');
+        await page.getByLabel('target_object_ref').fill('nobody');
+        await page.getByLabel(/^distance/).fill('500');
+        await page.locator('.sequence-branch').first().locator('.sequence-box').click();
+        await page.getByLabel('Waits before it starts').fill('3600000');
+        await page.getByRole('button', { name: 'Run', exact: true }).click();
+        await box(page, 'follow').getByText('running').waitFor();
+        await page.getByRole('button', { name: 'Stop', exact: true }).click();
+        await box(page, 'follow').getByText('OK').waitFor(); // that is how it ends
+        await box(page, 'speech_synthesis').getByText('ABORT').waitFor();
+        await page.getByText('0 bound').waitFor();
+        expect(await page.getByRole('button', { name: 'Run', exact: true }).isEnabled()).toBe(true);
+      },
+      {},
+      path,
+    ));
+
+  test('sequences are kept by name, exported, and taken in again', () =>
+    stage.page(
+      async (page) => {
+        await greeting(page);
+        await open_library(page);
+        await page.getByLabel('Name', { exact: true }).fill('Greeting');
+        await page.getByRole('button', { name: 'Keep', exact: true }).click();
+        const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Export' }).click()]);
+        expect(download.suggestedFilename()).toBe('Greeting.xml');
+        const file = await download.path();
+        expect(await violations(page)).toBe('');
+        await picture(page, 'sequence-library');
+        await page.getByRole('button', { name: 'New', exact: true }).click();
+        await page.getByRole('button', { name: 'A command', exact: true }).waitFor();
+        await page.reload();
+        await open_library(page);
+        await page.getByRole('button', { name: 'Open Greeting' }).click();
+        await box(page, 'navigation').getByText('desk').waitFor();
+        await open_library(page);
+        await page.getByRole('button', { name: 'Forget Greeting' }).click();
+        await page.getByRole('button', { name: 'New', exact: true }).click();
+        await open_library(page);
+        await page.getByLabel('Or its text').fill('<a/>');
+        await page.getByRole('button', { name: 'Take over' }).click();
+        await page.getByText('There is no CommandUnitSequence in it').waitFor();
+        await page.getByLabel('An XML file').setInputFiles({ name: 'Other.xml', mimeType: 'text/xml', buffer: await import('node:fs/promises').then(({ readFile }) => readFile(file)) });
+        await box(page, 'speech_synthesis').getByText('This way, please.').waitFor();
+        await page.getByText('Other', { exact: true }).waitFor();
+      },
+      {},
+      path,
+    ));
+
+  test.each([
+    ['light', 'ja', 1024, 768],
+    ['dark', 'ja', 820, 1180],
+    ['light', 'en', 1600, 1000],
+  ] as const)('is accessible: %s, %s, %i', (look, language, width, height) =>
+    stage.page(
+      async (page) => {
+        await page.locator('.sequence-beginning button').nth(1).click();
+        await page.locator('.sequence-fields select').first().selectOption('speech_synthesis');
+        await page.getByLabel('speech_text', { exact: true }).fill('Irasshaimase');
+        await page.locator('.sequence-branch').nth(1).locator('.sequence-box').click();
+        await page.locator('.sequence-fields select').first().selectOption('move');
+        await page.locator('.sequence-add-branch').click();
+        await page.locator('.sequence-branch').nth(2).locator('.sequence-add').click();
+        await page.locator('.sequence-choices').waitFor();
+        expect(await violations(page)).toBe('');
+        await picture(page, `sequence-${look}-${language}-${width}`);
+      },
+      { look, language, width, height, touch: width < 1100 },
+      path,
+    ),
+  );
+});
