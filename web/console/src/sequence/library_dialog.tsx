@@ -61,8 +61,8 @@ export function LibraryDialog({ store, open, close }: { store: SequenceStore; op
                 <li key={name} class="row-spread">
                   <strong>{name}</strong>
                   <span class="row">
-                    <Button small onClick={() => take(name, text)}>
-                      {t.open_it(name)}
+                    <Button small aria-label={t.open_it(name)} onClick={() => take(name, text)}>
+                      {t.open}
                     </Button>
                     <IconButton small icon="close" label={t.drop_it(name)} onClick={() => store.drop(name)} />
                   </span>

@@ -15,6 +15,7 @@ export function RunSummary({ store }: { store: SequenceStore }) {
   return (
     <div class="sequence-summary" role="status">
       {run && (run.error !== undefined ? <Refused store={store} run={run} /> : <Progress store={store} run={run} />)}
+      {store.waiting_in_vain.length > 0 && <span class="field-hint">{t.in_vain(store.waiting_in_vain.join(', '))}</span>}
       {!run && store.going_on.length > 0 && <span class="field-hint">{t.stays_bound(store.going_on.join(', '))}</span>}
     </div>
   );
@@ -41,7 +42,7 @@ function Progress({ store, run }: { store: SequenceStore; run: Run }) {
   const took = duration(is_over ? last_end(all) - run.sent_at : Math.max(0, console.now.value - run.sent_at));
   return (
     <>
-      {is_over ? <StatusBadge status={failed ? failed[1].state : 'OK'} /> : <Badge tone="busy">{t.running}</Badge>}
+      {is_over ? <StatusBadge status={failed ? failed[1].state : 'OK'} /> : <Badge tone={store.is_running ? 'busy' : 'warning'}>{store.is_running ? t.running : t.stopped}</Badge>}
       <span>{is_over && !failed ? t.all_done(took) : t.done_of(ended.filter((one) => one.state === 'OK').length, all.length, took)}</span>
       {failed && (
         <>

@@ -1,5 +1,5 @@
 // The way from one step to the next, where steps can be added and dropped.
-import { useEffect, useRef } from 'preact/hooks';
+import { useLayoutEffect, useRef } from 'preact/hooks';
 
 import { Button, IconButton } from '../ui';
 import type { LaneContext } from './drawing';
@@ -23,7 +23,7 @@ export function SlotView({ slot, context, is_empty = false }: { slot: Slot; cont
           <Button small icon="components" onClick={() => add(new_command())}>
             {t.command}
           </Button>
-          <Button small icon="timeline" onClick={() => add(new_wait())}>
+          <Button small icon="clock" onClick={() => add(new_wait())}>
             {t.wait}
           </Button>
           <Button small icon="sequence" onClick={() => add(new_parallel())}>
@@ -40,7 +40,7 @@ export function SlotView({ slot, context, is_empty = false }: { slot: Slot; cont
 // Takes the focus; Escape and leaving it close it.
 function Choices({ close, children }: { close: () => void; children: preact.ComponentChildren }) {
   const box = useRef<HTMLDivElement>(null);
-  useEffect(() => box.current?.querySelector('button')?.focus(), []);
+  useLayoutEffect(() => box.current?.querySelector('button')?.focus(), []);
   const left = (event: FocusEvent) => {
     if (!box.current?.contains(event.relatedTarget as Node | null)) close();
   };

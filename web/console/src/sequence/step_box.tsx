@@ -29,7 +29,7 @@ export function WaitBox({ step, context }: Of<WaitStep>) {
   return (
     <Box step={step} context={context} kind="wait">
       <span class="sequence-title">
-        <Icon name="timeline" /> {texts().wait}
+        <Icon name="clock" /> {texts().wait}
       </span>
       <span class="sequence-what">{time_text(step.time)}</span>
     </Box>
@@ -51,7 +51,7 @@ export function ParallelHead({ step, context }: Of<ParallelStep>) {
 function Delay({ text }: { text: string }) {
   return (
     <span class="sequence-delay" title={texts().delay}>
-      <Icon name="timeline" size={12} /> {time_text(text)}
+      <Icon name="clock" size={12} /> {time_text(text)}
     </span>
   );
 }

@@ -20,6 +20,10 @@ export interface Run {
   root: Lane;
   /** By the ids of steps; empty until the engine has accepted it. */
   entries: ReadonlyMap<number, CommandEntry>;
+  /** Components that were bound for it, and are released when it is over. */
+  borrowed: readonly string[];
+  /** Somebody has stopped it: what waits then waits in vain. */
+  is_stopped?: boolean;
   /** Why it was refused. */
   error?: unknown;
   /** The step that the refusal names. */
@@ -40,7 +44,7 @@ export class SequenceStore {
   readonly problems = computed(() => problems_in_sequence(this.root.value, this.profiles));
   readonly can_undo = signal(false);
   private readonly past: Lane[] = [];
-  private bound_before: ReadonlySet<string> = new Set();
+  private in_vain: CommandEntry[] = []; // waited behind a delay when their run was stopped
 
   constructor(private readonly console: Console) {
     this.root.value = draft_of(console.environment.recall('sequence')) ?? new_lane();
@@ -137,7 +141,21 @@ export class SequenceStore {
 
   get is_running(): boolean {
     void this.console.commands.pulse.beat.value;
-    return [...(this.run.value?.entries.values() ?? [])].some((one) => !has_ended(one));
+    return this.open_entries().some((one) => one.state === 'running' || !this.run.value?.is_stopped);
+  }
+
+  /**
+   * Components of this sequence that have a command of a stopped run in their queue. An engine looks at the binding only when its turn
+   * comes: bound again before, it would run.
+   */
+  get waiting_in_vain(): string[] {
+    void this.console.commands.pulse.beat.value;
+    const refs = new Set(this.in_vain.filter((one) => !has_ended(one)).map((one) => one.component));
+    return [...new Set(commands_in(this.root.value).map((one) => one.component))].filter((ref) => refs.has(ref));
+  }
+
+  private open_entries(): CommandEntry[] {
+    return [...(this.run.value?.entries.values() ?? [])].filter((one) => !has_ended(one));
   }
 
   /** Components whose work goes on when their `start` has completed: they stay bound. */
@@ -151,28 +169,32 @@ export class SequenceStore {
     const { units } = this;
     const steps = commands_in(root).map((one) => one.id);
     const sent_at = this.console.environment.now();
-    this.bound_before = this.console.bindings.mine.value;
+    const give_back = this.going_on.length === 0;
+    const mine = this.console.bindings.mine.value;
+    const borrowed = give_back ? [...new Set(commands_in(root).map((one) => one.component))].filter((ref) => !mine.has(ref)) : [];
     try {
-      const { command_ids } = await this.console.execute(units, { give_back: this.going_on.length === 0 });
+      const { command_ids } = await this.console.execute(units, { give_back });
       const found = command_ids.map((id, i) => [steps[i], this.console.commands.find(id)] as const);
       const entries = new Map(found.filter((one): one is [number, CommandEntry] => one[0] !== undefined && one[1] !== undefined));
-      this.run.value = { sent_at, root, entries };
+      this.run.value = { sent_at, root, entries, borrowed };
     } catch (error) {
       const refused_step = step_named_by(error, units, steps);
-      this.run.value = { sent_at, root, entries: new Map(), error, ...(refused_step !== undefined && { refused_step }) };
+      this.run.value = { sent_at, root, entries: new Map(), borrowed: [], error, ...(refused_step !== undefined && { refused_step }) };
       if (refused_step !== undefined) this.chosen.value = refused_step;
       throw error;
     }
   }
 
-  /** Stops what runs; what waits on its own (behind a delay) ends with its binding. */
+  /** Stops what runs, and with it what waits behind that. What waits on its own, behind a delay, ends in its turn: its component is released. */
   async stop(): Promise<void> {
-    const open = () => [...new Set([...(this.run.value?.entries.values() ?? [])].filter((one) => !has_ended(one)).map((one) => one.component))];
+    const open = () => [...new Set(this.open_entries().map((one) => one.component))];
     await Promise.all(open().map(async (ref) => (await this.console.run(ref, 'stop')).ends.catch(() => undefined)));
-    for (const ref of open()) {
-      await this.console.bindings.release(ref);
-      if (this.bound_before.has(ref)) await this.console.bindings.bind(ref);
-    }
+    this.in_vain = [...this.in_vain, ...this.open_entries()].filter((one) => !has_ended(one));
+    const waiting = open();
+    // With nothing left that waits, what was borrowed goes back by itself.
+    const done_with = waiting.length === 0 ? [] : [...new Set([...waiting, ...(this.run.value?.borrowed ?? [])])];
+    for (const ref of done_with) if (this.console.bindings.mine.value.has(ref)) await this.console.bindings.release(ref);
+    if (this.run.value) this.run.value = { ...this.run.value, is_stopped: true };
   }
 }
 

@@ -18,6 +18,7 @@ const paths = {
   stop: 'M3.5 3.5h9v9h-9z',
   plus: 'M8 3v10M3 8h10',
   minus: 'M3 8h10',
+  clock: 'M8 14.5a6.5 6.5 0 1 0 0-13 6.5 6.5 0 0 0 0 13zM8 4.5V8l2.5 1.5',
   search: 'M7 12A5 5 0 1 0 7 2a5 5 0 0 0 0 10zM10.5 10.5 14 14',
   filter: 'M2 4h12M4.5 8h7M7 12h2',
   download: 'M8 2v8M4.5 7 8 10.5 11.5 7M2.5 13.5h11',

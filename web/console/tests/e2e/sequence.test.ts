@@ -92,6 +92,7 @@ describe('sequences', () => {
         await page.getByLabel('speech_text', { exact: true }).fill('Good day.');
         await box(page, 'speech_synthesis').focus();
         await page.keyboard.press('Insert');
+        await page.waitForFunction(() => document.activeElement?.closest('.sequence-choices'));
         await page.keyboard.press('Tab');
         await page.keyboard.press('Tab');
         await page.keyboard.press('Enter'); // branches
@@ -161,9 +162,14 @@ describe('sequences', () => {
         await box(page, 'follow').getByText('running').waitFor();
         await page.getByRole('button', { name: 'Stop', exact: true }).click();
         await box(page, 'follow').getByText('OK').waitFor(); // that is how it ends
-        await box(page, 'speech_synthesis').getByText('ABORT').waitFor();
+        await page.getByText('Released: speech_synthesis.').waitFor();
         await page.getByText('0 bound').waitFor();
-        expect(await page.getByRole('button', { name: 'Run', exact: true }).isEnabled()).toBe(true);
+        const run = page.getByRole('button', { name: 'Run', exact: true });
+        expect(await run.isEnabled()).toBe(false); // what waits would run, too
+        await page.getByRole('button', { name: 'Disconnect' }).click();
+        await page.getByRole('button', { name: 'Connect', exact: true }).click();
+        await box(page, 'speech_synthesis').getByText(/^(ABORT|unknown)$/).waitFor();
+        await page.waitForFunction(() => !(document.querySelector('.sequence-toolbar button') as HTMLButtonElement).disabled);
       },
       {},
       path,

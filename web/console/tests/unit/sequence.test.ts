@@ -260,19 +260,25 @@ describe('the store', () => {
   test('stops what runs, and releases what waits on its own', async () => {
     const { world, console, store } = await connected();
     await console.bindings.bind('navigation');
+    const status = (text: string) => `<results><result rois:name="status"><rois:data_type_ref rois:code="string"/><rois:value>${text}</rois:value></result></results>`;
+    world.answers.set('get_command_result', (request) => status(request.text_of('command_id') === ids(world)[0]?.[1] ? 'WAITING' : 'RUNNING'));
     store.change(both());
     await store.execute();
-    const [first] = ids(world)[0]!;
+    const [first, second] = ids(world)[0]!;
     const stopped = store.stop();
     await settled();
     await settled();
     const stops = ids(world).slice(1).flat();
     expect(stops.length).toBe(2);
-    for (const id of stops) await world.notifies('completed', `<command_id>${id}</command_id><status>OK</status>`);
     await world.notifies('completed', `<command_id>${first}</command_id><status>ABORT</status>`);
+    for (const id of stops) await world.notifies('completed', `<command_id>${id}</command_id><status>OK</status>`);
     await stopped;
-    expect(world.names().filter((one) => one === 'release').length).toBeGreaterThanOrEqual(1);
-    expect(console.bindings.mine.value.has('navigation')).toBe(true);
+    // It waits on its own: released, it ends in its turn. Until then it must not be bound again.
+    expect(world.requests.filter((one) => one.name === 'release').map((one) => one.child('component_ref')?.attributes[0]?.value)).toEqual(['speech']);
+    expect(console.bindings.mine.value).toEqual(new Set(['navigation']));
+    expect([store.is_running, store.waiting_in_vain]).toEqual([false, ['speech']]);
+    await world.notifies('completed', `<command_id>${second}</command_id><status>ABORT</status>`);
+    expect(store.waiting_in_vain).toEqual([]);
   });
 
   test('undoes, keeps, exports and reads back', async () => {
