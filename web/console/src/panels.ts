@@ -4,6 +4,7 @@ import type { ComponentType } from 'preact';
 import { texts as components } from './components/texts';
 import { texts as conditions } from './conditions/texts';
 import { texts as sequence } from './sequence/texts';
+import { texts as messages } from './messages/texts';
 import type { IconName } from './ui/icon';
 
 /** Where a panel stands on a wide screen: the big one, the strip below it, or the column beside both. */
@@ -23,4 +24,5 @@ export const panels: readonly Panel[] = [
   { id: 'components', title: () => components().title, icon: 'components', area: 'side', load: () => import('./components/panel') },
   { id: 'conditions', title: () => conditions().title, icon: 'conditions', area: 'main', load: () => import('./conditions/panel') },
   { id: 'sequence', title: () => sequence().title, icon: 'sequence', area: 'main', load: () => import('./sequence/panel') },
+  { id: 'messages', title: () => messages().title, icon: 'messages', area: 'below', load: () => import('./messages/panel') },
 ];

@@ -2,12 +2,11 @@
 import { useState } from 'preact/hooks';
 import { command, request, sequence_xml } from 'rois-client';
 
-import { arguments_in, ArgumentFields, asked_by, CommandProgress, Exchange, type Inputs, problems_in, signature } from '../forms';
+import { arguments_in, ArgumentFields, asked_by, CommandProgress, Exchange, type Inputs, last_outcome, misplaced, problems_in, signature, useDraft } from '../forms';
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
 import { Checkbox } from '../ui';
-import { useDraft } from './drafts';
 import { Pick } from './pick';
 import { texts } from './texts';
 
@@ -47,13 +46,15 @@ function CommandForm({ view, name }: { view: ComponentView; name: string }) {
   // What is missing is told when somebody wants to send it, what is wrong at once.
   const shown = was_tried ? problems : Object.fromEntries(Object.entries(problems).filter(([, one]) => one.what !== 'missing' && one.what !== 'either'));
   const unit = { ...command(view.ref, name), arguments: arguments_in(console, view.ref, asked, inputs) };
+  const title = `${view.ref} ${name}`;
   const timeout = view.commands.find((one) => one.name === name)?.timeout;
   return (
     <form class="component-form" onSubmit={(event) => event.preventDefault()}>
       {asked.length > 0 && <ArgumentFields view={view} asked={asked} inputs={inputs} change={change} problems={shown} />}
+      {misplaced(console, unit).map((text) => <p key={text} class="exchange-why">{text}</p>)}
       {timeout !== undefined && <p class="component-soft">{t.start_within(duration(timeout))}</p>}
       <Exchange
-        title={`${view.ref} ${name}`}
+        title={title}
         operation="execute"
         label={name}
         request={written(() => request('execute', {}, sequence_xml([unit])))}
@@ -65,17 +66,17 @@ function CommandForm({ view, name }: { view: ComponentView; name: string }) {
       >
         <Checkbox label={t.given_back} checked={give_back} change={set_give_back} />
       </Exchange>
-      <Others view={view} />
+      <Others view={view} title={title} />
     </form>
   );
 }
 
-// What is still open on this component, from whatever form it came.
-function Others({ view }: { view: ComponentView }) {
+// What is still open on this component and was sent elsewhere: by another form or panel.
+function Others({ view, title }: { view: ComponentView; title: string }) {
   const { commands } = useConsole();
   void commands.pulse.beat.value;
-  const open = commands.open().filter((one) => one.component === view.ref);
-  if (open.length < 2) return null;
+  const here = last_outcome(title)?.request?.number;
+  const open = commands.open().filter((one) => one.component === view.ref && one.sequence.document !== here);
   return <>{open.map((one) => <CommandProgress key={one.id} entry={one} />)}</>;
 }
 

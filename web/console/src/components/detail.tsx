@@ -1,10 +1,11 @@
 // One component: how it is, who has it, and what it can do.
+import { useDraft } from '../forms';
 import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
 import { Button, error_text, StatusBadge, Tabs } from '../ui';
 import { CommandsTab } from './commands_tab';
-import { useDraft } from './drafts';
 import { EventsTab } from './events_tab';
+import { holder_text } from './holder';
 import { ParametersTab } from './parameters_tab';
 import { QueriesTab } from './queries_tab';
 import { texts } from './texts';
@@ -39,10 +40,10 @@ export function Detail({ view }: { view: ComponentView }) {
 }
 
 function Head({ view }: { view: ComponentView }) {
-  const { status, bindings, notices, now, link } = useConsole();
+  const console = useConsole();
+  const { status, bindings, notices, now, link } = console;
   const t = texts();
   const entry = status.of(view.ref);
-  const holder = bindings.holder_of(view.ref);
   const told = (done: Promise<unknown>) => void done.catch((error: unknown) => notices.tell('error', error_text(error)));
   return (
     <header class="component-head">
@@ -50,8 +51,8 @@ function Head({ view }: { view: ComponentView }) {
         <h2>{view.ref}</h2>
         {entry && <StatusBadge status={entry.status} title={entry.trouble} />}
         {entry && <span class="component-soft">{t.since(Math.max(0, now.value - entry.since))}</span>}
-        <span class="component-holder">{holder.who === 'me' ? t.mine : holder.who === 'other' ? t.other(holder.session) : t.nobody}</span>
-        {holder.who === 'me' ? (
+        <span class="component-holder">{holder_text(console, view.ref) || t.nobody}</span>
+        {bindings.mine.value.has(view.ref) ? (
           <Button small disabled={!link.is_open} aria-label={t.release_it(view.ref)} onClick={() => told(bindings.release(view.ref))}>
             {t.release}
           </Button>

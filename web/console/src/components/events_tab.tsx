@@ -1,12 +1,11 @@
 // A form to subscribe to every event of a component, what is subscribed, and the last events.
 import { component_ref, Condition, condition_xml, parse_xml, request, text_element } from 'rois-client';
 
-import { Exchange, signature } from '../forms';
+import { Exchange, signature, useDraft } from '../forms';
 import { clock_time } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import type { ComponentView, Offered } from '../state/profile_state';
 import { Button, Checkbox, error_text, TextArea } from '../ui';
-import { useDraft } from './drafts';
 import { Pick } from './pick';
 import { texts } from './texts';
 
@@ -84,7 +83,7 @@ function Subscriptions({ event_type }: { event_type: string }) {
   const { subscriptions, notices, events } = useConsole();
   const t = texts();
   void events.pulse.beat.value; // counts change in place
-  const those = [...subscriptions.all.value.values()].filter((one) => one.event_type === event_type);
+  const those = [...subscriptions.all.value.values()].filter((one) => one.event_type === event_type && !subscriptions.is_own(one.id));
   if (those.length === 0) return null;
   const leave = (id: string) => void subscriptions.unsubscribe(id).catch((error: unknown) => notices.tell('error', error_text(error)));
   return (
@@ -107,12 +106,12 @@ function Subscriptions({ event_type }: { event_type: string }) {
 }
 
 function LastEvents({ view, event_type }: { view: ComponentView; event_type: string }) {
-  const { events } = useConsole();
+  const { events, subscriptions } = useConsole();
   void events.pulse.beat.value;
   const last = [];
   for (let i = 1; i <= events.events.size && last.length < most_shown; ++i) {
     const one = events.events.at(-i)!;
-    if (one.event.event_type === event_type && one.event.component_ref.code === view.ref) last.push(one);
+    if (one.event.event_type === event_type && one.event.component_ref.code === view.ref && !subscriptions.is_own(one.event.subscribe_id)) last.push(one);
   }
   if (last.length === 0) return null;
   return (

@@ -1,31 +1,21 @@
 // What the engine has, as a tree of engines and components, and everything that can be done with the one that is chosen.
 import './components.css';
 
-import { useLayoutEffect, useRef, useState } from 'preact/hooks';
-
 import { useConsole, useWatch } from '../shell/context';
-import { EmptyState, SplitPane } from '../ui';
+import { EmptyState, SplitPane, useIsWide } from '../ui';
 import { Detail } from './detail';
 import { texts } from './texts';
 import { Tree } from './tree';
-
-const wide_enough = 820; // px, for the tree and the component side by side
 
 export default function ComponentsPanel() {
   const { profile, status, metrics, selection } = useConsole();
   useWatch(status.poll);
   useWatch(metrics.poll);
-  const frame = useRef<HTMLDivElement>(null);
-  const [is_wide, set_wide] = useState(false);
-  useLayoutEffect(() => {
-    const observer = new ResizeObserver(() => set_wide(frame.current!.clientWidth >= wide_enough));
-    observer.observe(frame.current!);
-    return () => observer.disconnect();
-  }, []);
+  const [frame, is_wide] = useIsWide(820); // for the tree and the component side by side
   const engine = profile.engine.value;
   const ref = selection.component.value;
   const view = profile.component(ref);
-  const detail = view ? <Detail key={ref} view={view} /> : <EmptyState icon="components" title={ref === '' ? texts().pick : texts().gone(ref)} />;
+  const detail = view ? <Detail key={ref} view={view} /> : <EmptyState icon="components" title={profile.is_empty.value ? texts().empty : ref === '' ? texts().pick : texts().gone(ref)} />;
   return (
     <div ref={frame} class="engine-panel">
       {!engine ? (

@@ -2,11 +2,10 @@
 import { useState } from 'preact/hooks';
 import { component_ref_xml, element, parameter_xml, request } from 'rois-client';
 
-import { arguments_in, ArgumentFields, asked_by, Exchange, type Inputs, problems_in, ResultsTable } from '../forms';
+import { arguments_in, ArgumentFields, asked_by, Exchange, type Inputs, problems_in, ResultsTable, useDraft } from '../forms';
 import { useConsole, useWatch } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
 import { written } from './commands_tab';
-import { useDraft } from './drafts';
 import { texts } from './texts';
 
 export function ParametersTab({ view }: { view: ComponentView }) {

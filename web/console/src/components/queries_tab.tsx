@@ -1,10 +1,9 @@
 // A form for every query of a component.
 import { component_ref, condition_xml, request, text_element } from 'rois-client';
 
-import { Exchange, signature } from '../forms';
+import { Exchange, signature, useDraft } from '../forms';
 import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
-import { useDraft } from './drafts';
 import { Pick } from './pick';
 import { texts } from './texts';
 

@@ -4,6 +4,7 @@ import { useRef, useState } from 'preact/hooks';
 import { useConsole } from '../shell/context';
 import type { ComponentView, EngineView } from '../state/profile_state';
 import { Badge, Icon, StatusBadge } from '../ui';
+import { holder_text } from './holder';
 import { texts } from './texts';
 
 export function Tree({ engine }: { engine: EngineView }) {
@@ -82,10 +83,11 @@ function Engine({ engine, at, closed, toggle }: EngineProps) {
 }
 
 function Row({ component, is_stop }: { component: ComponentView; is_stop: boolean }) {
-  const { status, bindings, commands, selection } = useConsole();
+  const console = useConsole();
+  const { status, commands, selection } = console;
   void commands.pulse.beat.value;
   const entry = status.of(component.ref);
-  const holder = bindings.holder_of(component.ref);
+  const holder = holder_text(console, component.ref);
   const running = commands.running_on(component.ref).at(-1);
   const is_chosen = selection.component.value === component.ref;
   const choose = (event: Event) => {
@@ -97,7 +99,7 @@ function Row({ component, is_stop }: { component: ComponentView; is_stop: boolea
       <span class="engine-ref">{component.ref}</span>
       <span class="engine-type">{component.type_name}</span>
       {running && <Badge tone="busy">{running.command_type}</Badge>}
-      {holder.who !== 'nobody' && <span class="engine-holder">{holder.who === 'me' ? texts().mine : texts().other(holder.session)}</span>}
+      {holder !== '' && <span class="engine-holder">{holder}</span>}
       {entry ? <StatusBadge status={entry.status} title={entry.trouble} /> : <span class="engine-holder">{texts().unasked}</span>}
     </li>
   );

@@ -12,6 +12,7 @@ import type { LoggedDocument } from '../state/documents';
 import { Button, CurlButton, error_text, type IconName, StatusBadge, XmlView } from '../ui';
 import { CommandProgress } from './command_progress';
 import { ResultsTable } from './results_table';
+import { draft, useDraft } from './drafts';
 import { exchange_texts } from './exchange_texts';
 
 export interface ExchangeProps {
@@ -30,7 +31,7 @@ export interface ExchangeProps {
   children?: preact.ComponentChildren;
 }
 
-interface Outcome {
+export interface Outcome {
   request: LoggedDocument | undefined; // as it was sent; undefined when it was not
   answer: LoggedDocument | undefined;
   error: unknown;
@@ -39,7 +40,7 @@ interface Outcome {
 export function Exchange({ title, operation, request, act, may_send, label, icon, children }: ExchangeProps) {
   const console = useConsole();
   const t = exchange_texts();
-  const [outcome, set_outcome] = useState<Outcome>();
+  const [outcome, set_outcome] = useDraft<Outcome | undefined>(key_of(title), undefined);
   const [is_busy, set_busy] = useState(false);
   const whole = useRef<HTMLDivElement>(null);
   const send = async () => {
@@ -69,6 +70,13 @@ export function Exchange({ title, operation, request, act, may_send, label, icon
       </div>
     </div>
   );
+}
+
+const key_of = (title: string) => `outcome of ${title}`;
+
+/** What came of what was sent last under this title. */
+export function last_outcome(title: string): Outcome | undefined {
+  return draft(key_of(title));
 }
 
 /** Does it, and finds the documents that it is made of. */

@@ -3,6 +3,7 @@ export * from './argument_fields';
 export * from './command_progress';
 export * from './data_type';
 export * from './describe';
+export * from './drafts';
 export * from './exchange';
 export * from './inputs';
 export * from './options';

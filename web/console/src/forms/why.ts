@@ -22,7 +22,7 @@ export function why(console: Console, entry: CommandEntry): string[] {
   return [...said, ...errors, ...found];
 }
 
-/** Positions that cannot be reached, since they are no part of the hall. */
+/** Positions that cannot be reached, since they are no part of the hall; told before it is sent, too. */
 export function misplaced({ map }: Console, entry: Pick<CommandEntry, 'arguments'>): string[] {
   const view = map.view.value;
   if (view.state !== 'there') return [];

@@ -50,9 +50,11 @@ export function Drawing({ store, adding, set_adding, open_form }: DrawingProps) 
   const context: LaneContext = { store, view, adding, set_adding, drag, first, go_to };
   return (
     <div ref={frame} class={drag.dragged ? 'sequence-drawing sequence-dragging' : 'sequence-drawing'} role="group" aria-label={t.drawing} onKeyDown={pressed}>
-      <span class="sequence-begin" aria-hidden="true" />
-      <LaneView lane={root} label={t.steps} context={context} />
-      <span class="sequence-end" aria-hidden="true" />
+      <div class="sequence-whole">
+        <span class="sequence-begin" aria-hidden="true" />
+        <LaneView lane={root} label={t.steps} context={context} />
+        <span class="sequence-end" aria-hidden="true" />
+      </div>
     </div>
   );
 }

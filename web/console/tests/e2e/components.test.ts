@@ -1,5 +1,6 @@
 // The components panel: the tree, forms for commands, parameters, queries and events, and what comes of them.
 import type { Page } from 'playwright-core';
+import { connect } from 'rois-client';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
 import { picture, root, Stage, violations } from './harness';
@@ -69,6 +70,7 @@ describe('components', () => {
       // What was typed is still there.
       await open(page, 'navigation');
       expect(await page.getByLabel('target_position, item 2').inputValue()).toBe('desk');
+      await answer(page).getByText(/It is (running|done)\./).waitFor();
       await page.getByRole('button', { name: 'Release navigation' }).click();
       await item(page, 'navigation').getByText('bound by me').waitFor({ state: 'detached' });
     }));
@@ -81,7 +83,12 @@ describe('components', () => {
       await page.getByLabel('Release it when the command has ended').check();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
       await answer(page).getByText('It is running.').waitFor();
+      // It is seen from another form, too.
+      await page.getByRole('button', { name: 'resume', exact: true }).click();
+      await page.getByText('The answer will stand here.').waitFor();
       await page.getByRole('button', { name: 'Stop follow start' }).click();
+      await page.getByRole('button', { name: 'Stop follow start' }).waitFor({ state: 'detached' });
+      await page.getByRole('button', { name: 'start', exact: true }).click();
       await answer(page).getByText('It is done.').waitFor();
       await item(page, 'follow').getByText('bound by me').waitFor({ state: 'detached' });
     }));
@@ -117,7 +124,7 @@ describe('components', () => {
   test('an event is subscribed to, comes, and is left', () =>
     stage.page(async (page) => {
       await open(page, 'person_detection');
-      await page.getByRole('tab', { name: /^Events/ }).click();
+      await page.getByRole('tab', { name: /^Events(?! and)/ }).click();
       await page.getByLabel(/^Further condition/).fill('<fes:PropertyIs');
       await page.getByText(/This is no XML/).waitFor();
       await page.getByLabel(/^Further condition/).fill('<fes:PropertyIsLessThan><fes:ValueReference>number</fes:ValueReference><fes:Literal>100</fes:Literal></fes:PropertyIsLessThan>');
@@ -126,8 +133,8 @@ describe('components', () => {
       await page.getByRole('tab', { name: /^Commands/ }).click();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
       await answer(page).getByText('It is done.').waitFor();
-      await page.getByRole('tab', { name: /^Events/ }).click();
-      await page.getByText('number: 0').waitFor();
+      await page.getByRole('tab', { name: /^Events(?! and)/ }).click();
+      await page.locator('.component-list').getByText('number: 0').waitFor();
       await page.getByText('1 event', { exact: false }).first().waitFor();
       await picture(page, 'components-events');
       expect(await violations(page)).toBe('');
@@ -148,6 +155,39 @@ describe('components', () => {
       await page.getByRole('button', { name: 'Copied' }).waitFor();
       expect(await page.evaluate(() => navigator.clipboard.readText())).toMatch(/^curl -s -H 'Content-Type: application\/xml' -H 'RoIS-Session: [^']+' -d '<execute [^]*http:\/\/127\.0\.0\.1:\d+\/rois$/);
     }));
+
+  test('who has a component is told, and that it cannot be had', async () => {
+    const other = await connect(stage.gateway.url);
+    await other.bind('reaction');
+    await stage.page(async (page) => {
+      await open(page, 'reaction');
+      await item(page, 'reaction').getByText(/bound by (another )?session/).waitFor();
+      await page.getByRole('button', { name: 'Bind reaction' }).click();
+      await page.getByRole('alert').getByText(/Another application has it/).waitFor();
+      await other.release('reaction');
+      await item(page, 'reaction').getByText(/bound by/).waitFor({ state: 'detached' });
+      await page.getByRole('button', { name: 'Bind reaction' }).click();
+      await item(page, 'reaction').getByText('bound by me').waitFor();
+    });
+    await other.close();
+  });
+
+  test('whom to follow is chosen from who is there', async () => {
+    const visited = await Stage.set('--scenario', `${root}/tests/server/data/one_visitor.xml`, '--sim-speed', '20', '--seed', '7');
+    await visited.page(async (page) => {
+      await open(page, 'person_localization');
+      await page.getByRole('button', { name: 'start', exact: true }).last().click();
+      await answer(page).getByText('It is done.').waitFor();
+      await open(page, 'follow');
+      await page.locator('datalist option[value="person-1"]').waitFor({ state: 'attached' });
+      await page.getByLabel('target_object_ref').fill('person-1');
+      expect(await page.getByRole('region', { name: 'Request: follow start' }).textContent()).toContain('rois:codebook_ref="urn:x-rois:def:codebook:simulation::track"');
+      await page.getByLabel('distance').fill('800');
+      await page.getByRole('button', { name: 'start', exact: true }).last().click();
+      await answer(page).getByText('It is running.').waitFor();
+    });
+    await visited.strike();
+  });
 
   test('the tree is walked with the keyboard, and says who has what', () =>
     stage.page(async (page) => {

@@ -32,8 +32,8 @@ describe('sequences', () => {
       async (page) => {
         await greeting(page, 'exit');
         // Behind both: a wait, and a reaction.
-        await page.locator('.sequence-drawing > .sequence-lane > .sequence-last').hover();
-        await page.locator('.sequence-drawing > .sequence-lane > .sequence-last').getByRole('button', { name: 'Add a step here' }).click();
+        await page.locator('.sequence-whole > .sequence-lane > .sequence-last').hover();
+        await page.locator('.sequence-whole > .sequence-lane > .sequence-last').getByRole('button', { name: 'Add a step here' }).click();
         await page.getByRole('button', { name: 'Wait', exact: true }).click();
         await page.getByLabel('How long').fill('300');
         await page.getByRole('button', { name: 'Add a step', exact: true }).click();

@@ -4,6 +4,10 @@ import { useState } from 'preact/hooks';
 const kept = new Map<string, unknown>();
 const most = 300;
 
+export function draft<T>(key: string): T | undefined {
+  return kept.get(key) as T | undefined;
+}
+
 export function useDraft<T>(key: string, usual: T): [T, (to: T) => void] {
   const [, again] = useState(0);
   const put = (to: T) => {
