@@ -2,6 +2,7 @@
 import { useEffect } from 'preact/hooks';
 
 import { useConsole, useWatch } from '../shell/context';
+import { show_panel } from '../shell/layout';
 import { error_text, StatusBadge } from '../ui';
 import { problems_of } from './checking';
 import { component_part, waits_for_results } from './matches';
@@ -11,7 +12,7 @@ import { texts } from './texts';
 
 export function MatchesView({ store }: { store: ConditionStore }) {
   const t = texts();
-  const { profile, status, link } = useConsole();
+  const { profile, status, link, selection } = useConsole();
   const draft = store.draft.value;
   const references = store.references.value;
   const condition = component_part(draft, references);
@@ -19,6 +20,10 @@ export function MatchesView({ store }: { store: ConditionStore }) {
   useWatch(status.poll);
   useWatch(store.matches);
   useEffect(() => store.matches.look_for(condition, eligible(draft, profile.components.value)), [condition.xml, draft.purpose, draft.event_type, draft.query_type, profile.told_at.value]);
+  const open = (ref: string) => {
+    selection.component.value = ref;
+    show_panel('components');
+  };
   const found = store.matches.found.value;
   const shown = found?.refs.filter(eligible(draft, profile.components.value)) ?? [];
   return (
@@ -30,13 +35,15 @@ export function MatchesView({ store }: { store: ConditionStore }) {
       {found?.trouble !== undefined && <p class="field-error">{error_text(found.trouble)}</p>}
       {missing > 0 && <p class="field-hint">{t.incomplete(missing)}</p>}
       {waits_for_results(draft, references) && <p class="field-hint">{t.on_results}</p>}
-      <ol class="conditions-found" aria-label={t.found} tabIndex={0}>
+      <ol class="conditions-found" aria-label={t.found}>
         {shown.map((ref, i) => {
           const entry = status.of(ref);
           return (
             <li key={ref}>
               {draft.order.length > 0 && <span class="conditions-type">{i + 1}</span>}
-              <span class="conditions-ref">{ref}</span>
+              <button type="button" class="conditions-ref" title={t.open_component} onClick={() => open(ref)}>
+                {ref}
+              </button>
               <span class="conditions-type conditions-fill">{profile.component(ref)?.type_name}</span>
               {entry && <StatusBadge status={entry.status} />}
             </li>

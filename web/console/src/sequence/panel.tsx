@@ -4,7 +4,7 @@ import './sequence.css';
 import { useEffect, useRef, useState } from 'preact/hooks';
 
 import { useConsole, useWatch } from '../shell/context';
-import { Button, CurlButton, EmptyState, SplitPane, Tabs, XmlView } from '../ui';
+import { Button, CurlButton, EmptyState, SplitPane, Tabs, useIsWide, XmlView } from '../ui';
 import { Drawing } from './drawing';
 import { Inspector } from './inspector';
 import { LibraryDialog } from './library_dialog';
@@ -23,6 +23,7 @@ export default function SequencePanel() {
   const [adding, set_adding] = useState<Slot>();
   const [part, set_part] = useState<Part>('step');
   const [library, set_library] = useState(false);
+  const [panes, is_wide] = useIsWide(860);
   const below = useRef<HTMLDivElement>(null);
   const root = store.root.value;
   const refs = [...new Set(commands_in(root).map((one) => one.component))].filter((ref) => console.profile.component(ref) !== undefined);
@@ -31,21 +32,24 @@ export default function SequencePanel() {
     requestAnimationFrame(() => below.current?.querySelector<HTMLElement>('select, input')?.focus());
   };
   useEffect(() => set_part('step'), [store.chosen.value]);
-  if (!console.profile.profile.value) return <EmptyState icon="sequence" title={t.no_profile} />;
+  const knows_profile = console.profile.profile.value !== undefined;
   return (
     <div class="sequence">
       <h2 class="unseen">{t.title}</h2>
       {refs.map((ref) => <Looks key={ref} component={ref} />)}
       <Toolbar store={store} set_adding={set_adding} open_library={() => set_library(true)} />
       <RunSummary store={store} />
-      <div class="sequence-panes">
+      <div class="sequence-panes" ref={panes}>
         <SplitPane
-          id="sequence"
-          direction="column"
-          share={0.5}
+          key={is_wide ? 'row' : 'column'}
+          id={is_wide ? 'sequence.row' : 'sequence'}
+          direction={is_wide ? 'row' : 'column'}
+          share={is_wide ? 0.62 : 0.5}
           label={t.resize}
           first={
-            root.steps.length === 0 && !adding ? (
+            !knows_profile ? (
+              <EmptyState icon="sequence" title={t.no_profile} />
+            ) : root.steps.length === 0 && !adding ? (
               <Beginning store={store} open_form={open_form} />
             ) : (
               <Drawing store={store} adding={adding} set_adding={set_adding} open_form={open_form} />

@@ -80,7 +80,7 @@ export const texts = in_both({
     unreadable: (reason: string) => `This cannot be read: ${reason}`,
     request: 'The execute request as XML',
     curl_hint: 'The components have to be bound by the session before; Run does that by itself.',
-    resize: 'Height of the drawing',
+    resize: 'Size of the drawing',
   },
   ja: {
     title: 'シーケンス',
@@ -161,6 +161,6 @@ export const texts = in_both({
     unreadable: (reason: string) => `読めません: ${reason}`,
     request: 'XML としての execute 要求',
     curl_hint: '先にセッションがコンポーネントをバインドしている必要があります。「実行」では自動です。',
-    resize: '図の高さ',
+    resize: '図の大きさ',
   },
 });
