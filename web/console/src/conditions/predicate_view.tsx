@@ -66,7 +66,7 @@ export function complaint_of(found: readonly Found[], field: ProblemField): { er
   return one.is_missing ? { hint: text } : { error: text };
 }
 
-function needs_distance({ operator }: Predicate): boolean {
+function needs_distance({ operator }: Pick<Predicate, 'operator'>): boolean {
   return operator === 'DWithin' || operator === 'Beyond';
 }
 
@@ -141,7 +141,10 @@ function OperatorField({ predicate, reference, change }: { predicate: Predicate;
   const t = texts();
   const usual = operators_for(reference?.type ?? 'text');
   const operators = usual.includes(predicate.operator) ? usual : [...usual, predicate.operator];
-  const kinds = (operator: Operator): AreaKind[] => (needs_distance({ operator } as Predicate) ? ['point', 'place', 'box'] : operator === predicate.operator && predicate.area.kind === 'point' ? ['box', 'place', 'point'] : ['box', 'place']);
+  const kinds = (operator: Operator): AreaKind[] => {
+    if (needs_distance({ operator })) return ['point', 'place', 'box'];
+    return operator === predicate.operator && predicate.area.kind === 'point' ? ['box', 'place', 'point'] : ['box', 'place'];
+  };
   const choices = operators.flatMap((one) => (is_spatial(one) ? kinds(one).map((kind) => `${one}_${kind}`) : [one]));
   const chosen = is_spatial(predicate.operator) ? `${predicate.operator}_${predicate.area.kind}` : predicate.operator;
   const choose = (to: string) => {

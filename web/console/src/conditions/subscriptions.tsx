@@ -79,7 +79,10 @@ function StartHint({ subscription }: { subscription: Subscription }) {
   );
 }
 
-// The texts of a condition, without its marks: enough to tell one from the other.
+const operators = /^(PropertyIs|Within|DWithin|Beyond|Disjoint|Intersects|BBOX|During|After|Before|Not|Or)/;
+
+// The operators and texts of a condition, without its marks: enough to tell one from the other.
 function said_by(condition: string): string {
-  return condition.replace(/<\/?(?:[\w.-]+:)?([\w.-]+)[^>]*>/g, (mark, name: string) => (/^(PropertyIs|Within|DWithin|Beyond|Disjoint|Intersects|BBOX|During|After|Before|Not|Or)/.test(name) && !mark.startsWith('</') ? ` ${name.replace('PropertyIs', '')} ` : ' ')).replace(/\s+/g, ' ').trim();
+  const plain = condition.replace(/<(\/?)(?:[\w.-]+:)?([\w.-]+)[^>]*>/g, (_, end: string, name: string) => (end === '' && operators.test(name) ? ` ${name.replace('PropertyIs', '')} ` : ' '));
+  return plain.replace(/\s+/g, ' ').trim();
 }
