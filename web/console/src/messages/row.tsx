@@ -2,11 +2,11 @@ import { clock_time } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import { Badge, Icon, StatusBadge } from '../ui';
 import { category_of, is_gap, type Row } from './feed';
-import { component_of, expire_of, summary } from './summary';
+import { command_of, component_of, expire_of, summary } from './summary';
 import { texts } from './texts';
 
 export function RowView({ row, is_live }: { row: Row; is_live: boolean }) {
-  const { now } = useConsole();
+  const { now, commands } = useConsole();
   const t = texts();
   if (is_gap(row))
     return (
@@ -18,6 +18,7 @@ export function RowView({ row, is_live }: { row: Row; is_live: boolean }) {
   const expire = expire_of(row);
   const is_expired = is_live && expire !== undefined && expire <= now.value;
   const status = row.return_code ?? (row.name === 'completed' ? /^\w+/.exec(summary(row))?.[0] : undefined);
+  const command = is_live && row.name === 'completed' ? commands.find(command_of(row)) : undefined;
   const look = row.name === 'completed' && status !== 'OK' ? 'stopped' : category_of(row);
   return (
     <>
@@ -27,8 +28,8 @@ export function RowView({ row, is_live }: { row: Row; is_live: boolean }) {
         <span class="unseen">{row.direction === 'out' ? t.outward : t.inward}</span>
       </span>
       <span class={`messages-name messages-is-${look}`}>{row.name === '' ? '—' : row.name}</span>
-      <span class="messages-component">{component_of(row)}</span>
-      <span class="messages-summary">{summary(row)}</span>
+      <span class="messages-component">{command?.component ?? component_of(row)}</span>
+      <span class="messages-summary">{summary(row)}{command && `  ${command.component} ${command.command_type}`}</span>
       {is_expired && <Badge>{t.expired}</Badge>}
       {status !== undefined && status !== 'OK' && <StatusBadge status={status} />}
       {row.name === 'fault' && <Badge tone="bad">fault</Badge>}

@@ -214,6 +214,7 @@ describe('components', () => {
 
   test.each([
     ['wide', 'light', 1600, 1000],
+    ['wide', 'dark', 1600, 1000],
     ['tablet', 'dark', 1024, 768],
     ['tablet', 'light', 1024, 768],
     ['upright', 'dark', 820, 1180],

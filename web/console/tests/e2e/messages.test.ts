@@ -43,7 +43,7 @@ describe('events and messages', () => {
   test('are listed, filtered and read; a request leads to its answer', () =>
     stage.page(async (page) => {
       await command(page, 'person_detection');
-      await row(page, 'completed').waitFor();
+      await row(page, /completed.*person_detection start/).waitFor();
       await row(page, 'execute_response').waitFor();
       expect(await row(page, 'component_status').count()).toBe(0);
       await page.getByLabel('Also what the console asks by itself').check();
@@ -154,7 +154,10 @@ describe('events and messages', () => {
 
   test.each([
     ['wide', 'light', 1600, 1000],
+    ['wide', 'dark', 1600, 1000],
     ['tablet', 'dark', 1024, 768],
+    ['tablet', 'light', 1024, 768],
+    ['upright', 'dark', 820, 1180],
     ['upright', 'light', 820, 1180],
   ] as const)('look well and are accessible: %s %s', (size, look, width, height) =>
     stage.page(
