@@ -1,4 +1,6 @@
 // How a command is, live: waiting, running since, ended how and why.
+import './forms.css';
+
 import { useEffect } from 'preact/hooks';
 
 import { duration } from '../i18n/i18n';

@@ -1,4 +1,6 @@
 // A request as it is built, the button that sends it, and what came of it.
+import './forms.css';
+
 import { useRef, useState } from 'preact/hooks';
 import { parse_xml, type Operation, Results, results_of, RoisError } from 'rois-client';
 

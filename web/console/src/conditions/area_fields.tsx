@@ -1,0 +1,61 @@
+// A place by its name, a box by its corners, or a point; typed, or picked on a map.
+import { SelectField, TextField } from '../ui';
+import { useConsole } from '../shell/context';
+import { AreaPicker } from './area_picker';
+import type { Area } from './model';
+import { texts } from './texts';
+import type { Known } from './vocabulary';
+
+export interface AreaFieldsProps {
+  area: Area;
+  change: (area: Area) => void;
+  error?: string;
+  hint?: string;
+  known: Known;
+  distance?: string;
+  change_distance?: (distance: string) => void;
+  distance_complaint?: { error?: string; hint?: string };
+}
+
+export function AreaFields({ area, change, error, hint, known, distance, change_distance, distance_complaint }: AreaFieldsProps) {
+  const t = texts();
+  const set = (name: keyof Area) => (value: string) => change({ ...area, [name]: value });
+  const number = (name: 'x' | 'y' | 'x2' | 'y2', label: string) => (
+    <TextField label={label} unit="mm" value={area[name]} change={set(name)} input={{ inputMode: 'numeric' }} />
+  );
+  const radius = Number(distance) > 0 ? Number(distance) : undefined;
+  return (
+    <div class="conditions-area">
+      <div class="conditions-numbers">
+        {area.kind === 'place' && <TextField label={t.place} value={area.place} change={set('place')} options={known.places} error={error} hint={hint} />}
+        {area.kind === 'box' && (
+          <>
+            {number('x', t.corner(1, 'x'))}
+            {number('y', t.corner(1, 'y'))}
+            {number('x2', t.corner(2, 'x'))}
+            {number('y2', t.corner(2, 'y'))}
+          </>
+        )}
+        {area.kind === 'point' && (
+          <>
+            {number('x', t.at('x'))}
+            {number('y', t.at('y'))}
+          </>
+        )}
+        {change_distance && <TextField label={t.distance} unit="mm" value={distance ?? ''} change={change_distance} {...distance_complaint} input={{ inputMode: 'numeric' }} />}
+        {area.kind !== 'place' && <FrameField crs={area.crs} change={set('crs')} />}
+      </div>
+      <AreaPicker area={area} change={change} radius={radius} />
+    </div>
+  );
+}
+
+// Only where there is more than one frame to choose from.
+function FrameField({ crs, change }: { crs: string; change: (crs: string) => void }) {
+  const t = texts();
+  const view = useConsole().map.view.value;
+  const frames = view.state === 'there' ? view.map.robots.flatMap((one) => (one.frame ? [one.frame.crs] : [])) : [];
+  const all = [...new Set([...frames, ...(crs === '' ? [] : [crs])])];
+  if (all.length === 0) return null;
+  return <SelectField label={t.frame} value={crs} change={change} choices={[{ value: '', label: t.frame_engine }, ...all.map((one) => ({ value: one, label: one }))]} />;
+}

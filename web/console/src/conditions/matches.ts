@@ -1,0 +1,87 @@
+// How many components meet a condition now: `search`, again and again while somebody looks.
+import { signal } from '@preact/signals';
+import { Condition, everything } from 'rois-client';
+
+import type { Console } from '../state/console';
+import type { Stop } from '../state/environment';
+import { Poll } from '../state/poll';
+import { type Draft, leaves_of, type Node } from './model';
+import { is_of_results, type Reference } from './vocabulary';
+import { condition_of, written } from './writing';
+
+export interface Matches {
+  /** Refs of those that meet it, in the order that the engine gives. */
+  refs: readonly string[];
+  /** What the refusal says; the refs are those before it. */
+  trouble: unknown;
+  is_old: boolean; // the condition has changed since
+}
+
+const debounce = 300; // ms
+const period = 2000; // ms: status, bindings and places change by themselves
+
+export class LiveMatches {
+  readonly found = signal<Matches | undefined>(undefined);
+  private readonly poll: Poll;
+  private condition: Condition | undefined;
+  private may_be: (ref: string) => boolean = () => true;
+  private stop_waiting: Stop | undefined;
+  private turn = 0;
+
+  constructor(private readonly console: Console) {
+    this.poll = new Poll(console.environment, period, () => this.ask(), () => console.link.is_open && this.condition !== undefined);
+  }
+
+  watch(): Stop {
+    return this.poll.watch();
+  }
+
+  /** Asks for this from now on, when it has stood for a moment; undefined: it is not complete, ask for nothing. */
+  look_for(condition: Condition | undefined, may_be: (ref: string) => boolean): void {
+    this.may_be = may_be;
+    if (condition?.xml === this.condition?.xml) return;
+    this.turn += 1;
+    this.condition = condition;
+    if (this.found.value) this.found.value = { ...this.found.value, is_old: true };
+    this.stop_waiting?.();
+    this.stop_waiting = this.console.environment.after(debounce, () => void this.ask().catch(() => undefined));
+  }
+
+  private async ask(): Promise<void> {
+    const { condition, turn } = this;
+    if (!condition || !this.console.link.is_open) return;
+    try {
+      const refs = await this.console.documents.as_own(() => this.console.search(condition));
+      if (turn === this.turn) this.found.value = { refs: refs.map(({ code }) => code).filter((ref) => this.may_be(ref)), trouble: undefined, is_old: false };
+    } catch (trouble) {
+      if (turn === this.turn) this.found.value = { refs: this.found.value?.refs ?? [], trouble, is_old: false };
+    }
+  }
+}
+
+/** What can be said of components before there is an event or an answer: the condition without what only those can tell. */
+export function component_part(draft: Draft, references: readonly Reference[]): Condition {
+  if (draft.purpose === 'search' || draft.purpose === 'bind_any') return condition_of(draft, references);
+  const known = certain(draft.root, references);
+  return (known && written(known, references)) ?? everything;
+}
+
+// What every candidate has to meet in any case; undefined: nothing is known yet. What is negated must be known whole.
+function certain(node: Node, references: readonly Reference[]): Node | undefined {
+  if (node.kind !== 'group') return is_certain(node, references) ? node : undefined;
+  const members = node.members
+    .map((one) => (node.is_not ? (is_certain(one, references) ? one : undefined) : certain(one, references)))
+    .filter((one): one is Node => one !== undefined);
+  const needs_all = (node.joined === 'Or') !== node.is_not;
+  if (members.length === 0 || (needs_all && members.length < node.members.length)) return undefined;
+  return { ...node, members };
+}
+
+function is_certain(node: Node, references: readonly Reference[]): boolean {
+  return leaves_of(node).every((one) => (one.kind === 'written' ? !/Result\/|located|timestamp/.test(one.xml) : !is_of_results(one.reference, references)));
+}
+
+/** Whether there is something in it that only events or answers can tell. */
+export function waits_for_results({ root }: Draft, references: readonly Reference[]): boolean {
+  return !is_certain(root, references);
+}

@@ -1,0 +1,69 @@
+// How many components the condition meets now, and which.
+import { useEffect } from 'preact/hooks';
+
+import { useConsole, useWatch } from '../shell/context';
+import { show_panel } from '../shell/layout';
+import { error_text, StatusBadge } from '../ui';
+import { problems_of } from './checking';
+import { component_part, waits_for_results } from './matches';
+import type { Draft } from './model';
+import type { ConditionStore } from './store';
+import { texts } from './texts';
+
+export function MatchesView({ store }: { store: ConditionStore }) {
+  const t = texts();
+  const { profile, status, link, selection } = useConsole();
+  const draft = store.draft.value;
+  const references = store.references.value;
+  const condition = component_part(draft, references);
+  const missing = problems_of(draft.root, references).length;
+  useWatch(status.poll);
+  useWatch(store.matches);
+  useEffect(() => store.matches.look_for(condition, eligible(draft, profile.components.value)), [condition.xml, draft.purpose, draft.event_type, draft.query_type, profile.told_at.value]);
+  const open = (ref: string) => {
+    selection.component.value = ref;
+    show_panel('components');
+  };
+  const found = store.matches.found.value;
+  const shown = found?.refs.filter(eligible(draft, profile.components.value)) ?? [];
+  return (
+    <section class="conditions-part" aria-label={t.matches}>
+      <h3>{t.matches}</h3>
+      <p class={found?.is_old ? 'conditions-count conditions-old' : 'conditions-count'} role="status">
+        {found && !found.trouble ? counted(draft, shown.length, profile.components.value.length) : link.is_open && !found ? t.looking : ''}
+      </p>
+      {found?.trouble !== undefined && <p class="field-error">{error_text(found.trouble)}</p>}
+      {missing > 0 && <p class="field-hint">{t.incomplete(missing)}</p>}
+      {waits_for_results(draft, references) && <p class="field-hint">{t.on_results}</p>}
+      <ol class="conditions-found" aria-label={t.found}>
+        {shown.map((ref, i) => {
+          const entry = status.of(ref);
+          return (
+            <li key={ref}>
+              {draft.order.length > 0 && <span class="conditions-type">{i + 1}</span>}
+              <button type="button" class="conditions-ref" title={t.open_component} onClick={() => open(ref)}>
+                {ref}
+              </button>
+              <span class="conditions-type conditions-fill">{profile.component(ref)?.type_name}</span>
+              {entry && <StatusBadge status={entry.status} />}
+            </li>
+          );
+        })}
+      </ol>
+    </section>
+  );
+}
+
+function counted({ purpose }: Draft, found: number, all: number): string {
+  const t = texts();
+  if (purpose === 'subscribe') return t.can_match(found);
+  return purpose === 'query' ? t.can_answer(found) : t.matching(found, all);
+}
+
+// Those that have the event, or the query, at all.
+function eligible({ purpose, event_type, query_type }: Draft, components: readonly { ref: string; events: { name: string }[]; queries: { name: string }[] }[]): (ref: string) => boolean {
+  if (purpose !== 'subscribe' && purpose !== 'query') return () => true;
+  const those = components.filter((one) => (purpose === 'subscribe' ? one.events.some(({ name }) => name === event_type) : one.queries.some(({ name }) => name === query_type)));
+  const refs = new Set(those.map((one) => one.ref));
+  return (ref) => refs.has(ref);
+}

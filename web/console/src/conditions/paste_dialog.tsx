@@ -1,0 +1,31 @@
+// Takes over a condition that was written elsewhere.
+import { useState } from 'preact/hooks';
+
+import { Button, Dialog, TextArea } from '../ui';
+import { draft_read } from './reading';
+import type { ConditionStore } from './store';
+import { texts } from './texts';
+
+export function PasteDialog({ store, open, close }: { store: ConditionStore; open: boolean; close: () => void }) {
+  const t = texts();
+  const [text, set_text] = useState('');
+  const [error, set_error] = useState<string>();
+  const take = () => {
+    try {
+      const read = draft_read(text);
+      const { purpose, event_type, query_type } = store.draft.value;
+      const says_purpose = read.event_type !== '' || read.query_type !== '' || /^\s*(<\?[^>]*>\s*)?<(\w+:)?(search|bind_any)\b/.test(text);
+      store.change(says_purpose ? read : { ...read, purpose, event_type, query_type });
+      set_error(undefined);
+      close();
+    } catch (caught) {
+      const why = caught instanceof Error ? caught.message : String(caught);
+      set_error(why === 'no Filter' || why === 'SearchCondition' ? t.paste_no_condition : t.paste_failed(why));
+    }
+  };
+  return (
+    <Dialog title={t.paste_title} open={open} close={close} wide actions={<Button look="primary" disabled={text.trim() === ''} onClick={take}>{t.paste_take}</Button>}>
+      <TextArea label={t.as_xml} hint={t.paste_hint} value={text} change={set_text} error={error} rows={14} />
+    </Dialog>
+  );
+}

@@ -1,0 +1,88 @@
+// The subscriptions that were made here, and what has come of them.
+import type { Subscription } from 'rois-client';
+
+import { duration } from '../i18n/i18n';
+import { useConsole } from '../shell/context';
+import { Badge, Button, error_text, Icon } from '../ui';
+import type { ConditionStore } from './store';
+import { texts } from './texts';
+
+export function Subscriptions({ store }: { store: ConditionStore }) {
+  const t = texts();
+  const { subscriptions, events, now } = useConsole();
+  void events.pulse.beat.value;
+  const all = subscriptions.all.value;
+  const mine = store.subscribed.value.filter((one) => all.has(one.subscribe_id));
+  if (mine.length === 0) return null;
+  return (
+    <div class="conditions-subscriptions">
+      <h3>{t.subscriptions}</h3>
+      <ul class="plain-list">
+        {mine.map((one) => {
+          const entry = all.get(one.subscribe_id)!;
+          return (
+            <li key={one.subscribe_id} class="conditions-subscription">
+              <div class="row-spread">
+                <span class="row">
+                  <strong>{entry.event_type}</strong>
+                  <Badge tone={entry.count > 0 ? 'good' : 'calm'}>{t.events(entry.count)}</Badge>
+                  {entry.last_at !== undefined && <span class="field-hint">{t.last(duration(now.value - entry.last_at))}</span>}
+                </span>
+                <Button small onClick={() => void store.unsubscribe(one)}>
+                  {t.unsubscribe}
+                </Button>
+              </div>
+              <p class="conditions-said">{said_by(entry.condition) || t.no_condition}</p>
+              {entry.count === 0 && <StartHint subscription={one} />}
+            </li>
+          );
+        })}
+      </ul>
+    </div>
+  );
+}
+
+// Nothing comes of a component that nobody has started.
+function StartHint({ subscription }: { subscription: Subscription }) {
+  const t = texts();
+  const console = useConsole();
+  void console.commands.pulse.beat.value;
+  const those = console.profile.with_event(subscription.wanted.event_type).filter((one) => one.commands.some(({ name }) => name === 'start'));
+  if (those.length === 0) return null;
+  const started = new Set(console.commands.all.list().filter((one) => one.command_type === 'start' && one.state === 'OK').map((one) => one.component));
+  const start = async (ref: string) => {
+    try {
+      await console.run(ref, 'start');
+    } catch (error) {
+      console.notices.tell('error', error_text(error));
+    }
+  };
+  return (
+    <div class="conditions-start">
+      <p>
+        <Icon name="info" /> {t.start_first}
+      </p>
+      <div class="conditions-chips">
+        {those.map(({ ref }) =>
+          started.has(ref) ? (
+            <Badge key={ref} tone="good">
+              {t.started(ref)}
+            </Badge>
+          ) : (
+            <Button key={ref} small icon="play" onClick={() => void start(ref)}>
+              {t.start(ref)}
+            </Button>
+          ),
+        )}
+      </div>
+    </div>
+  );
+}
+
+const operators = /^(PropertyIs|Within|DWithin|Beyond|Disjoint|Intersects|BBOX|During|After|Before|Not|Or)/;
+
+// The operators and texts of a condition, without its marks: enough to tell one from the other.
+function said_by(condition: string): string {
+  const plain = condition.replace(/<(\/?)(?:[\w.-]+:)?([\w.-]+)[^>]*>/g, (_, end: string, name: string) => (end === '' && operators.test(name) ? ` ${name.replace('PropertyIs', '')} ` : ' '));
+  return plain.replace(/\s+/g, ' ').trim();
+}

@@ -1,0 +1,55 @@
+// What is done with the condition: the request that it makes, and what came of it.
+import type { Operation } from 'rois-client';
+
+import { Exchange } from '../forms/exchange';
+import { useConsole } from '../shell/context';
+import { Checkbox, type IconName } from '../ui';
+import { is_complete } from './checking';
+import type { Purpose } from './model';
+import type { ConditionStore } from './store';
+import { texts } from './texts';
+import { condition_of, request_of } from './writing';
+
+const icons: Record<Purpose, IconName> = { search: 'search', bind_any: 'link', subscribe: 'messages', query: 'info' };
+
+export function UseView({ store }: { store: ConditionStore }) {
+  const t = texts();
+  const console = useConsole();
+  const draft = store.draft.value;
+  const references = store.references.value;
+  const condition = condition_of(draft, references);
+  const operation: Operation = draft.purpose;
+  const act = (): Promise<unknown> => {
+    switch (draft.purpose) {
+      case 'search':
+        return console.search(condition);
+      case 'bind_any':
+        return console.client.bind_any(condition);
+      case 'subscribe':
+        return store.subscribe(draft.event_type, condition, draft.inline_results);
+      case 'query':
+        return console.query(draft.query_type, condition);
+    }
+  };
+  const may_send = () => {
+    const complete = is_complete(draft, references);
+    store.is_strict.value = !complete;
+    return complete;
+  };
+  return (
+    <section class="conditions-part" aria-label={t.request}>
+      <h3>{t.request}</h3>
+      {draft.purpose === 'subscribe' && <Checkbox label={t.details} checked={draft.inline_results} change={(inline_results) => store.change({ inline_results })} />}
+      <Exchange
+        key={draft.purpose}
+        title={draft.purpose}
+        operation={operation}
+        request={request_of(draft, condition)}
+        act={act}
+        may_send={may_send}
+        label={t[`do_${draft.purpose}`]}
+        icon={icons[draft.purpose]}
+      />
+    </section>
+  );
+}

@@ -1,0 +1,76 @@
+// With what a value is compared: a text, a number, a time, or one of those that there are.
+import { Field, SelectField, TextField } from '../ui';
+import type { Found } from './checking';
+import type { Predicate } from './model';
+import { complaint_of } from './predicate_view';
+import { texts } from './texts';
+import { has_two_values, is_temporal, type Reference } from './vocabulary';
+
+interface Props {
+  predicate: Predicate;
+  reference: Reference | undefined;
+  found: readonly Found[];
+  change: (to: Partial<Predicate>) => void;
+}
+
+export function ValueFields({ predicate, reference, found, change }: Props) {
+  const t = texts();
+  if (predicate.operator === 'Null') return null;
+  const two = has_two_values(predicate.operator);
+  return (
+    <div class="conditions-values">
+      <ValueField label={two ? t.lower : t.value} value={predicate.value} change={(value) => change({ value })} {...complaint_of(found, 'value')} predicate={predicate} reference={reference} />
+      {two && <ValueField label={t.upper} value={predicate.upper} change={(upper) => change({ upper })} {...complaint_of(found, 'upper')} predicate={predicate} reference={reference} />}
+    </div>
+  );
+}
+
+interface FieldProps {
+  label: string;
+  value: string;
+  change: (value: string) => void;
+  error?: string;
+  hint?: string;
+  predicate: Predicate;
+  reference: Reference | undefined;
+}
+
+function ValueField({ predicate: { operator }, reference, ...field }: FieldProps) {
+  const t = texts();
+  if (is_temporal(operator)) return <TimeField {...field} />;
+  if (operator === 'Like') return <TextField {...field} hint={field.hint ?? t.pattern_hint} />;
+  const { options = [], is_closed = false, type = 'text', unit = '' } = reference ?? {};
+  if (type === 'bool' || (is_closed && options.length > 0)) {
+    const { value } = field;
+    const listed = type === 'bool' ? ['true', 'false'] : options;
+    const all = value === '' || listed.includes(value) ? listed : [value, ...listed];
+    const choices = all.map((one) => ({ value: one, label: shown(one, t) }));
+    return <SelectField {...field} choices={value === '' ? [{ value: '', label: t.choose }, ...choices] : choices} />;
+  }
+  return <TextField {...field} unit={unit || undefined} options={options} input={type === 'number' ? { inputMode: 'decimal' } : {}} />;
+}
+
+// Of a URN the last part tells what it is.
+function shown(option: string, t: ReturnType<typeof texts>): string {
+  if (option === 'true') return t.is_true;
+  if (option === 'false') return t.is_false;
+  return option.startsWith('urn:') ? `${option.slice(option.lastIndexOf(':') + 1)} (${option})` : option;
+}
+
+/** The browser's own field; it shows local time, and the condition has UTC. */
+function TimeField({ value, change, ...field }: Omit<FieldProps, 'predicate' | 'reference'>) {
+  const read = (text: string) => (Number.isNaN(new Date(text).getTime()) ? '' : new Date(text).toISOString());
+  return (
+    <Field
+      {...field}
+      control={(props) => <input {...props} type="datetime-local" step="1" value={local_text(value)} onChange={(event) => change(read(event.currentTarget.value))} />}
+    />
+  );
+}
+
+function local_text(iso: string): string {
+  const time = new Date(iso);
+  if (Number.isNaN(time.getTime())) return '';
+  const two = (n: number) => String(n).padStart(2, '0');
+  return `${time.getFullYear()}-${two(time.getMonth() + 1)}-${two(time.getDate())}T${two(time.getHours())}:${two(time.getMinutes())}:${two(time.getSeconds())}`;
+}

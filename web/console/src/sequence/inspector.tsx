@@ -1,0 +1,131 @@
+// The form of the step that is chosen: which command of which component with which arguments, how long it waits, its branches.
+import { ArgumentFields } from '../forms/argument_fields';
+import { CommandProgress } from '../forms/command_progress';
+import { asked_by, command_types, same } from '../forms/describe';
+import { useConsole } from '../shell/context';
+import type { ComponentView } from '../state/profile_state';
+import { Button, EmptyState, error_text, SelectField, TextField } from '../ui';
+import { is_unfinished, type Problem } from './checking';
+import { type CommandStep, found, type ParallelStep, type Step, with_branch, with_changed, without_branch } from './model';
+import type { SequenceStore } from './store';
+import { texts } from './texts';
+
+export function Inspector({ store }: { store: SequenceStore }) {
+  const t = texts();
+  const step = found(store.root.value, store.chosen.value)?.step;
+  if (!step) return <EmptyState icon="sequence" title={t.choose_step}>{t.keys}</EmptyState>;
+  const problem = store.problems.value.find((one) => one.step === step.id);
+  const change = (to: Partial<Step>) => store.change(with_changed(store.root.value, step.id, (one) => ({ ...one, ...to }) as Step));
+  const shown = problem && (store.is_strict.value || !is_unfinished(problem)) ? problem : undefined;
+  return (
+    <form key={step.id} class="sequence-form" noValidate onSubmit={(event) => event.preventDefault()}>
+      <Outcome store={store} step={step} />
+      {step.kind === 'command' && <CommandForm step={step} problem={shown} all={problem} change={change} />}
+      {step.kind === 'wait' && (
+        <div class="sequence-fields">
+          <TextField label={t.wait_time} unit="ms" value={step.time} change={(time) => change({ time })} error={shown && t.no_time} input={{ inputMode: 'numeric' }} />
+        </div>
+      )}
+      {step.kind === 'parallel' && <BranchesForm store={store} step={step} problem={shown} change={change} />}
+    </form>
+  );
+}
+
+// How it went, and why it did not.
+function Outcome({ store, step }: { store: SequenceStore; step: Step }) {
+  const run = store.run.value;
+  const entry = run?.entries.get(step.id);
+  if (entry) return <CommandProgress entry={entry} />;
+  return run?.refused_step === step.id ? <p class="field-error">{error_text(run.error)}</p> : null;
+}
+
+interface CommandFormProps {
+  step: CommandStep;
+  problem: Problem | undefined;
+  /** The problem, also when it is not to be complained of yet. */
+  all: Problem | undefined;
+  change: (to: Partial<CommandStep>) => void;
+}
+
+function CommandForm({ step, problem, all, change }: CommandFormProps) {
+  const t = texts();
+  const { profile } = useConsole();
+  const view = profile.component(step.component);
+  const choose = (ref: string) => {
+    const types = types_of(profile.component(ref));
+    change({ component: ref, command_type: types.find((one) => same(one, step.command_type)) ?? types.find((one) => same(one, 'start')) ?? types[0] ?? '' });
+  };
+  const refs = profile.components.value.filter((one) => types_of(one).length > 0).map((one) => one.ref);
+  const error = (...these: Problem['what'][]) => (problem && these.includes(problem.what) ? t[problem.what as 'no_time'] : undefined);
+  const asked = view ? asked_by(view, step.command_type) : [];
+  const missing = all?.what === 'arguments' && problem === undefined ? {} : (all?.fields ?? {});
+  return (
+    <>
+      <div class="sequence-fields">
+        <SelectField label={t.component} value={step.component} change={choose} choices={listed(refs, step.component, t.choose)} error={error('no_component', 'unknown_component')} />
+        <SelectField
+          label={t.command}
+          value={step.command_type}
+          change={(command_type) => change({ command_type })}
+          choices={listed(types_of(view), step.command_type, t.choose)}
+          error={error('no_command', 'unknown_command')}
+        />
+        <TextField label={t.delay} unit="ms" value={step.delay} change={(delay) => change({ delay })} error={error('no_time')} input={{ inputMode: 'numeric', placeholder: '0' }} />
+      </div>
+      {view && asked.length > 0 && (
+        <ArgumentFields key={`${view.ref} ${step.command_type}`} view={view} asked={asked} inputs={step.inputs} change={(inputs) => change({ inputs })} problems={missing} />
+      )}
+      {step.unknown.length > 0 && (
+        <p class="field-error">
+          {t.unknown_arguments_are(step.unknown.map((one) => one.name).join(', '))}{' '}
+          <Button small onClick={() => change({ unknown: [] })}>
+            {t.drop_arguments}
+          </Button>
+        </p>
+      )}
+    </>
+  );
+}
+
+function types_of(view: ComponentView | undefined): string[] {
+  return view ? command_types(view) : [];
+}
+
+// What is chosen stands in the list, too, when it is not one of those that there are.
+function listed(all: readonly string[], chosen: string, choose: string) {
+  const listed_ones = all.includes(chosen) ? all : [chosen, ...all];
+  return listed_ones.map((value) => ({ value, label: value === '' ? choose : value }));
+}
+
+function BranchesForm({ store, step, problem, change }: { store: SequenceStore; step: ParallelStep; problem: Problem | undefined; change: (to: Partial<ParallelStep>) => void }) {
+  const t = texts();
+  const remove = (lane: number) => {
+    store.change(without_branch(store.root.value, lane));
+    if (!found(store.root.value, step.id)) store.chosen.value = 0;
+  };
+  return (
+    <>
+      <div class="sequence-fields">
+        <TextField label={t.delay} unit="ms" value={step.delay} change={(delay) => change({ delay })} error={problem?.what === 'no_time' ? t.no_time : undefined} input={{ inputMode: 'numeric', placeholder: '0' }} />
+      </div>
+      {problem?.what === 'no_branches' && <p class="field-error">{t.no_branches}</p>}
+      <ul class="sequence-list">
+        {step.branches.map((one, i) => (
+          <li key={one.id} class="row-spread">
+            <span>
+              {t.branch(i + 1)}: {t.count(one.steps.length)}
+            </span>
+            <Button small look="quiet" icon="close" onClick={() => remove(one.id)}>
+              {t.remove_branch(i + 1)}
+            </Button>
+          </li>
+        ))}
+      </ul>
+      <div>
+        <Button small icon="plus" onClick={() => store.change(with_branch(store.root.value, step.id))}>
+          {t.add_branch}
+        </Button>
+      </div>
+    </>
+  );
+}

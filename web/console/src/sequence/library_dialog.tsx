@@ -1,0 +1,96 @@
+// Keeps sequences in this browser, and takes them in and out as XML.
+import { useRef, useState } from 'preact/hooks';
+
+import { Button, CopyButton, Dialog, Field, IconButton, TextArea, TextField } from '../ui';
+import { commands_in, new_lane } from './model';
+import type { SequenceStore } from './store';
+import { texts } from './texts';
+
+export function LibraryDialog({ store, open, close }: { store: SequenceStore; open: boolean; close: () => void }) {
+  const t = texts();
+  const [pasted, set_pasted] = useState('');
+  const [error, set_error] = useState<string>();
+  const file = useRef<HTMLInputElement>(null);
+  const take = (name: string, text: string) => {
+    try {
+      store.open(name, store.read(text));
+      set_pasted('');
+      set_error(undefined);
+      close();
+    } catch (caught) {
+      const reason = caught instanceof Error ? caught.message : String(caught);
+      set_error(reason === 'no CommandUnitSequence' ? t.no_sequence : t.unreadable(reason));
+    }
+  };
+  const chosen_file = async () => {
+    const one = file.current?.files?.[0];
+    if (one) take(one.name.replace(/\.xml$/i, ''), await one.text());
+    if (file.current) file.current.value = '';
+  };
+  const is_empty = commands_in(store.root.value).length === 0;
+  const fresh = () => {
+    store.open('', new_lane());
+    close();
+  };
+  return (
+    <Dialog title={t.sequences} open={open} close={close} wide>
+      <div class="sequence-library">
+        <section class="sequence-keep" aria-label={t.this_one}>
+          <h3>{t.this_one}</h3>
+          <div class="sequence-keep-line">
+            <TextField label={t.name} value={store.name.value} change={(name) => store.rename(name)} />
+            <Button look="primary" disabled={is_empty || store.name.value.trim() === ''} onClick={() => store.keep()}>
+              {t.keep}
+            </Button>
+            <Button icon="download" disabled={is_empty} onClick={() => download(store.document, store.name.value || 'sequence')}>
+              {t.export}
+            </Button>
+            <CopyButton small={false} look="quiet" disabled={is_empty} text={() => store.document} label={t.copy_xml} />
+            <Button look="quiet" icon="plus" onClick={fresh}>
+              {t.new_one}
+            </Button>
+          </div>
+        </section>
+        <section aria-label={t.kept}>
+          <h3>{t.kept}</h3>
+          {store.kept.value.size === 0 ? (
+            <p class="field-hint">{t.none_kept}</p>
+          ) : (
+            <ul class="sequence-list">
+              {[...store.kept.value].map(([name, text]) => (
+                <li key={name} class="row-spread">
+                  <strong>{name}</strong>
+                  <span class="row">
+                    <Button small aria-label={t.open_it(name)} onClick={() => take(name, text)}>
+                      {t.open}
+                    </Button>
+                    <IconButton small icon="close" label={t.drop_it(name)} onClick={() => store.drop(name)} />
+                  </span>
+                </li>
+              ))}
+            </ul>
+          )}
+        </section>
+        <section class="sequence-keep" aria-label={t.import}>
+          <h3>{t.import}</h3>
+          <Field label={t.file} control={(props) => <input {...props} ref={file} type="file" accept=".xml,application/xml,text/xml" onChange={() => void chosen_file()} />} />
+          <TextArea label={t.paste} hint={t.paste_hint} value={pasted} change={set_pasted} error={error} rows={6} />
+          <div>
+            <Button disabled={pasted.trim() === ''} onClick={() => take('', pasted)}>
+              {t.take}
+            </Button>
+          </div>
+        </section>
+      </div>
+    </Dialog>
+  );
+}
+
+function download(text: string, name: string): void {
+  const url = URL.createObjectURL(new Blob([text], { type: 'application/xml' }));
+  const link = document.createElement('a');
+  link.href = url;
+  link.download = `${name.replace(/[^\w.-]+/g, '_')}.xml`;
+  link.click();
+  URL.revokeObjectURL(url);
+}

@@ -1,0 +1,52 @@
+// The way from one step to the next, where steps can be added and dropped.
+import { useLayoutEffect, useRef } from 'preact/hooks';
+
+import { Button, IconButton } from '../ui';
+import type { LaneContext } from './drawing';
+import { new_command, new_parallel, new_wait, type Slot, type Step, with_inserted } from './model';
+import { texts } from './texts';
+
+export function SlotView({ slot, context, is_empty = false }: { slot: Slot; context: LaneContext; is_empty?: boolean }) {
+  const t = texts();
+  const { adding, set_adding, drag, store, go_to } = context;
+  const is = (one: Slot | undefined) => one?.lane === slot.lane && one.index === slot.index;
+  const add = (step: Step) => {
+    store.change(with_inserted(store.root.value, slot, step));
+    set_adding(undefined);
+    go_to(step.id);
+  };
+  const name = ['sequence-slot', is(drag.over) && 'sequence-target', is_empty && 'sequence-empty'].filter(Boolean).join(' ');
+  return (
+    <div class={name} data-slot={`${slot.lane} ${slot.index}`}>
+      {is(adding) ? (
+        <Choices close={() => set_adding(undefined)}>
+          <Button small icon="components" onClick={() => add(new_command())}>
+            {t.command}
+          </Button>
+          <Button small icon="clock" onClick={() => add(new_wait())}>
+            {t.wait}
+          </Button>
+          <Button small icon="sequence" onClick={() => add(new_parallel())}>
+            {t.parallel}
+          </Button>
+        </Choices>
+      ) : (
+        <IconButton small class="sequence-add" icon="plus" label={t.add_here} tabIndex={is_empty ? 0 : -1} onClick={() => set_adding(slot)} />
+      )}
+    </div>
+  );
+}
+
+// Takes the focus; Escape and leaving it close it.
+function Choices({ close, children }: { close: () => void; children: preact.ComponentChildren }) {
+  const box = useRef<HTMLDivElement>(null);
+  useLayoutEffect(() => box.current?.querySelector('button')?.focus(), []);
+  const left = (event: FocusEvent) => {
+    if (!box.current?.contains(event.relatedTarget as Node | null)) close();
+  };
+  return (
+    <div ref={box} class="sequence-choices" role="group" aria-label={texts().add} onFocusOut={left} onKeyDown={(event) => event.key === 'Escape' && close()}>
+      {children}
+    </div>
+  );
+}

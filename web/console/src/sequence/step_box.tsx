@@ -1,0 +1,118 @@
+// One step in the drawing, with how far it is.
+import { duration } from '../i18n/i18n';
+import { useConsole } from '../shell/context';
+import { Icon, StatusBadge } from '../ui';
+import { is_unfinished } from './checking';
+import type { LaneContext } from './drawing';
+import type { CommandStep, ParallelStep, Step, WaitStep } from './model';
+import type { StepState } from './running';
+import { texts } from './texts';
+import { milliseconds } from './units';
+
+type Of<T extends Step> = { step: T; context: LaneContext };
+
+export function CommandBox({ step, context }: Of<CommandStep>) {
+  const t = texts();
+  return (
+    <Box step={step} context={context} kind="command">
+      <span class="sequence-title">{step.component || t.no_component}</span>
+      <span class="sequence-what">
+        {step.delay.trim() !== '' && <Delay text={step.delay} />}
+        {step.command_type || t.no_command}
+      </span>
+      <span class="sequence-arguments">{said_by(step)}</span>
+    </Box>
+  );
+}
+
+export function WaitBox({ step, context }: Of<WaitStep>) {
+  return (
+    <Box step={step} context={context} kind="wait">
+      <span class="sequence-title">
+        <Icon name="clock" /> {texts().wait}
+      </span>
+      <span class="sequence-what">{time_text(step.time)}</span>
+    </Box>
+  );
+}
+
+export function ParallelHead({ step, context }: Of<ParallelStep>) {
+  const t = texts();
+  return (
+    <Box step={step} context={context} kind="parallel">
+      <span class="sequence-what">
+        {step.delay.trim() !== '' && <Delay text={step.delay} />}
+        {t.together(step.branches.length)}
+      </span>
+    </Box>
+  );
+}
+
+function Delay({ text }: { text: string }) {
+  return (
+    <span class="sequence-delay" title={texts().delay}>
+      <Icon name="clock" size={12} /> {time_text(text)}
+    </span>
+  );
+}
+
+function time_text(text: string): string {
+  const time = milliseconds(text);
+  return time === undefined ? '?' : duration(time);
+}
+
+// The values alone: which is which stands in the form.
+function said_by({ inputs }: CommandStep): string {
+  return Object.values(inputs)
+    .map(({ texts: values }) => values.filter((one) => one.trim() !== '').join(' → '))
+    .filter((one) => one !== '')
+    .join(' · ');
+}
+
+function Box({ step, context, kind, children }: Of<Step> & { kind: Step['kind']; children: preact.ComponentChildren }) {
+  const t = texts();
+  const { store, view, drag, first } = context;
+  const state = view.get(step.id);
+  const problem = store.problems.value.find((one) => one.step === step.id);
+  const is_refused = store.run.value?.refused_step === step.id;
+  const is_bad = is_refused || (problem !== undefined && (store.is_strict.value || !is_unfinished(problem)));
+  const name = [
+    'sequence-box',
+    `sequence-${kind}`,
+    state && `sequence-is-${state.state}`,
+    problem && !is_bad && 'sequence-unfinished',
+    is_bad && 'sequence-bad',
+    drag.dragged === step.id && 'sequence-dragged',
+  ];
+  return (
+    <button
+      type="button"
+      class={name.filter(Boolean).join(' ')}
+      data-step={step.id}
+      tabIndex={step.id === first ? 0 : -1}
+      aria-pressed={store.chosen.value === step.id}
+      onClick={() => (store.chosen.value = step.id)}
+      onFocus={() => (store.chosen.value = step.id)}
+      {...drag.handlers(step.id)}
+    >
+      {children}
+      {is_bad && (
+        <span class="sequence-problem">
+          <Icon name="warning" size={13} /> {is_refused ? t.refused : t.has_problem}
+        </span>
+      )}
+      {state && <StateLine state={state} />}
+    </button>
+  );
+}
+
+function StateLine({ state: { state, since, took } }: { state: StepState }) {
+  const { now } = useConsole();
+  const time = took ?? (since === undefined ? undefined : Math.max(0, now.value - since));
+  return (
+    <span class="sequence-state">
+      <StatusBadge status={state} />
+      {time !== undefined && <span class="sequence-time">{duration(time)}</span>}
+    </span>
+  );
+}

@@ -1,0 +1,176 @@
+// The conditions panel: filters that are built, what they match now, and what is done with them.
+import type { Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+
+import { picture, root, Stage, violations } from './harness';
+
+let stage: Stage;
+const path = '/#conditions';
+const panel = (page: Page) => page.locator('.panel-conditions');
+
+beforeAll(async () => {
+  stage = await Stage.set('--scenario', `${root}/tests/server/data/four_visitors.xml`, '--sim-speed', '10', '--seed', '7', '--profiles', `${root}/components/simulation/profiles`);
+});
+afterAll(() => stage.strike());
+
+const request = (page: Page, operation: string) => panel(page).getByRole('region', { name: `Request: ${operation}` });
+const count = (page: Page, text: string | RegExp) => panel(page).locator('.conditions-count').filter({ hasText: text }).waitFor();
+
+/** Drags on the map from one point to another, in mm. */
+async function drag(page: Page, from: [number, number], to: [number, number]): Promise<void> {
+  const svg = panel(page).locator('.conditions-picker svg');
+  await svg.scrollIntoViewIfNeeded();
+  const at = ([x, y]: [number, number]) =>
+    svg.evaluate((one: SVGSVGElement, [mm_x, mm_y]) => {
+      const { x: left, y: top } = new DOMPoint(mm_x, -mm_y!).matrixTransform(one.getScreenCTM()!);
+      return [left, top] as const;
+    }, [x, y]);
+  await page.mouse.move(...(await at(from)));
+  await page.mouse.down();
+  await page.mouse.move(...(await at(to)), { steps: 4 });
+  await page.mouse.up();
+}
+
+describe('conditions', () => {
+  test('subscribes to persons within a box that is picked on the map', () =>
+    stage.page(
+      async (page) => {
+        await panel(page).getByRole('radio', { name: 'Subscribe' }).click();
+        expect(await panel(page).getByLabel('Event', { exact: true }).inputValue()).toBe('person_localized');
+        await panel(page).getByRole('button', { name: 'position_data within a box' }).click();
+        await count(page, '1 component can send it');
+        await drag(page, [500, 11_500], [19_500, 500]);
+        expect(Number(await panel(page).getByLabel('Corner 1, x').inputValue())).toBeLessThan(1000);
+        expect(await request(page, 'subscribe').textContent()).toMatch(/<fes:Within>[^]*position_data[^]*<gml:lowerCorner>/);
+        await panel(page).getByRole('button', { name: 'Subscribe', exact: true }).click();
+        await panel(page).getByText('Nothing has come yet.').waitFor();
+        await panel(page).getByRole('button', { name: 'Start person_localization' }).click();
+        await panel(page).locator('.conditions-subscription').getByText(/^[1-9]\d* events?$/).waitFor();
+        await picture(page, 'conditions-box');
+        expect(await violations(page)).toBe('');
+        await panel(page).getByRole('button', { name: 'Unsubscribe' }).click();
+        await panel(page).locator('.conditions-subscription').waitFor({ state: 'detached' });
+      },
+      {},
+      path,
+    ));
+
+  test('says how many components it matches now, with the keyboard alone', () =>
+    stage.page(
+      async (page) => {
+        await count(page, /^(\d+) of \1 components$/);
+        await panel(page).getByRole('button', { name: 'a type of component' }).focus();
+        await page.keyboard.press('Enter');
+        await panel(page).getByLabel('Value', { exact: true }).focus();
+        await page.keyboard.type('Navig');
+        await count(page, /^1 of \d+ components$/);
+        await panel(page).locator('.conditions-found').getByText('navigation', { exact: true }).waitFor();
+
+        await panel(page).getByRole('button', { name: 'Group', exact: true }).press('Enter');
+        const what = panel(page).getByLabel('What', { exact: true }).nth(1);
+        await what.selectOption('status');
+        await panel(page).getByLabel('Value', { exact: true }).nth(1).selectOption('READY');
+        await panel(page).getByLabel('Which of these must hold').nth(1).selectOption('none of');
+        expect(await request(page, 'search').textContent()).toMatch(/<fes:And>[^]*<fes:Not>[^]*READY/);
+        await count(page, /^0 of \d+ components$/);
+        await panel(page).getByRole('button', { name: 'Remove the group' }).press('Enter');
+        await count(page, /^1 of \d+ components$/);
+
+        // It outlives the panel, and the page.
+        await page.getByRole('tab', { name: 'Sequences' }).click();
+        await page.getByRole('tab', { name: 'Conditions' }).click();
+        await page.reload();
+        await count(page, /^1 of \d+ components$/);
+        expect(await violations(page)).toBe('');
+      },
+      {},
+      path,
+    ));
+
+  test('binds any, the nearest first, and asks', () =>
+    stage.page(
+      async (page) => {
+        await panel(page).getByRole('radio', { name: 'Bind any' }).click();
+        await panel(page).getByRole('button', { name: 'nearest first' }).click();
+        await panel(page).getByLabel('Place', { exact: true }).fill('desk');
+        await panel(page).getByRole('button', { name: 'Condition', exact: true }).click();
+        await panel(page).getByLabel('What', { exact: true }).first().selectOption('component_ref');
+        await panel(page).getByLabel('How', { exact: true }).selectOption('looks like');
+        await panel(page).getByLabel('Value', { exact: true }).fill('*_localization');
+        await count(page, /^3 of \d+ components$/);
+        expect(await request(page, 'bind_any').textContent()).toMatch(/PropertyIsLike[^]*fes:SortBy[^]*name="distance"[^]*desk/);
+        await panel(page).getByRole('button', { name: 'Bind any', exact: true }).click();
+        await panel(page).locator('.exchange-came').getByText('OK', { exact: true }).waitFor();
+        await page.getByText('1 bound').waitFor();
+
+        await panel(page).getByRole('button', { name: 'Clear' }).click();
+        await panel(page).getByRole('radio', { name: 'Query' }).click();
+        await panel(page).getByLabel('Query', { exact: true }).last().selectOption('robot_position');
+        await panel(page).getByRole('button', { name: 'Ask', exact: true }).click();
+        await panel(page).getByRole('region', { name: 'Results: query' }).getByText('robot1').waitFor();
+        await picture(page, 'conditions-query');
+        expect(await violations(page)).toBe('');
+      },
+      {},
+      path,
+    ));
+
+  test('says what is missing, and what the engine refuses', () =>
+    stage.page(
+      async (page) => {
+        await panel(page).getByRole('button', { name: 'Condition', exact: true }).click();
+        await panel(page).getByText('One thing is missing').or(panel(page).getByText('2 things are missing')).waitFor();
+        await panel(page).getByRole('button', { name: 'Search', exact: true }).click();
+        await panel(page).locator('.field-error').getByText('Choose what it is about').waitFor();
+        await panel(page).getByLabel('What', { exact: true }).selectOption('location');
+        await panel(page).getByLabel('How', { exact: true }).selectOption('is within a place');
+        await panel(page).getByLabel('Place', { exact: true }).fill('nowhere');
+        await panel(page).locator('.field-error').getByText(/the place 'nowhere', which is not known here/).waitFor();
+        await panel(page).getByRole('button', { name: 'Search', exact: true }).click();
+        await panel(page).locator('.exchange-came').getByText('BAD_PARAMETER').first().waitFor();
+        expect(await violations(page)).toBe('');
+      },
+      {},
+      path,
+    ));
+
+  test('takes over a condition that is pasted', () =>
+    stage.page(
+      async (page) => {
+        await panel(page).getByRole('button', { name: 'Paste XML' }).click();
+        const area = panel(page).getByRole('textbox', { name: 'As XML' });
+        await area.fill('<fes:Filter><nonsense');
+        await panel(page).getByRole('button', { name: 'Take over' }).click();
+        await panel(page).getByText(/This cannot be read/).waitFor();
+        await area.fill(`<subscribe xmlns="urn:x-rois:psm:xml:message:1" xmlns:fes="http://www.opengis.net/fes/2.0"><event_type>person_detected</event_type><condition>
+          <fes:Filter><fes:PropertyIsGreaterThan><fes:ValueReference>number</fes:ValueReference><fes:Literal>1</fes:Literal></fes:PropertyIsGreaterThan></fes:Filter></condition></subscribe>`);
+        await panel(page).getByRole('button', { name: 'Take over' }).click();
+        expect(await panel(page).getByLabel('Event', { exact: true }).inputValue()).toBe('person_detected');
+        expect(await panel(page).getByLabel('What', { exact: true }).inputValue()).toBe('number');
+        await panel(page).getByLabel('Value', { exact: true }).fill('many');
+        await panel(page).getByText('This is no number').waitFor();
+      },
+      {},
+      path,
+    ));
+
+  test.each([
+    ['light', 'ja', 1024, 768],
+    ['dark', 'ja', 820, 1180],
+    ['light', 'en', 1600, 1000],
+  ] as const)('is accessible: %s, %s, %i', (look, language, width, height) =>
+    stage.page(
+      async (page) => {
+        await panel(page).locator('.conditions-radio').nth(2).click();
+        await panel(page).locator('.conditions-chips button').nth(2).click();
+        await panel(page).locator('.conditions-add button').nth(1).click();
+        await panel(page).locator('.conditions-tools button').first().click();
+        await panel(page).locator('.conditions-found li').first().waitFor();
+        expect(await violations(page)).toBe('');
+        await picture(page, `conditions-${look}-${language}-${width}`);
+      },
+      { look, language, width, height, touch: width < 1100 },
+      path,
+    ),
+  );
+});
