@@ -29,6 +29,7 @@ import { MapState } from './floor_map';
 import { LinkState } from './link_state';
 import { MetricsState } from './metrics_state';
 import { Notices } from './notices';
+import { ParametersState } from './parameters_state';
 import { ProfileState } from './profile_state';
 import { RobotsState } from './robots_state';
 import { StatusState } from './status_state';
@@ -62,6 +63,7 @@ export class Console {
   readonly documents: Documents;
   readonly profile = new ProfileState();
   readonly status: StatusState;
+  readonly parameters: ParametersState;
   readonly metrics: MetricsState;
   readonly bindings: Bindings;
   readonly commands: CommandsState;
@@ -85,6 +87,7 @@ export class Console {
     this.link = new LinkState(environment);
     this.documents = new Documents(environment);
     this.status = new StatusState(environment, this.documents, client, components, is_open);
+    this.parameters = new ParametersState(environment, this.documents, client, is_open);
     this.metrics = new MetricsState(environment, token);
     this.bindings = new Bindings(
       () => this.client,

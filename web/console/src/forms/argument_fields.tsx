@@ -1,0 +1,85 @@
+// Fields for all arguments of a command, and the parameters that come of them.
+import './forms.css';
+
+import type { Parameter } from 'rois-client';
+
+import { useConsole, useWatch } from '../shell/context';
+import type { Console } from '../state/console';
+import type { ComponentView } from '../state/profile_state';
+import { data_type, type Problem } from './data_type';
+import type { Asked } from './describe';
+import { type Inputs, parameters_from, problems_of, with_input } from './inputs';
+import { options_for, type World } from './options';
+import { ParameterField } from './parameter_field';
+
+export interface ArgumentFieldsProps {
+  view: ComponentView;
+  asked: readonly Asked[];
+  inputs: Inputs;
+  change: (inputs: Inputs) => void;
+  /** What is wrong, by name: as `problems_in` finds it. Leave out what the user has not been asked for yet. */
+  problems: Readonly<Record<string, Problem>>;
+}
+
+export function ArgumentFields({ view, asked, inputs, change, problems }: ArgumentFieldsProps) {
+  const console = useConsole();
+  useWatch(console.parameters.poll(view.ref));
+  const told = console.parameters.of(view.ref);
+  const has_things = asked.some(is_of_things);
+  void (has_things && console.now.value); // what there is changes all the time: once a second is enough
+  const world = what_there_is(console, view.ref);
+  return (
+    <div class="form-fields">
+      {has_things && <LooksAtThings />}
+      {asked.map((one) => (
+        <ParameterField
+          key={one.name}
+          asked={one}
+          input={inputs[one.name]}
+          change={(input) => change(with_input(inputs, one.name, input))}
+          problem={problems[one.name]}
+          options={options_for(one, world)}
+          now={told?.texts(one.name).join('; ') || undefined}
+        />
+      ))}
+    </div>
+  );
+}
+
+/** What is wrong with what was typed; what the component has already need not be given again. */
+export function problems_in(console: Console, ref: string, asked: readonly Asked[], inputs: Inputs): Record<string, Problem> {
+  const told = console.parameters.of(ref);
+  return problems_of(asked, inputs, (name) => told !== undefined && told.texts(name).length > 0);
+}
+
+/** What was typed, as a message carries it: identifiers with the codebook that they were found in. */
+export function arguments_in(console: Console, ref: string, asked: readonly Asked[], inputs: Inputs): Parameter[] {
+  const world = what_there_is(console, ref);
+  return parameters_from(asked, inputs, (name, code) => {
+    const one = asked.find((each) => each.name === name);
+    return one && options_for(one, world).list.find(({ value }) => value === code)?.codebook;
+  });
+}
+
+function what_there_is({ map, robots, entities, profile, parameters }: Console, ref: string): World {
+  const view = map.view.value;
+  return {
+    places: view.state === 'there' ? view.map.places.map((one) => one.name) : [],
+    robots: robots.all.values(),
+    entities: entities.all.values(),
+    components: profile.components.value.map((one) => one.ref),
+    told: parameters.of(ref),
+  };
+}
+
+function is_of_things({ name, data_type_ref }: Asked): boolean {
+  return data_type(data_type_ref.code).kind === 'identifier' && /robot|person|face|sound|object|target/i.test(name);
+}
+
+// People and robots that can be chosen are those that are there now.
+function LooksAtThings() {
+  const { entities, robots } = useConsole();
+  useWatch(entities);
+  useWatch(robots.poll);
+  return null;
+}

@@ -1,0 +1,59 @@
+// What may be chosen for a parameter, of all that exists: places, robots, people, components, and what a component says that it can do.
+import type { Results } from 'rois-client';
+
+import type { Entity, Robot } from '../state/things';
+import { all_values, data_type } from './data_type';
+import { type Asked, choices_of, is_position, same } from './describe';
+import type { Option } from './inputs';
+
+/** What there is. */
+export interface World {
+  places: readonly string[];
+  robots: Iterable<Robot>;
+  entities: Iterable<Entity>;
+  components: readonly string[];
+  /** What the component has told of itself (`get_parameter`). */
+  told: Results | undefined;
+}
+
+/** Texts that can be chosen; anything else may be typed, unless `is_closed`. */
+export interface Options {
+  list: readonly Option[];
+  is_closed: boolean;
+}
+
+export function options_for(asked: Asked, world: World): Options {
+  const type = data_type(asked.data_type_ref.code);
+  const closed = all_values(type) ?? choices_of(asked.description);
+  if (closed.length > 0) return { list: closed.map((value) => ({ value })), is_closed: true };
+  const able = offered_by(asked.name, world.told);
+  if (able.length > 0) return { list: able, is_closed: false };
+  if (is_position(asked)) return { list: world.places.map((value) => ({ value })), is_closed: false };
+  if (type.kind === 'identifier' || /_ref$/i.test(asked.name)) return { list: things_for(asked.name, world), is_closed: false };
+  return { list: [], is_closed: false };
+}
+
+// `language` is one of `synthesizable_languages`, `reaction_ref` one of `available_reactions`.
+function offered_by(name: string, told: Results | undefined): Option[] {
+  const plural = name.replace(/_ref$/i, '').replace(/s$/, '') + 's';
+  const list = told?.parameters.find((one) => !same(one.name, name) && one.name.toLowerCase().endsWith(`_${plural.toLowerCase()}`));
+  const codebook = list?.data_type_ref.codebook_ref;
+  return list && told ? told.texts(list.name).map((value) => (codebook === undefined ? { value } : { value, codebook })) : [];
+}
+
+function things_for(name: string, { robots, entities, components }: World): Option[] {
+  if (/component/i.test(name)) return components.map((value) => ({ value }));
+  const machines = [...robots].map(({ ref, codebook }): Option => ({ value: ref, codebook }));
+  if (/robot/i.test(name)) return machines;
+  const people: Option[] = [];
+  const known: Option[] = [];
+  const kind = /^(face|sound)/i.exec(name)?.[1]?.toLowerCase() ?? 'person';
+  for (const { ref, codebook, identity, kind: its, is_seen } of entities) {
+    if (its !== kind || !is_seen) continue;
+    people.push({ value: ref, codebook, ...(identity && { label: `${ref} (${identity.ref})` }) });
+    if (identity) known.push({ value: identity.ref, codebook: identity.codebook, label: `${identity.ref} (${ref})` });
+  }
+  if (/visitor/i.test(name)) return known;
+  if (/person|face|sound/i.test(name)) return [...people, ...known];
+  return /object|target|entity/i.test(name) ? [...people, ...known, ...machines] : [];
+}
