@@ -26,6 +26,7 @@ import { EntitiesState } from './entities_state';
 import type { Environment, Stop } from './environment';
 import { EventsState } from './events_state';
 import { MapState } from './floor_map';
+import { HallState } from './hall_state';
 import { LinkState } from './link_state';
 import { MetricsState } from './metrics_state';
 import { Notices } from './notices';
@@ -72,6 +73,7 @@ export class Console {
   readonly robots: RobotsState;
   readonly entities: EntitiesState;
   readonly map: MapState;
+  readonly hall: HallState;
 
   private token: string | undefined;
   private speaker: Client | undefined;
@@ -107,6 +109,14 @@ export class Console {
       (event_type) => this.profile.with_event(event_type).length > 0,
     );
     this.map = new MapState(environment, token);
+    this.hall = new HallState(environment, {
+      documents: this.documents,
+      commands: this.commands,
+      profile: this.profile,
+      client,
+      run: (ref, command_type, named) => this.run(ref, command_type, named, { give_back: true }),
+      may_ask: is_open,
+    });
     this.now.value = environment.now();
     environment.every(1000, () => (this.now.value = environment.now()));
     this.documents.listen((document) => this.heard(document));
@@ -176,6 +186,7 @@ export class Console {
     this.commands.forget_session();
     this.subscriptions.forget_session();
     this.entities.forget();
+    this.hall.forget();
   }
 
   private async read_profile(): Promise<void> {

@@ -1,5 +1,6 @@
 // Scenarios as texts: what is wrong with them, how they are changed, how they are drawn.
 import { readFileSync } from 'node:fs';
+
 import { describe, expect, test } from 'vitest';
 
 import { graph_of, label_of_edge } from '../../src/scenario/graph';
@@ -9,7 +10,7 @@ import { moved, node_of, nodes_in, plain_lines, read_source, with_attribute, wit
 import { words } from '../../src/scenario/words';
 import { language } from '../../src/i18n/i18n';
 
-const reception = readFileSync(`${import.meta.dirname}/../../../../client-cpp/scenarios/reception.xml`, 'utf8');
+const reception = readFileSync(new URL('../../../../client-cpp/scenarios/reception.xml', import.meta.url), 'utf8');
 
 function scenario_with(states: string, start = 'a'): string {
   return `<robot_scenario xmlns='urn:x-rois:scenario:1' start='${start}'>\n<component name='move'/>\n<variable name='x'/>\n${states}\n</robot_scenario>\n`;
