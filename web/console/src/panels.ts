@@ -2,6 +2,7 @@
 import type { ComponentType } from 'preact';
 
 import { texts as components } from './components/texts';
+import { texts as scenario } from './scenario/texts';
 import type { IconName } from './ui/icon';
 
 /** Where a panel stands on a wide screen: the big one, the strip below it, or the column beside both. */
@@ -18,5 +19,6 @@ export interface Panel {
 }
 
 export const panels: readonly Panel[] = [
+  { id: 'scenario', title: () => scenario().title, icon: 'scenario', area: 'main', load: () => import('./scenario/panel') },
   { id: 'components', title: () => components().title, icon: 'components', area: 'side', load: () => import('./components/panel') },
 ];

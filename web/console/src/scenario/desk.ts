@@ -6,7 +6,7 @@ import type { Console } from '../state/console';
 import { Pulse } from '../state/pulse';
 import { Ring } from '../state/ring';
 import { Machine, type Outcome } from './machine';
-import type { State, Trigger } from './model';
+import type { Scenario, State, Trigger } from './model';
 import { read_scenario } from './read';
 import { plain_lines } from './source';
 
@@ -23,6 +23,8 @@ export interface Run {
   is_leaving: boolean;
   /** Paths of elements in the text that is run. */
   last_trigger: string;
+  /** How many transitions there were. */
+  taken: number;
   visits: Map<string, number>;
   variables: ReadonlyMap<string, readonly string[]>;
   changed: Map<string, number>; // when a variable changed last
@@ -36,7 +38,11 @@ export class Desk {
   readonly text = signal('');
   readonly file_name = signal(shipped_name);
   readonly reading = computed(() => read_scenario(this.text.value));
+  /** The last one that could be run, for the diagram. */
+  readonly drawn = signal<Scenario | undefined>(undefined);
   readonly is_running = signal(false);
+  /** The state that is looked at; empty: the scenario itself. */
+  readonly chosen = signal('');
   readonly history = new Ring<HistoryEntry>(most_history);
   readonly pulse: Pulse;
   readonly can_undo = signal(false);
@@ -48,7 +54,7 @@ export class Desk {
   constructor(private readonly console: Console) {
     this.pulse = new Pulse(console.environment);
     const { environment } = console;
-    this.text.value = environment.recall('scenario') ?? plain_lines(reception);
+    this.put(environment.recall('scenario') ?? plain_lines(reception));
     this.file_name.value = environment.recall('scenario.name') ?? shipped_name;
   }
 
@@ -59,8 +65,13 @@ export class Desk {
   // --- The text ---
 
   open(name: string, text: string): void {
-    this.edit(plain_lines(text), 'open');
+    if (this.is_running.value) return;
+    this.edit(plain_lines(text), '');
     this.file_name.value = name;
+    this.run = undefined;
+    this.history.clear();
+    this.chosen.value = '';
+    this.pulse.touch();
     this.console.environment.remember('scenario.name', name);
   }
 
@@ -83,6 +94,7 @@ export class Desk {
 
   private put(text: string): void {
     this.text.value = text;
+    this.drawn.value = this.reading.value.scenario ?? this.drawn.value;
     this.can_undo.value = this.undone.length > 0;
     this.console.environment.remember('scenario', text);
   }
@@ -94,7 +106,7 @@ export class Desk {
     if (!scenario || this.is_running.value) return;
     const { environment } = this.console;
     const run: Run = {
-      began_at: environment.now(), state: '', entered_at: environment.now(), is_leaving: false, last_trigger: '', visits: new Map(), variables: new Map(), changed: new Map(),
+      began_at: environment.now(), state: '', entered_at: environment.now(), is_leaving: false, last_trigger: '', taken: 0, visits: new Map(), variables: new Map(), changed: new Map(),
     };
     this.run = run;
     this.is_running.value = true;
@@ -135,6 +147,7 @@ export class Desk {
 
   private left(run: Run, from: State, trigger: Trigger, by: string): void {
     run.last_trigger = trigger.node.path;
+    run.taken += 1;
     this.note({ kind: 'transition', from: from.name, to: trigger.to, by, trigger: trigger.node.path });
   }
 

@@ -61,6 +61,8 @@ export function layout_of(graph: Graph, sizes: Sizes): Layout {
   for (let i = 0; i < layers.length; ++i) layers[i] ??= [];
   order(layers);
   place(layers);
+  for (let round = 0; round < 3; ++round) for (const { chain } of chains) straighten(layers, chain.spots.slice(1, -1));
+  shift_to_margin(layers);
   return drawn(layers, boxes, chains);
 
   // The spots of an edge from the upper state to the lower one, both among them; its label is halfway, between two layers of states.
@@ -174,8 +176,33 @@ function place(layers: Spot[][]): void {
       settle(layer, wanted);
     }
   }
+}
+
+function shift_to_margin(layers: readonly Spot[][]): void {
   const left = Math.min(...layers.flat().map((one) => one.x - one.width / 2));
   for (const one of layers.flat()) one.x += margin - left;
+}
+
+// A long edge goes straight for as long as what is beside it leaves room.
+function straighten(layers: readonly Spot[][], spots: readonly Spot[]): void {
+  let group: Spot[] = [];
+  let [low, high] = [-Infinity, Infinity];
+  const settle_group = () => {
+    const x = Math.min(high, Math.max(low, mean_of(group.map((one) => one.x)) ?? 0));
+    for (const one of group) one.x = x;
+  };
+  for (const spot of spots) {
+    const [left, right] = [layers[spot.layer]![spot.order - 1], layers[spot.layer]![spot.order + 1]];
+    const from = left ? left.x + (left.width + spot.width) / 2 + side_gap : -Infinity;
+    const to = right ? right.x - (right.width + spot.width) / 2 - side_gap : Infinity;
+    if (Math.max(low, from) > Math.min(high, to) + 0.001) {
+      settle_group();
+      [group, low, high] = [[], -Infinity, Infinity];
+    }
+    group.push(spot);
+    [low, high] = [Math.max(low, from), Math.min(high, to)];
+  }
+  settle_group();
 }
 
 // As near to what is wanted as can be without touching: those that would overlap move as a block to the mean of their wishes.
