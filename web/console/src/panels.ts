@@ -4,6 +4,7 @@ import type { ComponentType } from 'preact';
 import { texts as components } from './components/texts';
 import { texts as scenario } from './scenario/texts';
 import type { IconName } from './ui/icon';
+import { texts as visitors } from './visitors/texts';
 
 /** Where a panel stands on a wide screen: the big one, the strip below it, or the column beside both. */
 export type Area = 'main' | 'below' | 'side';
@@ -21,4 +22,5 @@ export interface Panel {
 export const panels: readonly Panel[] = [
   { id: 'scenario', title: () => scenario().title, icon: 'scenario', area: 'main', load: () => import('./scenario/panel') },
   { id: 'components', title: () => components().title, icon: 'components', area: 'side', load: () => import('./components/panel') },
+  { id: 'visitors', title: () => visitors().title, icon: 'person', area: 'side', load: () => import('./visitors/panel') },
 ];

@@ -138,7 +138,7 @@ function StatePicture({ state, box, run, is_start, is_chosen, is_reachable, choo
     <g
       class={classes.filter(Boolean).join(' ')}
       role="button"
-      tabIndex={is_reachable ? 0 : -1}
+      tabindex={is_reachable ? 0 : -1}
       data-state={name}
       aria-label={w.state_name(shown_name(name), [...marks, leads].join('. '))}
       aria-pressed={is_chosen}

@@ -25,7 +25,7 @@ export default function ScenarioPanel() {
   const console = useConsole();
   const w = words();
   const desk = desk_of(console);
-  const part = useSignal<Part>(desk.is_running.value ? 'run' : 'edit');
+  const part = useSignal<Part>('run');
   const frame = useRef<HTMLDivElement>(null);
   const is_wide = useSignal(true);
   useLayoutEffect(() => {

@@ -74,7 +74,7 @@ function History({ desk }: { desk: Desk }) {
     at_end.current = scrollTop + clientHeight >= scrollHeight - 30;
   };
   return (
-    <section class="scenario-history" aria-label={w.history}>
+    <section class="scenario-history">
       <h3>{w.history}</h3>
       <div class="scenario-history-frame" ref={frame} onScroll={scrolled} tabIndex={0} role="region" aria-label={w.history}>
         {entries.length === 0 && <p class="scenario-soft">{w.no_history}</p>}
@@ -116,7 +116,7 @@ function VariablesTable({ desk }: { desk: Desk }) {
   const those = root ? [...nodes_in(root)].filter((one) => one.name === 'variable' && one.parent === root) : [];
   const { run } = desk;
   return (
-    <section class="scenario-variables" aria-label={w.variables}>
+    <section class="scenario-variables">
       <h3>{w.variables} <span class="scenario-soft">{w.begins_hint}</span></h3>
       <div class="scenario-variables-frame">
         {those.length === 0 ? (

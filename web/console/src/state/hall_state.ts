@@ -82,6 +82,7 @@ export class HallState {
   /** Lets so many ms of a world pass that stands still; a multiple of 20. */
   async let_pass(ms: number): Promise<Outcome> {
     const outcome = await this.tell('let_pass', { time: Math.max(20, Math.round(ms / 20) * 20) });
+    this.stands_still.value = true;
     this.poll.now();
     return outcome;
   }
