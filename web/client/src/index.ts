@@ -9,7 +9,7 @@ export { Execution } from './execution.js';
 export type { State } from './link.js';
 export * from './messages.js';
 export * from './profiles.js';
-export { namespaces, type Operation, request, sequence_xml, type Writable } from './requests.js';
+export { component_ref_xml, condition_xml, namespaces, type Operation, parameter_xml, request, sequence_xml, type Writable } from './requests.js';
 export type { OpenSocket, Socket, SocketEnd, SocketListener } from './socket.js';
 export { Stream } from './stream.js';
 export { Subscription, type Wanted } from './subscriptions.js';

@@ -2,6 +2,7 @@
 import type { ComponentType } from 'preact';
 
 import { texts as components } from './components/texts';
+import { texts as messages } from './messages/texts';
 import { texts as scenario } from './scenario/texts';
 import type { IconName } from './ui/icon';
 import { texts as visitors } from './visitors/texts';
@@ -23,4 +24,5 @@ export const panels: readonly Panel[] = [
   { id: 'scenario', title: () => scenario().title, icon: 'scenario', area: 'main', load: () => import('./scenario/panel') },
   { id: 'components', title: () => components().title, icon: 'components', area: 'side', load: () => import('./components/panel') },
   { id: 'visitors', title: () => visitors().title, icon: 'person', area: 'side', load: () => import('./visitors/panel') },
+  { id: 'messages', title: () => messages().title, icon: 'messages', area: 'below', load: () => import('./messages/panel') },
 ];

@@ -1,48 +1,30 @@
-// What the engine has, as a tree of engines and components, and how each component is.
+// What the engine has, as a tree of engines and components, and everything that can be done with the one that is chosen.
 import './components.css';
 
 import { useConsole, useWatch } from '../shell/context';
-import type { ComponentView, EngineView } from '../state/profile_state';
-import { EmptyState, StatusBadge } from '../ui';
+import { EmptyState, SplitPane, useIsWide } from '../ui';
+import { Detail } from './detail';
 import { texts } from './texts';
+import { Tree } from './tree';
 
 export default function ComponentsPanel() {
-  const { profile, status, metrics } = useConsole();
+  const { profile, status, metrics, selection } = useConsole();
   useWatch(status.poll);
   useWatch(metrics.poll);
+  const [frame, is_wide] = useIsWide(820); // for the tree and the component side by side
   const engine = profile.engine.value;
-  if (!engine) return <EmptyState icon="components" title={texts().none} />;
+  const ref = selection.component.value;
+  const view = profile.component(ref);
+  const detail = view ? <Detail key={ref} view={view} /> : <EmptyState icon="components" title={profile.is_empty.value ? texts().empty : ref === '' ? texts().pick : texts().gone(ref)} />;
   return (
-    <div class="engine-frame" role="region" aria-label={texts().tree} tabIndex={0}>
-      <ul class="engine-tree">
-        <Engine engine={engine} />
-      </ul>
+    <div ref={frame} class="engine-panel">
+      {!engine ? (
+        <EmptyState icon="components" title={texts().none} />
+      ) : is_wide ? (
+        <SplitPane key="row" id="components.row" direction="row" share={0.34} label={texts().tree} first={<Tree engine={engine} />} second={detail} />
+      ) : (
+        <SplitPane key="column" id="components.column" direction="column" share={0.36} label={texts().tree} first={<Tree engine={engine} />} second={detail} />
+      )}
     </div>
-  );
-}
-
-function Engine({ engine }: { engine: EngineView }) {
-  return (
-    <li>
-      <h2 title={engine.identifier}>{engine.name}</h2>
-      <ul>
-        {engine.components.map((one) => <Row key={one.ref} component={one} />)}
-        {engine.sub_engines.map((one) => <Engine key={one.name} engine={one} />)}
-      </ul>
-    </li>
-  );
-}
-
-function Row({ component }: { component: ComponentView }) {
-  const { status, bindings } = useConsole();
-  const entry = status.of(component.ref);
-  const holder = bindings.holder_of(component.ref);
-  return (
-    <li class="engine-component" title={component.description}>
-      <span class="engine-ref">{component.ref}</span>
-      <span class="engine-type">{component.type_name}</span>
-      {holder.who !== 'nobody' && <span class="engine-holder">{holder.who === 'me' ? texts().mine : texts().other(holder.session)}</span>}
-      {entry ? <StatusBadge status={entry.status} title={entry.trouble} /> : <span class="engine-holder">{texts().unasked}</span>}
-    </li>
   );
 }

@@ -30,7 +30,7 @@ export function ArgumentFields({ view, asked, inputs, change, problems }: Argume
   const world = what_there_is(console, view.ref);
   return (
     <div class="form-fields">
-      {has_things && <LooksAtThings />}
+      {has_things && <LooksAtRobots />}
       {asked.map((one) => (
         <ParameterField
           key={one.name}
@@ -76,10 +76,8 @@ function is_of_things({ name, data_type_ref }: Asked): boolean {
   return data_type(data_type_ref.code).kind === 'identifier' && /robot|person|face|sound|object|target/i.test(name);
 }
 
-// People and robots that can be chosen are those that are there now.
-function LooksAtThings() {
-  const { entities, robots } = useConsole();
-  useWatch(entities);
-  useWatch(robots.poll);
+// Robots that can be chosen are those that are there now.
+function LooksAtRobots() {
+  useWatch(useConsole().robots.poll);
   return null;
 }

@@ -1,8 +1,14 @@
-// Forms that are made from profiles: fields, checks, and the arguments that come of them.
+// Forms that are made from profiles: fields, checks, and the arguments that come of them; requests, how they are sent, and what comes of them.
 export * from './argument_fields';
+export * from './command_progress';
 export * from './data_type';
 export * from './describe';
+export * from './drafts';
+export * from './exchange';
 export * from './inputs';
 export * from './options';
 export * from './parameter_field';
+export * from './results_table';
 export { texts as form_texts } from './texts';
+export { exchange_texts } from './exchange_texts';
+export * from './why';

@@ -24,7 +24,7 @@ export function Diagram({ desk, scenario, edit }: { desk: Desk; scenario: Scenar
 
   useLayoutEffect(() => {
     const element = frame.current!;
-    const observer = new ResizeObserver(() => (size.value = { width: element.clientWidth, height: element.clientHeight }));
+    const observer = new ResizeObserver(([box]) => (size.value = { width: box!.contentRect.width, height: box!.contentRect.height }));
     observer.observe(element);
     return () => observer.disconnect();
   }, []);

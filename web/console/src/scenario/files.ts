@@ -17,5 +17,5 @@ export function save_file(name: string, text: string): void {
   link.href = URL.createObjectURL(new Blob([text], { type: 'application/xml' }));
   link.download = name;
   link.click();
-  URL.revokeObjectURL(link.href);
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000); // the browser has begun to read it by then
 }

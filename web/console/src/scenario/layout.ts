@@ -31,8 +31,8 @@ export interface Sizes {
 }
 
 const layer_gap = 15;
-const side_gap = 18;
-const margin = 14;
+const side_gap = 14;
+const margin = 12;
 const sweeps = 12;
 
 // A state, the label of an edge, or the place where a long edge passes a layer.

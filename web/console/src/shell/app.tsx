@@ -2,7 +2,7 @@ import { useEffect } from 'preact/hooks';
 
 import { language } from '../i18n/i18n';
 import type { Console } from '../state/console';
-import { ConsoleContext } from './context';
+import { ConsoleContext, useConsole, useWatch } from './context';
 import { Header } from './header';
 import { Layout } from './layout';
 import { LinkBanner } from './link_status';
@@ -15,17 +15,26 @@ export function App({ console }: { console: Console }) {
     document.documentElement.lang = language.value;
     document.title = texts().title;
   }, [language.value]);
+  const { phase } = console.link.view.value;
+  const is_stale = console.link.heard_at > 0 && (phase === 'lost' || phase === 'draining' || phase === 'refused');
   return (
     <ConsoleContext.Provider value={console}>
       <div class="app">
         <Header />
         <LinkBanner />
-        <main id="panels" class={console.link.view.value.phase === 'lost' ? 'app-main app-stale' : 'app-main'} tabIndex={-1}>
+        <main id="panels" class={is_stale ? 'app-main app-stale' : 'app-main'} tabIndex={-1}>
           <Layout />
         </main>
         <NoticeArea />
         <TokenDialog />
+        <Watch />
       </div>
     </ConsoleContext.Provider>
   );
+}
+
+// People are told of when they come or move: whoever begins to listen later does not know of those who stand still.
+function Watch() {
+  useWatch(useConsole().entities);
+  return null;
 }

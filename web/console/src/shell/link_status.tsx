@@ -32,9 +32,10 @@ export function LinkBanner() {
   // A link that opens within a moment is not worth a line that comes and goes.
   const is_long = console.now.value - since > 1500;
   const said = () => {
-    if (phase === 'lost') return t.stale(console.now.value - heard);
+    if (phase === 'lost') return `${t.is_old(console.now.value - heard)} ${t.lost_hint}`;
+    if (phase === 'draining') return heard > 0 ? `${t.draining_hint} ${t.is_old(console.now.value - heard)}` : t.draining_hint;
     if (phase === 'connecting') return is_long ? t.connecting_hint : '';
-    return { refused: t.refused_hint, draining: t.draining_hint, closed: t.closed_hint }[phase as string] ?? '';
+    return { refused: t.refused_hint, closed: t.closed_hint }[phase as string] ?? '';
   };
   const text = said();
   return (

@@ -33,6 +33,7 @@ import { Notices } from './notices';
 import { ParametersState } from './parameters_state';
 import { ProfileState } from './profile_state';
 import { RobotsState } from './robots_state';
+import { Selection } from './selection';
 import { StatusState } from './status_state';
 import { SubscriptionsState } from './subscriptions_state';
 
@@ -74,6 +75,7 @@ export class Console {
   readonly entities: EntitiesState;
   readonly map: MapState;
   readonly hall: HallState;
+  readonly selection = new Selection();
 
   private token: string | undefined;
   private speaker: Client | undefined;
@@ -105,7 +107,7 @@ export class Console {
     this.robots = new RobotsState(environment, this.documents, client, components, is_open);
     this.entities = new EntitiesState(
       environment,
-      (event_type) => this.documents.as_own(() => this.subscriptions.subscribe(event_type)),
+      (event_type) => this.documents.as_own(() => this.subscriptions.subscribe(event_type, {}, true)),
       (event_type) => this.profile.with_event(event_type).length > 0,
     );
     this.map = new MapState(environment, token);
@@ -209,9 +211,11 @@ export class Console {
   }
 
   private notified(notification: Notification): void {
-    const document = this.documents.ring.at(-1)?.number ?? 0; // a document is logged before it is read
+    const logged = this.documents.ring.at(-1)!; // a document is logged before it is read
+    const document = logged.number;
     switch (notification.name) {
       case 'receive_event':
+        logged.is_own = this.subscriptions.is_own(notification.subscribe_id);
         this.events.event(notification, document);
         this.subscriptions.event(notification);
         this.entities.event(notification);

@@ -58,12 +58,14 @@ export class LinkState {
       const question = asked;
       batch(() => {
         this.session.value = client.session;
-        if (state === 'connecting' || state === 'lost') this.turn(troubled(this.view.value.phase, state, reason), reason);
+        if (state === 'connecting' || state === 'lost') this.trouble(state, reason);
         else this.turn(state, reason);
       });
       if (state !== 'connecting' && state !== 'lost') return;
       void this.outlook(token).then((outlook) => {
-        if (question !== asked || typeof outlook === 'string') return;
+        if (question !== asked) return;
+        if (outlook === 'unreachable' && this.view.value.phase === 'refused') this.turn(state, reason);
+        if (typeof outlook === 'string') return;
         this.turn(outlook.phase, outlook.reason);
         if (outlook.phase !== 'token') return;
         gave_up = true; // it would only be told the same again
@@ -95,6 +97,14 @@ export class LinkState {
     this.view.value = { phase, since, reason };
   }
 
+  private trouble(state: 'connecting' | 'lost', reason: string): void {
+    const before = this.view.value;
+    const phase = troubled(before, state, reason, this.environment.now());
+    // It was said why; a failed try does not say anything better.
+    const was_said = phase === before.phase && phase !== state && !refusals.test(reason) && !going_away.test(reason);
+    this.turn(phase, was_said ? before.reason : reason);
+  }
+
   private note_gap(gap: Gap): void {
     if (gap.reason === 'buffer') return; // only what the console does not read
     const before = this.missed.value?.gap;
@@ -121,10 +131,11 @@ export class LinkState {
 const refusals = /^(too_many|not_allowed|unauthorized):/;
 const going_away = /closed with (1001|1012|1013)\b|^shutting_down:/;
 
-function troubled(before: Phase, state: 'connecting' | 'lost', reason: string): Phase {
+const restarts_within = 60_000; // ms: after that it is just not there
+
+function troubled(before: LinkView, state: 'connecting' | 'lost', reason: string, now: number): Phase {
   if (refusals.test(reason)) return 'refused';
   if (going_away.test(reason)) return 'draining';
-  // It was said why; a failed try does not say anything better.
-  if (state === 'connecting' && (before === 'refused' || before === 'draining')) return before;
+  if (before.phase === 'refused' || (before.phase === 'draining' && now - before.since < restarts_within)) return before.phase;
   return state;
 }

@@ -18,7 +18,7 @@ export interface SubscriptionEntry {
 export class SubscriptionsState {
   /** By subscribe_id. Counts change in place; the map is a new one when a subscription comes or goes. */
   readonly all = signal<ReadonlyMap<string, SubscriptionEntry>>(new Map());
-  private readonly held = new Map<string, Set<Subscription>>();
+  private readonly held = new Map<Subscription, { is_own: boolean }>(); // their ids change with the session
 
   constructor(
     private readonly environment: Environment,
@@ -26,20 +26,23 @@ export class SubscriptionsState {
     private readonly ended: (event_type: string, error: unknown) => void,
   ) {}
 
-  /** Outlives links and sessions. `ended` of the constructor is called when a new session refuses it. */
-  async subscribe(event_type: string, options: SubscribeOptions = {}): Promise<Subscription> {
+  /** Outlives links and sessions. `ended` of the constructor is called when a new session refuses it. `is_own`: for what the console shows. */
+  async subscribe(event_type: string, options: SubscribeOptions = {}, is_own = false): Promise<Subscription> {
     const subscription = await this.client().subscribe(event_type, options);
-    const those = this.held.get(subscription.subscribe_id) ?? new Set();
-    this.held.set(subscription.subscribe_id, those.add(subscription));
+    this.held.set(subscription, { is_own });
     void this.drain(subscription);
     return subscription;
   }
 
+  /** Whether the console has it for itself: nobody has asked for it. */
+  is_own(id: string): boolean {
+    return [...this.held].some(([one, { is_own }]) => is_own && one.subscribe_id === id);
+  }
+
   /** Ends it, whoever has made it. */
   async unsubscribe(id: string): Promise<void> {
-    const those = this.held.get(id);
-    this.held.delete(id);
-    if (those) await Promise.all([...those].map((one) => one.close()));
+    const those = [...this.held.keys()].filter((one) => one.subscribe_id === id);
+    if (those.length > 0) await Promise.all(those.map((one) => one.close()));
     else await this.client().send(request('unsubscribe', {}, text_element('subscribe_id', id)));
   }
 
@@ -80,6 +83,6 @@ export class SubscriptionsState {
     } catch (error) {
       this.ended(subscription.wanted.event_type, error);
     }
-    for (const [id, those] of this.held) if (those.delete(subscription) && those.size === 0) this.held.delete(id);
+    this.held.delete(subscription);
   }
 }

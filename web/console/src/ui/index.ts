@@ -10,6 +10,7 @@ export * from './split_pane';
 export * from './states';
 export * from './table';
 export * from './tabs';
+export * from './use_width';
 export * from './virtual_list';
 export * from './xml_text';
 export * from './xml_view';

@@ -21,6 +21,7 @@ export function VirtualList<Row>({ label, rows, row_height, key_of, render, chos
   const [top, set_top] = useState(0);
   const [height, set_height] = useState(400);
   const at_end = useRef(true);
+  const last_key = rows.length === 0 ? undefined : key_of(rows[rows.length - 1]!); // rows may be a list that grows in place
 
   useLayoutEffect(() => {
     const element = frame.current!;
@@ -31,7 +32,7 @@ export function VirtualList<Row>({ label, rows, row_height, key_of, render, chos
   useLayoutEffect(() => {
     const element = frame.current!;
     if (follow && at_end.current) element.scrollTop = element.scrollHeight;
-  }, [rows, follow]);
+  }, [rows, last_key, follow]);
 
   const scrolled = () => {
     const element = frame.current!;

@@ -27,6 +27,8 @@ const types: Record<string, string> = { '.html': 'text/html', '.js': 'text/javas
 export class Front {
   /** Connections to the gateway are refused while this is set. */
   is_cut = false;
+  /** Demanded of everybody while it is set, as a proxy before a gateway may. */
+  token: string | undefined;
 
   private constructor(
     private readonly server: Server,
@@ -42,6 +44,8 @@ export class Front {
     const front = new Front(server, gateway);
     server.on('upgrade', (asked, socket) => {
       socket.on('error', () => undefined);
+      const [, token] = (asked.headers['sec-websocket-protocol'] ?? '').split(',').map((one) => one.trim());
+      if (front.token !== undefined && token !== `rois.bearer.${Buffer.from(front.token).toString('base64url')}`) return void socket.end('HTTP/1.1 401 Unauthorized\r\nContent-Length: 0\r\n\r\n');
       if (front.is_cut) return void socket.destroy();
       const far = connect(Number(new URL(front.gateway).port), '127.0.0.1');
       const lines = asked.rawHeaders.reduce((all, one, i) => all + one + (i % 2 === 0 ? ': ' : '\r\n'), '');
@@ -80,6 +84,10 @@ export class Front {
 
   private pass_on(asked: IncomingMessage, answer: import('node:http').ServerResponse): void {
     if (this.is_cut) return void asked.socket.destroy();
+    if (this.token !== undefined && asked.headers.authorization !== `Bearer ${this.token}`) {
+      answer.writeHead(401, { 'Content-Type': 'application/xml', 'WWW-Authenticate': 'Bearer' });
+      return void answer.end('<fault xmlns="urn:x-rois:psm:xml:message:1" code="unauthorized"><reason>the token is not known here</reason></fault>');
+    }
     const far = http_request(`${this.gateway}${asked.url}`, { method: asked.method ?? 'GET', headers: asked.headers }, (came) => {
       answer.writeHead(came.statusCode ?? 500, came.headers);
       came.pipe(answer);
@@ -148,6 +156,7 @@ export class Stage {
       locale: language,
       reducedMotion: motion,
       hasTouch: touch,
+      permissions: ['clipboard-read', 'clipboard-write'],
     });
     const page = await context.newPage();
     page.setDefaultTimeout(15_000);

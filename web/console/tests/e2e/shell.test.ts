@@ -15,7 +15,7 @@ describe('the page', () => {
   test('connects by itself and shows what the engine has', () =>
     stage.page(async (page) => {
       await page.getByText('Connected', { exact: true }).waitFor();
-      await page.getByText('speech_synthesis', { exact: true }).waitFor();
+      await page.getByRole('treeitem', { name: /^speech_synthesis / }).waitFor();
       await page.locator('.engine-component', { hasText: 'navigation' }).getByText('READY').waitFor();
       expect(await page.title()).toBe('RoIS console');
       await picture(page, 'shell-wide-dark');
@@ -29,7 +29,7 @@ describe('the page', () => {
   ] as const)('is accessible: %s, %s, %s', (size, look, language) =>
     stage.page(
       async (page) => {
-        await page.getByText('speech_synthesis', { exact: true }).waitFor();
+        await page.getByRole('treeitem', { name: /^speech_synthesis / }).waitFor();
         await page.locator('.engine-component', { hasText: 'navigation' }).getByText('READY').waitFor();
         expect(await violations(page)).toBe('');
         expect(await page.evaluate(() => document.documentElement.lang)).toBe(language);
@@ -72,4 +72,43 @@ describe('the page', () => {
       await page.getByRole('button', { name: 'Connect', exact: true }).click();
       await page.getByText('Connected', { exact: true }).waitFor();
     }));
+
+  test('is walked with the keyboard alone: nothing is left out, nothing holds the focus, all of it is seen and named', () =>
+    stage.page(async (page) => {
+      await page.getByRole('treeitem', { name: /^navigation / }).click();
+      await page.getByRole('heading', { name: 'navigation', exact: true }).waitFor();
+      await page.evaluate(() => {
+        document.body.tabIndex = -1; // so that the walk begins at the top
+        document.body.focus();
+      });
+      const walked: string[] = [];
+      for (let i = 0; i < 120; ++i) {
+        await page.keyboard.press('Tab');
+        const at = await page.evaluate(focused);
+        if (at === undefined || (walked.length > 0 && at === walked[0])) break;
+        walked.push(at);
+      }
+      await picture(page, 'shell-focus');
+      expect(walked[0]).toBe('Skip to the panels');
+      for (const name of ['Colours', 'Language', 'Pause', 'Requests', 'Search in the text', 'Export', 'navigation', 'Release navigation|Bind navigation', 'Commands', 'start', 'target_position, item 1', 'Copy as curl', 'Request: navigation start'])
+        expect(walked.some((one) => new RegExp(`^(${name})`).test(one)), `${name} in ${walked.join(' | ')}`).toBe(true);
+      expect(walked.filter((one) => one.startsWith('!'))).toEqual([]);
+
+      await page.evaluate(() => (document.activeElement as HTMLElement).blur());
+      await page.getByText('Skip to the panels').focus();
+      await page.keyboard.press('Enter');
+      expect(await page.evaluate(() => document.activeElement?.id)).toBe('panels');
+    }));
 });
+
+// The name of what has the focus; with a ! before it when it is not seen, or has no name. Runs in the page.
+function focused(): string | undefined {
+  const at = document.activeElement as HTMLElement | null;
+  if (!at || at === document.body) return undefined;
+  const labelled = at.getAttribute('aria-labelledby')?.split(' ').map((id) => document.getElementById(id)?.textContent).join(' ');
+  const name = (at.getAttribute('aria-label') ?? labelled ?? (at as HTMLInputElement).labels?.[0]?.textContent ?? at.textContent ?? '').trim();
+  const box = at.getBoundingClientRect();
+  const style = getComputedStyle(at);
+  const is_seen = box.width > 0 && box.height > 0 && box.top >= 0 && box.left >= 0 && (style.outlineStyle !== 'none' || style.backgroundColor !== getComputedStyle(at.parentElement!).backgroundColor);
+  return is_seen && name !== '' ? name : `!${at.outerHTML.slice(0, 80)}`;
+}

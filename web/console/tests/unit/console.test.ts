@@ -70,6 +70,29 @@ describe('the link', () => {
     expect(console.link.view.value.phase).toBe('draining');
   });
 
+  test('a gateway that goes away is waited for, and then is just not there', async () => {
+    world.breaks('the WebSocket was closed with 1001, shutting down');
+    await world.tries_again();
+    world.breaks();
+    expect(console.link.view.value).toMatchObject({ phase: 'draining', reason: 'the WebSocket was closed with 1001, shutting down' });
+    await world.passes(60_000);
+    await world.tries_again();
+    world.breaks();
+    expect(console.link.view.value.phase).toBe('lost');
+  });
+
+  test('a gateway that refused, and then is not there, is lost', async () => {
+    world.pages.set('/rois', { status: 429, text: '<fault code="too_many"><reason>so it is</reason></fault>' });
+    world.breaks();
+    await settled();
+    expect(console.link.view.value.phase).toBe('refused');
+    world.pages.clear();
+    await world.tries_again();
+    world.breaks();
+    await settled();
+    expect(console.link.view.value.phase).toBe('lost');
+  });
+
   test('asks for a token when the gateway wants one, and tries with it', async () => {
     const shy = new World();
     shy.pages.set('/rois', { status: 401, text: '<fault code="unauthorized"><reason>no token</reason></fault>' });
@@ -205,6 +228,27 @@ describe('people', () => {
     stop();
     await settled();
     expect(console.subscriptions.all.value.size).toBe(0);
+  });
+
+  test('are told by events that nobody has asked for, also in a session that is made anew', async () => {
+    let next = 1;
+    world.answers.set('subscribe', () => `<subscribe_id>s-${next++}</subscribe_id>`);
+    console.entities.watch();
+    await settled();
+    const is_own = async (id: string) => {
+      await world.notifies('receive_event', localized(['person-1', 0, 0]).replace('s-1', id));
+      return console.documents.ring.at(-1)!.is_own;
+    };
+    expect(await is_own('s-1')).toBe(true);
+    await console.subscribe('person_localized');
+    expect(await is_own('s-2')).toBe(false);
+    world.answers.set('resume', () => 'ERROR');
+    world.breaks();
+    await world.tries_again();
+    await world.opens();
+    expect([await is_own('s-3'), await is_own('s-4')]).toEqual([true, false]);
+    await console.subscriptions.unsubscribe('s-4');
+    expect([...console.subscriptions.all.value.keys()]).toEqual(['s-3']);
   });
 
   test('have a place, a trail and a certainty, and go out of sight', async () => {

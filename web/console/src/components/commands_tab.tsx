@@ -1,0 +1,90 @@
+// A form for every command of a component.
+import { useState } from 'preact/hooks';
+import { command, request, sequence_xml } from 'rois-client';
+
+import { arguments_in, ArgumentFields, asked_by, CommandProgress, Exchange, type Inputs, last_outcome, misplaced, problems_in, signature, useDraft } from '../forms';
+import { duration } from '../i18n/i18n';
+import { useConsole } from '../shell/context';
+import type { ComponentView } from '../state/profile_state';
+import { Checkbox } from '../ui';
+import { Pick } from './pick';
+import { texts } from './texts';
+
+export function CommandsTab({ view }: { view: ComponentView }) {
+  const t = texts();
+  const names = in_order(view.commands.map((one) => one.name));
+  const [name, choose] = useDraft(`${view.ref} command`, names[0] ?? '');
+  if (!names.includes(name)) return <p>{t.no_commands}</p>;
+  const tell = (one: string) => {
+    const offered = view.commands.find((each) => each.name === one);
+    return offered && signature(offered);
+  };
+  return (
+    <>
+      <Pick label={t.choose_command} names={names} chosen={name} choose={choose} tell={tell} />
+      <CommandForm key={name} view={view} name={name} />
+    </>
+  );
+}
+
+// `start` first: it is what most want.
+function in_order(names: string[]): string[] {
+  const rank = (name: string) => ['start', 'stop', 'suspend', 'resume'].indexOf(name);
+  const common = names.filter((name) => rank(name) >= 0).sort((a, b) => rank(a) - rank(b));
+  const own = names.filter((name) => rank(name) < 0);
+  return [...own, ...common];
+}
+
+function CommandForm({ view, name }: { view: ComponentView; name: string }) {
+  const console = useConsole();
+  const t = texts();
+  const [inputs, change] = useDraft<Inputs>(`${view.ref} ${name}`, {});
+  const [give_back, set_give_back] = useDraft(`${view.ref} ${name} give back`, false);
+  const [was_tried, set_tried] = useState(false);
+  const asked = asked_by(view, name);
+  const problems = problems_in(console, view.ref, asked, inputs);
+  // What is missing is told when somebody wants to send it, what is wrong at once.
+  const shown = was_tried ? problems : Object.fromEntries(Object.entries(problems).filter(([, one]) => one.what !== 'missing' && one.what !== 'either'));
+  const unit = { ...command(view.ref, name), arguments: arguments_in(console, view.ref, asked, inputs) };
+  const title = `${view.ref} ${name}`;
+  const timeout = view.commands.find((one) => one.name === name)?.timeout;
+  return (
+    <form class="component-form" onSubmit={(event) => event.preventDefault()}>
+      {asked.length > 0 && <ArgumentFields view={view} asked={asked} inputs={inputs} change={change} problems={shown} />}
+      {misplaced(console, unit).map((text) => <p key={text} class="exchange-why">{text}</p>)}
+      {timeout !== undefined && <p class="component-soft">{t.start_within(duration(timeout))}</p>}
+      <Exchange
+        title={title}
+        operation="execute"
+        label={name}
+        request={written(() => request('execute', {}, sequence_xml([unit])))}
+        may_send={() => {
+          set_tried(true);
+          return Object.keys(problems).length === 0;
+        }}
+        act={() => console.execute([unit], { give_back })}
+      >
+        <Checkbox label={t.given_back} checked={give_back} change={set_give_back} />
+      </Exchange>
+      <Others view={view} title={title} />
+    </form>
+  );
+}
+
+// What is still open on this component and was sent elsewhere: by another form or panel.
+function Others({ view, title }: { view: ComponentView; title: string }) {
+  const { commands } = useConsole();
+  void commands.pulse.beat.value;
+  const here = last_outcome(title)?.request?.number;
+  const open = commands.open().filter((one) => one.component === view.ref && one.sequence.document !== here);
+  return <>{open.map((one) => <CommandProgress key={one.id} entry={one} />)}</>;
+}
+
+/** A document, or nothing when there are characters in it that XML cannot hold. */
+export function written(make: () => string): string {
+  try {
+    return make();
+  } catch {
+    return '';
+  }
+}

@@ -1,0 +1,70 @@
+// One component: how it is, who has it, and what it can do.
+import { useDraft } from '../forms';
+import { useConsole } from '../shell/context';
+import type { ComponentView } from '../state/profile_state';
+import { Button, error_text, StatusBadge, Tabs } from '../ui';
+import { CommandsTab } from './commands_tab';
+import { EventsTab } from './events_tab';
+import { holder_text } from './holder';
+import { ParametersTab } from './parameters_tab';
+import { QueriesTab } from './queries_tab';
+import { texts } from './texts';
+
+type Part = 'commands' | 'parameters' | 'queries' | 'events';
+
+export function Detail({ view }: { view: ComponentView }) {
+  const t = texts();
+  const [part, set_part] = useDraft<Part>('part', 'commands');
+  const count = (n: number) => (n === 0 ? undefined : String(n));
+  const tabs = [
+    { id: 'commands' as const, title: t.commands, badge: count(view.commands.length) },
+    { id: 'parameters' as const, title: t.parameters, badge: count(view.parameters.length) },
+    { id: 'queries' as const, title: t.queries, badge: count(view.queries.length) },
+    { id: 'events' as const, title: t.events, badge: count(view.events.length) },
+  ];
+  return (
+    <section class="component-detail" aria-label={view.ref}>
+      <Head view={view} />
+      <div class="component-parts">
+        <Tabs label={t.of_component(view.ref)} tabs={tabs} chosen={part} choose={set_part}>
+          <div class="component-part" key={part}>
+            {part === 'commands' && <CommandsTab view={view} />}
+            {part === 'parameters' && <ParametersTab view={view} />}
+            {part === 'queries' && <QueriesTab view={view} />}
+            {part === 'events' && <EventsTab view={view} />}
+          </div>
+        </Tabs>
+      </div>
+    </section>
+  );
+}
+
+function Head({ view }: { view: ComponentView }) {
+  const console = useConsole();
+  const { status, bindings, notices, now, link } = console;
+  const t = texts();
+  const entry = status.of(view.ref);
+  const told = (done: Promise<unknown>) => void done.catch((error: unknown) => notices.tell('error', error_text(error)));
+  return (
+    <header class="component-head">
+      <div class="component-line">
+        <h2>{view.ref}</h2>
+        {entry && <StatusBadge status={entry.status} title={entry.trouble} />}
+        {entry && <span class="component-soft">{t.since(Math.max(0, now.value - entry.since))}</span>}
+        <span class="component-holder">{holder_text(console, view.ref) || t.nobody}</span>
+        {bindings.mine.value.has(view.ref) ? (
+          <Button small disabled={!link.is_open} aria-label={t.release_it(view.ref)} onClick={() => told(bindings.release(view.ref))}>
+            {t.release}
+          </Button>
+        ) : (
+          <Button small disabled={!link.is_open} aria-label={t.bind_it(view.ref)} onClick={() => told(bindings.bind(view.ref))}>
+            {t.bind}
+          </Button>
+        )}
+      </div>
+      {view.description !== '' && <p>{view.description}</p>}
+      <p class="component-soft"><code>{view.type}</code></p>
+      {view.unresolved.length > 0 && <p class="component-soft">{t.unresolved(view.unresolved.join(', '))}</p>}
+    </header>
+  );
+}

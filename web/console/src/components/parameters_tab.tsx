@@ -1,0 +1,56 @@
+// A component's parameters as they are, and a form that changes them.
+import { useState } from 'preact/hooks';
+import { component_ref_xml, element, parameter_xml, request } from 'rois-client';
+
+import { arguments_in, ArgumentFields, asked_by, Exchange, type Inputs, problems_in, ResultsTable, useDraft } from '../forms';
+import { useConsole, useWatch } from '../shell/context';
+import type { ComponentView } from '../state/profile_state';
+import { written } from './commands_tab';
+import { texts } from './texts';
+
+export function ParametersTab({ view }: { view: ComponentView }) {
+  const { parameters } = useConsole();
+  const t = texts();
+  useWatch(parameters.poll(view.ref));
+  const told = parameters.of(view.ref);
+  return (
+    <>
+      <h3>{t.values_now}</h3>
+      {told && told.parameters.length > 0 ? <ResultsTable label={t.values_now} results={told} /> : <p class="component-soft">{t.not_told}</p>}
+      {view.parameters.length > 0 ? <SetForm view={view} /> : <p class="component-soft">{t.no_parameters}</p>}
+    </>
+  );
+}
+
+function SetForm({ view }: { view: ComponentView }) {
+  const console = useConsole();
+  const t = texts();
+  const [inputs, change] = useDraft<Inputs>(`${view.ref} set_parameter`, {});
+  const [was_tried, set_tried] = useState(false);
+  const asked = asked_by(view, 'set_parameter');
+  const problems = problems_in(console, view.ref, asked, inputs);
+  const given = arguments_in(console, view.ref, asked, inputs);
+  const set = async () => {
+    await console.set_parameter(view.ref, Object.fromEntries(given.map((one) => [one.name, one])));
+    console.parameters.poll(view.ref).now();
+  };
+  return (
+    <form class="component-form" onSubmit={(event) => event.preventDefault()}>
+      <h3>{t.set_title}</h3>
+      <ArgumentFields view={view} asked={asked} inputs={inputs} change={change} problems={problems} />
+      {was_tried && given.length === 0 && <p class="field-error" role="alert">{t.set_nothing}</p>}
+      <Exchange
+        title={`${view.ref} set_parameter`}
+        operation="set_parameter"
+        label={t.set}
+        icon="check"
+        request={written(() => request('set_parameter', {}, component_ref_xml(view.ref) + element('parameters', {}, ...given.map((one) => parameter_xml(one)))))}
+        may_send={() => {
+          set_tried(true);
+          return Object.keys(problems).length === 0 && given.length > 0;
+        }}
+        act={set}
+      />
+    </form>
+  );
+}

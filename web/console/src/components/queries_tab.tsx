@@ -1,0 +1,39 @@
+// A form for every query of a component.
+import { component_ref, condition_xml, request, text_element } from 'rois-client';
+
+import { Exchange, signature, useDraft } from '../forms';
+import { useConsole } from '../shell/context';
+import type { ComponentView } from '../state/profile_state';
+import { Pick } from './pick';
+import { texts } from './texts';
+
+export function QueriesTab({ view }: { view: ComponentView }) {
+  const console = useConsole();
+  const t = texts();
+  const names = [...view.queries.map((one) => one.name), ...(view.parameters.length > 0 ? ['get_parameter'] : [])];
+  const [name, choose] = useDraft(`${view.ref} query`, names[0] ?? '');
+  if (!names.includes(name)) return <p>{t.no_queries}</p>;
+  const query = view.queries.find((one) => one.name === name);
+  const results = query?.results.map((one) => `${one.name} (${one.data_type_ref.code})`).join(', ') ?? '';
+  const mine = component_ref(view.ref);
+  const tell = (one: string) => {
+    const offered = view.queries.find((each) => each.name === one);
+    return offered && signature(offered);
+  };
+  return (
+    <>
+      <Pick label={t.choose_query} names={names} chosen={name} choose={choose} tell={tell} />
+      <form key={name} class="component-form" onSubmit={(event) => event.preventDefault()}>
+        {results !== '' && <p class="component-soft">{t.answers(results)}</p>}
+        <Exchange
+          title={`${view.ref} ${name}`}
+          operation="query"
+          label={name}
+          icon="search"
+          request={request('query', {}, text_element('query_type', name) + condition_xml(mine))}
+          act={() => console.query(name, mine)}
+        />
+      </form>
+    </>
+  );
+}

@@ -1,0 +1,39 @@
+// How a command is, live: waiting, running since, ended how and why.
+import { useEffect } from 'preact/hooks';
+
+import { duration } from '../i18n/i18n';
+import { useConsole } from '../shell/context';
+import { type CommandEntry, has_ended } from '../state/commands_state';
+import { Button, error_text, StatusBadge } from '../ui';
+import { exchange_texts } from './exchange_texts';
+import { why } from './why';
+
+export function CommandProgress({ entry }: { entry: CommandEntry }) {
+  const console = useConsole();
+  const t = exchange_texts();
+  void console.commands.pulse.beat.value;
+  const ended = has_ended(entry);
+  const now = ended ? entry.ended_at! : console.now.value;
+  const title = `${entry.component} ${entry.command_type}`;
+  const has_results = (console.profile.component(entry.component)?.commands.find((one) => one.name === entry.command_type)?.results.length ?? 0) > 0;
+  useEffect(() => {
+    if (entry.state === 'OK' && has_results) void console.commands.fetch_results(entry);
+  }, [entry.state, has_results]);
+  const can_stop = !ended && entry.command_type === 'start';
+  const stop = () => void console.run(entry.component, 'stop', {}, { give_back: true }).catch((error: unknown) => console.notices.tell('error', error_text(error)));
+  return (
+    <div class="command-progress">
+      <p class="exchange-line">
+        <StatusBadge status={entry.state} />
+        <span>{t.ended(entry.state)}</span>
+        <span class="exchange-took">{t.lasted(duration(Math.max(0, now - (entry.started_at ?? entry.sent_at))))}</span>
+        {can_stop && (
+          <Button small look="danger" icon="stop" aria-label={t.stop_it(title)} onClick={stop}>
+            {t.stop}
+          </Button>
+        )}
+      </p>
+      {why(console, entry).map((text) => <p key={text} class="exchange-why">{text}</p>)}
+    </div>
+  );
+}

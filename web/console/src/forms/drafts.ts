@@ -1,0 +1,20 @@
+// What was typed and not sent yet, kept while the page is: a panel is taken down when another one is shown.
+import { useState } from 'preact/hooks';
+
+const kept = new Map<string, unknown>();
+const most = 300;
+
+export function draft<T>(key: string): T | undefined {
+  return kept.get(key) as T | undefined;
+}
+
+export function useDraft<T>(key: string, usual: T): [T, (to: T) => void] {
+  const [, again] = useState(0);
+  const put = (to: T) => {
+    kept.delete(key);
+    kept.set(key, to);
+    if (kept.size > most) kept.delete(kept.keys().next().value!);
+    again((n) => n + 1);
+  };
+  return [kept.has(key) ? (kept.get(key) as T) : usual, put];
+}

@@ -1,0 +1,124 @@
+// A request as it is built, the button that sends it, and what came of it.
+import { useRef, useState } from 'preact/hooks';
+import { parse_xml, type Operation, Results, results_of, RoisError } from 'rois-client';
+
+import { duration } from '../i18n/i18n';
+import { useConsole } from '../shell/context';
+import type { CommandEntry } from '../state/commands_state';
+import type { Console } from '../state/console';
+import type { LoggedDocument } from '../state/documents';
+import { Button, CurlButton, error_text, type IconName, StatusBadge, XmlView } from '../ui';
+import { CommandProgress } from './command_progress';
+import { ResultsTable } from './results_table';
+import { draft, useDraft } from './drafts';
+import { exchange_texts } from './exchange_texts';
+
+export interface ExchangeProps {
+  /** What it is called, for buttons and regions: `navigation start`. */
+  title: string;
+  operation: Operation;
+  /** The document, as it would be sent now; empty when it cannot be written. */
+  request: string;
+  /** Sends it, by whatever operation of the console. */
+  act: () => Promise<unknown>;
+  /** Called before; what is false keeps it from being sent. */
+  may_send?: () => boolean;
+  label?: string;
+  icon?: IconName;
+  /** More buttons. */
+  children?: preact.ComponentChildren;
+}
+
+export interface Outcome {
+  request: LoggedDocument | undefined; // as it was sent; undefined when it was not
+  answer: LoggedDocument | undefined;
+  error: unknown;
+}
+
+export function Exchange({ title, operation, request, act, may_send, label, icon, children }: ExchangeProps) {
+  const console = useConsole();
+  const t = exchange_texts();
+  const [outcome, set_outcome] = useDraft<Outcome | undefined>(key_of(title), undefined);
+  const [is_busy, set_busy] = useState(false);
+  const whole = useRef<HTMLDivElement>(null);
+  const send = async () => {
+    if (may_send && !may_send()) {
+      const form = whole.current?.closest('form') ?? whole.current?.parentElement;
+      requestAnimationFrame(() => form?.querySelector<HTMLElement>('[aria-invalid="true"]')?.focus());
+      return;
+    }
+    set_busy(true);
+    set_outcome(await watched(console, operation, act));
+    set_busy(false);
+  };
+  return (
+    <div class="exchange" ref={whole}>
+      <div class="exchange-asked">
+        <div class="exchange-buttons">
+          <Button look="primary" icon={icon ?? 'play'} busy={is_busy} disabled={!console.link.is_open} onClick={() => void send()}>
+            {label ?? t.send}
+          </Button>
+          {children}
+          <CurlButton request={request} disabled={request === ''} class="exchange-curl" />
+        </div>
+        {request !== '' && <XmlView text={request} label={t.request(title)} />}
+      </div>
+      <div class="exchange-came" aria-live="polite">
+        {outcome ? <Came title={title} {...outcome} /> : <p class="exchange-none">{t.none}</p>}
+      </div>
+    </div>
+  );
+}
+
+const key_of = (title: string) => `outcome of ${title}`;
+
+/** What came of what was sent last under this title. */
+export function last_outcome(title: string): Outcome | undefined {
+  return draft(key_of(title));
+}
+
+/** Does it, and finds the documents that it is made of. */
+export async function watched(console: Console, operation: Operation, act: () => Promise<unknown>): Promise<Outcome> {
+  const outcome: Outcome = { request: undefined, answer: undefined, error: undefined };
+  const stop = console.documents.listen((one) => {
+    if (one.direction === 'out' && one.name === operation && !one.is_own) outcome.request = one;
+    if (one.request !== undefined && one.request === outcome.request) outcome.answer = one;
+  });
+  try {
+    await act();
+  } catch (error) {
+    outcome.error = error;
+  } finally {
+    stop();
+  }
+  return outcome;
+}
+
+function Came({ title, answer, error }: Outcome & { title: string }) {
+  const { commands } = useConsole();
+  const t = exchange_texts();
+  void commands.pulse.beat.value;
+  const made = answer ? commands.all.list().filter((one) => one.sequence.document === answer.request?.number) : [];
+  const results = answer && answer.return_code === 'OK' ? results_in(answer) : new Results();
+  const refused = error instanceof RoisError && error.failure === 'refused' && answer !== undefined;
+  return (
+    <>
+      <p class="exchange-line">
+        {answer ? <StatusBadge status={answer.return_code ?? answer.name} /> : <StatusBadge status="ERROR" />}
+        {answer?.took !== undefined && <span class="exchange-took">{t.took(duration(answer.took))}</span>}
+      </p>
+      {error !== undefined && <p class="exchange-why">{refused ? reason_in(answer) : error_text(error)}</p>}
+      {results.parameters.length > 0 && <ResultsTable label={t.results(title)} results={results} />}
+      {made.map((one: CommandEntry) => <CommandProgress key={one.id} entry={one} />)}
+      {answer && <XmlView text={answer.text} label={t.answer(title)} />}
+    </>
+  );
+}
+
+function results_in({ text }: LoggedDocument): Results {
+  return results_of(parse_xml(text));
+}
+
+function reason_in({ text }: LoggedDocument): string {
+  return parse_xml(text).text_of('reason');
+}

@@ -1,0 +1,66 @@
+import { in_both } from '../i18n/i18n';
+import type { CommandState } from '../state/commands_state';
+
+const ends_en: Record<CommandState, string> = {
+  waiting: 'It waits for its turn.',
+  running: 'It is running.',
+  OK: 'It is done.',
+  ERROR: 'The component could not do it.',
+  ABORT: 'It was stopped: by a stop, since its component was released or went away, or since what came before it failed.',
+  OUT_OF_RESOURCES: 'Something that it needs is in use.',
+  TIMEOUT: 'It took longer than it was allowed to.',
+  unknown: 'The session was lost before it ended.',
+};
+const ends_ja: Record<CommandState, string> = {
+  waiting: '順番を待っています。',
+  running: '実行中です。',
+  OK: '完了しました。',
+  ERROR: 'コンポーネントは実行できませんでした。',
+  ABORT: '中断されました。stop、解放、コンポーネントの消失、または先行コマンドの失敗によります。',
+  OUT_OF_RESOURCES: '必要なものが使用中です。',
+  TIMEOUT: '許された時間を超えました。',
+  unknown: '終わる前にセッションが失われました。',
+};
+
+export const exchange_texts = in_both({
+  en: {
+    send: 'Send',
+    none: 'The answer will stand here.',
+    took: (time: string) => `after ${time}`,
+    request: (title: string) => `Request: ${title}`,
+    answer: (title: string) => `Answer: ${title}`,
+    results: (title: string) => `Results: ${title}`,
+    results_of: (id: string) => `Results of the command ${id}`,
+    name: 'Name',
+    value: 'Value',
+    type: 'Type',
+    ended: (state: CommandState) => ends_en[state],
+    lasted: (time: string) => `for ${time}`,
+    outside: (text: string, x: string, y: string) => `${text} is outside of the map, which goes from ${x} and from ${y} (mm).`,
+    in_furniture: (text: string) => `${text} is where furniture stands.`,
+    in_use: (components: string) => `Running on the same robot: ${components}.`,
+    told_error: (type: string) => `The engine told of an error meanwhile: ${type}.`,
+    stop: 'Stop',
+    stop_it: (title: string) => `Stop ${title}`,
+  },
+  ja: {
+    send: '送信',
+    none: 'ここに応答が表示されます。',
+    took: (time: string) => `${time}後`,
+    request: (title: string) => `要求: ${title}`,
+    answer: (title: string) => `応答: ${title}`,
+    results: (title: string) => `結果: ${title}`,
+    results_of: (id: string) => `コマンド ${id} の結果`,
+    name: '名前',
+    value: '値',
+    type: '型',
+    ended: (state: CommandState) => ends_ja[state],
+    lasted: (time: string) => `${time}間`,
+    outside: (text: string, x: string, y: string) => `${text} は地図の外です。地図の範囲は ${x}、${y} (mm) です。`,
+    in_furniture: (text: string) => `${text} には家具があります。`,
+    in_use: (components: string) => `同じロボットで実行中: ${components}。`,
+    told_error: (type: string) => `その間にエンジンがエラーを通知しました: ${type}。`,
+    stop: '停止',
+    stop_it: (title: string) => `${title} を停止`,
+  },
+});

@@ -1,0 +1,95 @@
+// Every document in and out: a list that can be filtered, and the document that is chosen.
+import './messages.css';
+
+import { useEffect, useMemo, useState } from 'preact/hooks';
+
+import { useConsole } from '../shell/context';
+import type { Console } from '../state/console';
+import type { LoggedDocument } from '../state/documents';
+import { Button, EmptyState, SplitPane, useIsWide, VirtualList } from '../ui';
+import { Feed, is_gap, no_filter, type Row, type Source } from './feed';
+import { Reader } from './reader';
+import { RowView } from './row';
+import { chosen_of_recording, filter, paused, recording, type ShownRecording } from './shown';
+import { command_of, component_of } from './summary';
+import { texts } from './texts';
+import { Toolbar } from './toolbar';
+
+const look_every = 250; // ms: nobody reads faster
+
+export default function MessagesPanel() {
+  const console = useConsole();
+  const t = texts();
+  const [frame, is_wide] = useIsWide(900); // for the list and the document side by side
+  const tape = recording.value;
+  const feed = useMemo(() => new Feed(tape ? source_of(tape) : live(console), filter.value), [tape, filter.value]);
+  const [, again] = useState(0);
+  useEffect(() => console.environment.every(look_every, () => feed.update() && again((n) => n + 1)), [feed]);
+  const held = tape ? undefined : paused.value;
+  const rows = held ? held.rows : feed.rows;
+  const picked = console.selection.document;
+  const choice = tape ? chosen_of_recording : picked;
+  const chosen = choice.value;
+  // Whoever picks a document elsewhere wants to see what happens.
+  useEffect(() => {
+    if (recording.value && picked.value !== undefined) recording.value = undefined;
+  }, [picked.value]);
+  const document = chosen === undefined ? undefined : tape ? tape.documents[chosen] : (console.documents.ring.numbered(chosen) ?? held?.rows.find((one): one is LoggedDocument => !is_gap(one) && one.number === chosen));
+  const all = tape ? tape.documents.length : console.documents.ring.size;
+
+  const list =
+    rows.length > 0 ? (
+      <VirtualList<Row>
+        label={t.list}
+        rows={rows}
+        row_height={matchMedia('(pointer: coarse)').matches ? 40 : 26}
+        key_of={key_of}
+        render={(row) => <RowView row={row} is_live={!tape} />}
+        chosen={chosen}
+        choose={(row) => (choice.value = is_gap(row) ? undefined : row.number)}
+        follow={!tape && !held}
+      />
+    ) : (
+      <EmptyState icon="messages" title={all === 0 ? t.none : filter.value === no_filter ? t.only_own : t.none_pass}>
+        {all > 0 && <Button onClick={() => (filter.value = { ...no_filter, with_own: true })}>{t.clear}</Button>}
+      </EmptyState>
+    );
+  const reader = document ? <Reader key={document.number} document={document} tape={tape} choose={(one) => (choice.value = one.number)} /> : <EmptyState icon="messages" title={t.pick} />;
+  const direction = is_wide ? 'row' : 'column';
+  return (
+    <div class="messages" ref={frame}>
+      <Toolbar feed={feed} rows={rows} />
+      {tape && <TapeBanner tape={tape} />}
+      <div class="messages-body">
+        <SplitPane key={direction} id={`messages.${direction}`} direction={direction} share={0.58} label={t.list} first={list} second={reader} />
+      </div>
+    </div>
+  );
+}
+
+function TapeBanner({ tape }: { tape: ShownRecording }) {
+  const t = texts();
+  return (
+    <p class="banner banner-warning" role="status">
+      <strong>{t.not_live}</strong> {t.recording(tape.file, tape.documents.length, tape.begun, tape.url)}
+      <Button small onClick={() => (recording.value = undefined)}>{t.to_live}</Button>
+    </p>
+  );
+}
+
+function key_of(row: Row): string | number {
+  return is_gap(row) ? `gap-${row.at}` : row.number;
+}
+
+function live({ documents, events, commands }: Console): Source {
+  return {
+    documents: documents.ring,
+    gaps: events.gaps,
+    component_of: (one) => component_of(one) || (one.name === 'completed' ? (commands.find(command_of(one))?.component ?? '') : ''),
+  };
+}
+
+function source_of({ documents }: ShownRecording): Source {
+  const none = { first: 0, size: 0, numbered: () => undefined };
+  return { documents: { first: 0, size: documents.length, numbered: (number) => documents[number] }, gaps: none, component_of };
+}

@@ -1,0 +1,155 @@
+// One document: what it belongs to, its details, and its text.
+import { useState } from 'preact/hooks';
+import { is_notification, notification_of, parse_xml, Results, results_of } from 'rois-client';
+
+import { CommandProgress, ResultsTable } from '../forms';
+import { clock_time } from '../i18n/i18n';
+import { useConsole } from '../shell/context';
+import { show_panel } from '../shell/layout';
+import type { Console } from '../state/console';
+import type { LoggedDocument } from '../state/documents';
+import type { Details, ErrorEntry, EventEntry } from '../state/events_state';
+import type { Ring } from '../state/ring';
+import { Badge, Button, Checkbox, CurlButton, StatusBadge, XmlView } from '../ui';
+import type { ShownRecording } from './shown';
+import { command_of, component_of, expire_of } from './summary';
+import { texts } from './texts';
+
+export interface ReaderProps {
+  document: LoggedDocument;
+  tape: ShownRecording | undefined;
+  choose: (document: LoggedDocument) => void;
+}
+
+export function Reader({ document, tape, choose }: ReaderProps) {
+  const console = useConsole();
+  const t = texts();
+  const [raw, set_raw] = useState(false);
+  const { name, return_code, direction } = document;
+  const component = component_of(document);
+  const place = place_of(document);
+  const answer = document.kind === 'request' ? answer_to(console, tape, document) : undefined;
+  const open = (ref: string) => {
+    console.selection.component.value = ref;
+    show_panel('components');
+  };
+  return (
+    <div class="messages-reader">
+      <div class="messages-head">
+        <h3>{name === '' ? '—' : name}</h3>
+        {return_code !== undefined && <StatusBadge status={return_code} />}
+        {tape && <Badge tone="warning">{t.not_live}</Badge>}
+        <span class="messages-soft">
+          {direction === 'out' ? t.outward : t.inward} {t.at(document.at)} · {t.size(document.text.length)}
+          {document.took !== undefined && ` · ${t.took(document.took)}`}
+        </span>
+      </div>
+      <div class="messages-head">
+        {document.request && <Button small icon="up" onClick={() => choose(document.request!)}>{t.to_request}</Button>}
+        {answer && <Button small icon="down" onClick={() => choose(answer)}>{t.to_answer}</Button>}
+        {component !== '' && !tape && console.profile.component(component) && (
+          <Button small icon="components" onClick={() => open(component)}>{t.to_component(component)}</Button>
+        )}
+        {direction === 'out' && !tape && <CurlButton request={document.text} />}
+        <Checkbox label={t.raw} checked={raw} change={set_raw} />
+      </div>
+      {tape ? <Values results={values_in(document)} /> : <Live document={document} />}
+      {place && <p class="messages-soft">{t.place(place.line, place.column)}</p>}
+      <XmlView text={document.text} raw={raw} label={t.document(name)} />
+      {place && document.request && <XmlView text={document.request.text} raw label={t.to_request} marked_line={place.line} />}
+    </div>
+  );
+}
+
+// What the engine can still be asked about it.
+function Live({ document }: { document: LoggedDocument }) {
+  const console = useConsole();
+  const { events, commands } = console;
+  if (document.name === 'completed') {
+    const entry = commands.find(command_of(document));
+    return entry ? <CommandProgress entry={entry} /> : null;
+  }
+  if (document.name === 'receive_event') {
+    void events.pulse.beat.value;
+    const entry = entry_of(events.events, document);
+    return entry ? <DetailsOf details={entry.details} expire={expire_of(document)} ask={() => void events.fetch_event(entry)} /> : <p class="messages-soft">{texts().not_kept}</p>;
+  }
+  if (document.name === 'receive_error') {
+    void events.pulse.beat.value;
+    const entry = entry_of(events.errors, document);
+    return entry ? <DetailsOf details={entry.details} expire={undefined} ask={() => void events.fetch_error(entry)} /> : null;
+  }
+  return <Values results={values_in(document)} />;
+}
+
+function DetailsOf({ details, expire, ask }: { details: Details; expire: number | undefined; ask: () => void }) {
+  const { now, link } = useConsole();
+  const t = texts();
+  const is_expired = expire !== undefined && expire <= now.value;
+  const until = expire === undefined ? null : is_expired ? <Badge>{t.expired}</Badge> : <span class="messages-soft">{t.expires(clock_time(expire, false))}</span>;
+  switch (details.state) {
+    case 'there':
+      return (
+        <>
+          {until}
+          <Values results={details.results} />
+        </>
+      );
+    case 'gone':
+      return <p>{t.gone} <span class="messages-soft">{details.reason}</span> {until}</p>;
+    case 'asked':
+      return <p class="messages-soft" role="status">{t.fetching}</p>;
+    default:
+      return (
+        <p class="messages-head">
+          <Button small icon="download" disabled={!link.is_open} onClick={ask}>{t.fetch}</Button> {until}
+        </p>
+      );
+  }
+}
+
+function Values({ results }: { results: Results }) {
+  return results.parameters.length === 0 ? null : <ResultsTable label={texts().details} results={results} />;
+}
+
+function values_in(document: LoggedDocument): Results {
+  if (document.direction === 'out' || !document.text.includes('result')) return new Results();
+  try {
+    const element = parse_xml(document.text);
+    if (!is_notification(element)) return results_of(element);
+    const told = notification_of(element);
+    return told.name === 'receive_event' ? told.results : new Results();
+  } catch {
+    return new Results(); // a recording may hold anything
+  }
+}
+
+// Of a fault: where in the request it is.
+function place_of({ kind, text }: LoggedDocument): { line: number; column: number } | undefined {
+  const found = kind === 'fault' ? /^[^>]*?\sline="(\d+)"/.exec(text.slice(text.indexOf('<fault'))) : null;
+  const column = /^[^>]*?\scolumn="(\d+)"/.exec(text.slice(text.indexOf('<fault')))?.[1];
+  return found ? { line: Number(found[1]), column: Number(column ?? 1) } : undefined;
+}
+
+// Entries come in the order of their documents.
+function entry_of<Entry extends EventEntry | ErrorEntry>(ring: Ring<Entry>, { number }: LoggedDocument): Entry | undefined {
+  let low = 0;
+  let high = ring.size;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (ring.at(middle)!.document < number) low = middle + 1;
+    else high = middle;
+  }
+  const found = ring.at(low);
+  return found?.document === number ? found : undefined;
+}
+
+const most_later = 500; // documents after a request in which its answer is looked for
+
+function answer_to({ documents }: Console, tape: ShownRecording | undefined, request: LoggedDocument): LoggedDocument | undefined {
+  for (let i = request.number + 1; i <= request.number + most_later; ++i) {
+    const one = tape ? tape.documents[i] : documents.ring.numbered(i);
+    if (one?.request === request) return one;
+  }
+  return undefined;
+}

@@ -1,0 +1,37 @@
+import { clock_time } from '../i18n/i18n';
+import { useConsole } from '../shell/context';
+import { Badge, Icon, StatusBadge } from '../ui';
+import { category_of, is_gap, type Row } from './feed';
+import { component_of, expire_of, summary } from './summary';
+import { texts } from './texts';
+
+export function RowView({ row, is_live }: { row: Row; is_live: boolean }) {
+  const { now } = useConsole();
+  const t = texts();
+  if (is_gap(row))
+    return (
+      <span class="messages-gap">
+        <Icon name="warning" size={14} />
+        {clock_time(row.at)} {row.gap.reason === 'lost' ? t.gap_lost(row.gap.count) : t.gap_session}
+      </span>
+    );
+  const expire = expire_of(row);
+  const is_expired = is_live && expire !== undefined && expire <= now.value;
+  const status = row.return_code ?? (row.name === 'completed' ? /^\w+/.exec(summary(row))?.[0] : undefined);
+  const look = row.name === 'completed' && status !== 'OK' ? 'stopped' : category_of(row);
+  return (
+    <>
+      <span class="messages-time">{clock_time(row.at)}</span>
+      <span class={`messages-way messages-${row.direction}`}>
+        <Icon name={row.direction === 'out' ? 'up' : 'down'} size={12} />
+        <span class="unseen">{row.direction === 'out' ? t.outward : t.inward}</span>
+      </span>
+      <span class={`messages-name messages-is-${look}`}>{row.name === '' ? '—' : row.name}</span>
+      <span class="messages-component">{component_of(row)}</span>
+      <span class="messages-summary">{summary(row)}</span>
+      {is_expired && <Badge>{t.expired}</Badge>}
+      {status !== undefined && status !== 'OK' && <StatusBadge status={status} />}
+      {row.name === 'fault' && <Badge tone="bad">fault</Badge>}
+    </>
+  );
+}

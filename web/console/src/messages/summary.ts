@@ -1,0 +1,106 @@
+// What a document says, in a few words, without reading it whole.
+import type { LoggedDocument } from '../state/documents';
+
+const known = new WeakMap<LoggedDocument, string>();
+
+/** `number: 2` of an event, `start speech_synthesis` of an execute, the reason of a refusal. */
+export function summary(document: LoggedDocument): string {
+  const before = known.get(document);
+  if (before !== undefined) return before;
+  const made = made_of(document);
+  known.set(document, made);
+  return made;
+}
+
+function event_type_of({ text }: LoggedDocument): string {
+  return first_text(text, 'event_type');
+}
+
+/** The component that a document names, be it in a condition; empty: none. */
+export function component_of({ component, text, kind }: LoggedDocument): string {
+  if (component !== undefined || kind !== 'request') return component ?? '';
+  return plain(/>component_ref<\/[^>]*>\s*<(?:[\w.-]+:)?Literal>([^<]*)</.exec(text)?.[1] ?? '');
+}
+
+/** Of a completed: the command's id. */
+export function command_of({ text }: LoggedDocument): string {
+  return first_text(text, 'command_id');
+}
+
+export function expire_of({ name, text }: LoggedDocument): number | undefined {
+  const time = name === 'receive_event' ? Date.parse(first_text(text, 'expire')) : NaN;
+  return Number.isNaN(time) ? undefined : time;
+}
+
+function made_of(document: LoggedDocument): string {
+  const { name, text, kind } = document;
+  const reason = first_text(text, 'reason');
+  if (reason !== '') return reason;
+  switch (name) {
+    case 'receive_event':
+      return [event_type_of(document), ...values(text, 'result')].join('  ');
+    case 'receive_error':
+      return first_text(text, 'error_type');
+    case 'completed':
+      return `${first_text(text, 'status')}  ${first_text(text, 'command_id')}`;
+    case 'lost':
+      return first_text(text, 'count');
+    case 'execute':
+      return commands(text).join(', ');
+    case 'set_parameter':
+      return values(text, 'parameter').join('  ');
+    case 'query':
+      return first_text(text, 'query_type');
+    case 'subscribe':
+      return first_text(text, 'event_type');
+    case 'unsubscribe':
+      return first_text(text, 'subscribe_id');
+    case 'get_command_result':
+      return first_text(text, 'command_id');
+    case 'get_event_detail':
+      return first_text(text, 'event_id');
+    case 'get_error_detail':
+      return first_text(text, 'error_id');
+    default:
+      return kind === 'answer' ? values(text, 'result').join('  ') || references(text) : '';
+  }
+}
+
+function first_text(text: string, name: string): string {
+  return plain(new RegExp(`<(?:[\\w.-]+:)?${name}(?:\\s[^>]*)?>([^<]*)<`).exec(text)?.[1] ?? '');
+}
+
+const attribute = (name: string) => `(?:[\\w.-]+:)?${name}\\s*=\\s*["']([^"']*)["']`;
+const most = 12; // values or commands
+
+function values(text: string, element: string): string[] {
+  const each = new RegExp(`<(?:[\\w.-]+:)?${element}\\s[^>]*?${attribute('name')}[^>]*>([^]*?)</(?:[\\w.-]+:)?${element}>`, 'g');
+  return [...first_of(text.matchAll(each))].filter(([, name]) => name !== 'timestamp').map(([, name, inside]) => {
+    const items = [...inside!.matchAll(/<(?:[\w.-]+:)?value(?:\s[^>]*)?>([^<]*)</g)].map(([, value]) => plain(value!));
+    return `${name}: ${items.join('; ')}`;
+  });
+}
+
+function commands(text: string): string[] {
+  const each = new RegExp(`<[^>]*?${attribute('command_type')}[^>]*>\\s*<(?:[\\w.-]+:)?component_ref\\s[^>]*?${attribute('code')}`, 'g');
+  return [...first_of(text.matchAll(each))].map(([, type, ref]) => `${ref} ${type}`);
+}
+
+function references(text: string): string {
+  const each = new RegExp(`<(?:[\\w.-]+:)?component_ref\\s[^>]*?${attribute('code')}`, 'g');
+  return [...first_of(text.matchAll(each))].map(([, ref]) => ref).join(', ');
+}
+
+function* first_of<T>(all: Iterable<T>): Iterable<T> {
+  let n = 0;
+  for (const one of all) {
+    if (n++ === most) return;
+    yield one;
+  }
+}
+
+const entities: Record<string, string> = { lt: '<', gt: '>', quot: '"', apos: "'", amp: '&' };
+
+function plain(text: string): string {
+  return text.replace(/&(lt|gt|quot|apos|amp);/g, (_, name: string) => entities[name]!).trim();
+}

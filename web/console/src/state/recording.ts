@@ -1,0 +1,76 @@
+// Recordings as `rois record` writes them and `rois replay` serves them: a JSON object a line.
+import { type Direction, Documents, type LoggedDocument } from './documents';
+import type { Environment } from './environment';
+
+const format = 'rois-recording-1';
+
+export interface Recording {
+  url: string; // of the engine; empty when the file does not say it
+  begun: string; // as the file has it
+  documents: LoggedDocument[]; // `at` is in ms since 1970 when it is known when the recording began, else since then
+}
+
+/** The file, in pieces. Sessions are told apart when there were several. */
+export function recording_of(documents: Iterable<LoggedDocument>, url: string): string[] {
+  const list = [...documents];
+  const begun = list[0]?.at ?? 0;
+  const lines = [JSON.stringify({ recording: format, url, begun: new Date(begun).toISOString() })];
+  const several = list.filter(is_connect).length > 1;
+  let session = 1;
+  let has_begun = false;
+  for (const one of list) {
+    if (is_connect(one) && has_begun) session += 1;
+    has_begun = true;
+    const at = Math.round((one.at - begun) * 1000) / 1e6;
+    lines.push(JSON.stringify({ at, direction: one.direction, ...(several && { session: String(session) }), document: one.text }));
+  }
+  return lines.map((line) => `${line}\n`);
+}
+
+function is_connect({ direction, name }: LoggedDocument): boolean {
+  return direction === 'out' && name === 'connect';
+}
+
+/** Throws an Error that says which line is wrong, and why. */
+export function read_recording(text: string): Recording {
+  const lines = text.split('\n').filter((line, i) => i === 0 || line.trim() !== '');
+  const head = object_of(lines[0] ?? '', 1);
+  if (head['recording'] !== format) throw new Error(`line 1: this is no recording of the format ${format}`);
+  const begun = String(head['begun'] ?? '');
+  const zero = Date.parse(begun);
+  const sessions = new Map<string, Documents>();
+  let now = 0;
+  const documents = lines.slice(1).map((line, i) => {
+    const { at, direction, session = '', document } = object_of(line, i + 2);
+    if (typeof at !== 'number' || typeof document !== 'string') throw new Error(`line ${i + 2}: 'at' and 'document' are needed`);
+    if (direction !== 'in' && direction !== 'out') throw new Error(`line ${i + 2}: the direction has to be "in" or "out"`);
+    now = (Number.isNaN(zero) ? 0 : zero) + at * 1000;
+    const logged = sessions_log(sessions, String(session), () => now).note(direction as Direction, document);
+    logged.number = i;
+    logged.is_own = false;
+    return logged;
+  });
+  if (documents.length === 0) throw new Error('nothing is recorded');
+  return { url: String(head['url'] ?? ''), begun, documents };
+}
+
+// Answers belong to the requests of their own session.
+function sessions_log(sessions: Map<string, Documents>, session: string, now: () => number): Documents {
+  const known = sessions.get(session);
+  if (known) return known;
+  // All that a log needs of the world is the time.
+  const world = { now, precise: now, before_picture: () => undefined } as Partial<Environment> as Environment;
+  const made = new Documents(world, { most: 1, most_bytes: Infinity });
+  sessions.set(session, made);
+  return made;
+}
+
+function object_of(line: string, number: number): Record<string, unknown> {
+  try {
+    const read: unknown = JSON.parse(line);
+    if (typeof read === 'object' && read !== null) return read as Record<string, unknown>;
+  } catch {
+    // told below
+  }
+  throw new Error(`line ${number}: this is no JSON object`);
+}

@@ -1,0 +1,9 @@
+// What the user has picked, wherever: a panel that shows such things opens it.
+import { signal } from '@preact/signals';
+
+export class Selection {
+  /** A component's ref; empty: none. */
+  readonly component = signal('');
+  /** The number of a logged document. */
+  readonly document = signal<number | undefined>(undefined);
+}

@@ -1,0 +1,232 @@
+// The components panel: the tree, forms for commands, parameters, queries and events, and what comes of them.
+import type { Page } from 'playwright-core';
+import { connect } from 'rois-client';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+
+import { picture, root, Stage, violations } from './harness';
+
+let stage: Stage;
+
+beforeAll(async () => {
+  stage = await Stage.set('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '20', '--seed', '7', '--profiles', `${root}/components/simulation/profiles`);
+});
+afterAll(() => stage.strike());
+
+const item = (page: Page, ref: string) => page.getByRole('treeitem', { name: new RegExp(`^${ref} `) });
+
+async function open(page: Page, ref: string): Promise<void> {
+  await item(page, ref).click();
+  await page.getByRole('heading', { name: ref, exact: true }).waitFor();
+}
+const answer = (page: Page) => page.locator('.exchange-came');
+
+describe('components', () => {
+  test('a command is sent as the form has it, with its XML and its answer, and ends', () =>
+    stage.page(async (page) => {
+      await open(page, 'speech_synthesis');
+      await page.getByLabel('speech_text', { exact: true }).fill('Good morning.');
+      await page.getByLabel('volume', { exact: true }).fill('loud');
+      await page.getByText('This has to be a whole number.').waitFor();
+      await page.getByRole('button', { name: 'start', exact: true }).last().click();
+      expect(await page.evaluate(() => document.activeElement?.getAttribute('aria-invalid'))).toBe('true');
+      await page.getByLabel('volume', { exact: true }).fill('70');
+      const request = page.getByRole('region', { name: 'Request: speech_synthesis start' });
+      expect(await request.textContent()).toMatch(/<rois:value>Good morning\.<\/rois:value>[^]*<rois:value>70<\/rois:value>/);
+      await page.getByRole('button', { name: 'start', exact: true }).last().click();
+      await answer(page).getByText('It is done.').waitFor();
+      expect(await page.getByRole('region', { name: 'Answer: speech_synthesis start' }).textContent()).toContain('execute_response');
+      await page.getByText('bound by me').first().waitFor();
+      await picture(page, 'components-command');
+      expect(await violations(page)).toBe('');
+    }));
+
+  test('a command that is refused, and one that fails, say why', () =>
+    stage.page(async (page) => {
+      await open(page, 'navigation');
+      const target = page.getByLabel('target_position, item 1');
+      await page.getByRole('button', { name: 'start', exact: true }).last().click();
+      await page.getByText('This is needed.').waitFor();
+      await target.fill('nowhere');
+      await page.getByRole('button', { name: 'start', exact: true }).last().click();
+      await answer(page).getByText(/nowhere' is neither "x, y" nor .* one of the places/).first().waitFor();
+      await target.fill('100000, 2000');
+      await page.getByRole('button', { name: 'start', exact: true }).last().click();
+      await answer(page).getByText('The component could not do it.').waitFor();
+      expect(await violations(page)).toBe('');
+
+      await target.fill('exit');
+      await page.getByRole('button', { name: 'Add to target_position' }).click();
+      await page.getByLabel('target_position, item 2').fill('desk');
+      await page.getByRole('button', { name: 'start', exact: true }).last().click();
+      await answer(page).getByText('It is running.').waitFor();
+      await open(page, 'follow');
+      await page.getByLabel('target_object_ref').fill('nobody');
+      await page.getByLabel('distance').fill('500');
+      await page.getByRole('button', { name: 'start', exact: true }).last().click();
+      await answer(page).getByText('Something that it needs is in use.').waitFor();
+      await answer(page).getByText('Running on the same robot: navigation start.').waitFor();
+      await picture(page, 'components-failed');
+
+      // What was typed is still there.
+      await open(page, 'navigation');
+      expect(await page.getByLabel('target_position, item 2').inputValue()).toBe('desk');
+      await answer(page).getByText(/It is (running|done)\./).waitFor();
+      await page.getByRole('button', { name: 'Release navigation' }).click();
+      await item(page, 'navigation').getByText('bound by me').waitFor({ state: 'detached' });
+    }));
+
+  test('a running command is stopped', () =>
+    stage.page(async (page) => {
+      await open(page, 'follow');
+      await page.getByLabel('target_object_ref').fill('nobody');
+      await page.getByLabel('distance').fill('500');
+      await page.getByLabel('Release it when the command has ended').check();
+      await page.getByRole('button', { name: 'start', exact: true }).last().click();
+      await answer(page).getByText('It is running.').waitFor();
+      // It is seen from another form, too.
+      await page.getByRole('button', { name: 'resume', exact: true }).click();
+      await page.getByText('The answer will stand here.').waitFor();
+      await page.getByRole('button', { name: 'Stop follow start' }).click();
+      await page.getByRole('button', { name: 'Stop follow start' }).waitFor({ state: 'detached' });
+      await page.getByRole('button', { name: 'start', exact: true }).click();
+      await answer(page).getByText('It is done.').waitFor();
+      await item(page, 'follow').getByText('bound by me').waitFor({ state: 'detached' });
+    }));
+
+  test('parameters are shown as they are, and set', () =>
+    stage.page(async (page) => {
+      await open(page, 'reaction');
+      await page.getByRole('tab', { name: /^Parameters/ }).click();
+      const now = page.getByRole('region', { name: 'As they are now' });
+      await now.getByText('available_reactions').waitFor();
+      await page.getByRole('button', { name: 'Set', exact: true }).click();
+      await page.getByText('Nothing has been typed yet.').waitFor();
+      expect(await page.getByLabel('reaction_ref').evaluate((one: HTMLInputElement) => one.list?.options.length)).toBe(50);
+      await page.getByLabel('reaction_ref').fill('28');
+      expect(await page.getByRole('region', { name: 'Request: reaction set_parameter' }).textContent()).toContain('rois:codebook_ref="urn:x-rois:def:codebook:simulation::reaction"');
+      await page.getByRole('button', { name: 'Set', exact: true }).click();
+      await now.locator('tr', { hasText: 'reaction_ref' }).getByText('28').waitFor();
+      await picture(page, 'components-parameters');
+      expect(await violations(page)).toBe('');
+    }));
+
+  test('a query is answered with its values', () =>
+    stage.page(async (page) => {
+      await open(page, 'system_information');
+      await page.getByRole('tab', { name: /^Queries/ }).click();
+      await page.getByRole('button', { name: 'robot_position', exact: true }).last().click();
+      const results = page.getByRole('region', { name: 'Results: system_information robot_position' });
+      await results.getByText('robot1').waitFor();
+      expect(await results.textContent()).toMatch(/\d+, \d+, -?\d+/);
+      expect(await violations(page)).toBe('');
+    }));
+
+  test('an event is subscribed to, comes, and is left', () =>
+    stage.page(async (page) => {
+      await open(page, 'person_detection');
+      await page.getByRole('tab', { name: /^Events(?! and)/ }).click();
+      await page.getByLabel(/^Further condition/).fill('<fes:PropertyIs');
+      await page.getByText(/This is no XML/).waitFor();
+      await page.getByLabel(/^Further condition/).fill('<fes:PropertyIsLessThan><fes:ValueReference>number</fes:ValueReference><fes:Literal>100</fes:Literal></fes:PropertyIsLessThan>');
+      await page.getByRole('button', { name: 'Subscribe', exact: true }).click();
+      await answer(page).getByText('OK', { exact: true }).waitFor();
+      await page.getByRole('tab', { name: /^Commands/ }).click();
+      await page.getByRole('button', { name: 'start', exact: true }).last().click();
+      await answer(page).getByText('It is done.').waitFor();
+      await page.getByRole('tab', { name: /^Events(?! and)/ }).click();
+      await page.locator('.component-list').getByText('number: 0').waitFor();
+      await page.getByText('1 event', { exact: false }).first().waitFor();
+      await picture(page, 'components-events');
+      expect(await violations(page)).toBe('');
+      await page.getByRole('button', { name: /^Unsubscribe / }).click();
+      await page.getByText('Subscriptions to it').waitFor({ state: 'detached' });
+    }));
+
+  test('a command of a profile of its own has its own form; a request is copied for a shell', () =>
+    stage.page(async (page) => {
+      await open(page, 'wheelchair_robot');
+      expect(await page.getByRole('button', { name: 'brake', exact: true }).first().getAttribute('aria-pressed')).toBe('true');
+      await page.getByRole('button', { name: 'brake', exact: true }).last().click();
+      await page.getByText('This is needed.').waitFor();
+      await page.getByLabel('status').selectOption('true');
+      await page.getByRole('button', { name: 'brake', exact: true }).last().click();
+      await answer(page).getByText('It is done.').waitFor();
+      await page.getByRole('button', { name: 'Copy as curl' }).click();
+      await page.getByRole('button', { name: 'Copied' }).waitFor();
+      expect(await page.evaluate(() => navigator.clipboard.readText())).toMatch(/^curl -s -H 'Content-Type: application\/xml' -H 'RoIS-Session: [^']+' -d '<execute [^]*http:\/\/127\.0\.0\.1:\d+\/rois$/);
+    }));
+
+  test('who has a component is told, and that it cannot be had', async () => {
+    const other = await connect(stage.gateway.url);
+    await other.bind('reaction');
+    await stage.page(async (page) => {
+      await open(page, 'reaction');
+      await item(page, 'reaction').getByText(/bound by (another )?session/).waitFor();
+      await page.getByRole('button', { name: 'Bind reaction' }).click();
+      await page.getByRole('alert').getByText(/Another application has it/).waitFor();
+      await other.release('reaction');
+      await item(page, 'reaction').getByText(/bound by/).waitFor({ state: 'detached' });
+      await page.getByRole('button', { name: 'Bind reaction' }).click();
+      await item(page, 'reaction').getByText('bound by me').waitFor();
+    });
+    await other.close();
+  });
+
+  test('whom to follow is chosen from who is there', async () => {
+    const visited = await Stage.set('--scenario', `${root}/tests/server/data/one_visitor.xml`, '--sim-speed', '20', '--seed', '7');
+    await visited.page(async (page) => {
+      await open(page, 'person_localization');
+      await page.getByRole('button', { name: 'start', exact: true }).last().click();
+      await answer(page).getByText('It is done.').waitFor();
+      await open(page, 'follow');
+      await page.locator('datalist option[value="person-1"]').waitFor({ state: 'attached' });
+      await page.getByLabel('target_object_ref').fill('person-1');
+      expect(await page.getByRole('region', { name: 'Request: follow start' }).textContent()).toContain('rois:codebook_ref="urn:x-rois:def:codebook:simulation::track"');
+      await page.getByLabel('distance').fill('800');
+      await page.getByRole('button', { name: 'start', exact: true }).last().click();
+      await answer(page).getByText('It is running.').waitFor();
+    });
+    await visited.strike();
+  });
+
+  test('the tree is walked with the keyboard, and says who has what', () =>
+    stage.page(async (page) => {
+      await item(page, 'face_detection').waitFor();
+      await page.getByRole('treeitem', { name: 'reception', exact: true }).focus();
+      await page.keyboard.press('ArrowDown');
+      await page.keyboard.press('ArrowDown');
+      await page.keyboard.press('Enter');
+      await page.getByRole('heading', { name: 'face_localization' }).waitFor();
+      await page.keyboard.press('ArrowLeft');
+      await page.keyboard.press('ArrowLeft');
+      await item(page, 'face_detection').waitFor({ state: 'detached' });
+      await page.keyboard.press('ArrowRight');
+      await page.keyboard.press('End');
+      await page.keyboard.press(' ');
+      await page.getByRole('heading', { name: 'wheelchair_robot' }).waitFor();
+      // Tab leads from the tree over the bar to the component.
+      await page.keyboard.press('Tab');
+      await page.keyboard.press('Tab');
+      expect(await page.evaluate(() => document.activeElement?.getAttribute('aria-label'))).toBe('Bind wheelchair_robot');
+      await page.keyboard.press('Enter');
+      await item(page, 'wheelchair_robot').getByText('bound by me').waitFor();
+    }));
+
+  test.each([
+    ['wide', 'light', 1600, 1000],
+    ['tablet', 'dark', 1024, 768],
+    ['tablet', 'light', 1024, 768],
+    ['upright', 'dark', 820, 1180],
+    ['upright', 'light', 820, 1180],
+  ] as const)('looks well and is accessible: %s %s', (size, look, width, height) =>
+    stage.page(
+      async (page) => {
+        await open(page, 'navigation');
+        await item(page, 'navigation').getByText('READY').waitFor();
+        expect(await violations(page)).toBe('');
+        await picture(page, `components-${size}-${look}`);
+      },
+      { width, height, look, touch: size !== 'wide', language: size === 'upright' ? 'ja' : 'en' },
+    ),
+  );
+});

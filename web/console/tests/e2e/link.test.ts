@@ -1,0 +1,135 @@
+// The states of the link, each provoked with the real gateway, as the user is told of them.
+import { rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { resolve } from 'node:path';
+
+import type { Page } from 'playwright-core';
+import { command, connect } from 'rois-client';
+import { afterEach, describe, expect, test } from 'vitest';
+
+import { picture, root, Stage, violations } from './harness';
+import { replayed } from './replay';
+
+const hall = ['--scenario', `${root}/tests/server/data/empty_hall.xml`, '--seed', '7'];
+const broken_link = { may_complain: /WebSocket|Failed to load resource|ERR_/ };
+
+let stage: Stage;
+afterEach(() => stage.strike());
+
+const said = (page: Page, text: string | RegExp) => page.getByRole('status').filter({ hasText: text }).first();
+const mark = (page: Page, phase: string) => page.locator('.link-mark').getByText(phase, { exact: true });
+
+async function is_told(page: Page, name: string): Promise<void> {
+  expect(await violations(page)).toBe('');
+  await picture(page, `link-${name}`);
+}
+
+describe('the link', () => {
+  test('connecting: the gateway does not answer yet', async () => {
+    stage = await Stage.set(...hall);
+    stage.front.cut();
+    await stage.page(async (page) => {
+      await said(page, 'The gateway does not answer yet.').waitFor();
+      await mark(page, 'Connecting').waitFor();
+      await is_told(page, 'connecting');
+      stage.front.mend();
+      await mark(page, 'Connected').waitFor();
+      await said(page, 'The gateway does not answer yet.').waitFor({ state: 'detached' });
+    }, broken_link);
+  });
+
+  test('lost, and resumed with a gap', async () => {
+    stage = await Stage.set(...hall, '--sim-speed', '20', '--max-waiting-notifications', '16');
+    const other = await connect(stage.gateway.url);
+    await stage.page(async (page) => {
+      await page.getByRole('treeitem', { name: /^person_detection / }).click();
+      await page.getByRole('tab', { name: /^Events(?! and)/ }).click();
+      await page.getByRole('button', { name: 'Subscribe', exact: true }).click();
+      await page.locator('.exchange-came').getByText('OK', { exact: true }).waitFor();
+      stage.front.cut();
+      await mark(page, 'Connection lost').waitFor();
+      await said(page, /What you see is .* old/).waitFor();
+      await is_told(page, 'lost');
+
+      const events = await other.subscribe('person_detected');
+      await other.bind('person_detection');
+      for (let i = 0; i < 20; ++i) {
+        await (await other.execute([command('person_detection', 'start')])).status();
+        await events.next();
+        await (await other.execute([command('person_detection', 'stop')])).status();
+      }
+      stage.front.mend();
+      await mark(page, 'Connected again').waitFor();
+      await said(page, /\d notifications were missed while the connection was away\./).waitFor();
+      await page.getByText(/dropped by the engine/).first().waitFor();
+      await is_told(page, 'gap');
+      await page.getByRole('button', { name: 'Seen' }).click();
+      await said(page, /were missed/).waitFor({ state: 'detached' });
+    }, broken_link);
+    await other.close();
+  });
+
+  test('refused: too many sessions', async () => {
+    stage = await Stage.set(...hall, '--max-sessions', '1');
+    const other = await connect(stage.gateway.url);
+    await stage.page(async (page) => {
+      await mark(page, 'Refused').waitFor();
+      await said(page, /does not let this console in/).waitFor();
+      await is_told(page, 'refused');
+      await other.close();
+      await mark(page, 'Connected').waitFor();
+    }, broken_link);
+  });
+
+  test('a token is asked for, and asked for again when it is wrong', async () => {
+    stage = await Stage.set(...hall);
+    stage.front.token = 'open sesame';
+    await stage.page(async (page) => {
+      const dialog = page.getByRole('dialog', { name: 'This gateway wants a token' });
+      await dialog.waitFor();
+      await is_told(page, 'token');
+      await page.getByRole('textbox', { name: 'Token' }).fill('sesame');
+      await page.keyboard.press('Enter');
+      await page.getByText('The gateway did not accept this token.').waitFor();
+      await is_told(page, 'token-wrong');
+      await page.getByRole('textbox', { name: 'Token' }).fill('open sesame');
+      await page.getByRole('button', { name: 'Connect', exact: true }).click();
+      await mark(page, 'Connected').waitFor();
+      await page.getByRole('treeitem', { name: /^navigation / }).getByText('READY').waitFor();
+    }, broken_link);
+  });
+
+  test('draining: the gateway shuts down with a command that runs', async () => {
+    stage = await Stage.set(...hall, '--sim-speed', '0.01');
+    await stage.page(async (page) => {
+      await page.getByRole('treeitem', { name: /^navigation / }).click();
+      await page.getByLabel('target_position, item 1').fill('exit');
+      await page.getByRole('button', { name: 'start', exact: true }).last().click();
+      await page.locator('.exchange-came').getByText('It is running.').waitFor();
+      const stopped = stage.gateway.stop();
+      await mark(page, 'Starting or stopping').waitFor();
+      await said(page, 'The gateway is starting or shutting down.').waitFor();
+      await page.locator('.exchange-came').getByText(/^It was stopped/).waitFor();
+      await stopped;
+      await is_told(page, 'draining');
+    }, broken_link);
+  });
+
+  test('an empty engine', async () => {
+    stage = await Stage.set(...hall);
+    const file = resolve(tmpdir(), `empty-${process.pid}.jsonl`);
+    const names = 'xmlns:rois="http://www.omg.org/spec/RoIS/20240801" xmlns:gml="http://www.opengis.net/gml/3.2"';
+    const answer = `<get_profile_response xmlns="urn:x-rois:psm:xml:message:1" return_code="OK"><rois:HRIEngineProfile ${names} gml:id="engine.bare"><gml:identifier codeSpace="urn:ietf:rfc:2141">urn:x-rois:def:HRIEngine:Example::bare</gml:identifier><gml:name>bare</gml:name></rois:HRIEngineProfile><components/></get_profile_response>`;
+    const lines = [{ recording: 'rois-recording-1' }, { at: 0, direction: 'out', document: '<get_profile xmlns="urn:x-rois:psm:xml:message:1"/>' }, { at: 0, direction: 'in', document: answer }];
+    await writeFile(file, lines.map((line) => `${JSON.stringify(line)}\n`).join(''));
+    await replayed(file, async (url) => {
+      stage.front.gateway = url;
+      await stage.page(async (page) => {
+        await said(page, 'This engine has no components.').waitFor();
+        await page.getByText('bare', { exact: true }).first().waitFor();
+        await is_told(page, 'empty');
+      }, broken_link);
+    });
+    await rm(file);
+  });
+});

@@ -1,0 +1,184 @@
+// Events and messages: every document, filtered and read; details; gaps; recordings that `rois replay` serves.
+import { writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { resolve } from 'node:path';
+
+import type { Page } from 'playwright-core';
+import { command as start, connect } from 'rois-client';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+
+import { picture, root, Stage, violations } from './harness';
+import { replayed } from './replay';
+
+let stage: Stage;
+
+beforeAll(async () => {
+  stage = await Stage.set('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '20', '--seed', '7', '--event-details', '2', '--resume-window', '0.01');
+});
+afterAll(() => stage.strike());
+
+const row = (page: Page, text: string | RegExp) => page.getByRole('option').filter({ hasText: text });
+const kind = (page: Page, name: string) => page.getByRole('group', { name: 'Kinds' }).getByRole('button', { name, exact: true });
+
+async function command(page: Page, ref: string): Promise<void> {
+  await page.getByRole('treeitem', { name: new RegExp(`^${ref} `) }).click();
+  await page.getByRole('heading', { name: ref, exact: true }).waitFor();
+  await page.getByRole('tab', { name: /^Commands/ }).click();
+  await page.getByRole('button', { name: 'start', exact: true }).last().click();
+  await page.locator('.exchange-came').getByText('It is done.').waitFor();
+}
+
+// Subscribes to person_detected without its values, and makes it come.
+async function event_comes(page: Page): Promise<void> {
+  await page.getByRole('treeitem', { name: /^person_detection / }).click();
+  await page.getByRole('tab', { name: /^Events(?! and)/ }).click();
+  await page.getByLabel('Bring the values along').uncheck();
+  await page.getByRole('button', { name: 'Subscribe', exact: true }).click();
+  await page.locator('.exchange-came').getByText('OK', { exact: true }).waitFor();
+  await command(page, 'person_detection');
+  await row(page, 'receive_event').waitFor();
+}
+
+describe('events and messages', () => {
+  test('are listed, filtered and read; a request leads to its answer', () =>
+    stage.page(async (page) => {
+      await command(page, 'person_detection');
+      await row(page, 'completed').waitFor();
+      await row(page, 'execute_response').waitFor();
+      expect(await row(page, 'component_status').count()).toBe(0);
+      await page.getByLabel('Also what the console asks by itself').check();
+      await row(page, 'component_status').first().waitFor();
+      await page.getByLabel('Also what the console asks by itself').uncheck();
+
+      await row(page, /execute(?!_)/).click();
+      const reader = page.getByRole('region', { name: 'Document: execute', exact: true });
+      expect(await reader.textContent()).toContain('person_detection');
+      await page.getByRole('button', { name: 'Its answer' }).click();
+      await page.getByRole('heading', { name: 'execute_response' }).waitFor();
+      await page.getByRole('button', { name: 'Its request' }).click();
+      await page.getByRole('heading', { name: 'execute', exact: true }).waitFor();
+      await page.getByLabel('As it was on the wire').check();
+      expect(await page.getByRole('region', { name: 'Document: execute', exact: true }).locator('.xml-line').count()).toBe(1);
+      await picture(page, 'messages');
+      expect(await violations(page)).toBe('');
+
+      await kind(page, 'Requests').click();
+      expect(await row(page, /execute(?!_)/).count()).toBe(0);
+      await kind(page, 'Requests').click();
+      await page.getByLabel('Component', { exact: true }).selectOption('navigation');
+      await page.getByText('Nothing passes the filter').waitFor();
+      await page.getByRole('button', { name: 'Show all' }).click();
+      await page.getByLabel('Search in the text').fill('command_id');
+      await row(page, 'completed').waitFor();
+      await page.getByLabel('Search in the text').fill('');
+
+      // With the keyboard.
+      await page.getByRole('listbox').focus();
+      await page.keyboard.press('End');
+      await page.keyboard.press('ArrowUp');
+      expect(await page.locator('.messages .virtual-list-row[aria-selected=true]').count()).toBe(1);
+    }));
+
+  test('an event without its values has its details fetched, and is marked when it has expired', () =>
+    stage.page(async (page) => {
+      await event_comes(page);
+      await row(page, 'receive_event').first().click();
+      await page.getByRole('button', { name: 'Fetch the details' }).click();
+      await page.getByRole('region', { name: 'Details' }).getByText('number').waitFor();
+      await row(page, 'receive_event').first().getByText('expired').waitFor();
+      await picture(page, 'messages-event');
+      expect(await violations(page)).toBe('');
+    }));
+
+  test('the details of an event that has expired are gone, and it says so', () =>
+    stage.page(async (page) => {
+      await event_comes(page);
+      await row(page, 'receive_event').first().getByText('expired').waitFor();
+      await row(page, 'receive_event').first().click();
+      await page.getByRole('button', { name: 'Fetch the details' }).click();
+      await page.getByText('The details are gone.').waitFor();
+      await page.getByText(/expired/, { exact: false }).first().waitFor();
+    }));
+
+  test('time stands still on demand', () =>
+    stage.page(async (page) => {
+      await page.getByText('So far only the console has asked, by itself').waitFor();
+      await page.getByRole('button', { name: 'Pause', exact: true }).click();
+      await command(page, 'person_detection');
+      expect(await row(page, 'completed').count()).toBe(0);
+      await page.getByRole('button', { name: /^Go on \(\d+ new\)$/ }).click();
+      await row(page, 'completed').waitFor();
+    }));
+
+  test('a gap is shown where it is', () =>
+    stage.page(
+      async (page) => {
+        await command(page, 'person_detection');
+        stage.front.cut(); // for longer than the session is kept
+        await page.getByText('Connection lost', { exact: true }).waitFor();
+        stage.front.mend();
+        await page.getByText('The session was lost and another one began.', { exact: false }).waitFor();
+        await page.getByText('The old session was lost', { exact: false }).waitFor();
+        await picture(page, 'messages-gap');
+        expect(await violations(page)).toBe('');
+      },
+      { may_complain: /WebSocket|Failed to load resource|ERR_/ },
+    ));
+
+  test('a recording is exported, served by rois replay, and opened again, not live', () =>
+    stage.page(async (page) => {
+      await command(page, 'person_detection');
+      await row(page, 'completed').waitFor();
+      const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Export' }).click()]);
+      expect(download.suggestedFilename()).toMatch(/^rois-.*\.jsonl$/);
+      const file = resolve(tmpdir(), `console-${process.pid}.jsonl`);
+      await download.saveAs(file);
+      await answers_as_recorded(file);
+
+      await page.getByLabel('Open a recording').last().setInputFiles(file);
+      await page.getByText('Not live.').first().waitFor();
+      await row(page, 'get_profile').first().waitFor();
+      await page.getByLabel('Search in the text').fill('</completed>');
+      await row(page, 'completed').click();
+      await page.getByRole('heading', { name: 'completed' }).waitFor();
+      expect(await page.getByRole('button', { name: 'Pause' }).count()).toBe(0);
+      await picture(page, 'messages-recording');
+      expect(await violations(page)).toBe('');
+      await page.getByRole('button', { name: 'Back to what happens now' }).click();
+      await page.getByRole('button', { name: 'Pause' }).waitFor();
+
+      await writeFile(file, '{"recording":"rois-recording-1"}\n{"at":0}\n');
+      await page.getByLabel('Open a recording').last().setInputFiles(file);
+      await page.getByText("line 2: 'at' and 'document' are needed").waitFor();
+    }));
+
+  test.each([
+    ['wide', 'light', 1600, 1000],
+    ['tablet', 'dark', 1024, 768],
+    ['upright', 'light', 820, 1180],
+  ] as const)('look well and are accessible: %s %s', (size, look, width, height) =>
+    stage.page(
+      async (page) => {
+        await page.getByLabel('Also what the console asks by itself').check();
+        await row(page, 'get_profile').first().click();
+        await page.getByRole('heading', { name: /get_profile/ }).waitFor();
+        expect(await violations(page)).toBe('');
+        await picture(page, `messages-${size}-${look}`);
+      },
+      { width, height, look, touch: size !== 'wide' },
+      '/#messages',
+    ),
+  );
+});
+
+// The file as an engine: what was commanded is answered as it was, and completes.
+function answers_as_recorded(file: string): Promise<void> {
+  return replayed(file, async (url) => {
+    const client = await connect(url);
+    expect((await client.get_profile()).components.map((one) => one.ref)).toContain('navigation');
+    await client.bind('person_detection');
+    const execution = await client.execute([start('person_detection', 'start')]);
+    expect(await execution.status()).toBe('OK');
+    await client.close();
+  });
+}
