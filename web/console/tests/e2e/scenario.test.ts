@@ -57,7 +57,7 @@ describe('the reception of figure 1', () => {
         for (const [name, value] of Object.entries(wanted)) await page.getByLabel(`What ${name} begins with`).fill(value);
         await start(page).click();
         await page.getByText('Running', { exact: true }).waitFor();
-        await in_diagram(page, 'tell').and(page.locator('[aria-current]')).waitFor();
+        await page.locator('.scenario-printed').first().waitFor({ timeout: 60_000 });
         await picture(page, 'scenario-wide-dark-running');
         await page.getByText('received 3 visitors', { exact: true }).waitFor({ timeout: 120_000 });
         expect(await page.locator('.scenario-printed').allTextContents()).toEqual(history);
