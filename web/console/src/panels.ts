@@ -21,8 +21,8 @@ export interface Panel {
 }
 
 export const panels: readonly Panel[] = [
-  { id: 'scenario', title: () => scenario().title, icon: 'scenario', area: 'main', load: () => import('./scenario/panel') },
   { id: 'components', title: () => components().title, icon: 'components', area: 'side', load: () => import('./components/panel') },
-  { id: 'visitors', title: () => visitors().title, icon: 'person', area: 'side', load: () => import('./visitors/panel') },
   { id: 'messages', title: () => messages().title, icon: 'messages', area: 'below', load: () => import('./messages/panel') },
+  { id: 'scenario', title: () => scenario().title, icon: 'scenario', area: 'main', load: () => import('./scenario/panel') },
+  { id: 'visitors', title: () => visitors().title, icon: 'person', area: 'side', load: () => import('./visitors/panel') },
 ];

@@ -151,6 +151,7 @@ describe('a scenario', () => {
         await in_diagram(page, 'look_where_the_start_is').focus();
         await page.keyboard.press('ArrowDown');
         await page.keyboard.press('ArrowDown');
+        await picture(page, 'scenario-focus');
         await page.keyboard.press('Enter');
         expect(await page.getByLabel('State', { exact: true }).inputValue()).toBe('find');
         expect(await page.evaluate(() => document.activeElement?.getAttribute('data-state'))).toBe('find');
