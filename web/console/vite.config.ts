@@ -13,7 +13,8 @@ export default defineConfig({
     reportCompressedSize: false,
   },
   esbuild: { jsx: 'automatic', jsxImportSource: 'preact' },
-  server: { proxy: { '/rois': { target: gateway, ws: true }, '/metrics': gateway, '/readyz': gateway } },
+  // The shipped scenario is read where it stands, in client-cpp/.
+  server: { fs: { allow: ['../..'] }, proxy: { '/rois': { target: gateway, ws: true }, '/metrics': gateway, '/readyz': gateway } },
   test: {
     include: ['tests/**/*.test.{ts,tsx}'],
     environment: 'node',

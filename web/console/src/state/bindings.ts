@@ -1,6 +1,6 @@
 // Which components this console has bound, and binding on demand.
 import { signal } from '@preact/signals';
-import { type Client, parse_xml } from 'rois-client';
+import { type Client, code_of, parse_xml } from 'rois-client';
 
 import type { LoggedDocument } from './documents';
 
@@ -60,6 +60,14 @@ export class Bindings {
       if (has) await this.give_back(taken);
       has = false;
     };
+  }
+
+  /** Has any component of a type bound. It may be one that this console has already. */
+  async borrow_any(type: string): Promise<{ ref: string; give_back: GiveBack }> {
+    const before = this.mine.value;
+    const ref = code_of(await this.client().bind_any(type));
+    if (!before.has(ref)) this.borrowed.set(ref, 0); // bound to be lent
+    return { ref, give_back: await this.borrow([ref]) };
   }
 
   private async take(ref: string): Promise<void> {

@@ -27,6 +27,7 @@ import type { Environment, Stop } from './environment';
 import { EventsState } from './events_state';
 import { MapState } from './floor_map';
 import { History } from './history';
+import { HallState } from './hall_state';
 import { LinkState } from './link_state';
 import { MetricsState } from './metrics_state';
 import { Notices } from './notices';
@@ -77,6 +78,7 @@ export class Console {
   readonly map: MapState;
   readonly traffic: Traffic;
   readonly history: History;
+  readonly hall: HallState;
   readonly selection = new Selection();
 
   private token: string | undefined;
@@ -116,6 +118,14 @@ export class Console {
     this.map = new MapState(environment, token);
     this.traffic = new Traffic(environment, this.documents, client, is_open);
     this.history = new History(environment, this);
+    this.hall = new HallState(environment, {
+      documents: this.documents,
+      commands: this.commands,
+      profile: this.profile,
+      client,
+      run: (ref, command_type, named) => this.run(ref, command_type, named, { give_back: true }),
+      may_ask: is_open,
+    });
     this.now.value = environment.now();
     environment.every(1000, () => (this.now.value = environment.now()));
     this.documents.is_own_subscription = (id) => this.subscriptions.is_own(id);
@@ -186,6 +196,7 @@ export class Console {
     this.commands.forget_session();
     this.subscriptions.forget_session();
     this.entities.forget();
+    this.hall.forget();
   }
 
   private async read_profile(): Promise<void> {

@@ -17,6 +17,8 @@ export class World implements Environment {
   readonly pages = new Map<string, { status: number; text: string }>();
   /** Answers to requests, by the operation's name; given the request they make the content of the answer, or a whole document. */
   readonly answers = new Map<string, (request: XmlElement) => string>();
+  /** Why operations are refused whose answer is a code alone; by name. */
+  readonly reasons = new Map<string, string>();
   /** The requests that came, in order. */
   readonly requests: XmlElement[] = [];
   private time = Date.UTC(2026, 10, 20, 12);
@@ -138,7 +140,7 @@ export class World implements Environment {
     const id = request.attribute('request_id');
     const content = this.answers.get(request.name)?.(request) ?? '';
     const echoed = id === undefined ? '' : ` request_id="${id}"`;
-    const [code, inside] = /^[A-Z_]+$/.test(content) ? [content, '<reason>so it is</reason>'] : ['OK', content];
+    const [code, inside] = /^[A-Z_]+$/.test(content) ? [content, `<reason>${this.reasons.get(request.name) ?? 'so it is'}</reason>`] : ['OK', content];
     const whole = `<${request.name}_response xmlns="${namespaces.message}" xmlns:rois="${namespaces.rois}" xmlns:gml="${namespaces.gml}" xmlns:xsi="${namespaces.xsi}" return_code="${code}"${echoed}>${inside}</${request.name}_response>`;
     queueMicrotask(() => listener?.received(whole));
   }

@@ -1,0 +1,256 @@
+// Runs a scenario, as `rois scenario` does: docs/rois-command.md says what states, triggers and steps mean.
+import { code_of, type Completed, type CompletedStatus, component_ref, type CommandMessage, type ReceiveEvent, Results, type Subscription } from 'rois-client';
+
+import type { GiveBack } from '../state/bindings';
+import type { Console } from '../state/console';
+import type { Stop } from '../state/environment';
+import { Inbox } from './inbox';
+import type { Scenario, ScenarioCommand, State, Trigger, TriggerKind } from './model';
+import { Trouble } from './trouble';
+import { typed_arguments } from './typed';
+import { listed, Variables } from './variables';
+
+/** What a machine tells while it runs. */
+export interface Observer {
+  entered(state: State): void;
+  /** Its commands of `leaving` are sent, and have not ended. */
+  leaving(state: State, trigger: Trigger): void;
+  left(state: State, trigger: Trigger, by: string): void;
+  printed(line: string): void;
+  variables(variables: Variables): void;
+}
+
+/** How it ended: in a state `end`, or one that is marked `failed`; stopped by the user; or with trouble. */
+export type Outcome = { how: 'ended' | 'failed'; state: string } | { how: 'stopped' } | { how: 'trouble'; trouble: unknown };
+
+const most_in_a_row = 100; // states, before the page may breathe: they may go round in a circle
+
+export class Machine {
+  readonly variables: Variables;
+  private readonly inbox: Inbox;
+  private readonly refs = new Map<string, string>(); // by the names that the scenario has for them
+  private readonly borrowed: GiveBack[] = [];
+  private readonly subscriptions: Subscription[] = [];
+  private state!: State;
+  private next: string | undefined;
+  private entered = 0;
+  private pending: string[] = [];
+  private status: CompletedStatus = 'OK';
+  private readonly fired = new Set<Trigger>();
+
+  constructor(
+    private readonly console: Console,
+    private readonly scenario: Scenario,
+    private readonly observer: Observer,
+  ) {
+    this.variables = new Variables(scenario.variables);
+    this.inbox = new Inbox(console.environment);
+  }
+
+  /** Ends it: what it runs is stopped. */
+  stop(): void {
+    this.inbox.end('stopped');
+  }
+
+  async run(): Promise<Outcome> {
+    const stops = this.listen();
+    try {
+      await this.bind();
+      await this.subscribe();
+      this.next = this.scenario.start;
+      for (let in_a_row = 0; this.next !== undefined || !this.state.is_end; ++in_a_row) {
+        this.check();
+        if (this.next === undefined) in_a_row = 0;
+        if (in_a_row === most_in_a_row) await new Promise<void>((resolve) => this.console.environment.after((in_a_row = 0), resolve));
+        if (this.next === undefined) await this.hear();
+        else await this.enter(this.scenario.states.get(this.next)!);
+      }
+      return { how: this.state.failed ? 'failed' : 'ended', state: this.state.name };
+    } catch (trouble) {
+      return this.inbox.ended === 'stopped' ? { how: 'stopped' } : { how: 'trouble', trouble };
+    } finally {
+      for (const stop of stops) stop();
+      await this.let_go();
+    }
+  }
+
+  private listen(): Stop[] {
+    const { client } = this.console;
+    return [
+      client.on('notification', (notification) => this.inbox.put(notification)),
+      client.on('gap', (gap) => gap.reason === 'session' && this.inbox.end('session')),
+      client.on('state', ({ state }) => state === 'closed' && this.inbox.end('closed')),
+    ];
+  }
+
+  private check(): void {
+    switch (this.inbox.ended) {
+      case 'stopped':
+        return Trouble.raise((w) => w.stopped);
+      case 'session':
+        return Trouble.raise((w) => w.session_ended);
+      case 'closed':
+        return Trouble.raise((w) => w.connection_closed);
+    }
+  }
+
+  private async bind(): Promise<void> {
+    for (const { name, ref, type } of this.scenario.components) {
+      this.check();
+      if (ref !== '') this.borrowed.push(await this.console.bindings.borrow([ref]));
+      const any = ref === '' ? await this.console.bindings.borrow_any(type) : undefined;
+      if (any) this.borrowed.push(any.give_back);
+      this.refs.set(name, any?.ref ?? ref);
+    }
+  }
+
+  private async subscribe(): Promise<void> {
+    const triggers = [...this.scenario.states.values()].flatMap((state) => state.triggers);
+    for (const type of new Set(triggers.filter(({ kind }) => kind === 'event').map(({ event_type }) => event_type)))
+      this.subscriptions.push(await this.console.subscribe(type));
+  }
+
+  // Gives back all that was bound for it. What the user had bound before stays so, but does not go on with what it was told here.
+  private async let_go(): Promise<void> {
+    const { bindings } = this.console;
+    const session_is_there = this.inbox.ended !== 'session' && this.inbox.ended !== 'closed';
+    for (const give_back of this.borrowed.reverse()) await give_back();
+    if (!session_is_there) return;
+    const kept = [...this.refs.values()].filter((ref) => bindings.mine.value.has(ref));
+    await Promise.all([...kept.map((ref) => this.console.run(ref, 'stop').catch(() => undefined)), ...this.subscriptions.map((one) => one.close().catch(() => undefined))]);
+  }
+
+  private async enter(state: State): Promise<void> {
+    this.next = undefined;
+    this.state = state;
+    this.pending = [];
+    this.status = 'OK';
+    this.observer.entered(state);
+    this.tell(this.variables.take(state.steps, undefined) ?? []);
+    this.inbox.clear(); // what came before a state was entered is no trigger in it
+    this.entered = this.console.environment.now();
+    this.pending = await this.execute(state.commands);
+    if (state.query && (await this.fire('answered', await this.ask(state.query), 'answered'))) return;
+    await this.fire('at_once', new Results(), 'at once');
+  }
+
+  private async execute(commands: readonly ScenarioCommand[]): Promise<string[]> {
+    const units = commands.map((command): CommandMessage => {
+      const ref = this.refs.get(command.component)!;
+      const component = this.console.profile.component(ref) ?? Trouble.raise((w) => w.no_component(ref));
+      const given = command.arguments.map(({ name, text }) => ({ name, text: this.variables.filled(text) }));
+      const made: CommandMessage = { kind: 'command', component_ref: ref, command_type: command.type, command_id: '', arguments: typed_arguments(component, command.type, given) };
+      return command.delay === undefined ? made : { ...made, delay_time: command.delay };
+    });
+    if (units.length === 0) return [];
+    const { command_ids } = await this.console.client.execute(units);
+    return [...command_ids];
+  }
+
+  private async ask({ type, component }: NonNullable<State['query']>): Promise<Results> {
+    return (await this.console.query(type, component === '' ? undefined : component_ref(this.refs.get(component)!))).results;
+  }
+
+  private async hear(): Promise<void> {
+    const due = this.next_timer();
+    const news = await this.inbox.take(due);
+    this.check();
+    if (news?.name === 'receive_event') await this.take_event(news);
+    else if (news) await this.take_completed(news);
+    else if (due !== undefined && this.console.environment.now() >= due) await this.fire_timers();
+  }
+
+  private async take_event(event: ReceiveEvent): Promise<void> {
+    if (!this.subscriptions.some((one) => one.subscribe_id === event.subscribe_id)) return; // somebody else's
+    const is_meant = (trigger: Trigger) =>
+      trigger.kind === 'event' && trigger.event_type === event.event_type && (trigger.component === '' || this.refs.get(trigger.component) === code_of(event.component_ref));
+    await this.fire_if(is_meant, event.results, `${event.event_type} ${values_of(event.results)}`);
+  }
+
+  private async take_completed({ command_id, status }: Completed): Promise<void> {
+    if (!this.pending.includes(command_id)) return;
+    this.pending = this.pending.filter((one) => one !== command_id);
+    if (this.status === 'OK') this.status = status;
+    if (this.pending.length > 0) return;
+    const ended = this.status;
+    const is_meant = (trigger: Trigger) => trigger.kind === 'completed' && (trigger.status === undefined || trigger.status === ended);
+    if (await this.fire_if(is_meant, undefined, `completed ${ended}`)) return;
+    const { name, triggers } = this.state;
+    if (!triggers.some(({ kind }) => kind === 'event' || kind === 'after')) Trouble.raise((w) => w.unexpected_end(name, ended));
+  }
+
+  // --- Times, since the state was entered ---
+
+  private due({ seconds }: Trigger): number {
+    const text = this.variables.filled(seconds);
+    const read = text.trim() === '' ? NaN : Number(text);
+    if (!(read >= 0 && read < 1e9)) Trouble.raise((w) => w.no_seconds(this.state.name, text));
+    return this.entered + read * 1000;
+  }
+
+  private timers(): Trigger[] {
+    return this.state.triggers.filter((one) => one.kind === 'after' && !this.fired.has(one));
+  }
+
+  private next_timer(): number | undefined {
+    const times = this.timers().map((one) => this.due(one));
+    return times.length === 0 ? undefined : Math.min(...times);
+  }
+
+  // Each of them once in a state, whether what it asks for holds or not.
+  private async fire_timers(): Promise<void> {
+    const now = this.console.environment.now();
+    for (const trigger of this.timers()) {
+      if (this.due(trigger) > now) continue;
+      this.fired.add(trigger);
+      if (await this.fire_if((one) => one === trigger, undefined, `after ${this.variables.filled(trigger.seconds)} s`)) return;
+    }
+  }
+
+  // --- From one state to the next ---
+
+  private fire(kind: TriggerKind, results: Results, by: string): Promise<boolean> {
+    return this.fire_if((trigger) => trigger.kind === kind, results, by);
+  }
+
+  // The first trigger that is meant, and whose steps hold, leads on.
+  private async fire_if(is_meant: (trigger: Trigger) => boolean, results: Results | undefined, by: string): Promise<boolean> {
+    for (const trigger of this.state.triggers) {
+      const printed = is_meant(trigger) ? this.variables.take(trigger.steps, results) : undefined;
+      if (!printed) continue;
+      await this.leave(trigger, by, printed);
+      return true;
+    }
+    return false;
+  }
+
+  private async leave(trigger: Trigger, by: string, printed: string[]): Promise<void> {
+    const from = this.state;
+    this.tell(printed);
+    if (from.leaving.length > 0) this.observer.leaving(from, trigger);
+    await this.wait_for_all(await this.execute(from.leaving));
+    this.observer.left(from, trigger, by);
+    this.fired.clear();
+    this.next = trigger.to;
+  }
+
+  private async wait_for_all(ids: string[]): Promise<void> {
+    while (ids.length > 0) {
+      const news = await this.inbox.take();
+      this.check();
+      if (news?.name === 'completed') ids = ids.filter((one) => one !== news.command_id);
+    }
+  }
+
+  private tell(printed: readonly string[]): void {
+    for (const line of printed) this.observer.printed(line);
+    this.observer.variables(this.variables);
+  }
+}
+
+function values_of(results: Results): string {
+  return results.parameters
+    .filter(({ name }) => name !== 'timestamp')
+    .map(({ name, values }) => `${name}=${listed(values)}`)
+    .join(' ');
+}

@@ -1,0 +1,162 @@
+// How a scenario runs: what its variables hold, what has happened.
+import { useLayoutEffect, useRef } from 'preact/hooks';
+
+import { clock_time, duration } from '../i18n/i18n';
+import { useConsole } from '../shell/context';
+import { Badge, error_text, Icon, type Tone } from '../ui';
+import type { Desk, HistoryEntry, Run } from './desk';
+import { shown_name } from './picture';
+import { nodes_in, with_text } from './source';
+import { Trouble } from './trouble';
+import { listed } from './variables';
+import { type Words, words } from './words';
+
+const most_shown = 300;
+
+/** In which tone, and in which words. */
+export function state_of(run: Run | undefined, is_running: boolean, w: Words): { tone: Tone; text: string; why?: string } {
+  if (!run) return { tone: 'calm', text: w.never_run };
+  if (is_running) return { tone: 'busy', text: run.state === '' ? w.binding : w.running };
+  const { outcome } = run;
+  switch (outcome?.how) {
+    case 'ended':
+      return { tone: 'good', text: w.ended(shown_name(outcome.state)) };
+    case 'failed':
+      return { tone: 'bad', text: w.failed(shown_name(outcome.state)) };
+    case 'trouble':
+      return { tone: 'bad', text: w.trouble, why: outcome.trouble instanceof Trouble ? outcome.trouble.say(w) : error_text(outcome.trouble) };
+    default:
+      return { tone: 'calm', text: w.was_stopped };
+  }
+}
+
+export function RunState({ desk }: { desk: Desk }) {
+  const { environment, now } = useConsole();
+  const w = words();
+  void desk.pulse.beat.value;
+  const { run } = desk;
+  const { tone, text } = state_of(run, desk.is_running.value, w);
+  const until = run?.ended_at ?? Math.max(now.value, environment.now());
+  return (
+    <span class="scenario-run-state">
+      <Badge tone={tone}>{text}</Badge>
+      {run && <span class="scenario-soft">{w.for_so_long(duration(until - run.began_at))}</span>}
+    </span>
+  );
+}
+
+export function RunView({ desk }: { desk: Desk }) {
+  const w = words();
+  void desk.pulse.beat.value;
+  const { why } = state_of(desk.run, desk.is_running.value, w);
+  return (
+    <div class="scenario-run">
+      {why !== undefined && <p class="scenario-why"><Icon name="warning" /> {why}</p>}
+      <History desk={desk} />
+      <VariablesTable desk={desk} />
+    </div>
+  );
+}
+
+function History({ desk }: { desk: Desk }) {
+  const w = words();
+  const frame = useRef<HTMLDivElement>(null);
+  const at_end = useRef(true);
+  void desk.pulse.beat.value;
+  const entries = desk.history.list().slice(-most_shown);
+  const last = entries.at(-1)?.number;
+  useLayoutEffect(() => {
+    const element = frame.current;
+    if (element && at_end.current) element.scrollTop = element.scrollHeight;
+  }, [last]);
+  const scrolled = () => {
+    const { scrollTop, clientHeight, scrollHeight } = frame.current!;
+    at_end.current = scrollTop + clientHeight >= scrollHeight - 30;
+  };
+  return (
+    <section class="scenario-history">
+      <h3>{w.history}</h3>
+      <div class="scenario-history-frame" ref={frame} onScroll={scrolled} tabIndex={0} role="region" aria-label={w.history}>
+        {entries.length === 0 && <p class="scenario-soft">{w.no_history}</p>}
+        <ol>
+          {entries.map((one) => <Entry key={one.number} entry={one} is_new={one.number === last && desk.is_running.value} />)}
+        </ol>
+      </div>
+    </section>
+  );
+}
+
+function Entry({ entry, is_new }: { entry: HistoryEntry; is_new: boolean }) {
+  const w = words();
+  const time = <time class="scenario-time">{clock_time(entry.at, false)}</time>;
+  if (entry.kind === 'print')
+    return (
+      <li class="scenario-print">
+        {time}
+        <Icon name="messages" />
+        <span><span class="unseen">{w.printed}: </span><span class="scenario-printed">{entry.line}</span></span>
+      </li>
+    );
+  return (
+    <li class={is_new ? 'scenario-transition scenario-new' : 'scenario-transition'}>
+      {time}
+      <span>
+        {shown_name(entry.from)} <span class="scenario-soft" aria-hidden="true">→</span><span class="unseen">, </span> <strong>{shown_name(entry.to)}</strong>
+        <span class="scenario-by" title={entry.by}>{entry.by}</span>
+      </span>
+    </li>
+  );
+}
+
+// What they begin with is changed in the text, as all else.
+function VariablesTable({ desk }: { desk: Desk }) {
+  const w = words();
+  void desk.pulse.beat.value;
+  const { root, text } = desk.reading.value;
+  const those = root ? [...nodes_in(root)].filter((one) => one.name === 'variable' && one.parent === root) : [];
+  const { run } = desk;
+  return (
+    <section class="scenario-variables">
+      <h3>{w.variables} <span class="scenario-soft">{w.begins_hint}</span></h3>
+      <div class="scenario-variables-frame">
+        {those.length === 0 ? (
+          <p class="scenario-soft">{w.no_variables}</p>
+        ) : (
+          <table class="table">
+            <thead>
+              <tr>
+                <th scope="col">{w.column_name}</th>
+                <th scope="col">{w.column_begins}</th>
+                <th scope="col">{w.column_value}</th>
+              </tr>
+            </thead>
+            <tbody>
+              {those.map((node) => {
+                const name = (node.element.attribute('name') ?? '').trim();
+                const value = listed(run?.variables.get(name) ?? []);
+                const changed = run?.changed.get(name);
+                return (
+                  <tr key={node.path}>
+                    <th scope="row"><code>{name}</code></th>
+                    <td>
+                      <input
+                        type="text"
+                        aria-label={w.begins_with(name)}
+                        value={node.element.text.trim()}
+                        disabled={desk.is_running.value}
+                        onInput={(event) => desk.edit(with_text(text, node, event.currentTarget.value), `variable ${name}`)}
+                      />
+                    </td>
+                    <td class="scenario-value">
+                      {run && <span key={changed} class={changed === undefined ? undefined : 'scenario-changed'}>{value === '' ? <span class="scenario-soft">{w.nothing}</span> : value}</span>}
+                    </td>
+                  </tr>
+                );
+              })}
+            </tbody>
+          </table>
+        )}
+      </div>
+    </section>
+  );
+}

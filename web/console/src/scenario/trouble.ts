@@ -1,0 +1,14 @@
+// What is wrong with a scenario, or has ended it: said in the language that the page has when it is shown.
+import type { Words } from './words';
+
+export type Say = (words: Words) => string;
+
+export class Trouble extends Error {
+  override readonly name = 'Trouble';
+  constructor(readonly say: Say) {
+    super('a scenario cannot go on');
+  }
+  static raise(say: Say): never {
+    throw new Trouble(say);
+  }
+}

@@ -1,0 +1,40 @@
+// Texts as arguments of a command, typed as the component's profile says; checked before anything is sent.
+import type { Parameter, ParameterProfile } from 'rois-client';
+
+import { data_type, is_packed, problem_of } from '../forms/data_type';
+import type { ComponentView } from '../state/profile_state';
+import { Trouble } from './trouble';
+
+/** What a command may be given: its own arguments, and whatever `set_parameter` takes. */
+export function known_arguments(component: ComponentView, command_type: string): ParameterProfile[] {
+  const own = component.commands.find((one) => one.name.toLowerCase() === command_type.toLowerCase())?.arguments ?? [];
+  return [...own, ...component.parameters];
+}
+
+/** Several of one name are a list. Throws Trouble. */
+export function typed_arguments(component: ComponentView, command_type: string, given: readonly { name: string; text: string }[]): Parameter[] {
+  const known = known_arguments(component, command_type);
+  const made: Parameter[] = [];
+  for (const { name, text } of given) {
+    const declared = known.find((one) => one.name.toLowerCase() === name.toLowerCase());
+    if (!declared) return Trouble.raise((w) => w.no_argument(component.ref, name, known.map((one) => one.name)));
+    let argument = made.find((one) => one.name === declared.name);
+    if (!argument) made.push((argument = { name: declared.name, data_type_ref: declared.data_type_ref, values: [] }));
+    add_value(argument, text);
+  }
+  for (const { name, data_type_ref, values } of made) {
+    const type = data_type(data_type_ref.code);
+    const items = type.is_list && is_packed(type) ? values.join(' ').split(/\s+/).filter(Boolean) : values;
+    if (!type.is_list && values.length !== 1) Trouble.raise((w) => w.one_value(name));
+    const wrong = items.find((one) => problem_of(type, one) !== undefined);
+    if (wrong !== undefined) Trouble.raise((w) => w.not_of_type(name, wrong, data_type_ref.code));
+  }
+  return made;
+}
+
+// Lists of numbers and truth values are one text; of other things, an empty text is no item.
+function add_value(argument: Parameter, text: string): void {
+  const type = data_type(argument.data_type_ref.code);
+  if (type.is_list && is_packed(type) && argument.values.length > 0) argument.values[0] += ` ${text}`;
+  else if (!type.is_list || is_packed(type) || text !== '') argument.values.push(text);
+}

@@ -1,0 +1,148 @@
+// People in the simulated hall who do what they are told, through the component that is the hall itself. An engine without it has real people.
+import { computed, signal } from '@preact/signals';
+import { type Arguments, type Client, component_ref, type Pose, pose_of, pose_text, RoisError, value } from 'rois-client';
+
+import type { CommandEntry, CommandsState } from './commands_state';
+import type { Documents } from './documents';
+import type { Environment } from './environment';
+import { Poll } from './poll';
+import type { ProfileState } from './profile_state';
+import { Pulse } from './pulse';
+
+/** Somebody in the hall, in truth: not as the robot's sensors see them. In the map's frame, mm and degrees counter-clockwise. */
+export interface Visitor {
+  ref: string;
+  x: number;
+  y: number;
+  th: number;
+  /** Whether identification knows them. */
+  known: boolean;
+  /** Whether they do what they are told here; others come with the engine's scenario. */
+  steered: boolean;
+}
+
+/** How an order ended; `reason` when it did not end well and the engine says why. */
+export interface Outcome {
+  status: string;
+  reason: string;
+}
+
+/** What visitors are told through this state. */
+export const gestures = ['wave', 'nod', 'shake_head', 'bow', 'point', 'raise_hand', 'clap', 'thumbs_up'] as const;
+export type Gesture = (typeof gestures)[number];
+
+export interface HallParts {
+  documents: Documents;
+  commands: CommandsState;
+  profile: ProfileState;
+  client: () => Client | undefined;
+  /** Binds, executes, and gives back when it has ended. */
+  run: (ref: string, command_type: string, named: Arguments) => Promise<{ command_ids: string[]; ends: Promise<string[]> }>;
+  may_ask: () => boolean;
+}
+
+export class HallState {
+  /** The component; undefined when the engine has none. */
+  readonly component = computed(() => this.parts.profile.of_type('Hall')[0]);
+  /** Whether the world stands still but for what is let pass; undefined until the engine was asked. */
+  readonly stands_still = signal<boolean | undefined>(undefined);
+  /** By ref, in the order of their coming. They change in place: read `pulse.beat.value`, then this. */
+  readonly visitors = new Map<string, Visitor>();
+  readonly pulse: Pulse;
+  readonly poll: Poll;
+
+  constructor(
+    environment: Environment,
+    private readonly parts: HallParts,
+    period = 150, // ms
+  ) {
+    this.pulse = new Pulse(environment);
+    this.poll = new Poll(environment, period, () => this.look(), () => parts.may_ask() && this.component.value !== undefined);
+  }
+
+  // --- What visitors are told. Each ends when they have done it; rejects with RoisError when the engine refuses. ---
+
+  enter(ref: string, { language, known }: { language?: string; known?: boolean } = {}): Promise<Outcome> {
+    return this.tell('enter', { visitor_ref: ref, language: language || undefined, known });
+  }
+  /** To a place by its name, or to one on the floor; straight away, whatever way they are on. */
+  walk(ref: string, to: string | Omit<Pose, 'th'> | Pose): Promise<Outcome> {
+    return this.tell('walk', { visitor_ref: ref, target_position: value.strings([target_text(to)]) });
+  }
+  say(ref: string, text: string, language?: string): Promise<Outcome> {
+    return this.tell('say', { visitor_ref: ref, text, language: language || undefined });
+  }
+  gesture(ref: string, gesture: Gesture): Promise<Outcome> {
+    return this.tell('gesture', { visitor_ref: ref, gesture });
+  }
+  leave(ref: string): Promise<Outcome> {
+    return this.tell('leave', { visitor_ref: ref });
+  }
+
+  /** Lets so many ms of a world pass that stands still; a multiple of 20. */
+  async let_pass(ms: number): Promise<Outcome> {
+    const outcome = await this.tell('let_pass', { time: Math.max(20, Math.round(ms / 20) * 20) });
+    this.stands_still.value = true;
+    this.poll.now();
+    return outcome;
+  }
+
+  /** Finds out whether the world stands still. The engine refuses a time of 0 either way, and says why. */
+  async find_out(): Promise<void> {
+    if (this.stands_still.value !== undefined || !this.component.value) return;
+    try {
+      await this.parts.documents.as_own(() => this.tell('let_pass', { time: 0 }));
+    } catch (error) {
+      if (error instanceof RoisError && error.failure === 'refused' && error.return_code === 'BAD_PARAMETER') this.stands_still.value = !/by itself/.test(error.message);
+    }
+  }
+
+  /** What somebody has been told and has not done yet, the oldest first. */
+  orders_of(ref: string): CommandEntry[] {
+    const hall = this.component.value?.ref;
+    return this.parts.commands.open().filter((one) => one.component === hall && one.arguments.some(({ name, values }) => name === 'visitor_ref' && values[0] === ref));
+  }
+
+  forget(): void {
+    this.visitors.clear();
+    this.stands_still.value = undefined;
+    this.pulse.touch();
+  }
+
+  private async tell(command_type: string, named: Arguments): Promise<Outcome> {
+    const { ref } = this.component.value ?? missing();
+    const { command_ids, ends } = await this.parts.run(ref, command_type, named);
+    const [status = 'unknown'] = await ends;
+    const entry = status === 'OK' ? undefined : this.parts.commands.find(command_ids[0]!);
+    const results = entry && (await this.parts.commands.fetch_results(entry));
+    return { status, reason: results?.text('reason') ?? '' };
+  }
+
+  private async look(): Promise<void> {
+    const [client, component] = [this.parts.client(), this.component.value];
+    if (!client || !component) return;
+    const { results } = await this.parts.documents.as_own(() => client.query('visitors', component_ref(component.ref)));
+    const [places, known, steered] = [results.texts('position_data').map(pose_of), results.texts('known'), results.texts('steered')];
+    const is = (text: string | undefined) => text === 'true' || text === '1';
+    const refs = results.texts('visitor_ref');
+    let changed = refs.length !== this.visitors.size;
+    const before = new Map(this.visitors);
+    this.visitors.clear();
+    refs.forEach((ref, i) => {
+      const now = { ref, ...(places[i] ?? { x: 0, y: 0, th: 0 }), known: is(known[i]), steered: is(steered[i]) };
+      const then = before.get(ref);
+      changed ||= !then || then.x !== now.x || then.y !== now.y || then.th !== now.th || then.known !== now.known || then.steered !== now.steered;
+      this.visitors.set(ref, now);
+    });
+    if (changed) this.pulse.touch();
+  }
+}
+
+function target_text(to: string | Omit<Pose, 'th'> | Pose): string {
+  if (typeof to === 'string') return to;
+  return 'th' in to ? pose_text(to) : `${to.x}, ${to.y}`;
+}
+
+function missing(): never {
+  throw new RoisError('invalid', 'this engine has no simulated hall');
+}

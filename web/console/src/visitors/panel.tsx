@@ -1,0 +1,169 @@
+// People in the simulated hall: let in, sent about, given words and gestures; and time, in a world that stands still.
+import './visitors.css';
+
+import { useEffect } from 'preact/hooks';
+
+import { useConsole, useWatch } from '../shell/context';
+import { gestures, type Visitor } from '../state/hall_state';
+import { Badge, Button, Checkbox, EmptyState, Loading, SelectField, TextField } from '../ui';
+import { Floor } from './floor';
+import { languages, type Steering, steering_of } from './steering';
+import { words } from './words';
+
+export default function VisitorsPanel() {
+  const console = useConsole();
+  const { hall, profile, link } = console;
+  useWatch(hall.poll);
+  const w = words();
+  const component = hall.component.value;
+  const is_open = link.is_open;
+  const stands_still = hall.stands_still.value;
+  useEffect(() => {
+    if (component && is_open && stands_still === undefined) void hall.find_out();
+  }, [component?.ref, is_open, stands_still]);
+  void hall.pulse.beat.value;
+  const view = console.map.view.value;
+  if (!profile.profile.value) return <Loading />;
+  if (!component)
+    return (
+      <EmptyState icon="person" title={w.none_here}>
+        {w.none_here_hint} <code>--steering on</code>
+      </EmptyState>
+    );
+  const steering = steering_of(console);
+  const chosen = hall.visitors.get(steering.chosen.value);
+  return (
+    <div class="visitors-panel">
+      {stands_still === true && <Time steering={steering} />}
+      <Floor map={view.state === 'there' ? view.map : undefined} />
+      <div class="visitors-people">
+        <Entering steering={steering} />
+        <Who steering={steering} />
+        {chosen?.steered ? <Orders key={chosen.ref} steering={steering} visitor={chosen} /> : <p class="visitors-soft">{chosen ? w.of_scenario_hint : w.choose_somebody}</p>}
+      </div>
+    </div>
+  );
+}
+
+function Entering({ steering }: { steering: Steering }) {
+  const { hall } = useConsole();
+  void hall.pulse.beat.value;
+  const w = words();
+  const name = steering.name.value.trim();
+  const wrong = hall.visitors.has(name) ? w.name_taken : /[\s.:]/.test(name) ? w.name_wrong : undefined;
+  return (
+    <form
+      class="visitors-entering"
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (wrong === undefined) steering.enter();
+      }}
+    >
+      <TextField label={w.name} value={steering.name.value} change={(to) => (steering.name.value = to)} error={wrong} input={{ placeholder: steering.next_name(), maxLength: 64 }} />
+      <SelectField label={w.language} value={steering.language.value} change={(to) => (steering.language.value = to)} choices={languages.map((one) => ({ value: one, label: one }))} />
+      <Checkbox label={w.known} checked={steering.is_known.value} change={(to) => (steering.is_known.value = to)} />
+      <Button look="primary" icon="plus" type="submit" disabled={wrong !== undefined}>{w.let_in}</Button>
+    </form>
+  );
+}
+
+function Who({ steering }: { steering: Steering }) {
+  const { hall, commands } = useConsole();
+  void hall.pulse.beat.value;
+  void commands.pulse.beat.value;
+  const w = words();
+  const all = [...hall.visitors.values()];
+  return (
+    <section class="visitors-who" aria-label={w.who}>
+      <h2>{w.in_hall(all.length)}</h2>
+      {all.length === 0 && <p class="visitors-soft">{w.nobody}</p>}
+      <ul>
+        {all.map((one) => {
+          const doing = hall.orders_of(one.ref).map(({ command_type }) => w.doing(command_type));
+          return (
+            <li key={one.ref}>
+              <button type="button" class="visitors-one" aria-pressed={one.ref === steering.chosen.value} onClick={() => (steering.chosen.value = one.ref)}>
+                <span class="visitors-ref">{one.ref}</span>
+                {one.known && <Badge>{w.is_known}</Badge>}
+                {!one.steered && <span class="visitors-soft">{w.of_scenario}</span>}
+                {doing.length > 0 && <Badge tone="busy">{[...new Set(doing)].join(', ')}</Badge>}
+                <span class="visitors-at">{w.metres((one.x / 1000).toFixed(1), (one.y / 1000).toFixed(1))}</span>
+              </button>
+            </li>
+          );
+        })}
+      </ul>
+    </section>
+  );
+}
+
+function Orders({ steering, visitor: { ref } }: { steering: Steering; visitor: Visitor }) {
+  const { hall, map } = useConsole();
+  const w = words();
+  const view = map.view.value;
+  const places = view.state === 'there' ? view.map.places.map(({ name }) => name) : [];
+  const place = places.includes(steering.place.value) ? steering.place.value : (places[0] ?? '');
+  const say = () => {
+    const text = steering.words.value.trim();
+    if (text === '') return;
+    steering.words.value = '';
+    void steering.order(ref, 'say', hall.say(ref, text, steering.spoken.value));
+  };
+  return (
+    <section class="visitors-orders" aria-label={ref}>
+      <h2>{ref}</h2>
+      {places.length > 0 && (
+        <form
+          class="visitors-row"
+          onSubmit={(event) => {
+            event.preventDefault();
+            void steering.order(ref, 'walk', hall.walk(ref, place));
+          }}
+        >
+          <SelectField label={w.walk_to} value={place} change={(to) => (steering.place.value = to)} choices={places.map((one) => ({ value: one, label: one.replaceAll('_', ' ') }))} />
+          <Button type="submit" icon="right">{w.go}</Button>
+        </form>
+      )}
+      <form
+        class="visitors-row visitors-saying"
+        onSubmit={(event) => {
+          event.preventDefault();
+          say();
+        }}
+      >
+        <TextField label={w.say} value={steering.words.value} change={(to) => (steering.words.value = to)} input={{ placeholder: w.say_hint, enterkeyhint: 'send' }} />
+        <SelectField
+          label={w.language}
+          value={steering.spoken.value}
+          change={(to) => (steering.spoken.value = to)}
+          choices={[{ value: '', label: w.own_language }, ...languages.map((one) => ({ value: one as string, label: one }))]}
+        />
+        <Button type="submit" icon="messages" disabled={steering.words.value.trim() === ''}>{w.speak}</Button>
+      </form>
+      <div class="visitors-gestures" role="group" aria-label={w.gestures}>
+        {gestures.map((one) => (
+          <Button key={one} small onClick={() => void steering.order(ref, 'gesture', hall.gesture(ref, one))}>{w.gesture(one)}</Button>
+        ))}
+      </div>
+      <div>
+        <Button small look="danger" onClick={() => void steering.order(ref, 'leave', hall.leave(ref))}>{w.leave}</Button>
+      </div>
+    </section>
+  );
+}
+
+const spans = [100, 1000, 10_000]; // ms
+
+function Time({ steering }: { steering: Steering }) {
+  const w = words();
+  const flows = steering.flows.value;
+  return (
+    <section class="visitors-time" aria-label={w.time}>
+      <p title={w.stands_still_hint}>{w.stands_still}</p>
+      {spans.map((ms) => (
+        <Button key={ms} small disabled={flows} aria-label={w.pass_label(ms / 1000)} onClick={() => void steering.pass(ms)}>{`+ ${w.pass(String(ms / 1000))}`}</Button>
+      ))}
+      <Button small icon={flows ? 'pause' : 'play'} aria-pressed={flows} onClick={() => (flows ? steering.halt() : void steering.flow())}>{flows ? w.halt : w.flow}</Button>
+    </section>
+  );
+}

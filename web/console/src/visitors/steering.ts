@@ -1,0 +1,85 @@
+// Who is steered, and what is typed for them. One for each console: it outlives the panel that shows it, and so does time that flows.
+import { signal } from '@preact/signals';
+
+import type { Console } from '../state/console';
+import type { Outcome } from '../state/hall_state';
+import { error_text } from '../ui/error_text';
+import { words } from './words';
+
+export const languages = ['de', 'en', 'es', 'fr', 'it', 'ja', 'ko', 'zh'] as const;
+const names = ['anna', 'ben', 'chika', 'daniel', 'emi', 'farid', 'grace', 'hiro'];
+const flow_step = 100; // ms of the world, and of the clock
+
+export class Steering {
+  /** Ref of the visitor that orders are for. */
+  readonly chosen = signal('');
+  readonly language = signal<string>('en');
+  readonly is_known = signal(false);
+  /** As typed; empty: the next name that nobody has. */
+  readonly name = signal('');
+  readonly words = signal('');
+  readonly spoken = signal(''); // language; empty: their own
+  readonly place = signal('');
+  readonly flows = signal(false);
+
+  constructor(private readonly console: Console) {}
+
+  /** A name that nobody in the hall has. */
+  next_name(): string {
+    const { visitors } = this.console.hall;
+    for (let round = 1; ; ++round) for (const one of names) if (!visitors.has(round === 1 ? one : `${one}${round}`)) return round === 1 ? one : `${one}${round}`;
+  }
+
+  /** Carries out an order, and tells when it was not done. `replaced` orders end with ABORT; that is no trouble. */
+  async order(ref: string, what: string, ordered: Promise<Outcome>): Promise<boolean> {
+    const { notices } = this.console;
+    try {
+      const { status, reason } = await ordered;
+      if (status === 'ERROR' || status === 'TIMEOUT' || status === 'OUT_OF_RESOURCES') notices.tell('warning', words().not_done(ref, what), reason === '' ? {} : { detail: reason });
+      return status === 'OK';
+    } catch (error) {
+      notices.tell('error', words().not_done(ref, what), { detail: error_text(error) });
+      return false;
+    }
+  }
+
+  enter(): void {
+    const ref = this.name.value.trim() || this.next_name();
+    this.chosen.value = ref;
+    this.name.value = '';
+    void this.order(ref, 'enter', this.console.hall.enter(ref, { language: this.language.value, known: this.is_known.value }));
+  }
+
+  async pass(ms: number): Promise<boolean> {
+    try {
+      return (await this.console.hall.let_pass(ms)).status === 'OK';
+    } catch (error) {
+      this.console.notices.tell('error', error_text(error));
+      return false;
+    }
+  }
+
+  /** Time passes as fast as the clock until `halt`. */
+  async flow(): Promise<void> {
+    const { environment } = this.console;
+    this.flows.value = true;
+    while (this.flows.value) {
+      const began = environment.now();
+      if (!(await this.pass(flow_step))) break;
+      await new Promise<void>((resolve) => environment.after(Math.max(0, began + flow_step - environment.now()), resolve));
+    }
+    this.flows.value = false;
+  }
+
+  halt(): void {
+    this.flows.value = false;
+  }
+}
+
+const all = new WeakMap<Console, Steering>();
+
+export function steering_of(console: Console): Steering {
+  const steering = all.get(console) ?? new Steering(console);
+  all.set(console, steering);
+  return steering;
+}

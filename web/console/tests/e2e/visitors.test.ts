@@ -1,0 +1,175 @@
+// The panel Visitors: people in the simulated hall who are let in, sent about, given words, and gone again; in a world that stands still,
+// so that it is the same each time.
+import type { Page } from 'playwright-core';
+import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+
+import { picture, root, sizes, Stage, violations } from './harness';
+
+const data = `${root}/tests/server/data`;
+const visitor = (page: Page, ref: string) => page.locator(`[data-visitor="${ref}"]`);
+const at_desk = /^9\.[3-7] m, 9\.[1-4] m$/; // people stop as soon as they are there
+const row = (page: Page, ref: string) => page.locator('.visitors-one', { hasText: ref });
+
+async function let_in(page: Page, name: string, known = false): Promise<void> {
+  await page.getByLabel('Name').fill(name);
+  if (known) await page.getByLabel('Identification knows them').check();
+  await page.getByRole('button', { name: 'Let in' }).click();
+}
+
+async function leaves(page: Page, name: string): Promise<void> {
+  await row(page, name).click();
+  await page.getByRole('button', { name: 'Leave the hall' }).click();
+  await page.getByRole('button', { name: 'Let it flow' }).click();
+  await visitor(page, name).waitFor({ state: 'detached', timeout: 60_000 });
+  await page.getByRole('button', { name: 'Halt' }).click();
+}
+
+describe('in a world that stands still', () => {
+  let stage: Stage;
+  beforeAll(async () => {
+    stage = await Stage.set('--scenario', `${data}/empty_hall.xml`, '--sim-speed', '0', '--seed', '7');
+  });
+  afterAll(() => stage.strike());
+
+  test('somebody comes in, is dragged, says and waves, and time is let pass', () =>
+    stage.page(
+      async (page) => {
+        await page.getByText('The world stands still.').waitFor();
+        await let_in(page, 'anna', true);
+        await page.getByRole('button', { name: 'Let 1 second pass' }).click();
+        await row(page, 'anna').getByText('known').waitFor();
+        await row(page, 'anna').getByText('10.0 m, 0.7 m').waitFor();
+
+        const from = (await visitor(page, 'anna').locator('.visitors-body').boundingBox())!;
+        const hall = (await page.locator('.visitors-ground').boundingBox())!;
+        const mm = hall.width / 20_000; // px; the hall is 20 m wide
+        await page.mouse.move(from.x + from.width / 2, from.y + from.height - 260 * mm);
+        await page.mouse.down();
+        await page.mouse.move(hall.x + 9000 * mm, hall.y + hall.height - 4500 * mm, { steps: 5 });
+        await page.getByText(/^anna goes to (8\.9|9\.0)\d m, 4\.[45]\d m$/).waitFor();
+        await picture(page, 'visitors-wide-dark-drag');
+        await page.mouse.up();
+        await row(page, 'anna').getByText('walking').waitFor();
+
+        await page.getByLabel('Say', { exact: true }).fill('Good morning');
+        await page.keyboard.press('Enter');
+        await page.getByRole('button', { name: 'wave' }).click();
+        await row(page, 'anna').getByText('walking, saying, gesture').waitFor();
+        await picture(page, 'visitors-wide-dark');
+        expect(await violations(page)).toBe('');
+        for (const _ of [1, 2]) await page.getByRole('button', { name: 'Let 10 seconds pass' }).click();
+        await row(page, 'anna').getByText(/walking|saying|gesture/).waitFor({ state: 'detached' });
+        await row(page, 'anna').getByText(/^(8\.9|9\.[01]) m, 4\.[3-6] m$/).waitFor();
+        await leaves(page, 'anna');
+        await page.getByText('0 bound').waitFor();
+      },
+      { width: 1600, height: 1000 },
+      '/#visitors',
+    ));
+
+  test('several are sent to places, by the keyboard, too; what cannot be is told', () =>
+    stage.page(
+      async (page) => {
+        await let_in(page, 'ben');
+        await page.getByRole('button', { name: 'Let 1 second pass' }).click();
+        await page.getByLabel('Walk to').selectOption('desk');
+        await page.getByRole('button', { name: 'Go', exact: true }).click();
+        await page.getByRole('button', { name: 'Let 10 seconds pass' }).click();
+        await page.getByRole('button', { name: 'Let in' }).click(); // by the name that is proposed
+        await page.getByRole('button', { name: 'Let 10 seconds pass' }).click();
+        await row(page, 'anna').waitFor();
+        await row(page, 'ben').getByText(at_desk).waitFor();
+
+        await visitor(page, 'anna').focus();
+        for (const key of ['Shift+ArrowUp', 'Shift+ArrowUp', 'ArrowLeft']) await page.keyboard.press(key);
+        await page.getByText('anna goes to 9.75 m, 2.75 m').waitFor();
+        await page.keyboard.press('Enter');
+        await page.getByRole('button', { name: 'Let 10 seconds pass' }).click();
+        await row(page, 'anna').getByText(/^9\.[78] m, 2\.[678] m$/).waitFor();
+
+        await page.getByLabel('Name').fill('ben');
+        await page.getByText('Somebody of this name is in the hall.').waitFor();
+        expect(await page.getByRole('button', { name: 'Let in' }).isDisabled()).toBe(true);
+        await page.getByLabel('Name').fill('');
+        await visitor(page, 'anna').focus();
+        for (let i = 0; i < 8; ++i) await page.keyboard.press('Shift+ArrowUp'); // into the desk
+        await page.keyboard.press('Enter');
+        await page.getByText(/nobody can stand at/).waitFor();
+        await leaves(page, 'anna');
+        await leaves(page, 'ben');
+      },
+      {},
+      '/#visitors',
+    ));
+});
+
+describe('the panel', () => {
+  let stage: Stage;
+  beforeAll(async () => {
+    stage = await Stage.set('--scenario', `${data}/empty_hall.xml`, '--sim-speed', '0', '--seed', '7');
+  });
+  afterAll(() => stage.strike());
+
+  test.each([
+    ['wide', 'light', 'ja'],
+    ['tablet', 'light', 'en'],
+    ['small', 'dark', 'en'],
+  ] as const)('is accessible: %s, %s, %s', (size, look, language) =>
+    stage.page(
+      async (page) => {
+        await page.locator('.visitors-entering button').click();
+        await page.locator('.visitors-time button').nth(1).click();
+        await page.locator('.visitors-orders').waitFor();
+        expect(await violations(page)).toBe('');
+        await picture(page, `visitors-${size}-${look}-${language}`);
+        await page.locator('.visitors-orders .button-danger').click();
+        await page.locator('.visitors-time button').last().click();
+        await visitor(page, 'anna').waitFor({ state: 'detached', timeout: 60_000 });
+        await page.locator('.visitors-time button').last().click();
+      },
+      { ...sizes[size], look, language, touch: size !== 'wide' },
+      '/#visitors',
+    ),
+  );
+});
+
+test('a robot receives somebody who was let in: nothing but a browser is needed to try it', async () => {
+  const stage = await Stage.set('--floor-plan', `${data}/watchful_hall.xml`, '--scenario', `${data}/empty_hall.xml`, '--sim-speed', '20', '--seed', '7', '--steering', 'on');
+  try {
+    await stage.page(
+      async (page) => {
+        await let_in(page, 'tanaka', true);
+        await page.getByLabel('Walk to').selectOption('desk');
+        await page.getByRole('button', { name: 'Go', exact: true }).click();
+        await row(page, 'tanaka').getByText(at_desk).waitFor();
+        expect(await page.getByText('The world stands still.').count()).toBe(0);
+        await page.getByRole('button', { name: 'Start', exact: true }).click();
+        await page.getByText('received 1 visitors').waitFor({ timeout: 120_000 });
+        expect(await page.locator('.scenario-printed').allTextContents()).toEqual(['tanaka: told "Mr. Tanaka, your meeting is in room 3."', 'received 1 visitors']);
+        await picture(page, 'visitors-received');
+      },
+      { width: 1600, height: 1000 },
+      '/#visitors',
+    );
+  } finally {
+    await stage.strike();
+  }
+});
+
+test('an engine without a simulated hall says how one comes by visitors', async () => {
+  const stage = await Stage.set('--scenario', `${data}/empty_hall.xml`, '--seed', '7');
+  try {
+    await stage.page(
+      async (page) => {
+        await page.getByText('This engine has no visitors to steer').waitFor();
+        await page.getByText('--steering on').waitFor();
+        expect(await violations(page)).toBe('');
+        await picture(page, 'visitors-none');
+      },
+      {},
+      '/#visitors',
+    );
+  } finally {
+    await stage.strike();
+  }
+});

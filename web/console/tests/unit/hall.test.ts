@@ -1,0 +1,121 @@
+// People of the simulated hall who are steered: what is said to the engine, and what is learnt from it.
+import type { XmlElement } from 'rois-client';
+import { beforeEach, describe, expect, test } from 'vitest';
+
+import type { Console } from '../../src/state/console';
+import { profile_xml, settled, World } from './world';
+
+let world: World;
+let console: Console;
+
+const hall_urn = 'urn:x-rois:def:component:simulation::Hall';
+const hall_profile =
+  `<rois:HRIEngineProfile gml:id="engine.hall"><gml:identifier>urn:e</gml:identifier><gml:name>hall</gml:name><rois:HRIComponent>simulated_hall</rois:HRIComponent></rois:HRIEngineProfile>` +
+  `<components><component ref="simulated_hall" type="${hall_urn}" engine="hall"/></components>` +
+  `<rois:HRIComponentProfile gml:id="profile.simulated_hall"><gml:identifier>${hall_urn}</gml:identifier><gml:name>simulated_hall</gml:name></rois:HRIComponentProfile>`;
+
+beforeEach(async () => {
+  world = new World();
+  world.answers.set('get_profile', () => hall_profile);
+  world.answers.set('execute', echo);
+  world.answers.set('get_command_result', () => `<results>${result('status', 'string', 'RUNNING')}</results>`);
+  world.pages.set('/rois/map', { status: 404, text: '' });
+  console = await world.console();
+});
+
+function result(name: string, type: string, ...values: string[]): string {
+  return `<result rois:name="${name}"><rois:data_type_ref rois:code="${type}"/>${values.map((one) => `<rois:value>${one}</rois:value>`).join('')}</result>`;
+}
+
+const attribute_of = (element: XmlElement, name: string) => element.attributes.find((one) => one.name === name)?.value ?? '';
+
+function units(): XmlElement[] {
+  return world.requests.filter((one) => one.name === 'execute').map((one) => one.child('CommandUnitSequence')!.children[0]!);
+}
+
+function echo(request: XmlElement): string {
+  const unit = request.child('CommandUnitSequence')!.children[0]!;
+  const given = (unit.child('arguments')?.children ?? []).map((one) => `<rois:parameter rois:name="${attribute_of(one, 'name')}"><rois:data_type_ref rois:code="string"/>${one.all('value').map((each) => `<rois:value>${each.text}</rois:value>`).join('')}</rois:parameter>`);
+  return `<rois:CommandUnitSequence><rois:command_unit_list xsi:type="rois:CommandMessageType" rois:command_type="${attribute_of(unit, 'command_type')}" rois:command_id="${attribute_of(unit, 'command_id')}"><rois:component_ref rois:code="simulated_hall"/><rois:arguments>${given.join('')}</rois:arguments></rois:command_unit_list></rois:CommandUnitSequence>`;
+}
+
+function told(): string[] {
+  return units().map((unit) => `${attribute_of(unit, 'command_type')} ${(unit.child('arguments')?.children ?? []).map((one) => `${attribute_of(one, 'name')}=${one.all('value').map((each) => each.text).join('|')}`).join(' ')}`);
+}
+
+async function completes(status = 'OK', nth = -1): Promise<void> {
+  await world.notifies('completed', `<command_id>${attribute_of(units().at(nth)!, 'command_id')}</command_id><status>${status}</status>`);
+  await settled();
+}
+
+describe('the hall', () => {
+  test('is known by the type of its component', async () => {
+    expect(console.hall.component.value?.ref).toBe('simulated_hall');
+    const other = new World();
+    other.answers.set('get_profile', () => profile_xml({ navigation: { type: 'Navigation' } }));
+    other.pages.set('/rois/map', { status: 404, text: '' });
+    const without = await other.console();
+    expect(without.hall.component.value).toBeUndefined();
+    await expect(without.hall.leave('anna')).rejects.toThrow('this engine has no simulated hall');
+    const stop = without.hall.poll.watch();
+    expect(other.names()).not.toContain('query');
+    stop();
+  });
+
+  test('tells visitors what they are told, and has them bound while they do it', async () => {
+    const { hall } = console;
+    const all = [
+      hall.enter('anna', { language: 'ja', known: true }), hall.enter('ben'), hall.walk('anna', 'desk'), hall.walk('anna', { x: 1000, y: 2000 }), hall.walk('anna', { x: 1, y: 2, th: 90 }),
+      hall.say('anna', 'Hello', 'en'), hall.gesture('anna', 'wave'), hall.leave('anna'), hall.let_pass(1009),
+    ];
+    await settled();
+    await settled();
+    expect(told()).toEqual([
+      'enter visitor_ref=anna language=ja known=true', 'enter visitor_ref=ben', 'walk visitor_ref=anna target_position=desk', 'walk visitor_ref=anna target_position=1000, 2000',
+      'walk visitor_ref=anna target_position=1, 2, 90', 'say visitor_ref=anna text=Hello language=en', 'gesture visitor_ref=anna gesture=wave', 'leave visitor_ref=anna', 'let_pass time=1000',
+    ]);
+    expect(hall.orders_of('anna').map((one) => one.command_type)).toEqual(['enter', 'walk', 'walk', 'walk', 'say', 'gesture', 'leave']);
+    for (let i = 0; i < all.length; ++i) await completes('OK', i);
+    expect(await Promise.all(all)).toEqual(all.map(() => ({ status: 'OK', reason: '' })));
+    expect(world.names().filter((one) => one === 'bind' || one === 'release')).toContain('release');
+    expect([...console.bindings.mine.value]).toEqual([]);
+  });
+
+  test('says why an order was not done', async () => {
+    const ordered = console.hall.walk('anna', 'desk');
+    await settled();
+    world.answers.set('get_command_result', () => `<results>${result('status', 'string', 'ERROR')}${result('reason', 'string', 'there is no way there')}</results>`);
+    await completes('ERROR');
+    expect(await ordered).toEqual({ status: 'ERROR', reason: 'there is no way there' });
+  });
+
+  test('is looked at while somebody looks', async () => {
+    world.answers.set('query', () => `<component_ref rois:code="simulated_hall"/><results>${result('visitor_ref', 'string[]', 'anna', 'tanaka')}${result('position_data', 'string[]', '1000, 2000, 90', '5, 6, -90')}${result('known', 'bool[]', 'false true')}${result('steered', 'bool[]', 'true false')}</results>`);
+    const stop = console.hall.poll.watch();
+    await settled();
+    expect([...console.hall.visitors.values()]).toEqual([
+      { ref: 'anna', x: 1000, y: 2000, th: 90, known: false, steered: true },
+      { ref: 'tanaka', x: 5, y: 6, th: -90, known: true, steered: false },
+    ]);
+    world.draws();
+    const { beat } = console.hall.pulse;
+    const before = beat.value;
+    await world.passes(300);
+    world.draws();
+    expect(beat.value).toBe(before); // nobody has moved
+    stop();
+  });
+
+  test.each([
+    ['the world runs by itself: time can be let pass with --sim-speed 0 only', false],
+    ["parameter 'time' must be a multiple of 20, 1 hour at most, not 0", true],
+  ])('finds out whether the world stands still: %s', async (reason, stands_still) => {
+    world.answers.set('execute', () => `BAD_PARAMETER`);
+    world.reasons.set('execute', reason);
+    await console.hall.find_out();
+    expect(console.hall.stands_still.value).toBe(stands_still);
+    expect([...console.bindings.mine.value]).toEqual([]);
+    await console.hall.find_out();
+    expect(units()).toHaveLength(1); // once is enough
+  });
+});
