@@ -93,7 +93,7 @@ describe('choices', () => {
   });
   const profile = (ref: string, type: string, messages: ReturnType<typeof message>[]) => ({ id: `profile.${ref}`, identifier: `urn:${type}`, name: ref, description: '', sub_profiles: [], messages, parameters: [] });
   const views = views_of({
-    engine: { id: 'engine.e', identifier: 'urn:e', name: 'e', sub_engines: [], components: ['speech', 'detection'] },
+    engine: { id: 'engine.e', identifier: 'urn:e', name: 'e', sub_engines: [], parameters: [], components: ['speech', 'detection'] },
     components: [{ ref: 'speech', type: 'urn:SpeechSynthesis', engine: 'e' }, { ref: 'detection', type: 'urn:PersonDetection', engine: 'e' }],
     component_profiles: [profile('speech', 'SpeechSynthesis', [message('command', 'start', [], ['speech_text', 'volume'])]), profile('detection', 'PersonDetection', [message('event', 'person_detected', ['timestamp', 'number'])])],
   });

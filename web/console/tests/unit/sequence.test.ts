@@ -123,7 +123,7 @@ const parameter = '<rois:ParameterProfile rois:name="speech_text" rois:descripti
 const profiles_xml = profile_xml({ speech: { type: 'SpeechSynthesis', parameters: parameter }, detection: { type: 'PersonDetection' }, navigation: { type: 'Navigation' } });
 
 describe('checks', () => {
-  const components = views_of({ engine: { id: '', identifier: '', name: '', sub_engines: [], components: [] }, components: [{ ref: 'speech', type: 'urn:s', engine: 'e' }], component_profiles: [{
+  const components = views_of({ engine: { id: '', identifier: '', name: '', sub_engines: [], parameters: [], components: [] }, components: [{ ref: 'speech', type: 'urn:s', engine: 'e' }], component_profiles: [{
     id: 'p', identifier: 'urn:s', name: 's', description: '', sub_profiles: ['urn:x-rois:def:component:OMG::RoISCommon'], messages: [],
     parameters: [{ name: 'speech_text', data_type_ref: { code: 'string' }, description: 'What. Mandatory.' }, { name: 'volume', data_type_ref: { code: 'int' } }],
   }] });
