@@ -74,7 +74,7 @@ TEST_P(TheStorm, MissesNothingAndRepeatsNothing) {
         patient.deadline = 30s;
         Client robot{patient, observers};
         EXPECT_FALSE(robot.wait(robot.opened()));
-        proxy.cut_at_random(7, 60'000, cuts);
+        proxy.cut_at_random(7, 45'000, cuts);
         EXPECT_EQ(robot.wait(detect(robot, streams)), commands);
         EXPECT_EQ(robot.wait(robot.call(Search{})).return_code, ReturnCode::ok);
         streams.clear();

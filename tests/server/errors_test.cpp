@@ -10,6 +10,7 @@ using testing::IsEmpty;
 using testing::Key;
 using testing::Not;
 using testing::Pair;
+using testing::UnorderedElementsAre;
 
 GatewayProcess& unwell() {
     static GatewayProcess robot{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unwell.xml", "--start-timeout", "0.2"}};
@@ -93,7 +94,9 @@ TEST_P(Errors, OfAComponentThatDoesNotStartAreTimeouts) {
     EXPECT_THAT(lines(desk.history()), ElementsAre("completed speech TIMEOUT", "completed next ABORT", "receive_error"));
     EXPECT_EQ(error.text("error_type"), "COMPONENT_NOT_RESPONDING");
     EXPECT_EQ(error.ref(), "speech_synthesis");
-    EXPECT_THAT(desk.get_command_result("speech").values(), ElementsAre(Pair("status", ElementsAre("TIMEOUT"))));
+    EXPECT_THAT(desk.get_command_result("speech").values(),
+                UnorderedElementsAre(Pair("status", ElementsAre("TIMEOUT")),
+                                     Pair("reason", ElementsAre("the command 'start' did not start in time"))));
     EXPECT_THAT(detail_of(error.text("error_id")).values(), Contains(Pair("component_ref", ElementsAre("speech_synthesis"))));
 }
 
