@@ -64,7 +64,7 @@ public:
     Results visitors() { return component->query("visitors", now_).at(0); }
 
     void started(CommandHandle) override {}
-    void completed(CommandHandle command, CompletedStatus status, Results results, Afterwards) override {
+    void completed(CommandHandle command, CompletedStatus status, Results results, Afterwards, std::string) override {
         auto const text = std::string{to_text(status)} + (results.parameters.empty() ? "" : " " + value(results, "reason"));
         EXPECT_TRUE(ended_.emplace(static_cast<std::uint64_t>(command), text).second) << "a command ends once";
     }

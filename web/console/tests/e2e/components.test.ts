@@ -228,6 +228,7 @@ describe('components', () => {
         await picture(page, `components-${size}-${look}`);
       },
       { width, height, look, touch: size !== 'wide', language: size === 'upright' ? 'ja' : 'en' },
+      '/#components',
     ),
   );
 });

@@ -126,6 +126,9 @@ export const sizes = { wide: { width: 1600, height: 900 }, tablet: { width: 1024
 
 /** One gateway, one front, one browser. */
 export class Stage {
+  /** Where a page begins that does not say. */
+  path = '/';
+
   private constructor(
     readonly gateway: Gateway,
     readonly front: Front,
@@ -148,7 +151,7 @@ export class Stage {
   }
 
   /** A page that shows the console. What it complains of (an exception, a policy that is violated) fails the test at the end of `act`. */
-  async page(act: (page: Page) => Promise<void>, options: PageOptions = {}, path = '/'): Promise<void> {
+  async page(act: (page: Page) => Promise<void>, options: PageOptions = {}, path = this.path): Promise<void> {
     const { width = sizes.wide.width, height = sizes.wide.height, look = 'dark', language = 'en', motion = 'reduce', touch = false } = options;
     const context = await this.browser.newContext({
       viewport: { width, height },

@@ -41,6 +41,7 @@ describe('the link', () => {
   test('lost, and resumed with a gap', async () => {
     stage = await Stage.set(...hall, '--sim-speed', '20', '--max-waiting-notifications', '16');
     const other = await connect(stage.gateway.url);
+    stage.path = '/#messages';
     await stage.page(async (page) => {
       await page.getByRole('treeitem', { name: /^person_detection / }).click();
       await page.getByRole('tab', { name: /^Events(?! and)/ }).click();

@@ -204,7 +204,7 @@ describe('the robot', () => {
   test('is sent with keys alone', () =>
     stage.page(async (page) => {
       await ready(page);
-      await page.getByRole('application').focus();
+      await page.getByRole('application', { name: /^Floor map/ }).focus();
       for (const key of ['Shift+ArrowLeft', 'Shift+ArrowLeft', 'ArrowDown', 'Enter', 'q']) await page.keyboard.press(key);
       await page.getByRole('status').filter({ hasText: /^x 8\.00 m, y 5\.75 m/ }).waitFor();
       await page.locator('.map-fact code', { hasText: /^8000, 5750, -?\d+$/ }).waitFor();
@@ -258,7 +258,7 @@ describe('people', () => {
         await observe(page);
         await pass_until(page, row(page, /tanaka|person-/), 200);
         await hall.walk('tanaka', '12000, 4000, 180');
-        await page.getByRole('application').focus();
+        await page.getByRole('application', { name: /^Floor map/ }).focus();
         await page.keyboard.press('n');
         const person = page.getByRole('region', { name: /^Person/ });
         await person.waitFor();

@@ -14,6 +14,7 @@ let stage: Stage;
 
 beforeAll(async () => {
   stage = await Stage.set('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '20', '--seed', '7', '--event-details', '2', '--resume-window', '0.01');
+  stage.path = '/#messages';
 });
 afterAll(() => stage.strike());
 

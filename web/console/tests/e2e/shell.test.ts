@@ -36,6 +36,7 @@ describe('the page', () => {
         await picture(page, `shell-${size}-${look}-${language}`);
       },
       { ...sizes[size], look, language, touch: size !== 'wide' },
+      '/#components',
     ),
   );
 
@@ -90,7 +91,7 @@ describe('the page', () => {
       }
       await picture(page, 'shell-focus');
       expect(walked[0]).toBe('Skip to the panels');
-      for (const name of ['Colours', 'Language', 'Pause', 'Requests', 'Search in the text', 'Export', 'navigation', 'Release navigation|Bind navigation', 'Commands', 'start', 'target_position, item 1', 'Copy as curl', 'Request: navigation start'])
+      for (const name of ['Colours', 'Language', 'Place to go to', 'Larger', 'Stop time', 'Stretch of time', 'navigation', 'Release navigation|Bind navigation', 'Commands', 'start', 'target_position, item 1', 'Copy as curl', 'Request: navigation start'])
         expect(walked.some((one) => new RegExp(`^(${name})`).test(one)), `${name} in ${walked.join(' | ')}`).toBe(true);
       expect(walked.filter((one) => one.startsWith('!'))).toEqual([]);
 

@@ -203,7 +203,7 @@ describe('the time line', () => {
       async (page) => {
         await day(page);
         expect(await violations(page)).toBe('');
-        await page.getByRole('application').focus();
+        await page.getByRole('application', { name: /^Time line/ }).focus();
         await page.keyboard.press('ArrowDown');
         await page.keyboard.press('ArrowDown');
         await page.locator('.timeline-tip').waitFor();

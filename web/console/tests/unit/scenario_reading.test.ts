@@ -80,8 +80,8 @@ describe('changing', () => {
   test('an attribute touches nothing else', () => {
     const after = state('find').children.find((one) => one.name === 'after')!;
     expect(difference(with_attribute(text, after, 'seconds', '3 & "4"'))).toEqual([
-      '- <after seconds="{looking}" to="check_presence"/>',
-      '+ <after seconds="3 &amp; &quot;4&quot;" to="check_presence"/>',
+      '- <after seconds="{looking}" to="go_to_start_position"/>  <!-- from where the hall is seen -->',
+      '+ <after seconds="3 &amp; &quot;4&quot;" to="go_to_start_position"/>  <!-- from where the hall is seen -->',
     ]);
     const [completed] = state('approach').children.filter((one) => one.name === 'completed');
     expect(difference(with_attribute(text, completed!, 'status', undefined))).toContain('+ <completed to="see_whether_they_stand"/>');
