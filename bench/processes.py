@@ -132,6 +132,16 @@ def load(mode, server, **options):
     return json.loads(said)
 
 
+def run_beside(server, command):
+    """A client program on the cores that are not the server's, and what it wrote."""
+    whole = [str(part) for part in command]
+    pin = lambda: os.sched_setaffinity(0, server.load_cores)  # noqa: E731
+    done = subprocess.run(whole, capture_output=True, text=True, timeout=300, preexec_fn=pin)
+    if done.returncode != 0:
+        raise BenchError(f"{command[0].name} on {server.name}: {done.stderr.strip()}")
+    return done.stdout
+
+
 @contextlib.contextmanager
 def beside(mode, server, **options):
     """The load generator while something else is measured."""

@@ -12,7 +12,7 @@ import processes
 import report
 from parts import Settings
 
-PARTS = ("requests", "fanout", "memory", "growth", "micro")
+PARTS = ("requests", "fanout", "memory", "growth", "micro", "client")
 
 
 def read_arguments():

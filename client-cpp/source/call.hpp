@@ -25,16 +25,18 @@ public:
         once,   // not sent again: who waits hears of it
         raw,    // a document as it stands
     };
-    using Outcome = std::variant<Reply, Fault, std::string, NoAnswer, Interrupted>;
+    using Outcome = std::variant<Answer, std::string, Interrupted>;  // a text for a raw one
 
-    Call(Kind how, std::string document, std::string request_id)
-        : kind{how}, text{std::move(document)}, id{std::move(request_id)} {}
+    Call(Kind how, std::string document, std::string request_id, std::chrono::milliseconds within)
+        : kind{how}, text{std::move(document)}, id{std::move(request_id)}, deadline{within} {}
 
     Call(Call const&) = delete;
     Call& operator=(Call const&) = delete;
 
-    void give(Outcome given) {
-        outcome_ = std::move(given);
+    // What the outcome is made of. Who waits goes on.
+    template <class... Parts>
+    void give(Parts&&... parts) {
+        outcome_.emplace(std::forward<Parts>(parts)...);
         if (auto const waiter = std::exchange(waiter_, {})) waiter.resume();
     }
 
@@ -45,15 +47,16 @@ public:
         Call* call;
         bool await_ready() const { return call->is_over(); }
         void await_suspend(std::coroutine_handle<> waiter) const { call->waiter_ = waiter; }
-        Outcome await_resume() const { return std::move(*call->outcome_); }
+        Outcome& await_resume() const { return *call->outcome_; }
     };
-    Awaiter outcome() { return {this}; }
+    Awaiter outcome() { return {this}; }  // stays here
 
     Kind const kind;
     std::string const text;
     std::string const id;  // empty for a raw one
-    bool sent = false;     // on this link
-    Loop::Ticket deadline = 0;
+    std::chrono::milliseconds const deadline;
+    Steady const due = std::chrono::steady_clock::now() + deadline;
+    bool sent = false;  // on this link
 
 private:
     std::optional<Outcome> outcome_;

@@ -1,34 +1,24 @@
 #include "rois/client.hpp"
 
-#include "core.hpp"
+#include "asked.hpp"
 #include "rois/blocking.hpp"
 
 namespace rois {
 
-namespace {
-
-template <class Op>
-typename Op::Reply checked(typename Op::Reply reply, std::string const& what) {
-    if (reply.return_code != ReturnCode::ok) throw Error{reply.return_code, what + ": " + reply.reason};
-    return reply;
-}
-
-}  // namespace
+using detail::asked;
 
 Task<Component> Client::bind(std::string ref) {
     auto const inside = core();
     Bind operation{{.code = std::move(ref), .authority = {}, .codebook_ref = {}, .version = {}}};
     auto bound = operation.component_ref;
-    auto reply = co_await call(std::move(operation));
-    checked<Bind>(std::move(reply), "bind " + bound.code);
+    co_await asked(inside, std::move(operation), "bind ", bound.code);
     co_return Component{inside, std::move(bound)};
 }
 
 Task<Component> Client::bind_any(QueryExpression condition) {
     auto const inside = core();
     BindAny operation{std::move(condition)};
-    auto reply = co_await call(std::move(operation));
-    auto bound = checked<BindAny>(std::move(reply), "bind_any");
+    auto bound = co_await asked(inside, std::move(operation), "bind_any");
     co_return Component{inside, std::move(bound.component_ref)};
 }
 
@@ -38,28 +28,22 @@ Component Client::component(std::string ref) const {
 
 Task<std::vector<Identifier>> Client::search(QueryExpression condition) {
     Search operation{std::move(condition)};
-    auto reply = co_await call(std::move(operation));
-    auto found = checked<Search>(std::move(reply), "search");
+    auto found = co_await asked(core(), std::move(operation), "search");
     co_return std::move(found.component_ref_list);
 }
 
 Task<GetProfile::Reply> Client::get_profile(QueryExpression condition) {
-    GetProfile operation{std::move(condition)};
-    auto reply = co_await call(std::move(operation));
-    co_return checked<GetProfile>(std::move(reply), "get_profile");
+    return asked(core(), GetProfile{std::move(condition)}, "get_profile");
 }
 
 Task<Query::Reply> Client::query(std::string query_type, QueryExpression condition) {
-    auto const what = "query " + query_type;
-    Query operation{std::move(query_type), std::move(condition)};
-    auto reply = co_await call(std::move(operation));
-    co_return checked<Query>(std::move(reply), what);
+    auto whom = query_type;
+    return asked(core(), Query{std::move(query_type), std::move(condition)}, "query ", std::move(whom));
 }
 
 Task<Results> Client::get_error_detail(ErrorId error_id) {
     GetErrorDetail operation{std::move(error_id), {}};
-    auto reply = co_await call(std::move(operation));
-    auto detail = checked<GetErrorDetail>(std::move(reply), "get_error_detail");
+    auto detail = co_await asked(core(), std::move(operation), "get_error_detail");
     co_return std::move(detail.results);
 }
 

@@ -1,19 +1,12 @@
 #include "rois/component.hpp"
 
-#include "core.hpp"
+#include "asked.hpp"
 
 namespace rois {
 
-namespace {
+using detail::asked;
 
-template <class Op>
-Task<typename Op::Reply> asked(std::shared_ptr<detail::Core> core, Op operation, std::string what) {
-    Operation whole{std::move(operation)};
-    auto answer = co_await core->request(std::move(whole), core->settings().deadline);
-    auto reply = reply_of<Op>(std::move(answer));
-    if (reply.return_code != ReturnCode::ok) throw Error{reply.return_code, what + ": " + reply.reason};
-    co_return reply;
-}
+namespace {
 
 Task<CompletedStatus> completed_of(std::shared_ptr<detail::Core> core, std::shared_ptr<detail::Watch> watch) {
     co_await core->here();
@@ -28,9 +21,9 @@ Task<Results> results_of(std::shared_ptr<detail::Core> core, CommandId id) {
 }
 
 Task<ParameterList> parameters_of(std::shared_ptr<detail::Core> core, Identifier ref) {
-    auto what = "get_parameter of " + ref.code;
+    auto whom = ref.code;
     GetParameter operation{std::move(ref)};
-    auto reply = co_await asked(std::move(core), std::move(operation), std::move(what));
+    auto reply = co_await asked(std::move(core), std::move(operation), "get_parameter of ", std::move(whom));
     co_return std::move(reply.parameters);
 }
 
@@ -52,9 +45,9 @@ Task<CompletedStatus> run_to_the_end(std::shared_ptr<detail::Core> core, Identif
 }
 
 Task<Results> queried(std::shared_ptr<detail::Core> core, Identifier ref, std::string query_type) {
-    auto what = query_type + " of " + ref.code;
+    auto whom = query_type + " of " + ref.code;
     Query operation{std::move(query_type), {conditions::component_ref == ref.code}};
-    auto reply = co_await asked(std::move(core), std::move(operation), std::move(what));
+    auto reply = co_await asked(std::move(core), std::move(operation), "", std::move(whom));
     co_return std::move(reply.results);
 }
 
@@ -75,15 +68,15 @@ Task<EventStream> subscribed(std::shared_ptr<detail::Core> core, std::string eve
 }
 
 Task<> bound(std::shared_ptr<detail::Core> core, Identifier ref) {
-    auto what = "bind " + ref.code;
+    auto whom = ref.code;
     Bind operation{std::move(ref)};
-    co_await asked(std::move(core), std::move(operation), std::move(what));
+    co_await asked(std::move(core), std::move(operation), "bind ", std::move(whom));
 }
 
 Task<> released(std::shared_ptr<detail::Core> core, Identifier ref) {
-    auto what = "release " + ref.code;
+    auto whom = ref.code;
     Release operation{std::move(ref)};
-    co_await asked(std::move(core), std::move(operation), std::move(what));
+    co_await asked(std::move(core), std::move(operation), "release ", std::move(whom));
 }
 
 }  // namespace

@@ -47,11 +47,10 @@ Task<std::optional<NoAnswer>> wait_until_open(std::shared_ptr<detail::Core> core
 Task<std::variant<std::string, NoAnswer>> send_raw(std::shared_ptr<detail::Core> core, std::string document,
                                                    std::chrono::milliseconds deadline) {
     co_await core->here();
-    auto outcome = co_await core->send(client::Call::Kind::raw, std::move(document), std::string{}, deadline);
-    std::variant<std::string, NoAnswer> answer = NoAnswer{};
-    if (auto* const text = std::get_if<std::string>(&outcome)) answer = std::move(*text);
-    if (auto* const none = std::get_if<NoAnswer>(&outcome)) answer = std::move(*none);
-    co_return answer;
+    auto const call = core->send(client::Call::Kind::raw, std::move(document), {}, deadline);
+    auto& outcome = co_await call->outcome();
+    if (auto* const text = std::get_if<std::string>(&outcome)) co_return std::move(*text);
+    co_return std::move(std::get<NoAnswer>(std::get<Answer>(outcome)));
 }
 
 Task<> sleep_on(std::shared_ptr<detail::Core> core, std::chrono::milliseconds time) {
@@ -77,7 +76,7 @@ Task<std::optional<NoAnswer>> Connection::opened(std::optional<std::chrono::mill
 }
 
 Task<Answer> Connection::request(Request request, std::optional<std::chrono::milliseconds> deadline) {
-    return core_->request(std::move(request.operation), deadline.value_or(core_->settings().deadline));
+    return core_->request(std::move(request), deadline.value_or(core_->settings().deadline));
 }
 
 Task<std::variant<std::string, NoAnswer>> Connection::send(std::string document,

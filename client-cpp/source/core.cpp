@@ -6,6 +6,7 @@
 namespace rois::detail {
 
 using client::Call;
+using client::Steady;
 
 Core::Core(Settings settings, Observers observers)
     : settings_{std::move(settings)},
@@ -93,37 +94,53 @@ Task<> Core::pass(std::chrono::milliseconds time) {
 
 // --- Calls ---
 
-Task<Call::Outcome> Core::send(Call::Kind kind, std::string document, std::string request_id,
-                               std::chrono::milliseconds deadline) {
-    auto const self = shared_from_this();
-    if (is_closed()) co_return closed();
-    auto const call = std::make_shared<Call>(kind, std::move(document), std::move(request_id));
-    call->deadline = loop_.in(deadline, [this, weak = std::weak_ptr{call}, deadline] {
-        auto const late = weak.lock();
-        if (!late) return;
-        auto reason = "no answer within " + std::to_string(deadline.count()) + " ms";
-        if (!is_open() && !last_reason_.empty()) reason += ": " + last_reason_;
-        settle(late, NoAnswer{NoAnswer::Why::deadline, std::move(reason)});
-    });
+std::shared_ptr<Call> Core::send(Call::Kind kind, std::string document, std::string request_id,
+                                 std::chrono::milliseconds deadline) {
+    auto call = std::make_shared<Call>(kind, std::move(document), std::move(request_id), deadline);
+    if (is_closed()) {
+        call->give(closed());
+        return call;
+    }
     calls_.push_back(call);
+    if (call->due < next_deadline_) watch_deadlines(call->due);
     if (is_open()) {
         call->sent = true;
-        send_on_link(call->text);
+        send_on_link({call, &call->text});
     }
-    auto outcome = co_await call->outcome();
-    co_return outcome;
+    return call;
 }
 
-// One that was sent keeps its place in the row until its answer has come, or the link has broken.
-void Core::settle(std::shared_ptr<Call> const& call, Call::Outcome outcome) {
-    loop_.cancel(call->deadline);
-    bool const keeps_place = call->sent && std::holds_alternative<NoAnswer>(outcome) && is_open();
-    if (!keeps_place) std::erase(calls_, call);
-    call->give(std::move(outcome));
+// One alarm for all, at the earliest deadline that there was: most are never reached.
+void Core::watch_deadlines(Steady earliest) {
+    next_deadline_ = earliest;
+    loop_.cancel(deadlines_);
+    if (earliest != Steady::max()) deadlines_ = loop_.at(earliest, [this] { end_late_calls(); });
+}
+
+void Core::end_late_calls() {
+    auto const now = std::chrono::steady_clock::now();
+    auto earliest = Steady::max();
+    std::vector<std::shared_ptr<Call>> late;
+    for (auto const& call : calls_) {
+        if (call->is_over()) continue;
+        if (call->due <= now) {
+            late.push_back(call);
+        } else {
+            earliest = std::min(earliest, call->due);
+        }
+    }
+    watch_deadlines(earliest);
+    for (auto const& call : late) {
+        auto reason = "no answer within " + std::to_string(call->deadline.count()) + " ms";
+        if (!is_open() && !last_reason_.empty()) reason += ": " + last_reason_;
+        // One that was sent keeps its place in the row until its answer has come, or the link has broken.
+        if (!call->sent || !is_open()) std::erase(calls_, call);
+        call->give(NoAnswer{NoAnswer::Why::deadline, std::move(reason)});
+    }
 }
 
 // Answers come in the order of the requests. An id is a check: documents that were sent as they stand may have any.
-void Core::take_answer(std::string_view document, std::optional<xml::Heard> heard) {
+void Core::take_answer(std::string_view document, std::optional<xml::Heard>& heard) {
     constexpr auto not_understood = "what the gateway says is not understood";
     auto const first = std::ranges::find_if(calls_, [](auto const& call) { return call->sent; });
     if (first == calls_.end()) {
@@ -131,20 +148,25 @@ void Core::take_answer(std::string_view document, std::optional<xml::Heard> hear
         return;
     }
     auto const call = *first;
+    if (call->kind == Call::Kind::raw) {
+        calls_.erase(first);
+        call->give(std::string{document});
+        return;
+    }
     auto* const answered = heard ? std::get_if<xml::Answered>(&*heard) : nullptr;
     auto* const fault = heard ? std::get_if<Fault>(&*heard) : nullptr;
     auto const& id = answered != nullptr ? answered->request_id : fault != nullptr ? fault->request_id : call->id;
-    if (call->kind == Call::Kind::raw) {
-        settle(call, std::string{document});
-    } else if (!heard || (!id.empty() && id != call->id)) {
+    if (!heard || (!id.empty() && id != call->id)) {
         give_up_link(not_understood, client::Failure::passing);
     } else if (answered != nullptr) {
-        settle(call, std::move(answered->reply));
+        calls_.erase(first);
+        call->give(std::in_place_type<Answer>, std::move(answered->reply));
     } else if (fault->code == FaultCode::no_session) {
         call->sent = false;  // it never ran: it is sent in the next session
         session_gone();
     } else {
-        settle(call, std::move(*fault));
+        calls_.erase(first);
+        call->give(std::in_place_type<Answer>, std::move(*fault));
     }
 }
 
@@ -153,7 +175,7 @@ void Core::flush() {
     for (auto const& call : calls_) {
         if (call->sent) continue;
         call->sent = true;
-        send_on_link(call->text);
+        send_on_link({call, &call->text});
     }
 }
 
@@ -166,10 +188,7 @@ void Core::begin_close(Farewell farewell) {
     bool const hears_more = is_open() && farewell == Farewell::said && settings_.way == Way::http;
     phase_ = Phase::closing;
     loop_.cancel(attempt_);
-    for (auto const& call : std::exchange(calls_, {})) {
-        loop_.cancel(call->deadline);
-        call->give(closed());
-    }
+    for (auto const& call : std::exchange(calls_, {})) call->give(closed());
     for (auto const& stream : subscriptions_.streams()) stream->end();
     for (auto const& [id, watch] : std::exchange(watches_, {})) watch->complete(CompletedStatus::abort);
     for (auto const& sleeper : std::exchange(sleeping_, {}))
@@ -181,7 +200,7 @@ void Core::begin_close(Farewell farewell) {
     }
     opened.raise();
     constexpr auto longest = std::chrono::milliseconds{1'000};
-    if (says_it) send_on_link(xml::encode(Request{Disconnect{}, "disconnect"}));
+    if (says_it) send_on_link(client::document_of({Disconnect{}, "disconnect"}));
     attempt_ = loop_.in(std::min(longest, settings_.connect_deadline), [this] { finish(); });
 }
 

@@ -34,17 +34,18 @@ public:
     client::Loop& loop() { return loop_; }
     Settings const& settings() const { return settings_; }
     CommandId fresh_command_id();
+    std::string fresh_request_id() { return "rois-cpp-" + std::to_string(++last_request_); }  // on the client's thread
 
     void spawn(Task<>);
 
     // A coroutine goes on on the client's thread. Throws nothing; all others await it first.
     auto here() { return loop_.here(); }
 
-    // Sends it, now or when there is a session, and gives what became of it.
-    Task<client::Call::Outcome> send(client::Call::Kind, std::string document, std::string request_id,
-                                     std::chrono::milliseconds deadline);
-    // An operation with all that it means to the connection.
-    Task<Answer> request(Operation, std::chrono::milliseconds deadline);
+    // Sends it, now or when there is a session; its outcome is to be awaited.
+    std::shared_ptr<client::Call> send(client::Call::Kind, std::string document, std::string request_id,
+                                       std::chrono::milliseconds deadline);
+    // A request with all that it means to the connection. Its id is given here.
+    Task<Answer> request(Request, std::chrono::milliseconds deadline);
 
     Task<std::shared_ptr<Stream>> subscribe(Subscribe);  // throws Error
     void streams_changed();                              // from any thread: one may have lost its last handle
@@ -83,12 +84,13 @@ private:
     void become_open();
     std::chrono::milliseconds pause();
     bool is_joined() const { return !settings_.session.empty(); }  // in the session of another program
-    void send_on_link(std::string const& document);
+    void send_on_link(client::Link::Document);
 
     // --- core.cpp ---
     void change(State, std::string reason = {});
-    void take_answer(std::string_view document, std::optional<xml::Heard>);
-    void settle(std::shared_ptr<client::Call> const&, client::Call::Outcome);
+    void watch_deadlines(client::Steady earliest);
+    void end_late_calls();
+    void take_answer(std::string_view document, std::optional<xml::Heard>&);
     void flush();
     enum class Farewell : std::uint8_t { due, said };  // the engine's session ends, too, or has ended
     void begin_close(Farewell);
@@ -102,7 +104,7 @@ private:
     void complete(CommandId const&, CompletedStatus);
 
     // --- core_operations.cpp ---
-    Task<Answer> plain(Operation, std::chrono::milliseconds deadline);
+    Task<Answer> plain(Request, std::chrono::milliseconds deadline);
     Task<Answer> execute(Execute, std::chrono::milliseconds deadline);
     Task<Answer> bind_any(BindAny, std::chrono::milliseconds deadline);
     Task<Answer> subscribe_by_request(Subscribe, std::chrono::milliseconds deadline);
@@ -146,7 +148,9 @@ private:
 
     // What is on the way.
     xml::AnswerReader reader_;
-    std::deque<std::shared_ptr<client::Call>> calls_;  // in the order in which they came
+    std::deque<std::shared_ptr<client::Call>> calls_;       // in the order in which they came
+    client::Steady next_deadline_ = client::Steady::max();  // none of theirs is earlier
+    client::Loop::Ticket deadlines_ = 0;
     std::uint64_t last_request_ = 0;
     std::map<CommandId, std::shared_ptr<Watch>> watches_;
 

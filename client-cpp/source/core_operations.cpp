@@ -32,13 +32,6 @@ R const* good(Answer const& answer) {
     return expected != nullptr && expected->return_code == ReturnCode::ok ? expected : nullptr;
 }
 
-Answer answer_of(Call::Outcome outcome) {
-    if (auto* const reply = std::get_if<Reply>(&outcome)) return std::move(*reply);
-    if (auto* const fault = std::get_if<Fault>(&outcome)) return std::move(*fault);
-    if (auto* const none = std::get_if<NoAnswer>(&outcome)) return std::move(*none);
-    return NoAnswer{NoAnswer::Why::link_lost, "the link broke before the answer came"};
-}
-
 class Remaining {
 public:
     explicit Remaining(std::chrono::milliseconds whole) : end_{std::chrono::steady_clock::now() + whole} {}
@@ -53,30 +46,30 @@ private:
 
 }  // namespace
 
-Task<Answer> Core::request(Operation operation, std::chrono::milliseconds deadline) {
+Task<Answer> Core::request(Request request, std::chrono::milliseconds deadline) {
+    auto& operation = request.operation;
     if (auto* const op = std::get_if<Execute>(&operation)) return execute(std::move(*op), deadline);
     if (auto* const op = std::get_if<BindAny>(&operation)) return bind_any(std::move(*op), deadline);
     if (auto* const op = std::get_if<Subscribe>(&operation)) return subscribe_by_request(std::move(*op), deadline);
     if (auto* const op = std::get_if<Unsubscribe>(&operation)) return unsubscribe(std::move(*op), deadline);
     if (std::holds_alternative<Disconnect>(operation)) return disconnect(deadline);
-    return plain(std::move(operation), deadline);
+    return plain(std::move(request), deadline);
 }
 
-Task<Answer> Core::plain(Operation operation, std::chrono::milliseconds deadline) {
+Task<Answer> Core::plain(Request request, std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     co_await here();
-    if (std::holds_alternative<Resume>(operation))
+    if (std::holds_alternative<Resume>(request.operation))
         co_return Fault{FaultCode::not_allowed, "the connection resumes its session by itself", {}, {}};
-    auto id = "rois-cpp-" + std::to_string(++last_request_);
-    Request request{std::move(operation), id};
-    auto text = xml::encode(request);
-    auto outcome = co_await send(Call::Kind::again, std::move(text), std::move(id), deadline);
-    auto answer = answer_of(std::move(outcome));
+    request.request_id = fresh_request_id();
+    auto const call = send(Call::Kind::again, xml::encode(request), request.request_id, deadline);
+    auto& outcome = co_await call->outcome();
+    auto& answer = std::get<Answer>(outcome);
     if (auto const* const op = std::get_if<Bind>(&request.operation); op != nullptr && good<Bind::Reply>(answer) != nullptr)
         note_bound(op->component_ref);
     if (auto const* const op = std::get_if<Release>(&request.operation); op != nullptr && good<Release::Reply>(answer) != nullptr)
         note_released(op->component_ref);
-    co_return answer;
+    co_return std::move(answer);
 }
 
 // --- Commands ---
@@ -114,22 +107,22 @@ Task<Answer> Core::execute(Execute operation, std::chrono::milliseconds deadline
     });
     Execute::Reply accepted;
     accepted.command_unit_list = operation.command_unit_list;
-    Operation const whole{std::move(operation)};
+    Request request{std::move(operation), {}};
     bool doubtful = false;
     for (;;) {
-        auto id = "rois-cpp-" + std::to_string(++last_request_);
-        auto text = xml::encode(Request{whole, id});
-        auto outcome = co_await send(Call::Kind::once, std::move(text), std::move(id), remaining.now());
+        request.request_id = fresh_request_id();
+        auto const call = send(Call::Kind::once, xml::encode(request), request.request_id, remaining.now());
+        auto& outcome = co_await call->outcome();
         if (std::holds_alternative<Interrupted>(outcome)) {
             doubtful = true;
             continue;
         }
-        auto answer = answer_of(std::move(outcome));
+        auto& answer = std::get<Answer>(outcome);
         bool const refused = std::holds_alternative<Reply>(answer) && good<Execute::Reply>(answer) == nullptr;
-        if (!doubtful || !refused || first.text.empty()) co_return answer;
-        Operation ask{GetCommandResult{first, {}}};
+        if (!doubtful || !refused || first.text.empty()) co_return std::move(answer);
+        Request ask{GetCommandResult{first, {}}, {}};
         auto const known = co_await plain(std::move(ask), remaining.now());
-        if (good<GetCommandResult::Reply>(known) == nullptr) co_return answer;
+        if (good<GetCommandResult::Reply>(known) == nullptr) co_return std::move(answer);
         Reply reply{accepted};
         co_return reply;
     }
@@ -151,22 +144,24 @@ Task<Answer> Core::bind_any(BindAny operation, std::chrono::milliseconds deadlin
     auto const self = shared_from_this();
     co_await here();
     Remaining const remaining{deadline};
+    auto const condition = operation.condition;
+    Request request{std::move(operation), {}};
     for (;;) {
-        auto id = "rois-cpp-" + std::to_string(++last_request_);
-        auto text = xml::encode(Request{operation, id});
-        auto outcome = co_await send(Call::Kind::once, std::move(text), std::move(id), remaining.now());
+        request.request_id = fresh_request_id();
+        auto const call = send(Call::Kind::once, xml::encode(request), request.request_id, remaining.now());
+        auto& outcome = co_await call->outcome();
         if (!std::holds_alternative<Interrupted>(outcome)) {
-            auto answer = answer_of(std::move(outcome));
+            auto& answer = std::get<Answer>(outcome);
             if (auto const* const reply = good<BindAny::Reply>(answer)) note_bound(reply->component_ref);
-            co_return answer;
+            co_return std::move(answer);
         }
-        Operation look{Search{operation.condition}};
+        Request look{Search{condition}, {}};
         auto const candidates = co_await plain(std::move(look), remaining.now());
         auto const* const found = good<Search::Reply>(candidates);
         if (found == nullptr) continue;
         for (auto const& ref : found->component_ref_list) {
             if (std::ranges::any_of(bound_, [&](auto const& bound) { return bound.code == ref.code; })) continue;
-            Operation ask{GetParameter{ref}};
+            Request ask{GetParameter{ref}, {}};
             auto const parameters = co_await plain(std::move(ask), remaining.now());
             if (good<GetParameter::Reply>(parameters) == nullptr) continue;
             note_bound(ref);
@@ -183,7 +178,7 @@ Task<Answer> Core::bind_any(BindAny operation, std::chrono::milliseconds deadlin
 Task<Answer> Core::subscribe_at_engine(Subscribe operation, std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     ++subscribing_;
-    Operation whole{std::move(operation)};
+    Request whole{std::move(operation), {}};
     auto answer = co_await plain(std::move(whole), deadline);
     co_return answer;
 }
@@ -247,7 +242,7 @@ Task<Answer> Core::unsubscribe(Unsubscribe operation, std::chrono::milliseconds 
         }
         operation.subscribe_id = known->engine_id;
     }
-    Operation whole{std::move(operation)};
+    Request whole{std::move(operation), {}};
     auto answer = co_await plain(std::move(whole), deadline);
     auto const* const known = subscriptions_.find(id);
     if (known != nullptr && !known->heard() && !known->by_request && good<Unsubscribe::Reply>(answer) != nullptr)
@@ -267,8 +262,8 @@ void Core::end_unheard() {
 
 Task<> Core::unsubscribe_unheard(SubscribeId id) {
     auto const self = shared_from_this();
-    Operation operation{Unsubscribe{std::move(id)}};
-    co_await plain(std::move(operation), settings_.deadline);
+    Request request{Unsubscribe{std::move(id)}, {}};
+    co_await plain(std::move(request), settings_.deadline);
 }
 
 // --- The end of the session ---
@@ -276,7 +271,7 @@ Task<> Core::unsubscribe_unheard(SubscribeId id) {
 Task<Answer> Core::disconnect(std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     co_await here();
-    Operation whole{Disconnect{}};
+    Request whole{Disconnect{}, {}};
     auto answer = co_await plain(std::move(whole), deadline);
     if (good<Disconnect::Reply>(answer) != nullptr) begin_close(Farewell::said);
     co_return answer;

@@ -47,11 +47,11 @@ void Core::connected() {
     }
 }
 
-void Core::open_session() { send_on_link(xml::encode(Request{Connect{}, "connect"})); }
+void Core::open_session() { send_on_link(client::document_of({Connect{}, "connect"})); }
 
-void Core::send_on_link(std::string const& document) {
-    if (observers_.tap && !muted_) observers_.tap(Direction::out, document);
-    if (link_) link_->send(document);
+void Core::send_on_link(client::Link::Document document) {
+    if (observers_.tap && !muted_) observers_.tap(Direction::out, *document);
+    if (link_) link_->send(std::move(document));
 }
 
 void Core::document(std::string_view text) {
@@ -69,7 +69,7 @@ void Core::document(std::string_view text) {
         if (auto const* const answered = std::get_if<xml::Answered>(&*heard)) take_restored(*answered);
         if (auto const* const fault = std::get_if<Fault>(&*heard)) take_restored(*fault);
     } else {
-        take_answer(text, std::move(heard));
+        take_answer(text, heard);
     }
 }
 
@@ -179,10 +179,10 @@ std::chrono::milliseconds Core::pause() {
 void Core::restore() {
     phase_ = Phase::restoring;
     ++subscribing_;
-    std::vector<std::string> documents;
+    std::vector<client::Link::Document> documents;
     auto const add = [&](Operation operation, std::string what) {
         auto id = "restore-" + std::to_string(++last_request_);
-        documents.push_back(xml::encode(Request{std::move(operation), id}));
+        documents.push_back(client::document_of({std::move(operation), id}));
         restoring_.emplace(std::move(id), std::move(what));
     };
     for (auto const& ref : bound_) add(Bind{ref}, "bind " + ref.code);
@@ -251,12 +251,12 @@ void Core::become_open() {
         tell_gap(*gap);
     }
     auto const reason = std::exchange(last_reason_, {});
-    for (auto const& call : not_again) settle(call, NoAnswer{NoAnswer::Why::link_lost, reason});
+    for (auto const& call : not_again) call->give(NoAnswer{NoAnswer::Why::link_lost, reason});
     for (auto const& call : doubtful) {
         if (gap) {
-            settle(call, NoAnswer{NoAnswer::Why::session_lost, "the session ended before the answer came"});
+            call->give(NoAnswer{NoAnswer::Why::session_lost, "the session ended before the answer came"});
         } else {
-            settle(call, client::Interrupted{});
+            call->give(client::Interrupted{});
         }
     }
     opened.raise();

@@ -34,7 +34,7 @@ public:
         spawn([self = this->shared_from_this()] { return self->open_requests(); });
     }
 
-    void send(std::string document) override {
+    void send(Document document) override {
         outgoing_.push_back(std::move(document));
         if (std::exchange(asking_, true)) return;
         spawn([self = this->shared_from_this()] { return self->ask(); });
@@ -127,7 +127,7 @@ private:
         request.target(target_.path);
         set_common(request);
         request.set(http::field::content_type, "application/xml");
-        request.body() = outgoing_.front();
+        request.body() = *outgoing_.front();
         request.prepare_payload();
         http::response_parser<http::string_body> parser;
         parser.body_limit(settings_.longest_document);
@@ -244,7 +244,7 @@ private:
     SessionId session_;
     std::shared_ptr<Line> requests_;
     std::shared_ptr<Line> notifications_;
-    std::deque<std::string> outgoing_;  // the first one is being asked
+    std::deque<Document> outgoing_;  // the first one is being asked
     bool asking_ = false;
     bool stream_over_ = false;
     Loop::Ticket silence_ = 0;

@@ -10,7 +10,8 @@
 #include "loop.hpp"
 #include "rois/settings.hpp"
 #include "target.hpp"
-#include "types/ids.hpp"
+#include "types/messages.hpp"
+#include "xml/codec.hpp"
 
 namespace rois::client {
 
@@ -39,8 +40,10 @@ public:
     Link& operator=(Link const&) = delete;
     virtual ~Link() = default;
 
+    using Document = std::shared_ptr<std::string const>;
+
     virtual void open() = 0;
-    virtual void send(std::string document) = 0;
+    virtual void send(Document) = 0;
 
     // What brings a session's notifications, those after `last_sequence`, to this link. Over HTTP that is its event stream; who
     // hears no_session instead hears it as a document. On a WebSocket it is the document `resume`, but for the session opened on
@@ -50,6 +53,8 @@ public:
     // Ends it without a word; nothing is heard of it from now on.
     virtual void cut() = 0;
 };
+
+inline Link::Document document_of(Request const& request) { return std::make_shared<std::string const>(xml::encode(request)); }
 
 std::shared_ptr<Link> websocket_link(Loop&, Target const&, Settings const&, Link::Listener&);
 std::shared_ptr<Link> http_link(Loop&, Target const&, Settings const&, Link::Listener&);

@@ -13,8 +13,6 @@
 #include <optional>
 
 #include "link.hpp"
-#include "types/messages.hpp"
-#include "xml/codec.hpp"
 
 namespace rois::client {
 
@@ -43,13 +41,13 @@ public:
             asio::detached);
     }
 
-    void send(std::string document) override {
+    void send(Document document) override {
         outgoing_.push_back(std::move(document));
         if (outgoing_.size() == 1) write();
     }
 
     void attach(SessionId const& session, std::uint64_t last_sequence) override {
-        send(xml::encode(Request{Resume{session, last_sequence}, "resume"}));
+        send(document_of({Resume{session, last_sequence}, "resume"}));
     }
 
     void cut() override {
@@ -137,7 +135,7 @@ private:
     }
 
     void write() {
-        stream_.async_write(asio::buffer(outgoing_.front()), [self = this->shared_from_this()](error_code error, std::size_t) {
+        stream_.async_write(asio::buffer(*outgoing_.front()), [self = this->shared_from_this()](error_code error, std::size_t) {
             self->outgoing_.pop_front();
             if (error) {
                 self->fail("the link broke: " + error.message(), Failure::passing);
@@ -163,7 +161,7 @@ private:
     Resolver resolver_;
     Full stream_;
     beast::flat_buffer incoming_;
-    std::deque<std::string> outgoing_;  // the first one is being written
+    std::deque<Document> outgoing_;  // the first one is being written
 };
 
 }  // namespace rois::client

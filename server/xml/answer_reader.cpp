@@ -10,16 +10,8 @@ namespace rois::xml {
 
 namespace {
 
-constexpr int deepest = 100;                     // elements inside each other; engines take half as many, and answer with a few
+constexpr std::size_t deepest = 100;             // elements inside each other; engines take half as many, and answer with a few
 constexpr std::size_t keep_at_most = 64 * 1024;  // bytes, between two documents
-
-// Whether it is bearable for what goes down into it.
-bool is_deep(pugi::xml_document& tree) {
-    struct Walker : pugi::xml_tree_walker {
-        bool for_each(pugi::xml_node&) override { return depth() < deepest; }
-    } walker;
-    return !tree.traverse(walker);
-}
 
 }  // namespace
 
@@ -30,8 +22,7 @@ public:
         if (bytes_.capacity() > keep_at_most) std::string{}.swap(bytes_);
         bytes_ = document;
         auto const parsed = tree_.load_buffer_inplace(bytes_.data(), bytes_.size(), as_xerces_reads, pugi::encoding_utf8);
-        if (!parsed || is_deep(tree_)) return std::nullopt;
-        message_.read(tree_.document_element());
+        if (!parsed || !message_.read(tree_.document_element(), deepest)) return std::nullopt;
         auto heard = decode_heard(message_);
         if (heard && !add_profiles(*heard, document)) return std::nullopt;
         return heard;

@@ -79,16 +79,19 @@ bool read(Node node, Subscribe::Reply& reply) {
 
 template <class R>
 std::optional<Heard> read_reply(Node root) {
+    std::optional<Heard> heard;
     auto const code = to_code<ReturnCode>(root.attribute("return_code").value_or(""));
-    if (!code) return std::nullopt;
-    R reply;
+    if (!code) return heard;
+    auto& answered = std::get<Answered>(heard.emplace());
+    answered.request_id = root.attribute_text("request_id");
+    auto& reply = answered.reply.emplace<R>();
     reply.return_code = *code;
     if (*code != ReturnCode::ok) {
         reply.reason = root.child_text("reason");
     } else if (!read(root, reply)) {
-        return std::nullopt;
+        heard.reset();
     }
-    return Answered{std::move(reply), root.attribute_text("request_id")};
+    return heard;
 }
 
 using ReadReply = std::optional<Heard> (*)(Node);

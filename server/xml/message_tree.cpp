@@ -54,23 +54,36 @@ void MessageTree::add_text(std::string_view piece) {
     element.text = element.text.empty() ? piece : joined_.emplace_back(std::string{element.text}.append(piece));
 }
 
-void MessageTree::read(pugi::xml_node root) {
+bool MessageTree::read(pugi::xml_node root, std::size_t deepest) {
     clear();
     name_space_ = namespace_of(root, prefix_of(root.name()));
-    read_inside(root);
+    return read_inside(root, deepest);
 }
 
-void MessageTree::read_inside(pugi::xml_node node) {
-    auto const type = xsi_type(node);
-    open(local_name(node), type ? type->local_name : std::string_view{});
-    for (auto const each : node.attributes()) {
-        if (!declares_namespace(each.name()) && !is_of_xsi(node, each)) add_attribute(local_part(each.name()), each.value());
-    }
-    for (auto const each : node.children()) {
-        if (each.type() == pugi::node_element) read_inside(each);
-        if (each.type() == pugi::node_pcdata || each.type() == pugi::node_cdata) add_text(each.value());
+bool MessageTree::read_inside(pugi::xml_node node, std::size_t deepest) {
+    if (deepest == 0) return false;
+    open(local_name(node), {});
+    for (auto each = node.first_attribute(); each; each = each.next_attribute()) read_attribute(node, each);
+    for (auto each = node.first_child(); each; each = each.next_sibling()) {
+        auto const type = each.type();
+        if (type == pugi::node_element && !read_inside(each, deepest - 1)) return false;
+        if (type == pugi::node_pcdata || type == pugi::node_cdata) add_text(each.value());
     }
     close();
+    return true;
+}
+
+void MessageTree::read_attribute(pugi::xml_node node, pugi::xml_attribute attribute) {
+    std::string_view const name = attribute.name();
+    auto const colon = name.find(':');
+    auto const prefix = name.substr(0, colon == name.npos ? 0 : colon);
+    auto const local = name.substr(prefix.empty() ? 0 : colon + 1);
+    if (declares_namespace(name)) return;
+    if (!is_of_xsi(node, prefix, local)) {
+        add_attribute(local, attribute.value());
+    } else if (local == "type") {
+        elements_[innermost_].type = local_part(trimmed(attribute.value()));
+    }
 }
 
 constinit MessageTree::Element const MessageTree::nothing;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <pugixml.hpp>
 #include <string>
@@ -29,8 +30,8 @@ public:
         return name_space_ == other.name_space_ && elements_ == other.elements_ && attributes_ == other.attributes_;
     }
 
-    // Makes it the tree of pugixml's root.
-    void read(pugi::xml_node root);
+    // Makes it the tree of pugixml's root. False when that has more elements inside each other than this.
+    bool read(pugi::xml_node root, std::size_t deepest = std::numeric_limits<std::size_t>::max());
 
     // Or part by part, in the order of the document. An element's attributes come before what is in it.
     void clear();
@@ -72,7 +73,8 @@ private:
 
     static Element const nothing;
 
-    void read_inside(pugi::xml_node);
+    bool read_inside(pugi::xml_node, std::size_t deepest);
+    void read_attribute(pugi::xml_node, pugi::xml_attribute);
 
     std::vector<Element> elements_;
     std::vector<Attribute> attributes_;

@@ -58,11 +58,13 @@ std::string_view namespace_of(pugi::xml_node node, std::string_view prefix) {
 
 std::size_t offset_of(pugi::xml_node element) { return static_cast<std::size_t>(element.offset_debug()) - 1; }
 
-bool is_of_xsi(pugi::xml_node node, pugi::xml_attribute attribute) {
-    auto const prefix = prefix_of(attribute.name());
-    bool const perhaps =
-        !prefix.empty() && std::ranges::find(xsi_attributes, local_part(attribute.name())) != xsi_attributes.end();
+bool is_of_xsi(pugi::xml_node node, std::string_view prefix, std::string_view name) {
+    bool const perhaps = !prefix.empty() && std::ranges::find(xsi_attributes, name) != xsi_attributes.end();
     return perhaps && namespace_of(node, prefix) == xsi_namespace;
+}
+
+bool is_of_xsi(pugi::xml_node node, pugi::xml_attribute attribute) {
+    return is_of_xsi(node, prefix_of(attribute.name()), local_part(attribute.name()));
 }
 
 pugi::xml_attribute xsi_attribute(pugi::xml_node node, std::string_view name) {

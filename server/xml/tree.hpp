@@ -36,6 +36,7 @@ struct TypeName {
 };
 
 // Whether an attribute of this element is xsi's: says a type, or where a schema is.
+bool is_of_xsi(pugi::xml_node, std::string_view prefix, std::string_view local_name);
 bool is_of_xsi(pugi::xml_node, pugi::xml_attribute);
 // The attribute of that name in the namespace xsi.
 pugi::xml_attribute xsi_attribute(pugi::xml_node, std::string_view local_name);

@@ -125,7 +125,7 @@ private:
 
 // A reply of this operation, whatever the answer was.
 template <class Op>
-typename Op::Reply reply_of(Answer answer) {
+typename Op::Reply reply_of(Answer&& answer) {
     using R = typename Op::Reply;
     if (auto* const reply = std::get_if<Reply>(&answer)) {
         if (auto* const expected = std::get_if<R>(reply)) return std::move(*expected);

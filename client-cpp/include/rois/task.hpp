@@ -1,6 +1,7 @@
 // Task: what an operation of the client gives: a coroutine that runs when it is awaited.
 #pragma once
 
+#include <concepts>
 #include <coroutine>
 #include <exception>
 #include <optional>
@@ -35,7 +36,10 @@ struct TaskPromiseBase {
 template <class T>
 struct TaskPromise : TaskPromiseBase {
     Task<T> get_return_object();
-    void return_value(T value) { result.template emplace<1>(std::move(value)); }
+    template <std::convertible_to<T> Value = T>
+    void return_value(Value&& value) {
+        result.template emplace<1>(std::forward<Value>(value));
+    }
     void unhandled_exception() { result.template emplace<2>(std::current_exception()); }
     T take() {
         if (result.index() == 2) std::rethrow_exception(std::get<2>(result));

@@ -1,0 +1,25 @@
+"""What a round trip costs whoever asks: the C++ client beside one that is written by hand for this query alone."""
+
+import json
+
+from processes import BIN, document, gateway, run_beside, running
+
+LIBRARY = "query 0.6 kB, C++ client, coroutine"
+BARE = "query 0.6 kB, bare Beast client, callbacks"
+LIBRARY_BLOCKING = "query 0.6 kB, C++ client, Blocking"
+BARE_BLOCKING = "query 0.6 kB, bare Beast client, blocking"
+
+AGAINST = {LIBRARY: BARE, LIBRARY_BLOCKING: BARE_BLOCKING}
+PROGRAMS = {
+    BARE: ("rois-bare-client",),
+    LIBRARY: ("rois-library-client",),
+    BARE_BLOCKING: ("rois-bare-client", "blocking"),
+    LIBRARY_BLOCKING: ("rois-library-client", "blocking"),
+}
+
+
+def round(keep, settings):
+    with running(gateway(1, *settings.gateway)) as (server,):
+        for row, (program, *how) in PROGRAMS.items():
+            command = [BIN / program, server.port, document("query-0.6kB"), settings.seconds, *how]
+            keep(row, json.loads(run_beside(server, command)))
