@@ -85,7 +85,7 @@ describe('components', () => {
       await answer(page).getByText('It is running.').waitFor();
       // It is seen from another form, too.
       await page.getByRole('button', { name: 'resume', exact: true }).click();
-      await page.getByText('The answer will stand here.').waitFor();
+      await page.locator('.panel-components').getByText('The answer will stand here.').waitFor();
       await page.getByRole('button', { name: 'Stop follow start' }).click();
       await page.getByRole('button', { name: 'Stop follow start' }).waitFor({ state: 'detached' });
       await page.getByRole('button', { name: 'start', exact: true }).click();
