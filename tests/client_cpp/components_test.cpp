@@ -225,7 +225,7 @@ TEST_F(TheFacadesThatMove, Move) {
     expect_ok(move.move(Line{-500_mm, 0_deg}));
     EXPECT_NEAR(distance(before, where()).value, 500, 100);
     expect_ok(move.move(Curve{500_mm, 180_deg}, 3s));
-    EXPECT_NEAR(std::remainder((where().th - before.th).value, 360), 180, 20);
+    EXPECT_NEAR(std::abs(std::remainder((where().th - before.th).value, 360)), 180, 20);
     expect_ok(move.set({.line = Line{100_mm, -90_deg}, .curve = {}, .time = 2s}));
     auto const line = robot(move.parameters());
     ASSERT_TRUE(line.line);
