@@ -3,6 +3,7 @@ import type { Console } from '../state/console';
 import type { LoggedDocument } from '../state/documents';
 import type { ErrorEntry, GapEntry } from '../state/events_state';
 import type { Span } from '../state/history';
+import { unescaped } from '../ui/xml_text';
 
 export type LogEntry = { at: number; key: string } & (
   | { kind: 'error'; entry: ErrorEntry }
@@ -25,5 +26,5 @@ export function log_of({ events, traffic, history }: Console): LogEntry[] {
 /** What the engine says for a refusal; empty when it says nothing. */
 export function reason_of({ text }: LoggedDocument): string {
   const said = /<(?:\w+:)?reason>([^<]*)</.exec(text)?.[1] ?? '';
-  return said.replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&quot;', '"').replaceAll('&apos;', "'").replaceAll('&amp;', '&');
+  return unescaped(said);
 }

@@ -3,7 +3,7 @@ import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 
 import { useConsole } from '../shell/context';
-import { show_panel } from '../shell/layout';
+import { show_component } from '../shell/layout';
 import { Button, error_text, IconButton, SelectField, TextField } from '../ui';
 import { type Driver, follow, go, motions_of, stop, target_text } from './driving';
 import { distance, obstacle_at, turned } from '../state/floor';
@@ -200,13 +200,9 @@ function Fact({ name, children }: { name: string; children: ComponentChildren })
 
 // Leads to the component.
 function ComponentLink({ component }: { component: string }) {
-  const { selection } = useConsole();
-  const go_to = () => {
-    selection.component.value = component;
-    show_panel('components');
-  };
+  const console = useConsole();
   return (
-    <button type="button" class="map-link" onClick={go_to}>
+    <button type="button" class="map-link" onClick={() => show_component(console, component)}>
       <code>{component}</code>
     </button>
   );
