@@ -6,25 +6,23 @@ import { arguments_in, ArgumentFields, asked_by, Exchange, type Inputs, problems
 import { useConsole, useWatch } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
 import { written } from './commands_tab';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function ParametersTab({ view }: { view: ComponentView }) {
   const { parameters } = useConsole();
-  const t = texts();
   useWatch(parameters.poll(view.ref));
   const told = parameters.of(view.ref);
   return (
     <>
-      <h3>{t.values_now}</h3>
-      {told && told.parameters.length > 0 ? <ResultsTable label={t.values_now} results={told} /> : <p class="soft">{t.not_told}</p>}
-      {view.parameters.length > 0 ? <SetForm view={view} /> : <p class="soft">{t.no_parameters}</p>}
+      <h3>{t.values_now()}</h3>
+      {told && told.parameters.length > 0 ? <ResultsTable label={t.values_now()} results={told} /> : <p class="soft">{t.not_told()}</p>}
+      {view.parameters.length > 0 ? <SetForm view={view} /> : <p class="soft">{t.no_parameters()}</p>}
     </>
   );
 }
 
 function SetForm({ view }: { view: ComponentView }) {
   const console = useConsole();
-  const t = texts();
   const [inputs, change] = useDraft<Inputs>(`${view.ref} set_parameter`, {});
   const [was_tried, set_tried] = useState(false);
   const asked = asked_by(view, 'set_parameter');
@@ -36,13 +34,13 @@ function SetForm({ view }: { view: ComponentView }) {
   };
   return (
     <form class="component-form" onSubmit={(event) => event.preventDefault()}>
-      <h3>{t.set_title}</h3>
+      <h3>{t.set_title()}</h3>
       <ArgumentFields view={view} asked={asked} inputs={inputs} change={change} problems={problems} />
-      {was_tried && given.length === 0 && <p class="field-error" role="alert">{t.set_nothing}</p>}
+      {was_tried && given.length === 0 && <p class="field-error" role="alert">{t.set_nothing()}</p>}
       <Exchange
         title={`${view.ref} set_parameter`}
         operation="set_parameter"
-        label={t.set}
+        label={t.set()}
         icon="check"
         request={written(() => request('set_parameter', {}, component_ref_xml(view.ref) + element('parameters', {}, ...given.map((one) => parameter_xml(one)))))}
         may_send={() => {

@@ -5,14 +5,13 @@ import { Exchange, signature, useDraft } from '../forms';
 import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
 import { Pick } from './pick';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function QueriesTab({ view }: { view: ComponentView }) {
   const console = useConsole();
-  const t = texts();
   const names = [...view.queries.map((one) => one.name), ...(view.parameters.length > 0 ? ['get_parameter'] : [])];
   const [name, choose] = useDraft(`${view.ref} query`, names[0] ?? '');
-  if (!names.includes(name)) return <p>{t.no_queries}</p>;
+  if (!names.includes(name)) return <p>{t.no_queries()}</p>;
   const query = view.queries.find((one) => one.name === name);
   const results = query?.results.map((one) => `${one.name} (${one.data_type_ref.code})`).join(', ') ?? '';
   const mine = component_ref(view.ref);
@@ -22,7 +21,7 @@ export function QueriesTab({ view }: { view: ComponentView }) {
   };
   return (
     <>
-      <Pick label={t.choose_query} names={names} chosen={name} choose={choose} tell={tell} />
+      <Pick label={t.choose_query()} names={names} chosen={name} choose={choose} tell={tell} />
       <form key={name} class="component-form" onSubmit={(event) => event.preventDefault()}>
         {results !== '' && <p class="soft">{t.answers(results)}</p>}
         <Exchange

@@ -5,10 +5,9 @@ import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import { Badge, Button, error_text, Icon } from '../ui';
 import type { ConditionStore } from './store';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function Subscriptions({ store }: { store: ConditionStore }) {
-  const t = texts();
   const { subscriptions, events, now } = useConsole();
   void events.pulse.beat.value;
   const all = subscriptions.all.value;
@@ -16,7 +15,7 @@ export function Subscriptions({ store }: { store: ConditionStore }) {
   if (mine.length === 0) return null;
   return (
     <div class="conditions-subscriptions">
-      <h3>{t.subscriptions}</h3>
+      <h3>{t.subscriptions()}</h3>
       <ul class="plain-list">
         {mine.map((one) => {
           const entry = all.get(one.subscribe_id)!;
@@ -29,10 +28,10 @@ export function Subscriptions({ store }: { store: ConditionStore }) {
                   {entry.last_at !== undefined && <span class="field-hint">{t.last(duration(now.value - entry.last_at))}</span>}
                 </span>
                 <Button small onClick={() => void store.unsubscribe(one)}>
-                  {t.unsubscribe}
+                  {t.unsubscribe()}
                 </Button>
               </div>
-              <p class="conditions-said">{said_by(entry.condition) || t.no_condition}</p>
+              <p class="conditions-said">{said_by(entry.condition) || t.no_condition()}</p>
               {entry.count === 0 && <StartHint subscription={one} />}
             </li>
           );
@@ -44,7 +43,6 @@ export function Subscriptions({ store }: { store: ConditionStore }) {
 
 // Nothing comes of a component that nobody has started.
 function StartHint({ subscription }: { subscription: Subscription }) {
-  const t = texts();
   const console = useConsole();
   void console.commands.pulse.beat.value;
   const those = console.profile.with_event(subscription.wanted.event_type).filter((one) => one.commands.some(({ name }) => name === 'start'));
@@ -60,7 +58,7 @@ function StartHint({ subscription }: { subscription: Subscription }) {
   return (
     <div class="conditions-start">
       <p>
-        <Icon name="info" /> {t.start_first}
+        <Icon name="info" /> {t.start_first()}
       </p>
       <div class="conditions-chips">
         {those.map(({ ref }) =>

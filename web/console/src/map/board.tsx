@@ -9,7 +9,7 @@ import { is_map_key } from './interaction';
 import { read_palette } from './palette';
 import { age, metres, position } from './says';
 import { session_of } from './session';
-import { texts } from './texts';
+import * as texts from './texts';
 import type { Point } from './view';
 
 export interface BoardProps {
@@ -91,13 +91,13 @@ export function Board({ begun, pointed, send }: BoardProps) {
   function spoken(): string {
     const { cursor } = session.interaction.value;
     if (!cursor) return '';
-    const near = drawing.current!.near(cursor).slice(0, 3).map((one) => texts().near(one.name, metres(Math.hypot(one.x - cursor.x, one.y - cursor.y), 1)));
+    const near = drawing.current!.near(cursor).slice(0, 3).map((one) => texts.near(one.name, metres(Math.hypot(one.x - cursor.x, one.y - cursor.y), 1)));
     return [position(cursor), ...near].join('; ');
   }
 
   return (
     <>
-      <canvas ref={element} class="map-canvas" tabIndex={0} role="application" aria-label={texts().canvas} onKeyDown={pressed} {...pointers} />
+      <canvas ref={element} class="map-canvas" tabIndex={0} role="application" aria-label={texts.canvas()} onKeyDown={pressed} {...pointers} />
       <p class="unseen" role="status">
         {said.value}
       </p>

@@ -11,7 +11,7 @@ import type { Target } from './interaction';
 import { age, certainty, degrees, metres, position } from './says';
 import type { Shown } from './scene';
 import { session_of } from './session';
-import { texts } from './texts';
+import * as t from './texts';
 
 const no_radius = 250; // mm
 
@@ -37,7 +37,7 @@ function Card({ title, close, children }: { title: string; close: () => void; ch
     <section class="map-card" aria-label={title}>
       <header class="map-card-head">
         <h3>{title}</h3>
-        <IconButton small icon="close" label={texts().close} onClick={close} />
+        <IconButton small icon="close" label={t.close()} onClick={close} />
       </header>
       {children}
     </section>
@@ -50,7 +50,7 @@ function DriverChoice() {
   const all = session.drivers();
   if (all.length < 2) return null;
   const choices = all.map((one) => ({ value: one.engine, label: one.name }));
-  return <SelectField label={texts().robot} value={session.driver()?.engine ?? ''} choices={choices} change={(engine) => (session.engine.value = engine)} />;
+  return <SelectField label={t.robot()} value={session.driver()?.engine ?? ''} choices={choices} change={(engine) => (session.engine.value = engine)} />;
 }
 
 export interface Sending {
@@ -85,14 +85,13 @@ function seconds_of(text: string): number | undefined {
 export function TargetCard({ target, sending }: { target: Target; sending: Sending }) {
   const console = useConsole();
   const session = session_of(console);
-  const t = texts();
   const driver = session.driver();
   const map = session.map;
   const put = (to: Target | undefined) => (session.interaction.value = { ...session.interaction.value, target: to });
   const radius = map?.robots.find((one) => one.name === driver?.robot?.ref)?.radius ?? no_radius;
   const blocked = target.place === undefined ? obstacle_at(map, target, radius) : undefined;
   const limit = seconds_of(session.time_limit.value);
-  const places = [{ value: '', label: t.point }, ...(map?.places ?? []).map(({ name }) => ({ value: name, label: name }))];
+  const places = [{ value: '', label: t.point() }, ...(map?.places ?? []).map(({ name }) => ({ value: name, label: name }))];
   const choose = (name: string) => {
     const place = map?.places.find((one) => one.name === name);
     put(place ? { x: place.x, y: place.y, th: place.heading, place: name } : { x: target.x, y: target.y, ...(target.th !== undefined && { th: target.th }) });
@@ -100,7 +99,7 @@ export function TargetCard({ target, sending }: { target: Target; sending: Sendi
   if (!driver?.navigation)
     return (
       <Card title={position(target)} close={() => put(undefined)}>
-        <p>{t.no_navigation}</p>
+        <p>{t.no_navigation()}</p>
       </Card>
     );
   return (
@@ -113,25 +112,25 @@ export function TargetCard({ target, sending }: { target: Target; sending: Sendi
         }}
       >
         <DriverChoice />
-        {places.length > 1 && <SelectField label={t.place} value={target.place ?? ''} choices={places} change={choose} />}
+        {places.length > 1 && <SelectField label={t.place()} value={target.place ?? ''} choices={places} change={choose} />}
         <div class="map-pose">
           <NumberField label="x" unit="m" text={(target.x / 1000).toFixed(2)} put={(x) => x !== undefined && put(moved(target, { x: Math.round(x * 1000) }))} />
           <NumberField label="y" unit="m" text={(target.y / 1000).toFixed(2)} put={(y) => y !== undefined && put(moved(target, { y: Math.round(y * 1000) }))} />
-          <NumberField label={t.direction} unit="°" text={target.th === undefined ? '' : String(target.th)} hint={target.th === undefined ? t.as_it_arrives : t.turn_hint} put={(th) => put(th === undefined ? { x: target.x, y: target.y } : { x: target.x, y: target.y, th: Math.round(turned(th)) })} />
+          <NumberField label={t.direction()} unit="°" text={target.th === undefined ? '' : String(target.th)} hint={target.th === undefined ? t.as_it_arrives() : t.turn_hint()} put={(th) => put(th === undefined ? { x: target.x, y: target.y } : { x: target.x, y: target.y, th: Math.round(turned(th)) })} />
         </div>
-        {target.th === undefined && <p class="field-hint">{t.turn_hint}</p>}
-        <TextField label={t.give_up} unit="s" value={session.time_limit.value} change={(to) => (session.time_limit.value = to)} error={limit === undefined ? t.no_number : undefined} input={{ inputMode: 'numeric', placeholder: t.never }} />
+        {target.th === undefined && <p class="field-hint">{t.turn_hint()}</p>}
+        <TextField label={t.give_up()} unit="s" value={session.time_limit.value} change={(to) => (session.time_limit.value = to)} error={limit === undefined ? t.no_number() : undefined} input={{ inputMode: 'numeric', placeholder: t.never() }} />
         <p class="map-fact">
-          {driver.robot && t.straight(metres(distance(driver.robot, target), 1))} <code title={t.position}>{target_text(target)}</code>
+          {driver.robot && t.straight(metres(distance(driver.robot, target), 1))} <code title={t.position()}>{target_text(target)}</code>
         </p>
         {blocked && <p class="map-warning">{t.blocked(blocked)}</p>}
         {sending.trouble}
-        {!console.link.is_open && <p class="map-warning">{t.unlinked}</p>}
+        {!console.link.is_open && <p class="map-warning">{t.unlinked()}</p>}
         <div class="map-actions">
-          <Button type="submit" look="primary" icon="send" busy={sending.is_busy} disabled={!sending.send} title={t.turn_hint}>
-            {t.send}
+          <Button type="submit" look="primary" icon="send" busy={sending.is_busy} disabled={!sending.send} title={t.turn_hint()}>
+            {t.send()}
           </Button>
-          <Button onClick={() => put(undefined)}>{t.cancel}</Button>
+          <Button onClick={() => put(undefined)}>{t.cancel()}</Button>
         </div>
       </form>
     </Card>
@@ -158,7 +157,7 @@ function NumberField({ label, unit, text, hint, put }: { label: string; unit: st
       unit={unit}
       value={draft.value ?? text}
       change={change}
-      error={is_wrong ? texts().no_number : undefined}
+      error={is_wrong ? t.no_number() : undefined}
       input={{ inputMode: 'decimal', placeholder: '–', title: hint ?? '', onBlur: () => (draft.value = undefined) }}
     />
   );
@@ -167,7 +166,6 @@ function NumberField({ label, unit, text, hint, put }: { label: string; unit: st
 export function ThingCard({ thing, close }: { thing: Shown; close: () => void }) {
   const console = useConsole();
   const session = session_of(console);
-  const t = texts();
   const driver = session.driver();
   const own = session.drivers().find((one) => thing.kind === 'robot' && one.robot?.ref === thing.thing.ref);
   const { ellipse, identity, th } = thing;
@@ -175,14 +173,14 @@ export function ThingCard({ thing, close }: { thing: Shown; close: () => void })
   return (
     <Card title={`${t.kind(thing.kind)} ${thing.name}`} close={close}>
       <dl class="map-facts">
-        {thing.kind === 'person' && <Fact name={t.name}>{identity ? t.identified(thing.thing.ref) : t.unidentified}</Fact>}
-        <Fact name={t.state}>{t.freshness(thing.freshness, thing.kind)}{thing.freshness !== 'live' && ` (${t.ago(age(thing.age))})`}</Fact>
-        <Fact name={t.position}>{position(thing)}</Fact>
-        {th !== undefined && <Fact name={t.direction}>{degrees(th)}</Fact>}
-        <Fact name={t.certainty}>{ellipse ? certainty(ellipse) : t.uncertain}</Fact>
-        <Fact name={t.told_by}><ComponentLink component={thing.thing.component} /></Fact>
-        {thing.frame && <Fact name={t.own_frame}><code>{thing.frame.crs}</code></Fact>}
-        {others?.robot && <Fact name={t.distance}>{t.near(others.name, metres(distance(others.robot, thing), 1))}</Fact>}
+        {thing.kind === 'person' && <Fact name={t.name()}>{identity ? t.identified(thing.thing.ref) : t.unidentified()}</Fact>}
+        <Fact name={t.state()}>{t.freshness(thing.freshness, thing.kind)}{thing.freshness !== 'live' && ` (${t.ago(age(thing.age))})`}</Fact>
+        <Fact name={t.position()}>{position(thing)}</Fact>
+        {th !== undefined && <Fact name={t.direction()}>{degrees(th)}</Fact>}
+        <Fact name={t.certainty()}>{ellipse ? certainty(ellipse) : t.uncertain()}</Fact>
+        <Fact name={t.told_by()}><ComponentLink component={thing.thing.component} /></Fact>
+        {thing.frame && <Fact name={t.own_frame()}><code>{thing.frame.crs}</code></Fact>}
+        {others?.robot && <Fact name={t.distance()}>{t.near(others.name, metres(distance(others.robot, thing), 1))}</Fact>}
       </dl>
       {own ? <OwnRobot driver={own} /> : others && thing.kind !== 'sound' && <Pursuit driver={others} thing={thing} />}
     </Card>
@@ -218,7 +216,7 @@ function OwnRobot({ driver }: { driver: Driver }) {
       {deed.trouble}
       <div class="map-actions">
         <Button look="danger" icon="stop" busy={deed.is_busy} onClick={() => deed.run(() => stop(console, driver))}>
-          {texts().stop_robot(driver.name)}
+          {t.stop_robot(driver.name)}
         </Button>
       </div>
     </>
@@ -228,7 +226,6 @@ function OwnRobot({ driver }: { driver: Driver }) {
 function Pursuit({ driver, thing }: { driver: Driver; thing: Shown }) {
   const console = useConsole();
   const session = session_of(console);
-  const t = texts();
   const deed = useDeed();
   const gap = Number(session.gap.value);
   const is_number = session.gap.value.trim() !== '' && Number.isFinite(gap) && gap > 0;
@@ -243,18 +240,18 @@ function Pursuit({ driver, thing }: { driver: Driver; thing: Shown }) {
     >
       <DriverChoice />
       {driver.follow ? (
-        <TextField label={t.gap} unit="m" value={session.gap.value} change={(to) => (session.gap.value = to)} error={is_number ? undefined : t.no_number} input={{ inputMode: 'decimal' }} />
+        <TextField label={t.gap()} unit="m" value={session.gap.value} change={(to) => (session.gap.value = to)} error={is_number ? undefined : t.no_number()} input={{ inputMode: 'decimal' }} />
       ) : (
-        <p>{t.no_follow}</p>
+        <p>{t.no_follow()}</p>
       )}
       {deed.trouble}
       <div class="map-actions">
         {driver.follow && (
           <Button type="submit" look="primary" icon="person" busy={deed.is_busy} disabled={!console.link.is_open || !is_number} title={t.follow_whom(thing.name)}>
-            {t.follow}
+            {t.follow()}
           </Button>
         )}
-        {driver.navigation && <Button icon="send" onClick={go_there}>{t.go_there}</Button>}
+        {driver.navigation && <Button icon="send" onClick={go_there}>{t.go_there()}</Button>}
       </div>
     </form>
   );

@@ -8,7 +8,7 @@ import type { Robot } from '../state/things';
 import type { Target } from './interaction';
 import type { Shown } from './scene';
 import { target_words } from './says';
-import { texts } from './texts';
+import * as texts from './texts';
 
 /** A robot, and the components of its engine that share its wheels. */
 export interface Driver {
@@ -48,14 +48,14 @@ export function target_text({ x, y, th, place }: Target): string {
 export async function go(console: Console, driver: Driver, target: Target, time_limit: number): Promise<void> {
   const named = { target_position: value.strings([target_text(target)]), time_limit: value.int(time_limit) };
   const said = target_words(target);
-  await drive(console, driver, driver.navigation!, named, texts().going(driver.name, said), texts().arrived(driver.name, said));
+  await drive(console, driver, driver.navigation!, named, texts.going(driver.name, said), texts.arrived(driver.name, said));
 }
 
 /** Has it follow somebody, by the permanent name when it is known. */
 export async function follow(console: Console, driver: Driver, { thing, identity, name }: Shown, distance: number): Promise<void> {
   const { ref: code, codebook } = identity ?? thing;
   const whom = value.identifier(codebook === '' ? code : { code, codebook_ref: codebook });
-  await drive(console, driver, driver.follow!, { target_object_ref: whom, distance: value.int(distance) }, texts().following(driver.name, name), texts().followed(driver.name, name));
+  await drive(console, driver, driver.follow!, { target_object_ref: whom, distance: value.int(distance) }, texts.following(driver.name, name), texts.followed(driver.name, name));
 }
 
 /** Stops what this console has it do. */
@@ -78,13 +78,13 @@ async function drive(console: Console, driver: Driver, ref: string, named: Param
     const entry = console.commands.find(command_ids[0] ?? '');
     if (entry && !has_ended(entry)) stop(console, driver).catch((error: unknown) => notices.tell('error', error_text(error)));
   };
-  const notice = notices.tell('info', begun, { action: { label: texts().stop, act: halt } });
+  const notice = notices.tell('info', begun, { action: { label: texts.stop(), act: halt } });
   ends.then(
     ([status]) => {
       notices.dismiss(notice);
       if (status === 'OK') notices.tell('good', done);
-      else if (status !== 'ABORT') notices.tell('error', texts().failed(begun), { detail: status! });
-      else if (motions_of(console, driver).length === 0) notices.tell('info', texts().stopped(driver.name));
+      else if (status !== 'ABORT') notices.tell('error', texts.failed(begun), { detail: status! });
+      else if (motions_of(console, driver).length === 0) notices.tell('info', texts.stopped(driver.name));
     },
     () => notices.dismiss(notice), // the session is gone; the link says so
   );

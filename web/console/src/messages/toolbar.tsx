@@ -7,13 +7,12 @@ import { Button, Checkbox, SelectField, TextField } from '../ui';
 import { categories, type Category, type Feed, type Filter, type Row } from './feed';
 import { save } from './save';
 import { chosen_of_recording, filter, paused, recording } from './shown';
-import { texts } from './texts';
+import * as t from './texts';
 
 const most_bytes = 64 * 1024 * 1024; // of a recording that is opened
 
 export function Toolbar({ feed, rows }: { feed: Feed; rows: readonly Row[] }) {
   const { profile, documents } = useConsole();
-  const t = texts();
   const now = filter.value;
   const put = (some: Partial<Filter>) => (filter.value = { ...now, ...some });
   const toggle = (name: Category) => put({ hidden: now.hidden.has(name) ? new Set([...now.hidden].filter((one) => one !== name)) : new Set([...now.hidden, name]) });
@@ -21,10 +20,10 @@ export function Toolbar({ feed, rows }: { feed: Feed; rows: readonly Row[] }) {
   const refs = tape ? [...new Set(tape.documents.flatMap((one) => one.component ?? []))].sort() : profile.components.value.map((one) => one.ref);
   const all = tape ? tape.documents.length : documents.ring.size;
   return (
-    <div class="messages-bar" role="group" aria-label={t.title}>
-      <h2 class="unseen">{t.title}</h2>
+    <div class="messages-bar" role="group" aria-label={t.title()}>
+      <h2 class="unseen">{t.title()}</h2>
       {!tape && <Pause feed={feed} />}
-      <div class="messages-kinds" role="group" aria-label={t.kinds}>
+      <div class="messages-kinds" role="group" aria-label={t.kinds()}>
         {categories.map((name) => (
           <button key={name} type="button" class="button button-small messages-kind" aria-pressed={!now.hidden.has(name)} onClick={() => toggle(name)}>
             {t.category(name)}
@@ -32,10 +31,10 @@ export function Toolbar({ feed, rows }: { feed: Feed; rows: readonly Row[] }) {
         ))}
       </div>
       <div class="messages-which">
-        <SelectField label={t.component} hide_label value={now.component} change={(component) => put({ component })} choices={[{ value: '', label: t.all_components }, ...refs.map((ref) => ({ value: ref, label: ref }))]} />
-        <TextField label={t.search} hide_label value={now.text} change={(text) => put({ text })} input={{ type: 'search', placeholder: t.search }} />
+        <SelectField label={t.component()} hide_label value={now.component} change={(component) => put({ component })} choices={[{ value: '', label: t.all_components() }, ...refs.map((ref) => ({ value: ref, label: ref }))]} />
+        <TextField label={t.search()} hide_label value={now.text} change={(text) => put({ text })} input={{ type: 'search', placeholder: t.search() }} />
       </div>
-      <Checkbox label={t.own} checked={now.with_own} change={(with_own) => put({ with_own })} />
+      <Checkbox label={t.own()} checked={now.with_own} change={(with_own) => put({ with_own })} />
       <span class="messages-count">{t.shown(rows.length, all)}</span>
       <Recordings />
     </div>
@@ -44,30 +43,28 @@ export function Toolbar({ feed, rows }: { feed: Feed; rows: readonly Row[] }) {
 
 function Pause({ feed }: { feed: Feed }) {
   const { documents } = useConsole();
-  const t = texts();
   const held = paused.value;
   const end = () => documents.ring.end;
   if (!held)
     return (
       <Button small icon="pause" onClick={() => (paused.value = { rows: [...feed.rows], until: end() })}>
-        {t.pause}
+        {t.pause()}
       </Button>
     );
   return (
     <Button small look="primary" icon="play" onClick={() => (paused.value = undefined)}>
-      {t.go_on} ({t.waiting(end() - held.until)})
+      {t.go_on()} ({t.waiting(end() - held.until)})
     </Button>
   );
 }
 
 function Recordings() {
   const console = useConsole();
-  const t = texts();
   const chooser = useRef<HTMLInputElement>(null);
   const write = () => {
     const { ring } = console.documents;
     save(`rois-${new Date(console.environment.now()).toISOString().slice(0, 19).replaceAll(':', '')}.jsonl`, recording_of(ring, console.environment.origin));
-    console.notices.tell('good', t.exported(ring.size), { detail: t.session_inside });
+    console.notices.tell('good', t.exported(ring.size), { detail: t.session_inside() });
   };
   const read = async (file: File | undefined) => {
     if (!file) return;
@@ -84,12 +81,12 @@ function Recordings() {
   return (
     <>
       <Button small icon="download" onClick={write}>
-        {t.export}
+        {t.export_it()}
       </Button>
       <Button small icon="upload" onClick={() => chooser.current?.click()}>
-        {t.import}
+        {t.import_it()}
       </Button>
-      <input ref={chooser} type="file" class="unseen" accept=".jsonl,.json,.rois,text/plain" tabIndex={-1} aria-label={t.import} onChange={(event) => void read(event.currentTarget.files?.[0])} />
+      <input ref={chooser} type="file" class="unseen" accept=".jsonl,.json,.rois,text/plain" tabIndex={-1} aria-label={t.import_it()} onChange={(event) => void read(event.currentTarget.files?.[0])} />
     </>
   );
 }

@@ -8,12 +8,11 @@ import { label_of, label_of_edge } from './graph';
 import { type Box, type DrawnEdge, path_of } from './layout';
 import type { Scenario, State } from './model';
 import { arrow_head, neighbour, picture_of, shown_name } from './picture';
-import { words } from './words';
+import * as w from './words';
 
 const smallest = 0.68; // below that one scrolls
 
 export function Diagram({ desk, scenario, edit }: { desk: Desk; scenario: Scenario; edit: (state: string) => void }) {
-  const w = words();
   const frame = useRef<HTMLDivElement>(null);
   const size = useSignal({ width: 600, height: 600 });
   const is_whole = useSignal(false);
@@ -57,7 +56,7 @@ export function Diagram({ desk, scenario, edit }: { desk: Desk; scenario: Scenar
           height={layout.height * scale}
           viewBox={`0 0 ${layout.width} ${layout.height}`}
           role="group"
-          aria-label={`${w.diagram}. ${w.diagram_hint}`}
+          aria-label={`${w.diagram()}. ${w.diagram_hint()}`}
           onKeyDown={pressed}
         >
           {layout.edges.map((one) => (
@@ -78,7 +77,7 @@ export function Diagram({ desk, scenario, edit }: { desk: Desk; scenario: Scenar
         </svg>
       </div>
       <Button class="scenario-fit" small aria-pressed={is_whole.value} onClick={() => (is_whole.value = !is_whole.value)}>
-        {is_whole.value ? w.natural : w.whole}
+        {is_whole.value ? w.natural() : w.whole()}
       </Button>
     </div>
   );
@@ -125,13 +124,12 @@ interface StateProps {
 }
 
 function StatePicture({ state, box, run, is_start, is_chosen, is_reachable, choose }: StateProps) {
-  const w = words();
   const { name, is_end, failed } = state;
   const is_current = run?.state === name;
   const is_left = is_current && run.is_leaving;
   const visits = run?.visits.get(name) ?? 0;
   const [x, y] = [box.x - box.width / 2, box.y - box.height / 2];
-  const marks = [is_start && w.starts_here, is_end && (failed ? w.is_failed : w.is_end), is_left ? w.is_left : is_current && w.is_current, visits > 0 && w.visits(visits)].filter(Boolean);
+  const marks = [is_start && w.starts_here(), is_end && (failed ? w.is_failed() : w.is_end()), is_left ? w.is_left() : is_current && w.is_current(), visits > 0 && w.visits(visits)].filter(Boolean);
   const leads = state.triggers.map((one) => w.leads_to(shown_name(one.to), label_of(one))).join(', ');
   const classes = ['scenario-state', is_end && 'scenario-end', failed && 'scenario-failed', is_current && 'scenario-current', is_current && run.ended_at === undefined && 'scenario-live', is_left && 'scenario-left', is_chosen && 'scenario-chosen'];
   return (

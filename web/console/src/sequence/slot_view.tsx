@@ -4,10 +4,9 @@ import { useLayoutEffect, useRef } from 'preact/hooks';
 import { Button, IconButton } from '../ui';
 import type { LaneContext } from './drawing';
 import { new_command, new_parallel, new_wait, type Slot, type Step, with_inserted } from './model';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function SlotView({ slot, context, is_empty = false }: { slot: Slot; context: LaneContext; is_empty?: boolean }) {
-  const t = texts();
   const { adding, set_adding, drag, store, go_to } = context;
   const is = (one: Slot | undefined) => one?.lane === slot.lane && one.index === slot.index;
   const add = (step: Step) => {
@@ -21,17 +20,17 @@ export function SlotView({ slot, context, is_empty = false }: { slot: Slot; cont
       {is(adding) ? (
         <Choices close={() => set_adding(undefined)}>
           <Button small icon="components" onClick={() => add(new_command())}>
-            {t.command}
+            {t.command()}
           </Button>
           <Button small icon="clock" onClick={() => add(new_wait())}>
-            {t.wait}
+            {t.wait()}
           </Button>
           <Button small icon="sequence" onClick={() => add(new_parallel())}>
-            {t.parallel}
+            {t.parallel()}
           </Button>
         </Choices>
       ) : (
-        <IconButton small class="sequence-add" icon="plus" label={t.add_here} tabIndex={is_empty ? 0 : -1} onClick={() => set_adding(slot)} />
+        <IconButton small class="sequence-add" icon="plus" label={t.add_here()} tabIndex={is_empty ? 0 : -1} onClick={() => set_adding(slot)} />
       )}
     </div>
   );
@@ -45,7 +44,7 @@ function Choices({ close, children }: { close: () => void; children: preact.Comp
     if (!box.current?.contains(event.relatedTarget as Node | null)) close();
   };
   return (
-    <div ref={box} class="sequence-choices" role="group" aria-label={texts().add} onFocusOut={left} onKeyDown={(event) => event.key === 'Escape' && close()}>
+    <div ref={box} class="sequence-choices" role="group" aria-label={t.add()} onFocusOut={left} onKeyDown={(event) => event.key === 'Escape' && close()}>
       {children}
     </div>
   );

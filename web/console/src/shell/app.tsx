@@ -7,13 +7,13 @@ import { Header } from './header';
 import { Layout } from './layout';
 import { LinkBanner } from './link_status';
 import { NoticeArea } from './notices';
-import { texts } from './texts';
+import * as texts from './texts';
 import { TokenDialog } from './token_dialog';
 
 export function App({ console }: { console: Console }) {
   useEffect(() => {
     document.documentElement.lang = language.value;
-    document.title = texts().title;
+    document.title = texts.title();
   }, [language.value]);
   const { phase } = console.link.view.value;
   const is_stale = console.link.heard_at > 0 && (phase === 'lost' || phase === 'draining' || phase === 'refused');

@@ -10,7 +10,7 @@ import { type Lane, lay_out, type Layout, next_thing, type Placed, thing_at, tim
 import { axis_height, paint } from './paint';
 import { Pointing } from './pointing';
 import { key_of, type Thing } from './things';
-import { texts } from './texts';
+import * as t from './texts';
 import { Tooltip } from './tooltip';
 import type { TimeView } from './view';
 
@@ -168,7 +168,7 @@ export function Chart({ view, opened, open }: ChartProps) {
           class="timeline-place"
           role="application"
           tabIndex={0}
-          aria-label={texts().label}
+          aria-label={t.label()}
           aria-describedby="timeline-help"
           onKeyDown={pressed}
           onBlur={() => (focused.value = undefined)}
@@ -187,17 +187,18 @@ export function Chart({ view, opened, open }: ChartProps) {
           <Tip view={view} layout={layout} frame={frame} hovered={hovered.value} focused={told} />
         </div>
       </div>
-      <p id="timeline-help" class="unseen">{texts().help}</p>
+      <p id="timeline-help" class="unseen">{t.help()}</p>
       <p class="unseen" role="status">{told ? sentence(describe(told.thing, view.sources.at)) : ''}</p>
     </div>
   );
 }
 
+const lane_names = { link: t.link, commands: t.commands, events: t.events };
+
 function LaneNames({ lanes }: { lanes: readonly Lane[] }) {
-  const t = texts();
-  const name_of = ({ kind, ref }: Lane) => (kind === 'component' ? ref : t[kind]);
+  const name_of = ({ kind, ref }: Lane) => (kind === 'component' ? ref : lane_names[kind]());
   return (
-    <ul class="timeline-names" aria-label={t.lanes} style={{ paddingTop: `${axis_height}px` }}>
+    <ul class="timeline-names" aria-label={t.lanes()} style={{ paddingTop: `${axis_height}px` }}>
       {lanes.map((lane) => (
         <li key={`${lane.kind} ${lane.ref}`} class={`timeline-name timeline-name-${lane.kind}`} style={{ height: `${lane.height}px` }} title={name_of(lane)}>
           <span>{name_of(lane)}</span>

@@ -2,7 +2,7 @@
 import type { ComponentChildren, JSX } from 'preact';
 import { useId } from 'preact/hooks';
 
-import { texts } from './texts';
+import * as texts from './texts';
 
 export interface FieldProps {
   label: string;
@@ -31,7 +31,7 @@ export function Field({ label, hint, error, unit, required = false, hide_label =
     <div class="field">
       <label for={id} class={hide_label ? 'unseen' : undefined}>
         {label}
-        {required && <span class="field-required" title={texts().required} aria-hidden="true">*</span>}
+        {required && <span class="field-required" title={texts.required()} aria-hidden="true">*</span>}
       </label>
       <div class="field-control">
         {control(props)}

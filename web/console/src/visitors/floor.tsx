@@ -8,7 +8,7 @@ import type { FloorMap } from '../state/floor_map';
 import type { Visitor } from '../state/hall_state';
 import { floor_point, SmallFloor } from '../ui/small_floor';
 import { steering_of } from './steering';
-import { words } from './words';
+import * as w from './words';
 
 interface Aim extends Point {
   ref: string;
@@ -25,7 +25,6 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
   const console = useConsole();
   const { hall, robots } = console;
   useWatch(robots.poll);
-  const w = words();
   const steering = steering_of(console);
   const aim = useSignal<Aim | undefined>(undefined);
   const svg = useRef<SVGSVGElement>(null);
@@ -75,7 +74,7 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
   const aimed = aim.value;
   return (
     <div class="visitors-floor">
-      <SmallFloor svg={svg} bounds={bounds} map={map} role="group" aria-label={`${w.map} ${w.map_hint}`}>
+      <SmallFloor svg={svg} bounds={bounds} map={map} role="group" aria-label={`${w.map()} ${w.map_hint()}`}>
         {[...robots.all.values()].map((robot) => {
           const at = on_map(map, robot.crs, robot);
           const radius = map?.robots.find((one) => one.name === robot.ref)?.radius ?? person_radius;
