@@ -5,7 +5,7 @@ import type { Problem } from './read';
 import { line_and_column, type Node } from './source';
 import { Trouble, type Say } from './trouble';
 import { known_arguments, typed_arguments } from './typed';
-import * as w from './words';
+import * as w from './texts';
 
 export function against_engine(scenario: Scenario, text: string, profile: ProfileState): Problem[] {
   const found: Problem[] = [];

@@ -8,7 +8,7 @@ import { label_of, label_of_edge } from './graph';
 import { type Box, type DrawnEdge, path_of } from './layout';
 import type { Scenario, State } from './model';
 import { arrow_head, neighbour, picture_of, shown_name } from './picture';
-import * as w from './words';
+import * as w from './texts';
 
 const smallest = 0.68; // below that one scrolls
 

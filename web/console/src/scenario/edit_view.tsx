@@ -6,7 +6,7 @@ import { Adder, ElementCard, ElementFields, entering, problems_at } from './elem
 import { triggers } from './grammar';
 import { shown_name } from './picture';
 import { type Node, without } from './source';
-import * as w from './words';
+import * as w from './texts';
 
 export function EditView({ desk }: { desk: Desk }) {
   const { root } = desk.reading.value;

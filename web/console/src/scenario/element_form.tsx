@@ -6,7 +6,7 @@ import { closed_choices, relation_of, relations, steps_for, suggestions, with_ne
 import { actions, type AttributeRule, is_of, rule_of, statuses } from './grammar';
 import type { Problem } from './read';
 import { moved, type Node, read_source, with_attribute, with_state_renamed, with_text, without } from './source';
-import * as w from './words';
+import * as w from './texts';
 
 export interface FormProps {
   desk: Desk;

@@ -9,7 +9,7 @@ import type { Scenario, ScenarioCommand, State, Trigger, TriggerKind } from './m
 import { Trouble } from './trouble';
 import { typed_arguments } from './typed';
 import { listed, Variables } from './variables';
-import * as w from './words';
+import * as w from './texts';
 
 /** What a machine tells while it runs. */
 export interface Observer {

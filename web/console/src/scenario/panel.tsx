@@ -15,7 +15,7 @@ import { chosen_file, save_file } from './files';
 import type { Problem } from './read';
 import { RunState, RunView, state_of } from './run_view';
 import type { Node } from './source';
-import * as w from './words';
+import * as w from './texts';
 
 type Part = 'run' | 'edit' | 'xml';
 

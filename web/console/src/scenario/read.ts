@@ -6,7 +6,7 @@ import type { Relation, Scenario, ScenarioCommand, State, Step, Trigger, Trigger
 import { line_and_column, type Node, read_source } from './source';
 import type { Say } from './trouble';
 import { names_in } from './variables';
-import * as w from './words';
+import * as w from './texts';
 
 export interface Problem {
   say: Say;

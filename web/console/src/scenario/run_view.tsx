@@ -9,7 +9,7 @@ import { shown_name } from './picture';
 import { nodes_in, with_text } from './source';
 import { Trouble } from './trouble';
 import { listed } from './variables';
-import * as w from './words';
+import * as w from './texts';
 
 const most_shown = 300;
 

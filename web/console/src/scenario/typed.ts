@@ -4,7 +4,7 @@ import type { Parameter, ParameterProfile } from 'rois-client';
 import { data_type, is_packed, problem_of } from '../forms/data_type';
 import type { ComponentView } from '../state/profile_state';
 import { Trouble } from './trouble';
-import * as w from './words';
+import * as w from './texts';
 
 /** What a command may be given: its own arguments, and whatever `set_parameter` takes. */
 export function known_arguments(component: ComponentView, command_type: string): ParameterProfile[] {

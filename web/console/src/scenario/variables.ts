@@ -3,7 +3,7 @@ import { type Pose, pose_of, pose_text, type Results } from 'rois-client';
 
 import type { Step, TakeResult, When } from './model';
 import { Trouble } from './trouble';
-import * as w from './words';
+import * as w from './texts';
 
 /** The names in braces, in order. */
 export function names_in(text: string): string[] {

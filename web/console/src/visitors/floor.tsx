@@ -8,7 +8,7 @@ import type { FloorMap } from '../state/floor_map';
 import type { Visitor } from '../state/hall_state';
 import { floor_point, SmallFloor } from '../ui/small_floor';
 import { steering_of } from './steering';
-import * as w from './words';
+import * as w from './texts';
 
 interface Aim extends Point {
   ref: string;

@@ -8,7 +8,7 @@ import { gestures, type Visitor } from '../state/hall_state';
 import { Badge, Button, Checkbox, EmptyState, Loading, SelectField, TextField } from '../ui';
 import { Floor } from './floor';
 import { languages, type Steering, steering_of } from './steering';
-import * as w from './words';
+import * as w from './texts';
 
 export default function VisitorsPanel() {
   const console = useConsole();

@@ -4,7 +4,7 @@ import { signal } from '@preact/signals';
 import type { Console } from '../state/console';
 import type { Outcome } from '../state/hall_state';
 import { error_text } from '../ui/error_text';
-import * as words from './words';
+import * as words from './texts';
 
 export const languages = ['de', 'en', 'es', 'fr', 'it', 'ja', 'ko', 'zh'] as const;
 const names = ['anna', 'ben', 'chika', 'daniel', 'emi', 'farid', 'grace', 'hiro'];
