@@ -32,13 +32,13 @@ public:
         if (queue.last_sequence() == last) return;
         ++told_;
         lost_ += queue.lost() - lost;
-        outbox_.notify(session.id);
+        outbox_.notify(queue);
     }
 
     // Nothing more will be told to this session.
     void close(Session& session) {
         session.notifications->close();
-        outbox_.notify(session.id);
+        outbox_.notify(*session.notifications);
     }
 
     // Sessions that could not be told something, since the last call (decision 23).
