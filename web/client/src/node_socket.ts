@@ -98,7 +98,7 @@ class NodeSocket implements Socket {
   private failed(error: NodeJS.ErrnoException): void {
     const socket = this.request.socket as Partial<TLSSocket> | null;
     if (socket?.authorizationError) this.end({ reason: `the gateway's certificate is refused: ${error.message}`, final: true });
-    else if (error.code === 'EPROTO') this.end({ reason: `no TLS is spoken there: ${error.message.trim()}`, final: true });
+    else if (error.code === 'EPROTO') this.end({ reason: `TLS cannot be spoken there: ${error.message.trim()}`, final: true });
     else this.end({ reason: error.message, final: false });
   }
 
