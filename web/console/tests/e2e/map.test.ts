@@ -1,11 +1,11 @@
 // The floor map: what is drawn, sending and stopping the robot, following, observing; by mouse, fingers and keys.
-import type { Page } from 'playwright-core';
+import type { Locator, Page } from 'playwright-core';
 import { connect } from 'rois-client';
 import { afterAll, beforeAll, beforeEach, describe, expect, test } from 'vitest';
 
 import { fitted, margin_of, type Point, to_screen } from '../../src/map/view';
 import { Hall, still_hall } from './hall';
-import { picture, sizes, Stage, violations } from './harness';
+import { broken_link, picture, sizes, Stage, violations } from './harness';
 
 let stage: Stage;
 let hall: Hall;
@@ -42,15 +42,7 @@ async function observe(page: Page): Promise<void> {
   await page.getByText('5 components look').waitFor();
   await page.locator('.map-switch[aria-busy="false"]').waitFor();
 }
-/** Lets the world go on until the page shows something. */
-async function pass_until(page: Page, shown: ReturnType<Page['locator']>, step = 500): Promise<void> {
-  for (let i = 0; i < 240; ++i) {
-    if ((await shown.count()) > 0) return;
-    await hall.pass(step);
-    await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
-  }
-  await shown.first().waitFor({ timeout: 1 });
-}
+const pass_until = (page: Page, shown: Locator, step?: number) => hall.pass_until(page, shown, step);
 
 describe('the map', () => {
   test.each([
@@ -95,7 +87,7 @@ describe('the map', () => {
         await ready(page);
         await page.getByText(/^Not live/).waitFor({ state: 'detached' });
       },
-      { may_complain: /WebSocket|Failed to load resource|ERR_/ },
+      { may_complain: broken_link },
     ));
 
   test('is zoomed by wheel and buttons, panned by dragging, and fitted again', () =>

@@ -1,13 +1,13 @@
 // The page as a whole: what stands where, how the link is told, themes, languages, keyboard, screen readers.
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
-import { picture, root, sizes, Stage, violations } from './harness';
+import { still_hall } from './hall';
+import { broken_link, picture, sizes, Stage, violations } from './harness';
 
 let stage: Stage;
-const lost_link = /WebSocket|Failed to load resource|ERR_/;
 
 beforeAll(async () => {
-  stage = await Stage.set('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '1', '--seed', '7');
+  stage = await Stage.set(...still_hall);
 });
 afterAll(() => stage.strike());
 
@@ -52,7 +52,7 @@ describe('the page', () => {
         stage.front.mend();
         await page.getByText('Connected again', { exact: true }).waitFor();
       },
-      { may_complain: lost_link },
+      { may_complain: broken_link },
     ));
 
   test('remembers colours and language', () =>
