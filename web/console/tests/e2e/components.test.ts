@@ -32,6 +32,7 @@ describe('components', () => {
   test('a command is sent as the form has it, with its XML and its answer, and ends', () =>
     stage.page(async (page) => {
       await open(page, 'speech_synthesis');
+      await page.getByText(/Type string\. Default en\./).waitFor();
       await page.getByLabel('speech_text', { exact: true }).fill('Good morning.');
       await page.getByLabel('volume', { exact: true }).fill('loud');
       await page.getByText('This has to be a whole number.').waitFor();
@@ -191,6 +192,7 @@ describe('components', () => {
       await page.getByLabel('target_object_ref').fill('person-1');
       expect(await page.getByRole('region', { name: 'Request: follow start' }).textContent()).toContain('rois:codebook_ref="urn:x-rois:def:codebook:simulation::track"');
       await page.getByLabel('distance').fill('800');
+      await page.locator('.field', { has: page.getByLabel('distance') }).getByText('mm', { exact: true }).waitFor();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
       await answer(page).getByText('It is running.').waitFor();
     });

@@ -2,6 +2,7 @@
 import type { Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
+import { drag_area } from './floor';
 import { Hall, more_profiles, still_hall } from './hall';
 import { looks, picture, sizes, Stage, violations } from './harness';
 
@@ -24,21 +25,6 @@ afterAll(async () => {
 const request = (page: Page, operation: string) => panel(page).getByRole('region', { name: `Request: ${operation}` });
 const count = (page: Page, text: string | RegExp) => panel(page).locator('.conditions-count').filter({ hasText: text }).waitFor();
 
-/** Drags on the map from one point to another, in mm. */
-async function drag(page: Page, from: [number, number], to: [number, number]): Promise<void> {
-  const svg = panel(page).locator('.conditions-picker svg');
-  await svg.scrollIntoViewIfNeeded();
-  const at = ([x, y]: [number, number]) =>
-    svg.evaluate((one: SVGSVGElement, [mm_x, mm_y]) => {
-      const { x: left, y: top } = new DOMPoint(mm_x, -mm_y!).matrixTransform(one.getScreenCTM()!);
-      return [left, top] as const;
-    }, [x, y]);
-  await page.mouse.move(...(await at(from)));
-  await page.mouse.down();
-  await page.mouse.move(...(await at(to)), { steps: 4 });
-  await page.mouse.up();
-}
-
 describe('conditions', () => {
   test('subscribes to persons within a box that is picked on the map', () =>
     stage.page(
@@ -47,7 +33,7 @@ describe('conditions', () => {
         expect(await panel(page).getByLabel('Event', { exact: true }).inputValue()).toBe('person_localized');
         await panel(page).getByRole('button', { name: 'position_data within a box' }).click();
         await count(page, '1 component can send it');
-        await drag(page, [500, 11_500], [19_500, 500]);
+        await drag_area(page, { x: 500, y: 11_500 }, { x: 19_500, y: 500 });
         expect(Number(await panel(page).getByLabel('Corner 1, x').inputValue())).toBeLessThan(1000);
         expect(await request(page, 'subscribe').textContent()).toMatch(/<fes:Within>[^]*position_data[^]*<gml:lowerCorner>/);
         await panel(page).getByRole('button', { name: 'Subscribe', exact: true }).click();

@@ -7,6 +7,9 @@ import { root, Stage } from './harness';
 
 const component = 'simulated_hall';
 
+/** Pictures for docs/ are taken (docs/console.md): then the world goes as fast as the clock, so that the time line shows what took how long. */
+export const takes_pictures = process.env['ROIS_PICTURES'] === 'docs';
+
 /** Flags of a gateway whose hall is empty and stands still. */
 export const still_hall = ['--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '0', '--seed', '7'];
 /** The robots of Annex C beside the usual one. */
@@ -25,6 +28,7 @@ export class Hall {
   async pass(ms: number): Promise<void> {
     const status = await (await this.client.execute([command(component, 'let_pass', { time: value.int(ms) })])).status();
     if (status !== 'OK') throw new Error(`let_pass: ${status}`);
+    if (takes_pictures) await new Promise((passed) => setTimeout(passed, ms));
   }
 
   /** Lets the world go on, so many ms at a time, until the page has something. */

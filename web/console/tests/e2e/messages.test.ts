@@ -62,6 +62,7 @@ describe('events and messages', () => {
       await row(page, /execute(?!_)/).click();
       const reader = page.getByRole('region', { name: 'Document: execute', exact: true });
       expect(await reader.textContent()).toContain('person_detection');
+      expect(await reader.locator('.xml-name').count()).toBeGreaterThan(3); // highlighted
       await page.getByRole('button', { name: 'Its answer' }).click();
       await page.getByRole('heading', { name: 'execute_response' }).waitFor();
       await page.getByRole('button', { name: 'Its request' }).click();

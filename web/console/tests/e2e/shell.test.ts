@@ -23,7 +23,6 @@ describe('the page', () => {
 
   test.each([
     ['wide', 'dark', 'en'],
-    ['wide', 'light', 'ja'],
     ['tablet', 'light', 'en'],
     ['small', 'dark', 'ja'],
   ] as const)('is accessible: %s, %s, %s', (size, look, language) =>
@@ -53,6 +52,19 @@ describe('the page', () => {
         await page.getByText('Connected again', { exact: true }).waitFor();
       },
       { may_complain: broken_link },
+    ));
+
+  test('moves nothing by itself for who does not want that', () =>
+    stage.page(
+      async (page) => {
+        const moving = () => page.evaluate(() => [...document.querySelectorAll('*')].filter((one) => /[1-9]/.test(getComputedStyle(one).transitionDuration + getComputedStyle(one).animationDuration)).length);
+        await page.getByText('Connected', { exact: true }).waitFor();
+        expect(await moving()).toBeGreaterThan(0);
+        await page.emulateMedia({ reducedMotion: 'reduce' });
+        expect(await moving()).toBe(0);
+        expect(await page.evaluate(() => document.getAnimations().length)).toBe(0);
+      },
+      { motion: 'no-preference' },
     ));
 
   test('remembers colours and language', () =>

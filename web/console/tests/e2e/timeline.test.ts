@@ -1,6 +1,6 @@
 // The time line: what stands on it, what points at it and the keys say, going back in time, and how it looks.
 import type { Page } from 'playwright-core';
-import { connect } from 'rois-client';
+import { command, connect, value } from 'rois-client';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
 import type { Console } from '../../src/state/console';
@@ -88,10 +88,34 @@ describe('the time line', () => {
         await rows(page, /Event person_detectedperson_detection/).first().waitFor();
         expect(await violations(page)).toBe('');
         await picture(page, 'timeline-table');
+        // One that runs, and one that waits for it.
+        const units = [command('navigation', 'start', { target_position: value.strings(['exit']) }), command('speech_synthesis', 'start', { speech_text: 'Here we are.' })];
+        await page.evaluate((those) => (window as unknown as Page_).rois.execute(those).then(() => undefined), units);
+        await rows(page, /Command startnavigationrunning/).waitFor();
+        await rows(page, /Command startspeech_synthesiswaiting/).waitFor();
         await page.getByRole('button', { name: 'Stop time' }).click();
         await rows(page, /Command startnavigationERROR/).getByRole('button').click();
         await details(page).getByText('The component could not do it.').waitFor();
         await other.close();
+      },
+      wide,
+      '/#timeline',
+    ));
+
+  test('keeps what the console listens for by itself apart, until somebody wants to see it', () =>
+    stage.page(
+      async (page) => {
+        await page.getByLabel('As a table').check();
+        await rows(page, /Status READYnavigation/).first().waitFor();
+        await hall.run(page, 'person_detection', 'stop');
+        await hall.run(page, 'person_detection', 'start');
+        await hall.pass(1000);
+        await rows(page, /Command startperson_detectionOK/).waitFor();
+        expect(await rows(page, /Event person_detected/).count()).toBe(0);
+        await page.getByLabel('Console’s own events').check();
+        await rows(page, /Event person_detectedperson_detection/).first().waitFor();
+        await page.getByLabel('Hide quiet components').check();
+        await rows(page, /Status READYnavigation/).first().waitFor({ state: 'detached' });
       },
       wide,
       '/#timeline',
@@ -105,13 +129,13 @@ describe('the time line', () => {
         await expect.poll(() => span(page)).toBe(10_000);
         await page.getByLabel('Stretch of time').selectOption('1 min');
         await stop_time(page);
-        await zoom(page, (await sent_at(page, -2)) - 1500, await ended_at(page, -1));
+        await zoom(page, (await sent_at(page, -2)) - 1500, (await ended_at(page, -1)) + 100); // the time was stopped later than that
         const walk = await point(page, 'navigation', await middle_of(page, -2));
         await page.mouse.move(walk.x, walk.y);
         const tip = page.locator('.timeline-tip');
         await tip.getByText('navigation').waitFor();
         expect(await tip.innerText()).toMatch(/Command start[^]*OK[^]*Sent[^]*Ran/);
-        await zoom(page, (await sent_at(page, -1)) - 50, await ended_at(page, -1)); // it has failed at once
+        await zoom(page, (await sent_at(page, -1)) - 100, (await ended_at(page, -1)) + 50); // it has failed at once
         const failed = await point(page, 'navigation', await middle_of(page, -1));
         await page.mouse.click(failed.x, failed.y);
         await details(page).getByText('The component could not do it.').waitFor();

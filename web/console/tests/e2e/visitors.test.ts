@@ -65,6 +65,11 @@ describe('in a world that stands still', () => {
         for (const _ of [1, 2]) await page.getByRole('button', { name: 'Let 10 seconds pass' }).click();
         await row(page, 'anna').getByText(/walking|saying|gesture/).waitFor({ state: 'detached' });
         await row(page, 'anna').getByText(/^(8\.9|9\.[01]) m, 4\.[3-6] m$/).waitFor();
+        await page.getByLabel('Walk to').selectOption('desk');
+        await page.getByRole('button', { name: 'Go', exact: true }).click();
+        await page.getByRole('button', { name: 'Let it flow' }).click();
+        await row(page, 'anna').getByText(/, 5\.\d m$/).waitFor();
+        await page.getByRole('button', { name: 'Halt' }).click();
         await leaves(page, 'anna');
         await page.getByText('0 bound').waitFor();
       },
