@@ -15,7 +15,7 @@ export function CommandProgress({ entry }: { entry: CommandEntry }) {
   const t = exchange_texts();
   void console.commands.pulse.beat.value;
   const ended = has_ended(entry);
-  const now = ended ? entry.ended_at! : console.now.value;
+  const now = ended ? entry.ended_at! : console.time();
   const title = `${entry.component} ${entry.command_type}`;
   const has_results = (console.profile.component(entry.component)?.commands.find((one) => one.name === entry.command_type)?.results.length ?? 0) > 0;
   useEffect(() => {

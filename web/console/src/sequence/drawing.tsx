@@ -27,7 +27,7 @@ export function Drawing({ store, adding, set_adding, open_form }: DrawingProps) 
   const root = store.root.value;
   const run = store.run.value;
   void console.commands.pulse.beat.value;
-  const view: RunView = run ? run_view(run.root, run.entries, run.sent_at, run.entries.size > 0 ? console.now.value : 0) : new Map();
+  const view: RunView = run ? run_view(run.root, run.entries, run.sent_at, run.entries.size > 0 ? console.time() : 0) : new Map();
   const go_to = (id: number) => {
     store.chosen.value = id;
     requestAnimationFrame(() => frame.current?.querySelector<HTMLElement>(`[data-step="${id}"]`)?.focus());

@@ -132,6 +132,11 @@ export class Console {
     this.documents.listen((document) => this.heard(document));
   }
 
+  /** ms since 1970. Whoever reads it while rendering is drawn again each second; `now` itself may be a second old. */
+  time(): number {
+    return Math.max(this.now.value, this.environment.now());
+  }
+
   // --- The link ---
 
   /** The client that speaks; the operations below are enough for most. */

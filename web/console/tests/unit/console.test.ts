@@ -251,6 +251,22 @@ describe('people', () => {
     expect([...console.subscriptions.all.value.keys()]).toEqual(['s-3']);
   });
 
+  test('of whom somebody asks as the console does come for them, too: the engine has one name for both', async () => {
+    world.answers.set('subscribe', () => '<subscribe_id>s-1</subscribe_id>');
+    console.entities.watch();
+    await settled();
+    const is_own = async () => {
+      await world.notifies('receive_event', localized(['person-1', 0, 0]));
+      return console.documents.ring.last!.is_own;
+    };
+    expect(await is_own()).toBe(true);
+    await console.subscribe('person_localized');
+    expect(await is_own()).toBe(false);
+    await console.subscriptions.unsubscribe('s-1');
+    expect(await is_own()).toBe(true);
+    expect(world.names()).not.toContain('unsubscribe');
+  });
+
   test('have a place, a trail and a certainty, and go out of sight', async () => {
     await world.notifies('receive_event', localized(['person-1', 1000, 2000], ['person-2', 0, 0]));
     await world.notifies('receive_event', localized(['person-1', 1500, 2000]));
