@@ -48,7 +48,7 @@ void Engine::Core::tick(Instant now) {
     details_checked_ = now.steady;
     events_.forget_expired(now);
     errors_.forget_expired(now);
-    for (auto const& [id, session] : sessions_) executor_.forget_old_results(*session, now);
+    executor_.forget_old_results(now);
 }
 
 // A device that fails is not advanced again: it would fail for ever.
@@ -109,6 +109,7 @@ void Engine::Core::end(Session& session, Instant now) {
     }
     for (auto* component : session.bound) component->bound_to = nullptr;
     subscriptions_.remove_all(session);
+    executor_.forget(session);
     notifier_.close(session);
     sessions_.erase(SessionId{session.id});
 }
