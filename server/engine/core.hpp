@@ -41,7 +41,7 @@ public:
     void link_opened(SessionId const&);
     void link_closed(SessionId const&, Link, Instant now);
 
-    std::shared_ptr<EngineProfile const> profile() const { return profile_; }
+    std::shared_ptr<EngineProfile const> profile() const;
     std::vector<ComponentEntry> components() const;
     EngineStatistics statistics() const;
 
@@ -49,8 +49,8 @@ private:
     // Components (components.cpp)
     using SharedComponent = std::shared_ptr<RegisteredComponent>;
     SharedComponent made(std::unique_ptr<Component>, std::vector<ComponentProfile> const& known);
-    void enter(SharedComponent, EngineProfile&);
-    void leave(RegisteredComponent&, EngineProfile&, Instant now);
+    void enter(SharedComponent);
+    void leave(RegisteredComponent&, Instant now);
     void check(ComponentChange const&) const;
 
     // System interface (system_interface.cpp)
@@ -103,7 +103,8 @@ private:
     EngineSettings settings_;
     FreshSecret fresh_secret_;
     std::vector<ComponentProfile> known_profiles_;
-    std::shared_ptr<EngineProfile const> profile_;  // never changed: another takes its place
+    EngineProfile profile_;
+    mutable std::shared_ptr<EngineProfile const> told_profile_;  // the same for those who read it; null until somebody does
     Agenda agenda_;
     Places places_;
     Registry registry_;

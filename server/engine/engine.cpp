@@ -15,7 +15,7 @@ Engine::Core::Core(EngineProfile profile, std::vector<ComponentProfile> known_pr
     : settings_{settings},
       fresh_secret_{std::move(fresh_secret)},
       known_profiles_{std::move(known_profiles)},
-      profile_{std::make_shared<EngineProfile const>(std::move(profile))},
+      profile_{std::move(profile)},
       notifier_{outbox},
       executor_{settings_, registry_, agenda_, deadlines_, notifier_},
       events_{"e-", settings_.event_details},

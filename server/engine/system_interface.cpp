@@ -63,7 +63,7 @@ Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
         return refused<GetProfile::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     GetProfile::Reply reply;
     for (auto const* component : select(std::get<Selection>(selection), session)) reply.components.push_back(component->entry());
-    reply.profile = profile_of_those(profile_, reply.components);
+    reply.profile = profile_of_those(profile(), reply.components);
     return reply;
 }
 
