@@ -84,10 +84,11 @@ private:
 
     // Conditions (conditions.cpp)
     Vocabulary vocabulary(Declarations const* results = nullptr) const { return {&places_, &registry_.parameters(), results}; }
-    // All of these refs, or all of the engine's components; by ref.
-    std::vector<RegisteredComponent*> possible(std::optional<Refs> const&) const;
-    // Those that the selection lets through, in its order.
-    std::vector<RegisteredComponent*> select(Selection const&, Session const& asker) const;
+    // Whether one of these may meet it, whatever becomes of them.
+    bool may_ever_match(Filter const&, ComponentsInOrder possible, Session const& asker) const;
+    // Those that the selection lets through, in its order; when it does not sort, nobody behind the first that is enough.
+    using IsEnough = bool (*)(RegisteredComponent const&);
+    std::vector<RegisteredComponent*> select(Selection const&, Session const& asker, IsEnough = nullptr) const;
     // Leaves all results or none. Why the condition cannot be used, or nothing.
     std::optional<std::string> choose(Results&, QueryExpression const&, Declarations const& known, std::string_view id) const;
 
