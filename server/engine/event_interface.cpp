@@ -1,5 +1,4 @@
 // Event interface (7.4.2, table 5): subscriptions, and what becomes of events.
-#include <algorithm>
 #include <utility>
 
 #include "engine/core.hpp"
@@ -9,14 +8,13 @@ namespace rois {
 
 Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instant) {
     auto const& components = registry_.with(MessageKind::event, subscribe.event_type);
-    if (components.empty())
+    if (components.all().empty())
         return refused<Subscribe::Reply>(ReturnCode::unsupported, "no component has the event " + quoted(subscribe.event_type));
     auto filter = Filter::compile(subscribe.condition, vocabulary(&registry_.results(MessageKind::event, subscribe.event_type)));
     if (auto* problem = std::get_if<std::string>(&filter))
         return refused<Subscribe::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto& wanted = std::get<Filter>(filter);
-    Perspective ever{registry_, places_, &session, Perspective::Of::ever};
-    if (std::ranges::none_of(components, [&](auto const* c) { return wanted.match(ever.candidate(*c)) != Match::no; }))
+    if (!may_ever_match(wanted, components.possible(wanted.demand()), session))
         return refused<Subscribe::Reply>(ReturnCode::unsupported, "no component that has the event can match the condition");
     auto* const known = subscriptions_.find(subscribe.event_type, wanted);
     bool const again = known != nullptr && session.subscriptions.contains(known);
@@ -81,7 +79,7 @@ private:
 
 void Engine::Core::publish(EventOccurred said, Instant now) {
     ++events_published_;
-    auto const& subscriptions = subscriptions_.of(said.event_type);
+    auto const subscriptions = subscriptions_.possible(said.event_type, *said.component);
     if (subscriptions.empty()) return;
     auto const results = std::make_shared<Results const>(std::move(said.results));
     std::string event_id;  // given when somebody hears of it
