@@ -1,4 +1,4 @@
-// English and Japanese. Each part of the page has its own `texts.ts` with both.
+// English and Japanese. Each part of the page has its own `texts.ts` with both side by side.
 import { signal } from '@preact/signals';
 
 export type Language = 'en' | 'ja';
@@ -10,15 +10,24 @@ export const languages: readonly { code: Language; name: string }[] = [
 /** The language of the page. */
 export const language = signal<Language>('en');
 
-type Text = string | ((...given: never[]) => string);
-type SameShape<T> = { [Key in keyof T]: T[Key] extends (...given: infer Given) => string ? (...given: Given) => string : string };
+/** A text in English and in Japanese, or the one text that is right in both. */
+export type Both = readonly [en: string, ja: string] | string;
+type Entry = Both | ((...given: never[]) => Both);
+type Said<T> = { [Key in keyof T]: T[Key] extends (...given: infer Given) => Both ? (...given: Given) => string : string };
 
 /**
- * The texts of a part: `export const texts = in_both({ en: { ... }, ja: { ... } })`. A component calls `texts()` while it renders, and is
- * rendered again when the language changes. What depends on numbers or names is a function.
+ * The texts of a part: `export const texts = in_both({ title: ['Health', '状態監視'], ... })`. A component calls `texts()` while it renders,
+ * and is rendered again when the language changes. What depends on numbers or names is a function.
  */
-export function in_both<T extends Record<string, Text>>(both: { en: T; ja: SameShape<T> }): () => SameShape<T> {
-  return () => (language.value === 'ja' ? both.ja : (both.en as unknown as SameShape<T>));
+export function in_both<T extends Record<string, Entry>>(all: T): () => Said<T> {
+  const [en, ja] = [said(all, 0), said(all, 1)];
+  return () => (language.value === 'ja' ? ja : en);
+}
+
+function said<T extends Record<string, Entry>>(all: T, nth: 0 | 1): Said<T> {
+  const pick = (text: Both) => (typeof text === 'string' ? text : text[nth]);
+  const entries = Object.entries(all as Record<string, Entry>);
+  return Object.fromEntries(entries.map(([key, text]) => [key, typeof text === 'function' ? (...given: never[]) => pick(text(...given)) : pick(text)])) as Said<T>;
 }
 
 /** The language that the browser wishes for, among those that there are. */

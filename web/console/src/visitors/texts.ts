@@ -1,4 +1,6 @@
 import { in_both } from '../i18n/i18n';
 
 // Only what the page needs before the panel is fetched; all else is in words.ts.
-export const texts = in_both({ en: { title: 'Visitors' }, ja: { title: '来訪者' } });
+export const texts = in_both({
+  title: ['Visitors', '来訪者'],
+});
