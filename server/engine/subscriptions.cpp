@@ -58,7 +58,7 @@ Subscription& Subscriptions::add(Session& session, std::string const& event_type
         by_type_[event_type].add(*subscription);
         by_id_.emplace(subscription->id, std::move(made));
     }
-    subscription->sessions[&session] = inline_results;
+    subscription->sessions[&session] = {inline_results, session.notifications.get()};
     if (session.subscriptions.insert(subscription).second) session.predicates += subscription->filter.predicates();
     return *subscription;
 }
@@ -108,7 +108,7 @@ std::set<Session*> Subscriptions::hearers(RegisteredComponent const& component, 
         if (message.kind != MessageKind::event) continue;
         for (auto const* subscription : possible(message.name, component))
             if (subscription->filter.match(ever.candidate(component)) != Match::no)
-                for (auto const& [session, inline_results] : subscription->sessions) hearing.insert(session);
+                for (auto const& [session, hearer] : subscription->sessions) hearing.insert(session);
     }
     return hearing;
 }

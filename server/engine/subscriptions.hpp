@@ -17,6 +17,7 @@
 
 namespace rois {
 
+class NotificationQueue;
 class RegisteredComponent;
 struct Session;
 
@@ -26,7 +27,11 @@ struct Subscription {
     SubscribeId id;
     std::string event_type;
     Filter filter;
-    std::unordered_map<Session*, bool> sessions;  // with inline_results or not
+    struct Hearer {
+        bool inline_results = false;
+        NotificationQueue* queue = nullptr;  // the session's own, found without it
+    };
+    std::unordered_map<Session*, Hearer> sessions;
 };
 
 // Kept both ways: a subscription knows its sessions, a session its subscriptions.

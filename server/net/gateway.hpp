@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/engine.hpp"
-#include "net/prefetch.hpp"
+#include "engine/prefetch.hpp"
 #include "net/readers.hpp"
 #include "net/telemetry.hpp"
 #include "xml/codec.hpp"

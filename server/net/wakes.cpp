@@ -4,7 +4,7 @@
 #include <boost/asio/post.hpp>
 #include <utility>
 
-#include "net/prefetch.hpp"
+#include "engine/prefetch.hpp"
 #include "net/readers.hpp"
 
 namespace rois::net {

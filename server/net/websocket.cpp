@@ -6,8 +6,8 @@
 #include <boost/asio/detached.hpp>
 #include <utility>
 
+#include "engine/prefetch.hpp"
 #include "net/event_stream.hpp"
-#include "net/prefetch.hpp"
 
 namespace rois::net {
 

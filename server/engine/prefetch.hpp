@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace rois::net {
+namespace rois {
 
 inline constexpr std::size_t cache_line = 64;
 
@@ -12,4 +12,4 @@ inline void prefetch(void const* from, std::size_t bytes = cache_line) {
     for (std::size_t at = 0; at < bytes; at += cache_line) __builtin_prefetch(static_cast<char const*>(from) + at);
 }
 
-}  // namespace rois::net
+}  // namespace rois
