@@ -106,10 +106,11 @@ function paint_command(pen: CanvasRenderingContext2D, { thing, box, lane }: Plac
   const start = began === undefined || began > at ? box.x + box.width : Math.max(box.x, Math.min(box.x + box.width - 2, x_of(began, layout.range, layout.width)));
   const { soft, full } = ink.tones[has_ended ? tone_of(entry.state) : began === undefined ? 'calm' : 'busy'];
   pen.fillStyle = full;
-  pen.fillRect(box.x, box.y + box.height / 2 - 1, Math.max(0, start - box.x), 2);
+  const has_text = layout.lanes[lane]!.kind !== 'component'; // which stands above the line
+  pen.fillRect(box.x, has_text ? box.y + box.height - 3 : box.y + box.height / 2 - 1, Math.max(0, start - box.x), 2);
   pen.fillRect(box.x, box.y + 1, 1, box.height - 2);
   const bar = { ...box, x: start, width: box.x + box.width - start };
-  if (layout.lanes[lane]!.kind === 'component') return fill(pen, bar, full, 2);
+  if (!has_text) return fill(pen, bar, full, 2);
   fill(pen, bar, soft, 3);
   pen.strokeStyle = full;
   if (bar.width > 2) pen.strokeRect(bar.x + 0.5, bar.y + 0.5, bar.width - 1, bar.height - 1);

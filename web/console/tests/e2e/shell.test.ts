@@ -32,6 +32,8 @@ describe('the page', () => {
         await page.locator('.engine-component', { hasText: 'navigation' }).getByText('READY').waitFor();
         expect(await violations(page)).toBe('');
         expect(await page.evaluate(() => document.documentElement.lang)).toBe(language);
+        const tabs = await page.locator('.app-main .tabs-row').first().getByRole('tab').evaluateAll((all) => all.map((one) => one.getBoundingClientRect().right));
+        expect(Math.max(...tabs), 'all tabs are seen').toBeLessThanOrEqual(sizes[size].width);
         await picture(page, `shell-${size}-${look}-${language}`);
       },
       { ...sizes[size], look, language, touch: size !== 'wide' },

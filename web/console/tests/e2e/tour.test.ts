@@ -1,22 +1,24 @@
 // The first ten minutes of a new user (docs/tour.md), and the pictures of the docs.
-import { copyFile, mkdir } from 'node:fs/promises';
+import { execFile } from 'node:child_process';
+import { mkdir } from 'node:fs/promises';
+import { promisify } from 'node:util';
 
 import type { Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, test } from 'vitest';
 
 import { click_map, drag_area } from './floor';
-import { Hall, still_hall } from './hall';
-import { picture, pictures, root, Stage } from './harness';
+import { Hall, still_hall, takes_pictures } from './hall';
+import { picture, pictures, root, sizes, Stage } from './harness';
 
 const data = `${root}/tests/server/data`;
 const size = { width: 1360, height: 850 };
 
-/** A picture that docs/ show; it is put there when it is asked for. */
+/** A picture that docs/ show. It is put there, made small, when that is asked for. */
 async function shown(page: Page, name: string): Promise<void> {
   await picture(page, name);
-  if (process.env['ROIS_PICTURES'] !== 'docs') return;
+  if (!takes_pictures) return;
   await mkdir(`${root}/docs/pictures`, { recursive: true });
-  await copyFile(`${pictures}/${name}.png`, `${root}/docs/pictures/${name}.png`);
+  await promisify(execFile)('pngquant', ['--speed', '1', '--strip', '--force', '--output', `${root}/docs/pictures/${name}.png`, `${pictures}/${name}.png`]);
 }
 
 let stage: Stage;
@@ -42,6 +44,7 @@ describe('a new user', () => {
       async (page) => {
         // To a visitor: who is there is seen when somebody looks.
         await row(page, /robot1/).getByText('Now').waitFor();
+        await page.getByLabel('Stretch of time').selectOption('30 s');
         await page.getByRole('switch', { name: 'Observe' }).click();
         await hall.pass_until(page, row(page, /tanaka|person-/).getByText(/x 12/), 200);
         await click_map(page, { x: 12_500, y: 5500 });
@@ -99,17 +102,22 @@ describe('a new user', () => {
         await hall.pass_until(page, page.locator('.exchange-came').getByText('The component could not do it.'), 200);
         await page.locator('.exchange-came').getByText(/is outside of the hall, in a wall or in furniture/).first().scrollIntoViewIfNeeded();
         await shown(page, 'failed');
+
+        await tab(page, 'Health');
+        await page.locator('.health-legend strong').first().getByText(/\d/).waitFor();
+        await shown(page, 'health');
       },
       { ...size, motion: 'no-preference' },
     ));
 });
 
-test('figure 1, with somebody who was let in', async () => {
+test('figure 1 runs, and the tablet shows it in Japanese', async () => {
   const watchful = await Stage.set(...still_hall, '--floor-plan', `${data}/watchful_hall.xml`);
   const world = await Hall.of(watchful);
   await world.visit('tanaka', '9000, 4500, 180', { known: true });
   await watchful.page(
     async (page) => {
+      await tab(page, 'Visitors');
       await page.getByRole('button', { name: 'Start', exact: true }).click();
       await world.pass_until(page, page.locator('[data-state="tell"][aria-current]'), 100, 120_000);
       await shown(page, 'scenario');
@@ -117,6 +125,18 @@ test('figure 1, with somebody who was let in', async () => {
     },
     { ...size, look: 'light', motion: 'no-preference' },
     '/#scenario',
+  );
+  await watchful.page(
+    async (page) => {
+      await page.getByRole('switch').click();
+      await row(page, /robot1/).waitFor();
+      await page.locator('.map-tools select, .map-bar select').first().selectOption('desk');
+      await page.locator('.map-form button[type=submit]').click();
+      await world.sets_out('tanaka', '11000, 7500');
+      await world.pass_until(page, row(page, /robot1/).getByText(/x 7\./), 100);
+      await shown(page, 'tablet');
+    },
+    { ...sizes.tablet, language: 'ja', look: 'light', touch: true },
   );
   await world.close();
   await watchful.strike();
