@@ -6,16 +6,17 @@ import './shell/shell.css';
 import { render } from 'preact';
 
 import { type Language, language, wished_language } from './i18n/i18n';
+import { panels } from './panels';
 import { App } from './shell/app';
 import { browser } from './shell/environment';
-import { follow_window } from './shell/layout';
+import { begin_layout } from './shell/layout';
 import { follow_system, type Theme, theme } from './shell/theme';
 import { Console } from './state/console';
 
 theme.value = (browser.recall('theme') as Theme | undefined) ?? 'system';
 language.value = (browser.recall('language') as Language | undefined) ?? wished_language(navigator.languages);
 follow_system();
-follow_window(browser.recall('panels'));
+begin_layout(panels, browser.recall('panels'));
 
 const state = new Console(browser);
 state.connect();

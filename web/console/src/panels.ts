@@ -1,16 +1,25 @@
 // The panels of the page. A line here puts a panel into the navigation; docs/console.md says what it has to bring.
 import type { ComponentType } from 'preact';
 
+import ComponentsPanel from './components/panel';
 import { texts as components } from './components/texts';
+import ConditionsPanel from './conditions/panel';
 import { texts as conditions } from './conditions/texts';
+import HealthPanel from './health/panel';
 import { texts as health } from './health/texts';
+import MapPanel from './map/panel';
 import { texts as map } from './map/texts';
+import MessagesPanel from './messages/panel';
 import { texts as messages } from './messages/texts';
-import { texts as scenario } from './scenario/texts';
+import ScenarioPanel from './scenario/panel';
+import { words as scenario } from './scenario/words';
+import SequencePanel from './sequence/panel';
 import { texts as sequence } from './sequence/texts';
+import TimelinePanel from './timeline/panel';
 import { texts as timeline } from './timeline/texts';
 import type { IconName } from './ui/icon';
-import { texts as visitors } from './visitors/texts';
+import VisitorsPanel from './visitors/panel';
+import { words as visitors } from './visitors/words';
 
 /** Where a panel stands on a wide screen: the big one, the strip below it, or the column beside both. */
 export type Area = 'main' | 'below' | 'side';
@@ -21,18 +30,17 @@ export interface Panel {
   title: () => string;
   icon: IconName;
   area: Area;
-  /** A chunk of its own, fetched when it is first shown. */
-  load: () => Promise<{ default: ComponentType }>;
+  Content: ComponentType;
 }
 
 export const panels: readonly Panel[] = [
-  { id: 'map', title: () => map().title, icon: 'map', area: 'main', load: () => import('./map/panel') },
-  { id: 'sequence', title: () => sequence().title, icon: 'sequence', area: 'main', load: () => import('./sequence/panel') },
-  { id: 'conditions', title: () => conditions().title, icon: 'conditions', area: 'main', load: () => import('./conditions/panel') },
-  { id: 'scenario', title: () => scenario().title, icon: 'scenario', area: 'main', load: () => import('./scenario/panel') },
-  { id: 'timeline', title: () => timeline().title, icon: 'timeline', area: 'below', load: () => import('./timeline/panel') },
-  { id: 'messages', title: () => messages().title, icon: 'messages', area: 'below', load: () => import('./messages/panel') },
-  { id: 'components', title: () => components().title, icon: 'components', area: 'side', load: () => import('./components/panel') },
-  { id: 'visitors', title: () => visitors().title, icon: 'person', area: 'side', load: () => import('./visitors/panel') },
-  { id: 'health', title: () => health().title, icon: 'health', area: 'side', load: () => import('./health/panel') },
+  { id: 'map', title: () => map().title, icon: 'map', area: 'main', Content: MapPanel },
+  { id: 'sequence', title: () => sequence().title, icon: 'sequence', area: 'main', Content: SequencePanel },
+  { id: 'conditions', title: () => conditions().title, icon: 'conditions', area: 'main', Content: ConditionsPanel },
+  { id: 'scenario', title: () => scenario().title, icon: 'scenario', area: 'main', Content: ScenarioPanel },
+  { id: 'timeline', title: () => timeline().title, icon: 'timeline', area: 'below', Content: TimelinePanel },
+  { id: 'messages', title: () => messages().title, icon: 'messages', area: 'below', Content: MessagesPanel },
+  { id: 'components', title: () => components().title, icon: 'components', area: 'side', Content: ComponentsPanel },
+  { id: 'visitors', title: () => visitors().title, icon: 'person', area: 'side', Content: VisitorsPanel },
+  { id: 'health', title: () => health().title, icon: 'health', area: 'side', Content: HealthPanel },
 ];

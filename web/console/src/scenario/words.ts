@@ -4,6 +4,7 @@ import { type Both, in_both } from '../i18n/i18n';
 const kinds_ja: Record<string, string> = { component: 'コンポーネント', variable: '変数', state: '状態' };
 
 export const words = in_both({
+  title: ['Scenario', 'シナリオ'],
   // The bar
   start: ['Start', '開始'],
   stop: ['Stop', '停止'],

@@ -2,13 +2,14 @@
 import { signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
-import { type Area, type Panel, panels } from '../panels';
+import type { Area, Panel } from '../panels';
 import { SplitPane } from '../ui/split_pane';
 import { Tabs } from '../ui/tabs';
+import { Boundary } from './boundary';
 import { useConsole } from './context';
-import { PanelFrame } from './panel_frame';
 import { texts } from './texts';
 
+let panels: readonly Panel[] = [];
 const wide = signal(true);
 const areas: readonly Area[] = ['main', 'below', 'side'];
 
@@ -23,8 +24,9 @@ export function show_panel(id: string): void {
   history.replaceState(null, '', `#${id}`);
 }
 
-/** Follows the width of the window and the address. */
-export function follow_window(recalled: string | undefined): void {
+/** Begins with these panels, those in front that are recalled, and follows the width of the window and the address. */
+export function begin_layout(all: readonly Panel[], recalled: string | undefined): void {
+  panels = all;
   const query = matchMedia('(min-width: 1100px)');
   const read = () => (wide.value = query.matches);
   query.addEventListener('change', read);
@@ -58,7 +60,11 @@ function Group({ id, label, panels: those }: { id: Area | 'all'; label: string; 
   const tabs = those.map((one) => ({ id: one.id, title: one.title(), icon: one.icon }));
   return (
     <Tabs label={label} tabs={tabs} chosen={chosen.id} choose={show_panel}>
-      <PanelFrame key={chosen.id} panel={chosen} />
+      <div key={chosen.id} class={`panel panel-${chosen.id}`}>
+        <Boundary>
+          <chosen.Content />
+        </Boundary>
+      </div>
     </Tabs>
   );
 }

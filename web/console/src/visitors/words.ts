@@ -12,6 +12,7 @@ const gestures_ja: Record<string, string> = {
 };
 
 export const words = in_both({
+  title: ['Visitors', '来訪者'],
   none_here: ['This engine has no visitors to steer', 'このエンジンには動かせる来訪者がいません'],
   none_here_hint: ['People can be steered in the simulated hall. Start the gateway with', 'シミュレーションのホールでは人を動かせます。次を付けてゲートウェイを起動してください:'],
   nobody: ['Nobody is in the hall. Let somebody in.', 'ホールには誰もいません。誰かを入れてください。'],
