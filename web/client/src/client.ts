@@ -38,6 +38,9 @@ export interface CallOptions {
   deadline?: number; // ms
 }
 
+// Of one request: `of` is the deadline of the whole call, when that takes several.
+type RequestOptions = CallOptions & { of?: number };
+
 export interface SubscribeOptions extends CallOptions {
   condition?: Writable;
   /** Whether events bring their results along: true. */
@@ -65,6 +68,7 @@ const without_end = 2 ** 31 - 1; // ms; the longest that a timer takes
 export class Client {
   private readonly listeners = new Listeners<ClientNews>();
   private readonly link: Link;
+  private readonly deadline: number;
   private readonly buffer: number;
   private readonly commands = new Commands();
   private readonly subscriptions = new Subscriptions();
@@ -76,9 +80,10 @@ export class Client {
   /** Does not connect; `connect` of the package does both. */
   constructor(url: string, options: ClientOptions, open_socket: OpenSocket) {
     this.buffer = options.buffer ?? 10_000;
+    this.deadline = options.deadline ?? 10_000;
     const settings: LinkSettings = {
       url: socket_url(url),
-      deadline: options.deadline ?? 10_000,
+      deadline: this.deadline,
       heartbeat: options.heartbeat ?? 10_000,
       first_delay: options.first_delay ?? 100,
       most_delay: options.most_delay ?? 5000,
@@ -255,7 +260,7 @@ export class Client {
 
   // --- Inside ---
 
-  private ask<T>(operation: Operation, content: () => string, options: CallOptions, read: (answer: XmlElement) => T, repeatable = true): Promise<T> {
+  private ask<T>(operation: Operation, content: () => string, options: RequestOptions, read: (answer: XmlElement) => T, repeatable = true): Promise<T> {
     return this.asked(operation, {}, content, options, read, repeatable);
   }
 
@@ -263,7 +268,7 @@ export class Client {
     operation: Operation,
     attributes: Record<string, boolean>,
     content: () => string,
-    { deadline }: CallOptions,
+    { deadline, of }: RequestOptions,
     read: (answer: XmlElement) => T,
     repeatable: boolean,
   ): Promise<T> {
@@ -272,17 +277,16 @@ export class Client {
       if (trouble) throw trouble;
       return read(answer);
     };
-    return this.link.ask(operation, attributes, content, { deadline, repeatable, read: checked });
+    return this.link.ask(operation, attributes, content, { deadline, of, repeatable, read: checked });
   }
 
   // What is left of the time of a call that takes several requests.
-  private deadline_of({ deadline }: CallOptions): () => CallOptions {
-    if (deadline === undefined) return () => ({});
+  private deadline_of({ deadline = this.deadline }: CallOptions): () => RequestOptions {
     const end = performance.now() + deadline;
-    return () => ({ deadline: Math.max(0, end - performance.now()) });
+    return () => ({ deadline: Math.max(0, end - performance.now()), of: deadline });
   }
 
-  private async execute_once(sequence: () => string, id: string | undefined, deadline: () => CallOptions): Promise<void> {
+  private async execute_once(sequence: () => string, id: string | undefined, deadline: () => RequestOptions): Promise<void> {
     for (let sent = 1; ; ++sent) {
       try {
         return await this.ask('execute', sequence, deadline(), () => undefined, false);
@@ -296,7 +300,7 @@ export class Client {
     }
   }
 
-  private is_known(command_id: string, options: CallOptions): Promise<boolean> {
+  private is_known(command_id: string, options: RequestOptions): Promise<boolean> {
     return this.get_command_result(command_id, undefined, options).then(
       () => true,
       (error: unknown) => {
@@ -307,7 +311,7 @@ export class Client {
   }
 
   // What a bind_any whose answer was lost has bound: meets the condition, is this session's, and we do not know of it.
-  private async bound_unawares(condition: Writable | undefined, options: CallOptions): Promise<Identifier | undefined> {
+  private async bound_unawares(condition: Writable | undefined, options: RequestOptions): Promise<Identifier | undefined> {
     const is_mine = all_of(property('bound').equals('true'), property('status').differs_from('BUSY'));
     const [meant, mine] = await Promise.all([this.search(condition, options), this.search(is_mine, options)]);
     return meant.find(({ code }) => mine.some((one) => one.code === code) && !this.bound.has(code));

@@ -42,6 +42,8 @@ export interface LinkListener {
 /** How a call is made. */
 export interface Asking<T> {
   deadline?: number | undefined; // ms
+  /** What the caller is told in the end that there was no answer within: `deadline`, unless that is the rest of a longer one. */
+  of?: number | undefined; // ms
   /** Sent again on a new link when the old one broke before the answer; else it fails with `link_lost`. */
   repeatable: boolean;
   /** Makes the result of an answer, before anything that came after it is looked at. */
@@ -163,7 +165,7 @@ export class Link {
       };
       const timer = setTimeout(() => {
         this.queue = this.queue.filter((one) => one !== call);
-        call.failed(new RoisError('deadline', `no answer within ${deadline} ms`));
+        call.failed(new RoisError('deadline', `no answer within ${how.of ?? deadline} ms`));
       }, deadline);
       if (this.ready) this.transmit(call);
       else this.queue.push(call);

@@ -92,14 +92,17 @@ scripted('the deadline of a call is for all of its requests', {}, async (client,
   assert.deepEqual(gateway.socket.names, ['resume', 'get_command_result'], 'nobody waits for it any more');
 });
 
-scripted('a call without a deadline of its own has the usual one for each request', {}, async (client, gateway, clock) => {
-  const executing = client.execute(go());
-  await clock.pass(9_000);
-  await again(gateway, clock);
-  await clock.pass(9_000);
-  await gateway.socket.answer();
-  await executing;
-});
+for (const [what, call] of [
+  ['execute', (client: Client) => client.execute(go())],
+  ['bind_any', (client: Client) => client.bind_any('Navigation')],
+] as const)
+  scripted(`${what} without a deadline of its own has the usual one for all of its requests`, { deadline: 1000 }, async (client, gateway, clock) => {
+    const outcome = assert.rejects(call(client), { failure: 'deadline', message: 'no answer within 1000 ms' });
+    await clock.pass(600);
+    await again(gateway, clock);
+    await clock.pass(300);
+    await outcome;
+  });
 
 scripted('a name that runs keeps its end when it is used again', {}, async (client, gateway) => {
   const executing = client.execute(go('mine'));

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { type Client, command, connect, Navigation, PersonDetection } from 'rois-client';
+import { type Client, command, connect, Navigation, PersonDetection, property, SpeechSynthesis } from 'rois-client';
 
 import { Gateway, root } from './gateway.js';
 import { Proxy } from './proxy.js';
@@ -111,6 +111,19 @@ behind_a_proxy('a call whose deadline has passed is not sent again', {}, async (
   await resumed;
   await client.get_profile();
   assert.deepEqual(seen.out, ['search', 'resume', 'get_profile']);
+});
+
+// The link never lasts for as long as it takes to send this.
+behind_a_proxy('a call ends with its deadline while one link after another breaks', { deadline: 300 }, async (client, proxy) => {
+  const long = 'x'.repeat(100_000);
+  const speech = await SpeechSynthesis.bind_any(client);
+  proxy.next_cut = () => 10_000;
+  proxy.cut_after_next();
+  await assert.rejects(speech.say(long), { failure: 'deadline', message: /^no answer within 300 ms/ });
+  await assert.rejects(client.bind_any(property('name').equals(long)), { failure: 'deadline', message: /^no answer within 300 ms/ });
+  assert.ok(proxy.cuts > 2);
+  proxy.next_cut = undefined;
+  proxy.cut_after_next();
 });
 
 behind_a_proxy('a name that was used before does not make a lost command an accepted one', {}, async (client, proxy) => {
