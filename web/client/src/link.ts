@@ -71,7 +71,7 @@ export class Link {
   private queue: Call[] = []; // to be sent
   private in_flight: Call[] = []; // sent, in order, without their answers
   private heard_at = 0;
-  private tries = 0; // since the link was ready
+  private tries = 0; // since a link was of use
   private next_id = 1;
   private closing: Promise<void> | undefined;
   private patience: ReturnType<typeof setTimeout> | undefined; // until the next try, or until one has failed
@@ -248,7 +248,6 @@ export class Link {
     clearInterval(this.heart);
     this.heart = setInterval(() => this.beat(), this.settings.heartbeat / 2);
     this.ready = true;
-    this.tries = 0;
     first();
     this.flush();
     this.turn(state, '');
@@ -266,6 +265,7 @@ export class Link {
   }
 
   private beat(): void {
+    this.tries = 0; // it has lasted for a while
     const now = performance.now();
     const oldest = this.in_flight[0];
     if (oldest && now - Math.max(this.heard_at, oldest.sent_at) >= this.settings.heartbeat)
@@ -288,9 +288,13 @@ export class Link {
     this.ended({ reason, final: false });
   }
 
-  private ended({ reason, final }: SocketEnd): void {
+  private ended({ reason, final, code }: SocketEnd): void {
     this.quieten();
     this.socket = undefined;
+    // What the gateway would not read, it would not read again. Of what is no UTF-8 nothing is known but that it was the next one.
+    const most = code === 1009 && largest(this.in_flight);
+    if (most) most.failed(unread('too_large', `${reason}; this has ${bytes(most)} bytes`));
+    if (code === 1007) this.in_flight[0]?.failed(unread('not_well_formed', reason));
     for (const call of this.in_flight.splice(0)) {
       if (call.settled) continue;
       if (call.repeatable) this.queue.push(call); // where nothing is while such calls are in flight
@@ -356,9 +360,22 @@ export class Link {
       return;
     }
     this.in_flight.shift();
+    if (this.ready) this.tries = 0;
     if (!call.settled) call.answered(document);
     if (document.name === 'disconnect_response' && !this.closing) this.finish(new RoisError('closed', 'the session was disconnected'));
   }
+}
+
+function bytes({ text }: Call): number {
+  return new TextEncoder().encode(text).length;
+}
+
+function largest(calls: Call[]): Call | undefined {
+  return calls.reduce<Call | undefined>((most, one) => (most && bytes(most) >= bytes(one) ? most : one), undefined);
+}
+
+function unread(code: string, reason: string): RoisError {
+  return new RoisError('fault', `${code}: ${reason}`, { fault: { code, reason } });
 }
 
 function written(make: () => string): string {

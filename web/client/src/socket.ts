@@ -5,6 +5,8 @@ export interface SocketEnd {
   reason: string;
   /** The other side has said that it will not have us, and says so again when asked again. */
   final: boolean;
+  /** With which the other side has closed it (RFC 6455, 7.4.1). */
+  code?: number;
 }
 
 /** What a socket tells, in this order: `opened` once, `received` for each text, `ended` once; only `ended` when it does not open. */

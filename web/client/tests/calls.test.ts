@@ -13,19 +13,22 @@ const refs = (...codes: string[]) => {
 
 const go = (command_id?: string) => [command('navigation', 'start', {}, command_id === undefined ? {} : { command_id })];
 
+// The link breaks, and there is a new one.
+async function relinked(gateway: Scripted, clock: Clock): Promise<void> {
+  await gateway.socket.end('cut');
+  for (const tries = gateway.sockets.length; gateway.sockets.length === tries;) await clock.pass(100);
+  await gateway.socket.open();
+}
+
 // The link breaks, and the session is resumed.
 async function again(gateway: Scripted, clock: Clock): Promise<void> {
-  await gateway.socket.end('cut');
-  await clock.pass(100);
-  await gateway.socket.open();
+  await relinked(gateway, clock);
   await gateway.socket.answer();
 }
 
 // The session is lost, and there is a new one.
 async function anew(gateway: Scripted, clock: Clock, session = 'two'): Promise<void> {
-  await gateway.socket.end('cut');
-  await clock.pass(100);
-  await gateway.socket.open();
+  await relinked(gateway, clock);
   await gateway.socket.fault('no_session');
   await gateway.socket.answer(`<session>${session}</session>`);
 }

@@ -126,6 +126,20 @@ behind_a_proxy('a call ends with its deadline while one link after another break
   proxy.cut_after_next();
 });
 
+// RoIS Gateway takes 1 MiB.
+behind_a_proxy('a request that is too large fails, and says so', {}, async (client, _, seen) => {
+  const speech = await SpeechSynthesis.bind_any(client);
+  const long = 'x'.repeat(2_000_000);
+  const too_large = { failure: 'fault', message: /^too_large: the gateway closed the link with 1009, the message is too large; this has 2000\d{3} bytes$/ };
+  for (const call of [() => speech.say(long), () => client.bind_any(property('name').equals(long)), () => client.search(property('name').equals(long)), () => client.send(`<${long}/>`)]) {
+    const [small] = await Promise.all([client.search(), assert.rejects(call(), too_large)]);
+    assert.equal(small.length, 15);
+  }
+  assert.equal(await speech.say('Good day.'), 'OK');
+  assert.deepEqual(seen.states, Array(4).fill(['lost', 'resumed']).flat());
+  assert.deepEqual(seen.out.filter((name) => name === 'execute'), ['execute', 'execute']);
+});
+
 behind_a_proxy('a name that was used before does not make a lost command an accepted one', {}, async (client, proxy) => {
   await client.bind('navigation');
   const mine = [command('navigation', 'start', { target_position: ['4000, 5000'] }, { command_id: 'mine' })];
