@@ -12,6 +12,7 @@ import { component_ref_xml, condition_xml, type Operation, parameter_xml, sequen
 import type { OpenSocket } from './socket.js';
 import { Stream } from './stream.js';
 import { Subscription, Subscriptions, type Wanted } from './subscriptions.js';
+import { for_timer } from './times.js';
 import { type Arguments, code_of, type Identifier, parameters_of, type Ref, Results } from './values.js';
 import { element, text_element, type XmlElement } from './xml.js';
 
@@ -63,7 +64,6 @@ export interface ClientNews {
 }
 
 const close_within = 3000; // ms
-const without_end = 2 ** 31 - 1; // ms; the longest that a timer takes
 
 export class Client {
   private readonly listeners = new Listeners<ClientNews>();
@@ -113,7 +113,7 @@ export class Client {
         if (change.state === 'closed') reject(new RoisError('unreachable', change.reason));
         else resolve();
       });
-      const timer = setTimeout(() => this.link.finish(new RoisError('unreachable', `no session within ${deadline} ms: ${reason}`)), deadline);
+      const timer = setTimeout(() => this.link.finish(new RoisError('unreachable', `no session within ${deadline} ms: ${reason}`)), for_timer(deadline));
       this.link.start();
     });
   }
@@ -343,7 +343,7 @@ export class Client {
   // In a new session: all subscriptions, each once. When this session is lost, too, the next one restores them.
   private restore(): void {
     for (const subscription of this.subscriptions.list())
-      this.ask_to_subscribe(subscription, { deadline: without_end }).catch((error: unknown) => {
+      this.ask_to_subscribe(subscription, { deadline: Infinity }).catch((error: unknown) => {
         if (is_failure(error, 'session_lost') || is_failure(error, 'closed')) return;
         this.subscriptions.remove(subscription);
         subscription.end(error);

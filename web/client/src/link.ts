@@ -5,6 +5,7 @@ import { RoisError } from './errors.js';
 import type { Gap, Notification } from './messages.js';
 import { type Operation, request } from './requests.js';
 import { type OpenSocket, type Socket, type SocketEnd, subprotocol } from './socket.js';
+import { for_timer } from './times.js';
 import { parse_xml, type XmlElement, XmlError } from './xml.js';
 
 /**
@@ -166,7 +167,7 @@ export class Link {
       const timer = setTimeout(() => {
         this.queue = this.queue.filter((one) => one !== call);
         call.failed(new RoisError('deadline', `no answer within ${how.of ?? deadline} ms`));
-      }, deadline);
+      }, for_timer(deadline));
       if (this.ready) this.transmit(call);
       else this.queue.push(call);
     });
@@ -246,7 +247,7 @@ export class Link {
   private live(state: State, first: () => void): void {
     clearTimeout(this.patience);
     clearInterval(this.heart);
-    this.heart = setInterval(() => this.beat(), this.settings.heartbeat / 2);
+    this.heart = setInterval(() => this.beat(), for_timer(this.settings.heartbeat / 2));
     this.ready = true;
     first();
     this.flush();
@@ -305,7 +306,7 @@ export class Link {
       return;
     }
     const delay = Math.min(this.settings.most_delay, this.settings.first_delay * 2 ** Math.min(this.tries++, 30));
-    this.patience = setTimeout(() => this.open(), delay * (1 - this.settings.random() / 2));
+    this.patience = setTimeout(() => this.open(), for_timer(delay * (1 - this.settings.random() / 2)));
     this.turn(this.state === 'connecting' ? 'connecting' : 'lost', reason);
   }
 

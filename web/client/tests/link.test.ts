@@ -103,6 +103,16 @@ behind_a_proxy('every call ends with its deadline', { deadline: 1000 }, async (c
   assert.deepEqual(seen.out.filter((name) => name !== 'resume'), [], 'what nobody waits for is not sent');
 });
 
+behind_a_proxy('a call may take for ever', { deadline: Infinity }, async (client, proxy) => {
+  proxy.lateness = 40;
+  await client.bind('navigation');
+  const targets = await client.subscribe('reached_target');
+  const execution = await go(client, 0, 1);
+  const event = targets.next(Infinity);
+  assert.equal(await execution.status(3e9), 'OK');
+  assert.equal((await event)?.event_type, 'reached_target');
+});
+
 behind_a_proxy('a call whose deadline has passed is not sent again', {}, async (client, proxy, seen) => {
   proxy.half_open();
   await assert.rejects(client.search(undefined, { deadline: 10 }), { failure: 'deadline' });
