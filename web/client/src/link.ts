@@ -65,6 +65,7 @@ const open_within = 10_000; // ms for a link to be opened and greeted
 
 export class Link {
   private state: State = 'connecting';
+  private reason = ''; // why the link is not open
   private session = '';
   private last_sequence = 0; // of the session
   private socket: Socket | undefined;
@@ -166,7 +167,7 @@ export class Link {
       };
       const timer = setTimeout(() => {
         this.queue = this.queue.filter((one) => one !== call);
-        call.failed(new RoisError('deadline', `no answer within ${how.of ?? deadline} ms`));
+        call.failed(new RoisError('deadline', `no answer within ${how.of ?? deadline} ms${this.reason && `: ${this.reason}`}`));
       }, for_timer(deadline));
       if (this.ready) this.transmit(call);
       else this.queue.push(call);
@@ -318,6 +319,7 @@ export class Link {
 
   private turn(state: State, reason: string): void {
     this.state = state;
+    this.reason = reason;
     this.listener.state_changed(state, reason);
   }
 

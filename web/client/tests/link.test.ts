@@ -95,8 +95,8 @@ behind_a_proxy('every call ends with its deadline', { deadline: 1000 }, async (c
   proxy.refuses = true;
   proxy.cut();
   await seen.until('lost');
-  await assert.rejects(client.search(), { failure: 'deadline', message: 'no answer within 1000 ms' });
-  await assert.rejects(client.search(undefined, { deadline: 1 }), { message: 'no answer within 1 ms' });
+  await assert.rejects(client.search(), { failure: 'deadline', message: /^no answer within 1000 ms: \w/ });
+  await assert.rejects(client.search(undefined, { deadline: 1 }), { message: /^no answer within 1 ms: \w/ });
   await assert.rejects(client.execute([command('move', 'start')], { deadline: 20 }), { failure: 'deadline' });
   proxy.refuses = false;
   await seen.until('resumed');

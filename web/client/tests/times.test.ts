@@ -1,4 +1,4 @@
-// Times that are longer than a timer takes, before a gateway that the test plays.
+// Deadlines that pass, and times that are longer than a timer takes, before a gateway that the test plays.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
@@ -6,6 +6,22 @@ import { Client, command } from 'rois-client';
 
 import { Clock } from './clock.js';
 import { options, Scripted, scripted } from './scripted.js';
+
+scripted('a deadline that passes while the link is lost says why it is', {}, async (client, gateway, clock) => {
+  const late = async (message: string) => {
+    const outcome = assert.rejects(client.search(undefined, { deadline: 50 }), { failure: 'deadline', message });
+    await clock.pass(50);
+    await outcome;
+  };
+  await late('no answer within 50 ms');
+  await gateway.socket.end('cut');
+  await late('no answer within 50 ms: cut');
+  await clock.pass(50);
+  await gateway.socket.open();
+  await late('no answer within 50 ms: cut');
+  await gateway.socket.answer();
+  await late('no answer within 50 ms');
+});
 
 for (const long of [3e9, Infinity])
   scripted(`what may take ${long} ms is not over at once`, { deadline: long, heartbeat: long }, async (client, gateway, clock) => {
