@@ -9,7 +9,7 @@ import { Listeners } from './listeners.js';
 import type { Gap, Notification } from './messages.js';
 import type { Profile } from './profiles.js';
 import { component_ref_xml, condition_xml, type Operation, parameter_xml, sequence_xml, type Writable } from './requests.js';
-import type { OpenSocket } from './socket.js';
+import { type OpenSocket, socket_url } from './socket.js';
 import { Stream } from './stream.js';
 import { Subscription, Subscriptions, type Wanted } from './subscriptions.js';
 import { for_timer } from './times.js';
@@ -28,6 +28,8 @@ export interface ClientOptions {
   first_delay?: number;
   /** ms between two tries at most: 5,000. */
   most_delay?: number;
+  /** Whether a new session binds again what the lost one had bound: true. */
+  rebind?: boolean;
   /** How many notifications wait in a stream that nobody reads: 10,000. Then the oldest go, and the gap is told. */
   buffer?: number;
   /** 0 to 1, for the delays. */
@@ -59,6 +61,8 @@ export interface ClientNews {
   state: StateChange;
   gap: Gap;
   notification: Notification;
+  /** A new session could not bind this one again: another session has it, or it is gone. */
+  unbound: { component_ref: string; error: RoisError };
   /** Every document, as it goes in and out. */
   document: { direction: 'in' | 'out'; text: string };
 }
@@ -69,6 +73,7 @@ export class Client {
   private readonly listeners = new Listeners<ClientNews>();
   private readonly link: Link;
   private readonly deadline: number;
+  private readonly rebind: boolean;
   private readonly buffer: number;
   private readonly commands = new Commands();
   private readonly subscriptions = new Subscriptions();
@@ -81,6 +86,7 @@ export class Client {
   constructor(url: string, options: ClientOptions, open_socket: OpenSocket) {
     this.buffer = options.buffer ?? 10_000;
     this.deadline = options.deadline ?? 10_000;
+    this.rebind = options.rebind ?? true;
     const settings: LinkSettings = {
       url: socket_url(url),
       deadline: this.deadline,
@@ -193,7 +199,9 @@ export class Client {
   }
 
   release(component_ref: Ref, options: CallOptions = {}): Promise<void> {
-    return this.ask('release', () => component_ref_xml(component_ref), options, () => void this.bound.delete(code_of(component_ref)));
+    const forget = () => void this.bound.delete(code_of(component_ref));
+    forget(); // a session that is lost before the answer is no reason to bind it again
+    return this.ask('release', () => component_ref_xml(component_ref), options, forget);
   }
 
   get_parameter(component_ref: Ref, options: CallOptions = {}): Promise<Results> {
@@ -340,11 +348,18 @@ export class Client {
     });
   }
 
-  // In a new session: all subscriptions, each once. When this session is lost, too, the next one restores them.
+  // In a new session: all bindings and subscriptions, each once. When this session is lost, too, the next one restores them.
   private restore(): void {
+    const again = (asked: Promise<unknown>, refused: (error: RoisError) => void) =>
+      asked.catch((error: RoisError) => {
+        if (!is_failure(error, 'session_lost') && !is_failure(error, 'closed')) refused(error);
+      });
+    for (const code of this.bound)
+      again(this.ask('bind', () => component_ref_xml(code), { deadline: Infinity }, () => undefined), (error) => {
+        if (this.bound.delete(code)) this.listeners.tell('unbound', { component_ref: code, error });
+      });
     for (const subscription of this.subscriptions.list())
-      this.ask_to_subscribe(subscription, { deadline: Infinity }).catch((error: unknown) => {
-        if (is_failure(error, 'session_lost') || is_failure(error, 'closed')) return;
+      again(this.ask_to_subscribe(subscription, { deadline: Infinity }), (error) => {
         this.subscriptions.remove(subscription);
         subscription.end(error);
       });
@@ -352,7 +367,7 @@ export class Client {
 
   private ended(error: RoisError): void {
     this.commands.fail(error);
-    this.bound.clear();
+    if (!this.rebind) this.bound.clear();
     this.subscriptions.forget_ids();
     if (error.failure === 'session_lost') return;
     for (const stream of [...this.subscriptions.list(), ...this.streams]) stream.end();
@@ -376,17 +391,4 @@ export class Client {
 
 function is_failure(error: unknown, failure: RoisError['failure']): error is RoisError {
   return error instanceof RoisError && error.failure === failure;
-}
-
-// http(s)://host[/path] or ws(s)://...: the WebSocket's address below it.
-function socket_url(url: string): string {
-  let at: URL;
-  try {
-    at = new URL(url);
-  } catch {
-    throw new RoisError('invalid', `'${url}' is no URL`);
-  }
-  if (!/^(https?|wss?):$/.test(at.protocol)) throw new RoisError('invalid', `a gateway is not reached by ${at.protocol}`);
-  const path = at.pathname.replace(/\/+$/, '');
-  return `${at.protocol.replace('http', 'ws')}//${at.host}${path.endsWith('/rois') ? path : `${path}/rois`}`;
 }

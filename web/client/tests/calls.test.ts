@@ -1,7 +1,7 @@
 // What a client makes of answers that are late, lost or strange: step by step, before a gateway that the test plays.
 import assert from 'node:assert/strict';
 
-import { type Client, command, type Subscription } from 'rois-client';
+import { type Client, command, namespaces, type Subscription, type XmlElement } from 'rois-client';
 
 import type { Clock } from './clock.js';
 import { type Scripted, scripted } from './scripted.js';
@@ -192,10 +192,81 @@ scripted('bind_any may have bound what was released', {}, async (client, gateway
   assert.equal(await bind_any_when(client, gateway, clock, ['a', 'b'], ['a', 'x']), undefined);
 });
 
-scripted('nothing is bound in a new session', {}, async (client, gateway, clock) => {
-  const binding = client.bind('a');
+// --- Bindings in a new session ---
+
+async function bound(client: Client, gateway: Scripted, ...refs: string[]): Promise<void> {
+  for (const ref of refs) {
+    const binding = client.bind(ref);
+    await gateway.socket.answer();
+    await binding;
+  }
+}
+
+const refs_of = (came: XmlElement[]) => came.map((one) => one.child('component_ref')?.attribute('code', namespaces.rois));
+
+scripted('what was bound comes before all else in a new session', {}, async (client, gateway, clock) => {
+  await bound(client, gateway, 'a', 'b');
+  const subscription = await subscribed(client, gateway, 'a', 's-1');
+  await gateway.socket.end('cut');
+  await clock.pass(100);
+  await gateway.socket.open();
+  await gateway.socket.fault('no_session');
+  const found = client.search();
+  await gateway.socket.answer('<session>two</session>');
+  assert.deepEqual(gateway.socket.names.slice(2), ['bind', 'bind', 'subscribe', 'search']);
+  assert.deepEqual(refs_of(gateway.socket.came.slice(2, 4)), ['a', 'b']);
+  for (const content of ['', '', '<subscribe_id>s-1</subscribe_id>', '']) await gateway.socket.answer(content);
+  await found;
+  assert.equal(subscription.ended, false);
+});
+
+scripted('when the new session is lost, too, the next one binds, each once', {}, async (client, gateway, clock) => {
+  await bound(client, gateway, 'a');
+  await anew(gateway, clock);
+  await anew(gateway, clock, 'three');
+  await again(gateway, clock);
+  assert.deepEqual(gateway.socket.names, ['resume', 'bind']);
   await gateway.socket.answer();
-  await binding;
+  await anew(gateway, clock, 'four');
+  assert.deepEqual(gateway.socket.names, ['resume', 'connect', 'bind']);
+});
+
+scripted('what a new session cannot bind is told, and not bound in the next one', {}, async (client, gateway, clock) => {
+  const unbound: string[] = [];
+  client.on('unbound', ({ component_ref, error }) => unbound.push(`${component_ref} ${error.failure}`));
+  await bound(client, gateway, 'a', 'b', 'c');
+  await anew(gateway, clock);
+  await gateway.socket.answer('', 'OUT_OF_RESOURCES');
+  await gateway.socket.fault('not_allowed');
+  await gateway.socket.answer();
+  assert.deepEqual(unbound, ['a refused', 'b fault']);
+  await anew(gateway, clock, 'three');
+  assert.deepEqual(refs_of(gateway.socket.came.slice(2)), ['c']);
+});
+
+scripted('what is released is not bound again', {}, async (client, gateway, clock) => {
+  await bound(client, gateway, 'a', 'b');
+  const releasing = assert.rejects(client.release('a'), { failure: 'session_lost' });
+  await anew(gateway, clock);
+  await releasing;
+  assert.deepEqual(refs_of(gateway.socket.came.slice(2)), ['b']);
+  const released = client.release('b'); // while it is being bound
+  for (const _ of [1, 2]) await gateway.socket.answer();
+  await released;
+  await anew(gateway, clock, 'three');
+  assert.deepEqual(gateway.socket.names, ['resume', 'connect']);
+});
+
+scripted('bind_any has not bound what a new session has bound again', {}, async (client, gateway, clock) => {
+  await bound(client, gateway, 'a', 'b');
+  await anew(gateway, clock);
+  await gateway.socket.answer();
+  await gateway.socket.answer('', 'OUT_OF_RESOURCES');
+  assert.equal(await bind_any_when(client, gateway, clock, ['a', 'c'], ['a', 'x']), 'bind_any');
+});
+
+scripted('nothing is bound in a new session when the application does that', { rebind: false }, async (client, gateway, clock) => {
+  await bound(client, gateway, 'a');
   await anew(gateway, clock);
   assert.equal(await bind_any_when(client, gateway, clock, ['a', 'b'], ['a', 'x']), undefined);
 });
