@@ -73,7 +73,8 @@ class NodeSocket implements Socket {
       ping: (payload) => stream.write(frame(Opcode.pong, payload)),
       close: (code, reason) => {
         stream.end(frame(Opcode.close, Buffer.alloc(0)));
-        this.end({ reason: `the gateway closed the link with ${code ?? 'no code'}${reason && `, ${reason}`}`, final: false });
+        const why = `the gateway closed the link with ${code ?? 'no code'}${reason && `, ${reason}`}`;
+        this.end(code === undefined ? { reason: why, final: false } : { reason: why, final: false, code });
       },
     });
     const feed = (bytes: Buffer) => {

@@ -154,7 +154,8 @@ export class Console {
   connect(token?: string): void {
     this.leave();
     this.token = token;
-    const client = new Client(this.environment.origin, token === undefined ? {} : { token }, this.environment.open_socket);
+    // What was lent is not for the next session to have; whoever still wants it binds it there.
+    const client = new Client(this.environment.origin, { rebind: false, ...(token !== undefined && { token }) }, this.environment.open_socket);
     this.speaker = client;
     this.stops = [
       client.on('document', ({ direction, text }) => this.documents.note(direction, text)),
