@@ -130,6 +130,11 @@ export class Client {
     return this.link.current_state;
   }
 
+  /** Tries at once, when the link is away and the next try would come later. */
+  retry(): void {
+    this.link.retry();
+  }
+
   /** The session's id; empty while there is none. */
   get session(): string {
     return this.link.session_id;

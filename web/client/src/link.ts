@@ -102,6 +102,13 @@ export class Link {
     return this.call(() => request(operation, { ...attributes, request_id }, content()), request_id, how);
   }
 
+  /** While it waits before the next try to open a link: tries at once. */
+  retry(): void {
+    if (this.socket || !this.patience || this.state === 'closed') return;
+    clearTimeout(this.patience);
+    this.open();
+  }
+
   /** Sends a document as it is; gives the answer, whatever it says. */
   send(text: string, deadline?: number): Promise<XmlElement> {
     return this.call(() => text, undefined, { deadline, repeatable: false, read: (answer) => answer });

@@ -38,6 +38,7 @@ export const texts = in_both({
     `The gateway's numbers cannot be had: ${why}. What follows is as old as the last ones.`,
     `ゲートウェイの数値を取得できません: ${why}。以下は最後に得た数値です。`,
   ],
+  stale: (age: string) => [`The gateway's numbers are ${age} old.`, `ゲートウェイの数値は${age}前のものです。`],
   no_metrics: ['The gateway has not told its numbers yet.', 'ゲートウェイの数値はまだありません。'],
   plots: ['The last minute', '直近 1 分'],
   latency_plot: ['How long answers take, ms', '応答にかかる時間（ミリ秒）'],

@@ -56,7 +56,7 @@ export const texts = in_both({
   frame: ['Frame', '座標系'],
   not_live: (age: string) => [`Not live: as it was ${age} ago`, `現在の様子ではありません: ${age}前`],
   nothing: ['Nothing to be seen yet', 'まだ何も見えません'],
-  nobody_hint: ['Nobody is told of. Switch on Observe to have the engine look for people.', '人の情報がありません。「観察」を入れると、エンジンが人を探します。'],
+  nobody_hint: ['No people are reported. Switch on Observe to have the engine look for people.', '人の情報がありません。「観察」を入れると、エンジンが人を探します。'],
   unplaced: (n: number) => [`${n} in frames that nobody has placed on the map`, `地図上の位置が分からない座標系に ${n} 件`],
   metres: (m: string) => `${m} m`,
   degrees: (degrees: string) => `${degrees}°`,
@@ -102,7 +102,7 @@ export const texts = in_both({
   ago: (age: string) => [`${age} ago`, `${age}前`],
   told_by: ['Told by', '通知元'],
   freshness: (state: string, kind: string) =>
-    state === 'live' ? ['Now', '現在'] : state === 'quiet' ? ['Still there', '変化なし'] : gone[kind] ?? ['Out of sight', '見えません'],
+    state === 'live' ? ['Seen now', '検出中'] : state === 'quiet' ? ['Still there', '変化なし'] : state === 'old' ? ['No news for long', 'しばらく通知なし'] : gone[kind] ?? ['Out of sight', '見えません'],
   state: ['State', '状態'],
   own_frame: ['Own frame', '固有の座標系'],
   footprint: ['Radius', '半径'],

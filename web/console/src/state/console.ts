@@ -58,6 +58,7 @@ export interface Sent {
 }
 
 const forever = 2 ** 31 - 1; // ms; the longest that a timer takes
+const most_delay = 15_000; // ms between two tries: whoever does not want to wait has a button
 
 export class Console {
   /** ms since 1970; changes each second, for ages. */
@@ -96,7 +97,7 @@ export class Console {
     this.documents = new Documents(environment);
     this.status = new StatusState(environment, this.documents, client, components, is_open);
     this.parameters = new ParametersState(environment, this.documents, client, is_open);
-    this.metrics = new MetricsState(environment, token);
+    this.metrics = new MetricsState(environment, token, () => !/^(connecting|lost|closed)$/.test(this.link.view.value.phase)); // else nobody is there
     this.bindings = new Bindings(
       () => this.client,
       () => this.metrics.bound.value,
@@ -155,16 +156,21 @@ export class Console {
     this.leave();
     this.token = token;
     // What was lent is not for the next session to have; whoever still wants it binds it there.
-    const client = new Client(this.environment.origin, { rebind: false, ...(token !== undefined && { token }) }, this.environment.open_socket);
+    const client = new Client(this.environment.origin, { most_delay, rebind: false, ...(token !== undefined && { token }) }, this.environment.open_socket);
     this.speaker = client;
     this.stops = [
+      this.link.follow(client, token, () => void client.close({ deadline: 0 })), // first: the others ask whether it is open
       client.on('document', ({ direction, text }) => this.documents.note(direction, text)),
       client.on('state', ({ state }) => this.link_changed(state)),
       client.on('gap', (gap) => this.missed(gap)),
       client.on('notification', (notification) => this.notified(notification)),
-      this.link.follow(client, token, () => void client.close({ deadline: 0 })),
     ];
     client.start(forever).catch(() => undefined); // the link's state says it
+  }
+
+  /** Tries at once to open the link that is away. */
+  retry(): void {
+    this.speaker?.retry();
   }
 
   /** Ends the session at once: what this console runs is stopped. */
@@ -182,12 +188,18 @@ export class Console {
 
   private link_changed(state: string): void {
     if (state === 'lost' || state === 'connecting' || state === 'closed') this.documents.forget_waiting();
+    if (state === 'closed') {
+      this.forget_session();
+      this.status.all.value = new Map();
+      this.metrics.latest.value = undefined;
+    }
     if (state !== 'open' && state !== 'resumed') return;
     if (this.session !== '' && this.session !== this.client.session) this.forget_session();
     this.session = this.client.session;
     void this.read_profile();
     void this.map.load();
     this.status.poll.now();
+    this.metrics.poll.now();
   }
 
   private missed(gap: Gap): void {
@@ -202,6 +214,7 @@ export class Console {
     this.commands.forget_session();
     this.subscriptions.forget_session();
     this.entities.forget();
+    this.robots.forget();
     this.hall.forget();
   }
 

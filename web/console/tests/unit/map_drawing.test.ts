@@ -322,6 +322,41 @@ describe('observing', () => {
     expect(session.observer.state.value.is_wanted).toBe(false);
   });
 
+  test('starts again what was stopped for another, and says meanwhile that it does not look', async () => {
+    const on = session.observer.turn_to(true);
+    await settled();
+    await ending();
+    await on;
+    const give_back = await console.bindings.borrow(['person_localization']); // by a scenario, say
+    const stopped = await console.run('person_localization', 'stop', {}, { give_back: true });
+    await ends(stopped.command_ids[0]!, 'OK');
+    await stopped.ends;
+    world.draws();
+    await settled();
+    expect(session.observer.state.value).toMatchObject({ is_wanted: true, on: ['sound_localization'] });
+    expect(executed().slice(2)).toEqual(['person_localization stop']);
+    await give_back();
+    await world.passes(1000);
+    await ending();
+    expect(executed().slice(3)).toEqual(['person_localization start']);
+    expect(session.observer.state.value).toMatchObject({ is_wanted: true, on: ['person_localization', 'sound_localization'], refused: [] });
+    await session.observer.turn_to(false);
+    expect(console.bindings.mine.value.size).toBe(0);
+  });
+
+  test('leaves alone what the user has stopped by hand, and says that it does not look', async () => {
+    const on = session.observer.turn_to(true);
+    await settled();
+    await ending();
+    await on;
+    const stopped = await console.run('person_localization', 'stop');
+    await ends(stopped.command_ids[0]!, 'OK');
+    world.draws();
+    await world.passes(2000);
+    expect(executed().slice(2)).toEqual(['person_localization stop']);
+    expect(session.observer.state.value.on).toEqual(['sound_localization']);
+  });
+
   test('begins again in a new session', async () => {
     const on = session.observer.turn_to(true);
     await settled();
