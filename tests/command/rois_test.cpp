@@ -154,6 +154,16 @@ TEST_F(Rois, SendsAnyDocumentAndUnderlinesItsMistake) {
     EXPECT_EQ(json::parse(unknown.out)["operation"], "bind");
 }
 
+TEST_F(Rois, SendsWhatNoWebSocketTakes) {
+    auto const bind = "<bind " + std::string{messages} + ">\n";
+    auto const latin = file_with("latin.xml", bind + "  <!-- gr\xf6\xdf --></bind>");
+    expect(9, latin + ":2:10: not_well_formed: the document is not UTF-8\n2 |   <!-- gr", {"send", latin});
+    auto const wide = file_with("wide.xml", std::string("\xff\xfe<\0a\0/\0>\0", 10));
+    expect(9, wide + ":1:1: not_well_formed: the document is not UTF-8", {"send", wide});
+    auto const long_one = file_with("long.xml", bind + "<!--" + std::string(2'000'000, 'x') + "--></bind>");
+    expect(9, long_one + ": too_large: the body may have 1048576 bytes", {"send", long_one});
+}
+
 TEST_F(Rois, KnowsWhetherTheEngineIsReady) {
     EXPECT_EQ(run({"health"}).out, "healthy\n");
     EXPECT_EQ(objects({"health"})[0]["ready"], true);
