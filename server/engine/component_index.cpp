@@ -26,17 +26,18 @@ void remove_from(Components& components, RegisteredComponent const& component) {
 }  // namespace
 
 ComponentsInOrder::ComponentsInOrder(std::vector<RegisteredComponent*> own, std::vector<List> others)
-    : own_{std::move(own)}, lists_{std::move(others)} {
-    if (!own_.empty()) lists_.emplace_back(own_);
-}
+    : own_{std::move(own)}, first_{own_}, others_{std::move(others)} {}
 
 RegisteredComponent* ComponentsInOrder::next() {
-    RegisteredComponent* first = nullptr;
-    for (auto const& list : lists_)
-        if (!list.empty() && (first == nullptr || ref_of(list.front()) < ref_of(first))) first = list.front();
-    for (auto& list : lists_)
-        if (!list.empty() && list.front() == first) list = list.subspan(1);
-    return first;
+    auto* lowest = first_.empty() ? nullptr : first_.front();
+    for (auto const& list : others_)
+        if (!list.empty() && (lowest == nullptr || ref_of(list.front()) < ref_of(lowest))) lowest = list.front();
+    auto const pass = [&](List& list) {
+        if (!list.empty() && list.front() == lowest) list = list.subspan(1);
+    };
+    pass(first_);
+    for (auto& list : others_) pass(list);
+    return lowest;
 }
 
 void ComponentIndex::add(RegisteredComponent& component) {
@@ -53,8 +54,9 @@ void ComponentIndex::remove(RegisteredComponent const& component) {
 }
 
 ComponentsInOrder ComponentIndex::possible(std::optional<Demand> const& demand) const {
-    if (!demand) return {{}, {all_}};
+    if (!demand) return ComponentsInOrder{all_};
     Components named;
+    named.reserve(demand->refs.size());
     for (auto const ref : demand->refs) {
         auto const place = std::ranges::lower_bound(all_, ref, {}, ref_of);
         if (place != all_.end() && ref_of(*place) == ref) named.push_back(*place);

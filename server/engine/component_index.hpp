@@ -19,6 +19,7 @@ class ComponentsInOrder {
 public:
     using List = std::span<RegisteredComponent* const>;  // ordered by ref
 
+    explicit ComponentsInOrder(List all) : first_{all} {}
     ComponentsInOrder(std::vector<RegisteredComponent*> own, std::vector<List> others);
     ComponentsInOrder(ComponentsInOrder&&) noexcept = default;
     ComponentsInOrder& operator=(ComponentsInOrder&&) noexcept = default;
@@ -27,8 +28,9 @@ public:
     RegisteredComponent* next();
 
 private:
-    std::vector<RegisteredComponent*> own_;  // one of the lists
-    std::vector<List> lists_;                // what is left of each
+    std::vector<RegisteredComponent*> own_;
+    List first_;                // what is left of the one list, or of its own
+    std::vector<List> others_;  // and of each of these
 };
 
 class ComponentIndex {
