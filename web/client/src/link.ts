@@ -4,7 +4,7 @@ import { is_notification, notification_of, trouble_of } from './answers.js';
 import { RoisError } from './errors.js';
 import type { Gap, Notification } from './messages.js';
 import { type Operation, request } from './requests.js';
-import { type OpenSocket, type Socket, type SocketEnd, subprotocol } from './socket.js';
+import { type OpenSocket, type Socket, type SocketEnd, subprotocols_with } from './socket.js';
 import { for_timer } from './times.js';
 import { parse_xml, type XmlElement, XmlError } from './xml.js';
 
@@ -207,10 +207,9 @@ export class Link {
 
   private open(): void {
     const { url, token, open_socket } = this.settings;
-    const subprotocols = token === undefined ? [subprotocol] : [subprotocol, `rois.bearer.${base64url(token)}`];
     this.patience = setTimeout(() => this.drop(`no session within ${open_within} ms`), open_within);
     try {
-      this.socket = open_socket(url, subprotocols, {
+      this.socket = open_socket(url, subprotocols_with(token), {
         opened: () => this.opened(),
         received: (text) => this.received(text),
         ended: (end) => this.ended(end),
@@ -395,9 +394,4 @@ function written(make: () => string): string {
     if (error instanceof XmlError) throw new RoisError('invalid', error.message, { cause: error });
     throw error;
   }
-}
-
-function base64url(text: string): string {
-  const bytes = String.fromCharCode(...new TextEncoder().encode(text));
-  return btoa(bytes).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '');
 }

@@ -28,6 +28,16 @@ export type OpenSocket = (url: string, subprotocols: string[], listener: SocketL
 
 export const subprotocol = 'rois.xml.v1';
 
+/** What is asked for; a token is the second one, since a page cannot set headers. */
+export function subprotocols_with(token: string | undefined): string[] {
+  return token === undefined ? [subprotocol] : [subprotocol, `rois.bearer.${base64url(token)}`];
+}
+
+function base64url(text: string): string {
+  const bytes = String.fromCharCode(...new TextEncoder().encode(text));
+  return btoa(bytes).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '');
+}
+
 /** http(s)://host[/path] or ws(s)://...: the WebSocket's address below it. */
 export function socket_url(url: string): string {
   let at: URL;
