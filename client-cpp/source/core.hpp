@@ -38,7 +38,8 @@ public:
 
     void spawn(Task<>);
 
-    // A coroutine goes on on the client's thread. Throws nothing; all others await it first.
+    // A coroutine goes on on the client's thread, or where it is when that has ended: whoever would change something asks
+    // is_closed() first. Throws nothing; all others await it first.
     auto here() { return loop_.here(); }
 
     // Sends it, now or when there is a session; its outcome is to be awaited.
@@ -151,7 +152,7 @@ private:
     std::deque<std::shared_ptr<client::Call>> calls_;       // in the order in which they came
     client::Steady next_deadline_ = client::Steady::max();  // none of theirs is earlier
     client::Loop::Ticket deadlines_ = 0;
-    std::uint64_t last_request_ = 0;
+    std::atomic<std::uint64_t> last_request_ = 0;
     std::map<CommandId, std::shared_ptr<Watch>> watches_;
 
     // While it is not known yet which events are whose, notifications wait.

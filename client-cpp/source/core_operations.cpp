@@ -82,13 +82,14 @@ Task<std::vector<std::shared_ptr<Watch>>> Core::begin(CommandUnitSequence sequen
     for_each_command(sequence.command_unit_list, [&](CommandMessage& command) {
         if (command.command_id.text.empty()) command.command_id = fresh_command_id();
         watches.push_back(std::make_shared<Watch>(command.command_id));
-        watches_[command.command_id] = watches.back();
+        if (!is_closed()) watches_[command.command_id] = watches.back();
     });
     Execute operation{std::move(sequence)};
     auto answer = co_await execute(std::move(operation), settings_.deadline);
     auto const reply = reply_of<Execute>(std::move(answer));
     if (reply.return_code != ReturnCode::ok) {
-        for (auto const& watch : watches) watches_.erase(watch->id);
+        if (!is_closed())
+            for (auto const& watch : watches) watches_.erase(watch->id);
         throw Error{reply.return_code, what + ": " + reply.reason};
     }
     co_return watches;
@@ -187,6 +188,7 @@ Task<Answer> Core::subscribe_at_engine(Subscribe operation, std::chrono::millise
 Task<Answer> Core::subscribe_by_request(Subscribe operation, std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     co_await here();
+    if (is_closed()) co_return closed();
     if (auto const* const known = subscriptions_.find(operation); known != nullptr && known->heard())
         operation.inline_results = true;
     auto answer = co_await subscribe_at_engine(operation, deadline);
@@ -204,6 +206,7 @@ Task<Answer> Core::subscribe_by_request(Subscribe operation, std::chrono::millis
 Task<std::shared_ptr<Stream>> Core::subscribe(Subscribe operation) {
     auto const self = shared_from_this();
     co_await here();
+    if (is_closed()) throw Error{ReturnCode::error, "subscribe " + operation.event_type + ": " + closed().reason};
     operation.inline_results = true;
     auto answer = co_await subscribe_at_engine(operation, settings_.deadline);
     std::shared_ptr<Stream> stream;
@@ -232,6 +235,7 @@ void Core::end_subscribing() {
 Task<Answer> Core::unsubscribe(Unsubscribe operation, std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     co_await here();
+    if (is_closed()) co_return closed();
     auto const id = operation.subscribe_id;
     if (auto* const known = subscriptions_.find(id)) {
         known->by_request = false;

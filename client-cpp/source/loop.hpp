@@ -12,6 +12,7 @@
 #include <future>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -29,26 +30,30 @@ public:
     Executor executor() { return io_.get_executor(); }
     bool is_here() const { return std::this_thread::get_id() == own_id_; }
 
-    // From any thread; it runs on the client's.
+    // From any thread; it runs on the client's. When that has ended, the function is dropped: false.
     template <class Function>
-    void post(Function function) {
-        asio::post(io_, std::move(function));
+    bool post(Function function) {
+        std::lock_guard const lock{over_mutex_};
+        if (!over_) asio::post(io_, std::move(function));
+        return !over_;
     }
 
-    // What follows runs on the client's thread, at once when it is there.
+    // What follows runs on the client's thread, at once when it is there. When that has ended, it runs where it is: several may
+    // then, so nothing is changed but what is theirs alone.
     auto here() {
         struct Awaiter {
             Loop* loop;
             bool await_ready() const { return loop->is_here(); }
-            void await_suspend(std::coroutine_handle<> waiter) const {
-                loop->post([waiter] { waiter.resume(); });
+            bool await_suspend(std::coroutine_handle<> waiter) const {
+                return loop->post([waiter] { waiter.resume(); });
             }
             void await_resume() const {}
         };
         return Awaiter{this};
     }
 
-    // Alarms, on the client's thread. A ticket is good once; one that has rung or is 0 may be cancelled all the same.
+    // Alarms, on the client's thread. A ticket is good once; one that has rung or is 0 may be cancelled all the same. After
+    // `finish` none rings.
     using Ticket = std::uint64_t;
     Ticket at(Steady, std::function<void()>);
     Ticket in(std::chrono::milliseconds time, std::function<void()> ring) {
@@ -66,6 +71,7 @@ public:
 
 private:
     void arm();
+    void end();
 
     asio::io_context io_{1};
     asio::executor_work_guard<Executor> work_;
@@ -74,6 +80,9 @@ private:
     std::map<std::pair<Steady, Ticket>, std::function<void()>> alarms_;
     std::map<Ticket, Steady> times_;
     Ticket last_ticket_ = 0;
+    bool finishing_ = false;
+    std::mutex over_mutex_;  // guards over_, also while something is posted
+    bool over_ = false;      // the thread runs nothing more that is posted from now on
     std::thread thread_;
     std::atomic<std::thread::id> own_id_;
     enum class Left : std::uint8_t { nothing, something };
