@@ -21,9 +21,10 @@ struct Interrupted {};
 class Call {
 public:
     enum class Kind : std::uint8_t {
-        again,  // sent again when the link breaks: doing it twice is as good as once
-        once,   // not sent again: who waits hears of it
-        raw,    // a document as it stands
+        again,       // sent again when the link breaks: doing it twice is as good as once
+        in_session,  // the same, in its session alone: it names what only this session knows
+        once,        // not sent again: who waits hears of it
+        raw,         // a document as it stands
     };
     using Outcome = std::variant<Answer, std::string, Interrupted>;  // a text for a raw one
 

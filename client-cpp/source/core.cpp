@@ -141,10 +141,9 @@ void Core::end_late_calls() {
 
 // Answers come in the order of the requests. An id is a check: documents that were sent as they stand may have any.
 void Core::take_answer(std::string_view document, std::optional<xml::Heard>& heard) {
-    constexpr auto not_understood = "what the gateway says is not understood";
     auto const first = std::ranges::find_if(calls_, [](auto const& call) { return call->sent; });
     if (first == calls_.end()) {
-        if (!heard) give_up_link(not_understood, client::Failure::passing);
+        if (!heard) give_up_misunderstood();
         return;
     }
     auto const call = *first;
@@ -157,7 +156,7 @@ void Core::take_answer(std::string_view document, std::optional<xml::Heard>& hea
     auto* const fault = heard ? std::get_if<Fault>(&*heard) : nullptr;
     auto const& id = answered != nullptr ? answered->request_id : fault != nullptr ? fault->request_id : call->id;
     if (!heard || (!id.empty() && id != call->id)) {
-        give_up_link(not_understood, client::Failure::passing);
+        give_up_misunderstood();
     } else if (answered != nullptr) {
         calls_.erase(first);
         call->give(std::in_place_type<Answer>, std::move(answered->reply));

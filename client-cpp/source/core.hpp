@@ -75,6 +75,8 @@ private:
     void document(std::string_view) override;
     void failed(std::string const& reason, client::Failure) override;
     void give_up_link(std::string const& reason, client::Failure);
+    void give_up_misunderstood();
+    void leave_session();
     void open_session();
     void take_opening(xml::Heard);
     void session_gone();
@@ -82,6 +84,7 @@ private:
     void take_restored(xml::Answered const&);
     void take_restored(Fault const&);
     void restored(std::string const& request_id, Outcome const&, Reply const*);
+    void all_restored();
     void become_open();
     std::chrono::milliseconds pause();
     bool is_joined() const { return !settings_.session.empty(); }  // in the session of another program
@@ -100,6 +103,7 @@ private:
     // --- core_notifications.cpp ---
     void take(xml::Told);
     void tell_held();
+    void tell_first_held();
     void tell(xml::Told);
     void tell_gap(Gap);
     void complete(CommandId const&, CompletedStatus);

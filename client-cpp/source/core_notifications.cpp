@@ -20,11 +20,13 @@ void Core::take(xml::Told told) {
 }
 
 void Core::tell_held() {
-    while (subscribing_ == 0 && !held_.empty()) {
-        auto told = std::move(held_.front());
-        held_.pop_front();
-        tell(std::move(told));
-    }
+    while (subscribing_ == 0 && !held_.empty()) tell_first_held();
+}
+
+void Core::tell_first_held() {
+    auto told = std::move(held_.front());
+    held_.pop_front();
+    tell(std::move(told));
 }
 
 void Core::tell(xml::Told told) {

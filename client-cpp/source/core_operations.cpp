@@ -25,6 +25,17 @@ void for_each_command(std::vector<CommandUnit>& units, auto const& function) {
     }
 }
 
+// Whether it names what only its session knows; another one may give the name to something else.
+bool is_of_session(Operation const& operation) {
+    return std::holds_alternative<Unsubscribe>(operation) || std::holds_alternative<GetCommandResult>(operation) ||
+           std::holds_alternative<GetEventDetail>(operation) || std::holds_alternative<GetErrorDetail>(operation);
+}
+
+bool is_of_lost_session(Answer const& answer) {
+    auto const* const none = std::get_if<NoAnswer>(&answer);
+    return none != nullptr && none->why == NoAnswer::Why::session_lost;
+}
+
 template <class R>
 R const* good(Answer const& answer) {
     auto const* const reply = std::get_if<Reply>(&answer);
@@ -62,7 +73,8 @@ Task<Answer> Core::plain(Request request, std::chrono::milliseconds deadline) {
     if (std::holds_alternative<Resume>(request.operation))
         co_return Fault{FaultCode::not_allowed, "the connection resumes its session by itself", {}, {}};
     request.request_id = fresh_request_id();
-    auto const call = send(Call::Kind::again, xml::encode(request), request.request_id, deadline);
+    auto const kind = is_of_session(request.operation) ? Call::Kind::in_session : Call::Kind::again;
+    auto const call = send(kind, xml::encode(request), request.request_id, deadline);
     auto& outcome = co_await call->outcome();
     auto& answer = std::get<Answer>(outcome);
     if (auto const* const op = std::get_if<Bind>(&request.operation); op != nullptr && good<Bind::Reply>(answer) != nullptr)
@@ -95,8 +107,8 @@ Task<std::vector<std::shared_ptr<Watch>>> Core::begin(CommandUnitSequence sequen
     co_return watches;
 }
 
-// A sequence that may have arrived: the engine takes no id twice, so it may be sent again. When it is refused then, the first
-// command tells whether it is known from the first time.
+// A sequence that may have arrived: the engine takes no id twice in a session, so it may be sent again there. When it is refused
+// then, the first command tells whether it is known from the first time.
 Task<Answer> Core::execute(Execute operation, std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     co_await here();
@@ -112,7 +124,8 @@ Task<Answer> Core::execute(Execute operation, std::chrono::milliseconds deadline
     bool doubtful = false;
     for (;;) {
         request.request_id = fresh_request_id();
-        auto const call = send(Call::Kind::once, xml::encode(request), request.request_id, remaining.now());
+        auto const kind = doubtful ? Call::Kind::in_session : Call::Kind::once;
+        auto const call = send(kind, xml::encode(request), request.request_id, remaining.now());
         auto& outcome = co_await call->outcome();
         if (std::holds_alternative<Interrupted>(outcome)) {
             doubtful = true;
@@ -122,7 +135,8 @@ Task<Answer> Core::execute(Execute operation, std::chrono::milliseconds deadline
         bool const refused = std::holds_alternative<Reply>(answer) && good<Execute::Reply>(answer) == nullptr;
         if (!doubtful || !refused || first.text.empty()) co_return std::move(answer);
         Request ask{GetCommandResult{first, {}}, {}};
-        auto const known = co_await plain(std::move(ask), remaining.now());
+        auto known = co_await plain(std::move(ask), remaining.now());
+        if (std::holds_alternative<NoAnswer>(known)) co_return known;
         if (good<GetCommandResult::Reply>(known) == nullptr) co_return std::move(answer);
         Reply reply{accepted};
         co_return reply;
@@ -232,15 +246,18 @@ void Core::end_subscribing() {
     });
 }
 
+// In place of a session that is gone, what nobody hears is not made anew, or is ended as soon as it is.
 Task<Answer> Core::unsubscribe(Unsubscribe operation, std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     co_await here();
     if (is_closed()) co_return closed();
     auto const id = operation.subscribe_id;
+    bool ours = false;
     if (auto* const known = subscriptions_.find(id)) {
+        ours = true;
         known->by_request = false;
-        if (known->heard() || subscriptions_.shares_engine_id(*known)) {
-            if (!known->heard()) subscriptions_.forget(id);
+        if (known->heard() || gap_ || subscriptions_.ends_nothing(*known)) {
+            if (!known->heard() && !gap_) subscriptions_.forget(id);
             Reply reply{Unsubscribe::Reply{}};
             co_return reply;
         }
@@ -248,6 +265,10 @@ Task<Answer> Core::unsubscribe(Unsubscribe operation, std::chrono::milliseconds 
     }
     Request whole{std::move(operation), {}};
     auto answer = co_await plain(std::move(whole), deadline);
+    if (ours && is_of_lost_session(answer)) {
+        Reply reply{Unsubscribe::Reply{}};
+        co_return reply;
+    }
     auto const* const known = subscriptions_.find(id);
     if (known != nullptr && !known->heard() && !known->by_request && good<Unsubscribe::Reply>(answer) != nullptr)
         subscriptions_.forget(id);

@@ -90,6 +90,30 @@ TEST_P(TheLink, RunsNoSequenceTwice) {
     robot(synthesis.release());
 }
 
+TEST_P(TheLink, IsAnotherOneWhenAnAnswerIsToAnotherRequest) {
+    Proxy proxy{shared_gateway().port()};
+    History history;
+    auto const misquote = [&] { proxy.misquote("request_id=\"rois-cpp-", "request_id=\"somebody-"); };
+    Blocking robot{settings(proxy.url()), history.observers()};
+    auto& client = robot.client();
+    auto const synthesis = robot.bind<SpeechSynthesis>("speech_synthesis");
+    misquote();
+    auto first = begun(client, client.call(Search{type == "Navigation"}));
+    auto second = begun(client, client.call(Search{type == "Move"}));
+    EXPECT_EQ(first.get().component_ref_list.size(), 1U);
+    EXPECT_EQ(second.get().component_ref_list.size(), 1U);
+    misquote();
+    EXPECT_EQ(robot(synthesis.set({.speech_text = "Hello."})), CompletedStatus::ok);
+    EXPECT_THAT(history.completions(), ElementsAre(testing::Pair(testing::_, 1)));
+    misquote();
+    auto const moving = robot.bind_any(type == "Move");
+    EXPECT_EQ(robot(moving.component_status()), ComponentStatus::ready) << "bound once, and ours";
+    EXPECT_EQ(proxy.connections(), GetParam() == Way::http ? 8U : 4U);
+    EXPECT_EQ(history.states().back(), "resumed");
+    robot(moving.release());
+    robot(synthesis.release());
+}
+
 TEST_P(TheLink, TellsARefusalAfterABreakAsARefusal) {
     Proxy proxy{shared_gateway().port()};
     Blocking robot{settings(proxy.url())};
