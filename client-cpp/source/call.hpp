@@ -56,7 +56,7 @@ public:
     std::string const text;
     std::string const id;  // empty for a raw one
     std::chrono::milliseconds const deadline;
-    Steady const due = std::chrono::steady_clock::now() + deadline;
+    Steady const due = from_now(deadline);
     bool sent = false;  // on this link
 
 private:

@@ -8,8 +8,20 @@ namespace rois::detail {
 using client::Call;
 using client::Steady;
 
+namespace {
+
+// With times that can be doubled and counted from now on.
+Settings within_bounds(Settings settings) {
+    for (auto* const time : {&settings.deadline, &settings.connect_deadline, &settings.ping_interval, &settings.stream_silence,
+                             &settings.first_pause, &settings.longest_pause})
+        *time = client::bounded(*time);
+    return settings;
+}
+
+}  // namespace
+
 Core::Core(Settings settings, Observers observers)
-    : settings_{std::move(settings)},
+    : settings_{within_bounds(std::move(settings))},
       observers_{std::move(observers)},
       target_{client::read_url(settings_.url)},
       name_{std::random_device{}()},

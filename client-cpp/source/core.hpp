@@ -111,6 +111,7 @@ private:
     // --- core_operations.cpp ---
     Task<Answer> plain(Request, std::chrono::milliseconds deadline);
     Task<Answer> execute(Execute, std::chrono::milliseconds deadline);
+    void forget(std::vector<std::shared_ptr<Watch>> const&);
     Task<Answer> bind_any(BindAny, std::chrono::milliseconds deadline);
     Task<Answer> subscribe_by_request(Subscribe, std::chrono::milliseconds deadline);
     Task<Answer> unsubscribe(Unsubscribe, std::chrono::milliseconds deadline);
@@ -157,7 +158,7 @@ private:
     client::Steady next_deadline_ = client::Steady::max();  // none of theirs is earlier
     client::Loop::Ticket deadlines_ = 0;
     std::atomic<std::uint64_t> last_request_ = 0;
-    std::map<CommandId, std::shared_ptr<Watch>> watches_;
+    std::multimap<CommandId, std::shared_ptr<Watch>> watches_;  // one for each who waits, also of a name that is refused
 
     // While it is not known yet which events are whose, notifications wait.
     std::size_t subscribing_ = 0;

@@ -45,14 +45,14 @@ R const* good(Answer const& answer) {
 
 class Remaining {
 public:
-    explicit Remaining(std::chrono::milliseconds whole) : end_{std::chrono::steady_clock::now() + whole} {}
+    explicit Remaining(std::chrono::milliseconds whole) : end_{client::from_now(whole)} {}
     std::chrono::milliseconds now() const {
         auto const left = end_ - std::chrono::steady_clock::now();
         return std::max(std::chrono::duration_cast<std::chrono::milliseconds>(left), std::chrono::milliseconds{0});
     }
 
 private:
-    std::chrono::steady_clock::time_point end_;
+    client::Steady end_;
 };
 
 }  // namespace
@@ -94,17 +94,22 @@ Task<std::vector<std::shared_ptr<Watch>>> Core::begin(CommandUnitSequence sequen
     for_each_command(sequence.command_unit_list, [&](CommandMessage& command) {
         if (command.command_id.text.empty()) command.command_id = fresh_command_id();
         watches.push_back(std::make_shared<Watch>(command.command_id));
-        if (!is_closed()) watches_[command.command_id] = watches.back();
+        if (!is_closed()) watches_.emplace(command.command_id, watches.back());
     });
     Execute operation{std::move(sequence)};
     auto answer = co_await execute(std::move(operation), settings_.deadline);
     auto const reply = reply_of<Execute>(std::move(answer));
     if (reply.return_code != ReturnCode::ok) {
-        if (!is_closed())
-            for (auto const& watch : watches) watches_.erase(watch->id);
+        forget(watches);
         throw Error{reply.return_code, what + ": " + reply.reason};
     }
     co_return watches;
+}
+
+// Those that this call has begun to watch: others may watch a command of the same name.
+void Core::forget(std::vector<std::shared_ptr<Watch>> const& watches) {
+    if (is_closed()) return;
+    std::erase_if(watches_, [&](auto const& each) { return std::ranges::count(watches, each.second) > 0; });
 }
 
 // A sequence that may have arrived: the engine takes no id twice in a session, so it may be sent again there. When it is refused

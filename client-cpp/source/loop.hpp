@@ -3,6 +3,7 @@
 
 #include "asio.hpp"
 // Asio first.
+#include <algorithm>
 #include <atomic>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/post.hpp>
@@ -19,6 +20,13 @@
 namespace rois::client {
 
 using Steady = std::chrono::steady_clock::time_point;
+
+// A time that a clock can count twice from now on: a century is for ever here, and what is negative is over at once.
+inline std::chrono::milliseconds bounded(std::chrono::milliseconds time) {
+    constexpr auto longest = std::chrono::milliseconds{std::chrono::years{100}};
+    return std::clamp(time, std::chrono::milliseconds{0}, longest);
+}
+inline Steady from_now(std::chrono::milliseconds time) { return std::chrono::steady_clock::now() + bounded(time); }
 
 class Loop {
 public:
@@ -56,9 +64,7 @@ public:
     // `finish` none rings.
     using Ticket = std::uint64_t;
     Ticket at(Steady, std::function<void()>);
-    Ticket in(std::chrono::milliseconds time, std::function<void()> ring) {
-        return at(std::chrono::steady_clock::now() + time, std::move(ring));
-    }
+    Ticket in(std::chrono::milliseconds time, std::function<void()> ring) { return at(from_now(time), std::move(ring)); }
     void cancel(Ticket);
 
     // Runs until `finish` was called and nothing is left. Keeps `owner` as long.
