@@ -43,8 +43,7 @@ public:
     auto here() { return loop_.here(); }
 
     // Sends it, now or when there is a session; its outcome is to be awaited.
-    std::shared_ptr<client::Call> send(client::Call::Kind, std::string document, std::string request_id,
-                                       std::chrono::milliseconds deadline);
+    std::shared_ptr<client::Call> send(client::Call::Kind, std::string document, std::string request_id, client::Deadline);
     // A request with all that it means to the connection. Its id is given here.
     Task<Answer> request(Request, std::chrono::milliseconds deadline);
 
@@ -76,6 +75,8 @@ private:
     void failed(std::string const& reason, client::Failure) override;
     void give_up_link(std::string const& reason, client::Failure);
     void give_up_misunderstood();
+    std::shared_ptr<client::Call> take_largest();
+    static void refuse_too_large(client::Call&, std::string const& reason);
     void leave_session();
     void open_session();
     void take_opening(xml::Heard);
@@ -141,7 +142,9 @@ private:
     SessionId session_;
     bool had_session_ = false;
     std::uint64_t last_sequence_ = 0;
-    unsigned failures_ = 0;  // in a row
+    unsigned attempts_ = 0;  // in a row that have led to no session
+    unsigned failures_ = 0;  // in a row without a link that was good
+    client::Steady opened_at_;
     client::Loop::Ticket attempt_ = 0;
     std::string last_reason_;
     std::uint64_t dice_;

@@ -43,18 +43,6 @@ R const* good(Answer const& answer) {
     return expected != nullptr && expected->return_code == ReturnCode::ok ? expected : nullptr;
 }
 
-class Remaining {
-public:
-    explicit Remaining(std::chrono::milliseconds whole) : end_{client::from_now(whole)} {}
-    std::chrono::milliseconds now() const {
-        auto const left = end_ - std::chrono::steady_clock::now();
-        return std::max(std::chrono::duration_cast<std::chrono::milliseconds>(left), std::chrono::milliseconds{0});
-    }
-
-private:
-    client::Steady end_;
-};
-
 }  // namespace
 
 Task<Answer> Core::request(Request request, std::chrono::milliseconds deadline) {
@@ -117,7 +105,7 @@ void Core::forget(std::vector<std::shared_ptr<Watch>> const& watches) {
 Task<Answer> Core::execute(Execute operation, std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     co_await here();
-    Remaining const remaining{deadline};
+    client::Deadline const due{deadline};
     CommandId first;
     for_each_command(operation.command_unit_list.command_unit_list, [&](CommandMessage& command) {
         if (command.command_id.text.empty()) command.command_id = fresh_command_id();
@@ -130,7 +118,7 @@ Task<Answer> Core::execute(Execute operation, std::chrono::milliseconds deadline
     for (;;) {
         request.request_id = fresh_request_id();
         auto const kind = doubtful ? Call::Kind::in_session : Call::Kind::once;
-        auto const call = send(kind, xml::encode(request), request.request_id, remaining.now());
+        auto const call = send(kind, xml::encode(request), request.request_id, due);
         auto& outcome = co_await call->outcome();
         if (std::holds_alternative<Interrupted>(outcome)) {
             doubtful = true;
@@ -140,7 +128,7 @@ Task<Answer> Core::execute(Execute operation, std::chrono::milliseconds deadline
         bool const refused = std::holds_alternative<Reply>(answer) && good<Execute::Reply>(answer) == nullptr;
         if (!doubtful || !refused || first.text.empty()) co_return std::move(answer);
         Request ask{GetCommandResult{first, {}}, {}};
-        auto known = co_await plain(std::move(ask), remaining.now());
+        auto known = co_await plain(std::move(ask), due.left());
         if (std::holds_alternative<NoAnswer>(known)) co_return known;
         if (good<GetCommandResult::Reply>(known) == nullptr) co_return std::move(answer);
         Reply reply{accepted};
@@ -163,12 +151,12 @@ void Core::note_released(Identifier const& ref) {
 Task<Answer> Core::bind_any(BindAny operation, std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     co_await here();
-    Remaining const remaining{deadline};
+    client::Deadline const due{deadline};
     auto const condition = operation.condition;
     Request request{std::move(operation), {}};
     for (;;) {
         request.request_id = fresh_request_id();
-        auto const call = send(Call::Kind::once, xml::encode(request), request.request_id, remaining.now());
+        auto const call = send(Call::Kind::once, xml::encode(request), request.request_id, due);
         auto& outcome = co_await call->outcome();
         if (!std::holds_alternative<Interrupted>(outcome)) {
             auto& answer = std::get<Answer>(outcome);
@@ -176,13 +164,13 @@ Task<Answer> Core::bind_any(BindAny operation, std::chrono::milliseconds deadlin
             co_return std::move(answer);
         }
         Request look{Search{condition}, {}};
-        auto const candidates = co_await plain(std::move(look), remaining.now());
+        auto const candidates = co_await plain(std::move(look), due.left());
         auto const* const found = good<Search::Reply>(candidates);
         if (found == nullptr) continue;
         for (auto const& ref : found->component_ref_list) {
             if (std::ranges::any_of(bound_, [&](auto const& bound) { return bound.code == ref.code; })) continue;
             Request ask{GetParameter{ref}, {}};
-            auto const parameters = co_await plain(std::move(ask), remaining.now());
+            auto const parameters = co_await plain(std::move(ask), due.left());
             if (good<GetParameter::Reply>(parameters) == nullptr) continue;
             note_bound(ref);
             BindAny::Reply done;
