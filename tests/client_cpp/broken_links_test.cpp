@@ -76,7 +76,7 @@ TEST_P(TheLink, RunsNoSequenceTwice) {
     History history;
     Blocking robot{settings(proxy.url()), history.observers()};
     auto const synthesis = robot.bind<SpeechSynthesis>("speech_synthesis");
-    auto const setting = [&] { return robot(synthesis.set({.speech_text = "Hello."})); };
+    auto const setting = [&] { return robot(synthesis.set(Speech().with_speech_text("Hello."))); };
     for (int i = 0; i < 3; ++i) {
         proxy.cut_before("<execute_response");
         EXPECT_EQ(setting(), CompletedStatus::ok);
@@ -103,7 +103,7 @@ TEST_P(TheLink, IsAnotherOneWhenAnAnswerIsToAnotherRequest) {
     EXPECT_EQ(first.get().component_ref_list.size(), 1U);
     EXPECT_EQ(second.get().component_ref_list.size(), 1U);
     misquote();
-    EXPECT_EQ(robot(synthesis.set({.speech_text = "Hello."})), CompletedStatus::ok);
+    EXPECT_EQ(robot(synthesis.set(Speech().with_speech_text("Hello."))), CompletedStatus::ok);
     EXPECT_THAT(history.completions(), ElementsAre(testing::Pair(testing::_, 1)));
     misquote();
     auto const moving = robot.bind_any(type == "Move");
@@ -217,7 +217,7 @@ TEST_P(TheLink, MakesAnewWhatWentWithItsSession) {
     auto detected = robot(detection.person_detected(result("number") >= 0));
     auto again = robot(detection.person_detected(result("number") >= 0));  // the same subscription
     auto const following =
-        robot(follow.begin_following({.target_object_ref = Identifier{"nobody", {}, {}, {}}, .distance = 500_mm}));
+        robot(follow.begin_following(FollowParameters().with_target_object_ref("nobody").with_distance(500_mm)));
     auto const session = robot.client().session();
 
     proxy.refuse(true);

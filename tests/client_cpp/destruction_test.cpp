@@ -21,7 +21,7 @@ public:
         auto const follow = robot.bind<Follow>("follow");
         handles.component = follow;
         handles.command =
-            robot(follow.begin_following({.target_object_ref = Identifier{"nobody", {}, {}, {}}, .distance = 500_mm}));
+            robot(follow.begin_following(FollowParameters().with_target_object_ref("nobody").with_distance(500_mm)));
         return handles;
     }
 };
@@ -73,8 +73,7 @@ Task<> wait_for_event(Client& robot, Ends& ends) {
 
 Task<> wait_for_command(Client& robot, Ends& ends) {
     auto const follow = co_await robot.bind<Follow>("follow");
-    FollowParameters const whom{.target_object_ref = Identifier{"nobody", {}, {}, {}}, .distance = 500_mm};
-    auto const status = co_await follow.follow(whom);
+    auto const status = co_await follow.follow(FollowParameters().with_target_object_ref("nobody").with_distance(500_mm));
     if (status == CompletedStatus::abort) ++ends.count;
 }
 
