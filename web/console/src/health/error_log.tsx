@@ -1,7 +1,7 @@
 // What this session was told of that went wrong; each opens to what is known of it.
 import { useState } from 'preact/hooks';
 
-import { ResultsTable } from '../forms';
+import { CommandProgress, ResultsTable } from '../forms';
 import { clock_time, duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import { show_panel } from '../shell/layout';
@@ -9,7 +9,7 @@ import { texts as shell } from '../shell/texts';
 import type { Details } from '../state/events_state';
 import type { Phase } from '../state/link_state';
 import { Badge, Button, type Tone, XmlView } from '../ui';
-import { type LogEntry, log_of, reason_of } from './log';
+import { type LogEntry, log_of, reason_of, refused_component } from './log';
 import { texts } from './texts';
 
 const shown_at_first = 50;
@@ -19,6 +19,7 @@ export function ErrorLog() {
   const t = texts();
   const [most, set_most] = useState(shown_at_first);
   void console.events.pulse.beat.value;
+  void console.commands.pulse.beat.value;
   void console.history.pulse.beat.value;
   void console.now.value; // what was refused
   const entries = log_of(console);
@@ -66,7 +67,11 @@ function told(entry: LogEntry): Told {
     case 'refused': {
       const { document } = entry;
       const title = [document.request?.name, document.return_code ?? document.name].filter(Boolean).join(': ');
-      return { tone: 'warning', kind: t.refused, title, component: document.component ?? '', more: reason_of(document) };
+      return { tone: 'warning', kind: t.refused, title, component: refused_component(document), more: reason_of(document) };
+    }
+    case 'command': {
+      const { state, command_type, component, results } = entry.command;
+      return { tone: 'bad', kind: t.command, title: `${command_type}: ${state}`, component, more: results?.text('reason') ?? '' };
     }
     case 'link': {
       const { value, from, to, note } = entry.span;
@@ -97,6 +102,8 @@ function Entry({ entry }: { entry: LogEntry }) {
           {entry.kind === 'error' && <Known title={at} details={entry.entry.details} />}
           {entry.kind === 'refused' && entry.document.request && <LoggedText title={texts().request} at={at} text={entry.document.request.text} />}
           {entry.kind === 'refused' && <LoggedText title={texts().document} at={at} text={entry.document.text} number={entry.document.number} />}
+          {entry.kind === 'command' && <CommandProgress entry={entry.command} />}
+          {entry.kind === 'command' && entry.command.completed !== undefined && <Remembered at={at} number={entry.command.completed} />}
           {entry.kind === 'error' && <Remembered at={at} number={entry.entry.document} />}
         </div>
       )}

@@ -90,6 +90,7 @@ export const texts = in_both({
   error: ['Error', 'エラー'],
   missed: ['Missed', '受信漏れ'],
   refused: ['Refused', '拒否'],
+  command: ['Command', 'コマンド'],
   gap_lost: (n: number) => [`${count_text(n)} notifications were lost`, `通知 ${count_text(n)} 件を失いました`],
   gap_session: ['The session was lost', 'セッションを失いました'],
   older: (n: number) => [`Show ${count_text(n)} older`, `さらに古い ${count_text(n)} 件を表示`],

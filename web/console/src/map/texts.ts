@@ -83,6 +83,7 @@ export const texts = in_both({
   arrived: (robot: string, where: string) => [`${robot} has reached ${where}`, `${robot} が ${where} に着きました`],
   stopped: (robot: string) => [`${robot} was stopped`, `${robot} を止めました`],
   failed: (what: string) => [`Not reached: ${what}`, `到達できませんでした: ${what}`],
+  why: ['Why', '理由'],
   stop: ['Stop', '止める'],
   stop_robot: (robot: string) => [`Stop ${robot}`, `${robot} を止める`],
   // What moves
@@ -113,6 +114,10 @@ export const texts = in_both({
   go_there: ['Go there', 'そこへ行く'],
   following: (robot: string, whom: string) => [`${robot} follows ${whom}`, `${robot} が ${whom} を追っています`],
   followed: (robot: string, whom: string) => [`${robot} no longer follows ${whom}`, `${robot} は ${whom} を追うのをやめました`],
+  follow_or_go: ['Follow keeps near them as they move. Go there sends it once, to where they are now.', '「追う」は動きに合わせて付いて行き、「そこへ行く」は今いる場所へ一度だけ行きます。'],
+  speak: ['Speak', '話す'],
+  speak_hint: ['A sentence', '文を入力'],
+  commands: ['All that it can do', 'できること一覧'],
   no_follow: ['This engine has no component that follows.', 'このエンジンには追従できるコンポーネントがありません。'],
   close: ['Close', '閉じる'],
   choose: ['Choose', '選ぶ'],

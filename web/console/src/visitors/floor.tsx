@@ -38,7 +38,7 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
   const bounds = map?.bounds ?? bounds_of([...hall.visitors.values(), ...robots.all.values()]);
 
   // What is drawn has its y downwards.
-  const floor_point = (event: PointerEvent): Point => {
+  const floor_point = (event: MouseEvent): Point => {
     const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.current!.getScreenCTM()!.inverse());
     return within(bounds, { x: at.x, y: -at.y });
   };
@@ -63,6 +63,11 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
     aim.value = undefined;
     if (now.has_moved) send(now);
   };
+  // On the floor: whoever is chosen walks there.
+  const clicked = (event: MouseEvent) => {
+    const chosen = hall.visitors.get(steering.chosen.value);
+    if (chosen?.steered && !(event.target as Element).closest('[data-visitor]')) send({ ref: chosen.ref, has_moved: true, ...floor_point(event) });
+  };
   const typed = (event: KeyboardEvent, { ref, x, y, steered }: Visitor) => {
     const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
     const now = aim.value?.ref === ref ? aim.value : undefined;
@@ -83,7 +88,7 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
   const view = `${bounds.x - 150} ${-bounds.y - bounds.depth - 150} ${bounds.width + 300} ${bounds.depth + 300}`;
   return (
     <div class="visitors-floor">
-      <svg ref={svg} viewBox={view} role="group" aria-label={`${w.map} ${w.map_hint}`}>
+      <svg ref={svg} viewBox={view} onClick={clicked} role="group" aria-label={`${w.map} ${w.map_hint}`}>
         {map && <Ground map={map} />}
         {[...robots.all.values()].map((robot) => {
           const at = on_map(map, robot.crs, robot);
@@ -114,7 +119,7 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
           </g>
         ))}
       </svg>
-      <p class="visitors-aim" aria-live="polite">{aimed?.has_moved ? w.sends(aimed.ref, metres(aimed)) : ''}</p>
+      <p class="visitors-aim" aria-live="polite">{aimed?.has_moved ? w.sends(aimed.ref, metres(aimed)) : hall.visitors.get(steering.chosen.value)?.steered ? w.click_hint(steering.chosen.value) : ''}</p>
     </div>
   );
 
