@@ -7,7 +7,7 @@ import { useConsole } from '../shell/context';
 import { show_panel } from '../shell/layout';
 import { Button, error_text, IconButton, SelectField, TextField } from '../ui';
 import { type Driver, follow, go, motions_of, stop, target_text } from './driving';
-import { distance, obstacle_at, turned } from './floor';
+import { distance, obstacle_at, turned } from '../state/floor';
 import type { Target } from './interaction';
 import { age, certainty, degrees, metres, position } from './says';
 import type { Shown } from './scene';

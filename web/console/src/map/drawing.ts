@@ -3,7 +3,7 @@ import { effect, signal, untracked } from '@preact/signals';
 
 import type { Console } from '../state/console';
 import type { Stop } from '../state/environment';
-import { bearing, distance, type FloorPose, obstacle_at } from './floor';
+import { bearing, distance, type FloorPose, obstacle_at } from '../state/floor';
 import { radius_of } from './glyphs';
 import { Glide } from './glide';
 import { goals_of } from './goals';

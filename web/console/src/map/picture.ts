@@ -1,6 +1,6 @@
 // One picture of the floor, on top of what stands still: who is there, where they go, and what the user is about to do.
 import type { Place } from '../state/floor_map';
-import { bearing, type FloorPose } from './floor';
+import { bearing, type FloorPose } from '../state/floor';
 import { draw_certainty, draw_choice, draw_thing, radius_of } from './glyphs';
 import type { Goal } from './goals';
 import { type Layers, name_box } from './ground';

@@ -46,7 +46,7 @@ describe('in a world that stands still', () => {
         await row(page, 'anna').getByText('10.0 m, 0.7 m').waitFor();
 
         const from = (await visitor(page, 'anna').locator('.visitors-body').boundingBox())!;
-        const hall = (await page.locator('.visitors-ground').boundingBox())!;
+        const hall = (await page.locator('.floor-ground').boundingBox())!;
         const mm = hall.width / 20_000; // px; the hall is 20 m wide
         await page.mouse.move(from.x + from.width / 2, from.y + from.height - 260 * mm);
         await page.mouse.down();
