@@ -27,7 +27,15 @@ export default function MessagesPanel() {
   const { with_own } = filter.value;
   const whole = useMemo(() => new Feed(tape ? source_of(tape) : live(console), { ...no_filter, with_own: with_own || tape !== undefined }), [tape, with_own]);
   const [, again] = useState(0);
-  useEffect(() => console.environment.every(look_every, () => [feed, whole].filter((one) => one.update()).length > 0 && again((n) => n + 1)), [feed, whole]);
+  const is_bare = console.documents.ring.size === 0;
+  useEffect(
+    () =>
+      console.environment.every(look_every, () => {
+        const is_new = [feed, whole].filter((one) => one.update()).length > 0;
+        if (is_new || (is_bare && console.documents.ring.size > 0)) again((n) => n + 1);
+      }),
+    [feed, whole, is_bare],
+  );
   const held = tape ? undefined : paused.value;
   const rows = held ? held.rows : feed.rows;
   const picked = console.selection.document;
@@ -53,8 +61,8 @@ export default function MessagesPanel() {
         follow={!tape && !held}
       />
     ) : (
-      <EmptyState icon="messages" title={console.documents.ring.size === 0 && !tape ? t.none : filter.value === no_filter ? t.only_own : t.none_pass}>
-        {(tape || console.documents.ring.size > 0) && <Button onClick={() => (filter.value = { ...no_filter, with_own: true })}>{t.clear}</Button>}
+      <EmptyState icon="messages" title={is_bare && !tape ? t.none : filter.value === no_filter ? t.only_own : t.none_pass}>
+        {(tape || !is_bare) && <Button onClick={() => (filter.value = { ...no_filter, with_own: true })}>{t.clear}</Button>}
       </EmptyState>
     );
   const reader = document ? <Reader key={document.number} document={document} tape={tape} choose={(one) => (choice.value = one.number)} /> : <EmptyState icon="messages" title={t.pick} />;

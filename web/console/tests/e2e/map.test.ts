@@ -191,8 +191,11 @@ describe('the robot', () => {
       await page.getByText('Furniture is in the way here.').waitFor();
       await page.getByRole('button', { name: 'Send here' }).click();
       await pass_until(page, page.getByText(/^Not reached:/));
-      await page.getByRole('alert').filter({ hasText: 'ERROR' }).waitFor();
+      const notice = page.getByRole('alert').filter({ hasText: /is outside of the hall, in a wall or in furniture/ });
+      await notice.waitFor();
       expect(await violations(page)).toBe('');
+      await notice.getByRole('button', { name: /^Why/ }).click();
+      await page.locator('.panel-messages').getByRole('option', { selected: true }).getByText('completed').waitFor();
     }));
 
   test('is sent with keys alone', () =>
@@ -261,6 +264,8 @@ describe('people', () => {
         await page.getByLabel('How near it comes').fill('1.5');
         await person.getByRole('button', { name: 'Follow' }).click();
         await page.locator('.map-motion', { hasText: /robot1 follows/ }).waitFor();
+        await page.getByRole('application', { name: /^Floor map/ }).focus();
+        await page.keyboard.press('n');
         await pass_until(page, person.getByText(/robot1 1\.[3-7] m away/));
         await picture(page, 'map-follow');
         expect(await violations(page)).toBe('');

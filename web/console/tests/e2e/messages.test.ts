@@ -86,7 +86,7 @@ describe('events and messages', () => {
       await page.getByRole('listbox').focus();
       await page.keyboard.press('End');
       await page.keyboard.press('ArrowUp');
-      expect(await page.locator('.messages .virtual-list-row[aria-selected=true]').count()).toBe(1);
+      await page.locator('.messages .virtual-list-row[aria-selected=true]').waitFor();
     }));
 
   test('an event without its values has its details fetched', () =>
