@@ -15,6 +15,7 @@ Identifier ref_of(std::string const& code) { return {code, {}, {}, {}}; }
 void hold(Context& context, Until until) {
     auto& session = context.session();
     auto& printer = context.printer();
+    context.keep_recording();
     while (auto const heard = session.hear(until)) {
         if (session.interrupted()) return;
         if (auto const* const gap = std::get_if<Gap>(&*heard)) printer.gap(*gap);

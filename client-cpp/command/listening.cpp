@@ -70,6 +70,7 @@ void listen(Context& context, std::function<void(Heard const&)> const& told) {
     auto const& options = context.options();
     auto const until = end_of(options);
     std::size_t events = 0;
+    context.keep_recording();
     while (!options.count || events < *options.count) {
         auto const heard = session.hear(until);
         if (session.interrupted()) return;

@@ -92,7 +92,10 @@ CommandId fresh_command_id() {
     return CommandId{process + "-" + std::to_string(++number)};
 }
 
-void wait_for(Context& context, std::vector<Awaited> awaited) { Waiting{context, std::move(awaited)}.wait(); }
+void wait_for(Context& context, std::vector<Awaited> awaited) {
+    context.keep_recording();
+    Waiting{context, std::move(awaited)}.wait();
+}
 
 void run(Context& context, CommandUnitSequence sequence) {
     std::vector<Awaited> awaited;

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
@@ -162,6 +163,12 @@ std::string file_with(std::string const& name, std::string const& text) {
     auto const file = file_named(name);
     std::ofstream{file, std::ios::binary} << text;
     return file;
+}
+
+std::string text_of(std::string const& file) {
+    std::ifstream in{file, std::ios::binary};
+    EXPECT_TRUE(in.is_open()) << file;
+    return {std::istreambuf_iterator<char>{in}, {}};
 }
 
 std::vector<std::string> lines_of(std::string const& text) {

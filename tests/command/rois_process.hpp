@@ -40,6 +40,7 @@ private:
 // A file in a folder of this test program that is removed at the end.
 std::string file_with(std::string const& name, std::string const& text);
 std::string file_named(std::string const& name);
+std::string text_of(std::string const& file);
 
 std::vector<std::string> lines_of(std::string const& text);
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -191,15 +190,6 @@ TEST_F(Rois, SpeaksHttpToo) {
 }
 
 // --- What is installed beside the program ---
-
-std::string text_of(std::string const& file) {
-    std::string text;
-    auto* const in = std::fopen(file.c_str(), "r");
-    EXPECT_NE(in, nullptr) << file;
-    for (int c = std::getc(in); c != EOF; c = std::getc(in)) text.push_back(static_cast<char>(c));
-    std::fclose(in);
-    return text;
-}
 
 TEST_F(Rois, HasItsCommandsAndOptionsInTheManualAndTheCompletion) {
     auto const help = run({"--help-all"}).out;
