@@ -18,7 +18,10 @@ void hold(Context& context, Until until) {
     context.keep_recording();
     while (auto const heard = session.hear(until)) {
         if (session.interrupted()) return;
-        if (auto const* const gap = std::get_if<Gap>(&*heard)) printer.gap(*gap);
+        if (auto const* const gap = std::get_if<Gap>(&*heard)) {
+            printer.gap(*gap);
+            if (gap->why == Gap::Why::new_session && context.options().command == "start") throw ended_with_session();
+        }
         if (auto const* const change = std::get_if<StateChange>(&*heard); change != nullptr && change->state != State::open)
             printer.state(*change);
         if (auto const* const news = std::get_if<News>(&*heard);

@@ -49,7 +49,7 @@ private:
             if (std::holds_alternative<ReceiveError>(news->notification))
                 context_.printer().notification(news->notification, news->sequence);
         } else if (auto const* const gap = std::get_if<Gap>(&heard); gap != nullptr && gap->why == Gap::Why::new_session) {
-            throw Trouble{Exit::aborted, "the session has ended, and its commands with it"};
+            throw ended_with_session();
         }
     }
 
@@ -91,6 +91,8 @@ CommandId fresh_command_id() {
     static unsigned number = 0;
     return CommandId{process + "-" + std::to_string(++number)};
 }
+
+Trouble ended_with_session() { return Trouble{Exit::aborted, "the session has ended, and its commands with it"}; }
 
 void wait_for(Context& context, std::vector<Awaited> awaited) {
     context.keep_recording();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -134,6 +135,25 @@ TEST_F(Rois, ShowsEventsAsTheyCome) {
     RoisProcess starting{{"start", "person_detection", "--for", "60"}, at()};
     EXPECT_THAT(subscribed.line(), HasSubstr("person_detected  person_detection  timestamp="));
     expect(4, "no component has an event 'rain'; there are ", {"watch", "rain"});
+}
+
+TEST(AGatewayThatComesAgain, IsWatchedAgain) {
+    auto gateway = std::make_unique<GatewayProcess>();
+    Variables const there{{"ROIS_URL", gateway->url()}};
+    RoisProcess watching{{"watch", "person_detected", "--start", "person_detection", "--for", "90", "--json"}, there};
+    RoisProcess keeping{{"start", "sound_detection", "--for", "90"}, there};
+    watching.line_with("receive_event");
+    keeping.line_with("OK");
+    std::vector<std::string> const listen{"--listen", "127.0.0.1:" + std::to_string(gateway->port())};
+    gateway.reset();
+    GatewayProcess const again{listen};
+    watching.line_with("\"gap\":\"new_session\"");
+    watching.line_with("receive_event");
+    watching.signal(SIGINT);
+    EXPECT_EQ(watching.wait().exit_code, 0);
+    auto const ended = keeping.wait();
+    EXPECT_EQ(ended.exit_code, 7) << ended.out;
+    EXPECT_THAT(ended.error, HasSubstr("the session has ended, and its commands with it"));
 }
 
 TEST_F(Rois, SendsAnyDocumentAndUnderlinesItsMistake) {
