@@ -16,6 +16,7 @@
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace rois::test {
 
@@ -145,6 +146,8 @@ std::string RoisProcess::line_with(std::string const& text) {
     while (one.find(text) == std::string::npos) one = line();
     return one;
 }
+
+void RoisProcess::stop_reading() { close(std::exchange(out_, -1)); }
 
 void RoisProcess::signal(int number) { kill(process_, number); }
 

@@ -26,6 +26,9 @@ public:
     // The next line that has this in it.
     std::string line_with(std::string const& text);
 
+    // As `| head` does: what it writes from now on cannot be written.
+    void stop_reading();
+
     void signal(int number);
     // Waits for its end; `out` is what was not read as lines.
     Ended wait();
