@@ -68,7 +68,7 @@ describe('the reception of figure 1', () => {
         await picture(page, 'scenario-wide-dark-running');
         await hall.pass_until(page, page.getByText('received 3 visitors', { exact: true }), 500, an_hour);
         expect(await page.locator('.scenario-printed').allTextContents()).toEqual(history);
-        await page.getByText('Ended in all received', { exact: true }).waitFor();
+        await page.getByText('Ended in “all received”', { exact: true }).waitFor();
         expect(await in_diagram(page, 'all_received').getAttribute('aria-current')).toBe('step');
         expect(await page.locator('.scenario-edge-last title').textContent()).toBe('completed');
         expect(await page.locator('tr', { hasText: 'received' }).locator('.scenario-value').textContent()).toBe('tanaka, suzuki');
