@@ -104,6 +104,9 @@ describe('a scenario', () => {
   test('is changed in forms, checked before it runs, and saved as it was written', () =>
     stage.page(
       async (page) => {
+        await page.getByRole('tab', { name: 'Edit' }).click();
+        await page.getByLabel('State', { exact: true }).selectOption('bow');
+        expect(await page.evaluate(() => document.documentElement.scrollHeight <= innerHeight)).toBe(true); // however long the form is
         await open_file(page, 'greeting.xml', greeting);
         await in_diagram(page, 'wait').click();
         const after = page.locator('[data-element="after"]');
