@@ -70,6 +70,7 @@ export const texts = in_both({
   direction: ['Direction', '向き'],
   as_it_arrives: ['as it arrives', '着いたまま'],
   straight: (away: string) => [`${away} away`, `直線で ${away}`],
+  sent_as: ['sent as', '送る値'],
   give_up: ['Give up after', '制限時間'],
   never: ['never', 'なし'],
   no_number: ['A number, please', '数値を入れてください'],
