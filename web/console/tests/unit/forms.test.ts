@@ -2,6 +2,7 @@
 import { type ParameterProfile, Results, value } from 'rois-client';
 import { describe, expect, test } from 'vitest';
 
+import { with_name } from '../../src/forms/codebooks';
 import { data_type, type Kind, problem_of } from '../../src/forms/data_type';
 import { type Asked, asked_by, choices_of, command_types, fixed_length, is_position, need_of, shown_description, units_of } from '../../src/forms/describe';
 import { inputs_of, parameters_from, problems_of, with_input } from '../../src/forms/inputs';
@@ -170,6 +171,14 @@ describe('what can be chosen', () => {
       { name: 'available_reactions', data_type_ref: { code: 'RoISIdentifier[]', codebook_ref: 'urn:reaction' }, values: ['1', '2'] },
     ]),
   } as unknown as Things;
+  test('is named, where the names of a codebook are known', () => {
+    const codebook = 'urn:x-rois:def:codebook:simulation::reaction';
+    const told = new Results([{ name: 'available_reactions', data_type_ref: { code: 'RoISIdentifier[]', codebook_ref: codebook }, values: ['9', '51'] }]);
+    expect(options_for(asked('reaction_ref', 'RoISIdentifier'), { ...things, told }).list).toEqual([{ value: '9', codebook, label: 'bow the head' }, { value: '51', codebook }]);
+    expect(with_name(codebook, '28')).toBe('28 – wave the hand');
+    expect(with_name('urn:other', '28')).toBe('28');
+  });
+
   const chosen = (one: Asked) => options_for(one, things).list.map((option) => option.value);
 
   test('is what there is', () => {
