@@ -4,7 +4,7 @@ import type { ComponentChildren } from 'preact';
 import { value } from 'rois-client';
 
 import { useConsole } from '../shell/context';
-import { show_panel } from '../shell/layout';
+import { show_component } from '../shell/layout';
 import { Button, error_text, IconButton, SelectField, TextField } from '../ui';
 import { type Driver, follow, go, motions_of, stop, target_text } from './driving';
 import { distance, obstacle_at, turned } from '../state/floor';
@@ -202,13 +202,9 @@ function Fact({ name, children }: { name: string; children: ComponentChildren })
 
 // Leads to the component.
 function ComponentLink({ component }: { component: string }) {
-  const { selection } = useConsole();
-  const go_to = () => {
-    selection.component.value = component;
-    show_panel('components');
-  };
+  const console = useConsole();
   return (
-    <button type="button" class="map-link" onClick={go_to}>
+    <button type="button" class="map-link" onClick={() => show_component(console, component)}>
       <code>{component}</code>
     </button>
   );
