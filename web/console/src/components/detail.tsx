@@ -53,7 +53,7 @@ function Head({ view }: { view: ComponentView }) {
         <h2>{view.ref}</h2>
         {entry && <StatusBadge status={entry.status} title={entry.trouble} />}
         <Work component={view.ref} />
-        {entry && <span class="component-soft">{t.since(Math.max(0, now.value - entry.since))}</span>}
+        {entry && <span class="soft">{t.since(Math.max(0, now.value - entry.since))}</span>}
         <span class="component-holder">{holder_text(console, view.ref) || t.nobody}</span>
         {bindings.mine.value.has(view.ref) ? (
           <Button small disabled={!link.is_open} aria-label={t.release_it(view.ref)} onClick={() => told(bindings.release(view.ref))}>
@@ -66,8 +66,8 @@ function Head({ view }: { view: ComponentView }) {
         )}
       </div>
       {view.description !== '' && <p>{view.description}</p>}
-      <p class="component-soft"><code>{view.type}</code></p>
-      {view.unresolved.length > 0 && <p class="component-soft">{t.unresolved(view.unresolved.join(', '))}</p>}
+      <p class="soft"><code>{view.type}</code></p>
+      {view.unresolved.length > 0 && <p class="soft">{t.unresolved(view.unresolved.join(', '))}</p>}
     </header>
   );
 }

@@ -29,7 +29,7 @@ export function QueriesTab({ view }: { view: ComponentView }) {
     <>
       <Pick label={t.choose_query} names={names} chosen={name} choose={choose} tell={tell} />
       <form key={name} class="component-form" onSubmit={(event) => event.preventDefault()}>
-        {results !== '' && <p class="component-soft">{t.answers(results)}</p>}
+        {results !== '' && <p class="soft">{t.answers(results)}</p>}
         <Exchange
           by_enter
           title={`${view.ref} ${name}`}

@@ -19,7 +19,6 @@ export const exchange_texts = in_both({
   request: (title: string) => [`Request: ${title}`, `要求: ${title}`],
   answer: (title: string) => [`Answer: ${title}`, `応答: ${title}`],
   results: (title: string) => [`Results: ${title}`, `結果: ${title}`],
-  results_of: (id: string) => [`Results of the command ${id}`, `コマンド ${id} の結果`],
   name: ['Name', '名前'],
   value: ['Value', '値'],
   type: ['Type', '型'],

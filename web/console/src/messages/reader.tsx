@@ -35,7 +35,7 @@ export function Reader({ document, tape, choose }: ReaderProps) {
         <h3>{name === '' ? '—' : name}</h3>
         {return_code !== undefined && <StatusBadge status={return_code} />}
         {tape && <Badge tone="warning">{t.not_live}</Badge>}
-        <span class="messages-soft">
+        <span class="soft">
           {direction === 'out' ? t.outward : t.inward} {t.at(document.at)} · {t.size(document.text.length)}
           {document.took !== undefined && ` · ${t.took(document.took)}`}
         </span>
@@ -50,7 +50,7 @@ export function Reader({ document, tape, choose }: ReaderProps) {
         <Checkbox label={t.raw} checked={raw} change={set_raw} />
       </div>
       {tape ? <Values results={values_in(document)} /> : <Live document={document} />}
-      {place && <p class="messages-soft">{t.place(place.line, place.column)}</p>}
+      {place && <p class="soft">{t.place(place.line, place.column)}</p>}
       <XmlView text={document.text} raw={raw} label={t.document(name)} />
       {place && document.request && <XmlView text={document.request.text} raw label={t.to_request} marked_line={place.line} />}
     </div>
@@ -68,7 +68,7 @@ function Live({ document }: { document: LoggedDocument }) {
   if (document.name === 'receive_event') {
     void events.pulse.beat.value;
     const entry = entry_of(document.is_own ? events.own_events : events.events, document);
-    return entry ? <DetailsOf details={entry.details} expire={expire_of(document)} ask={() => void events.fetch_event(entry)} /> : <p class="messages-soft">{texts().not_kept}</p>;
+    return entry ? <DetailsOf details={entry.details} expire={expire_of(document)} ask={() => void events.fetch_event(entry)} /> : <p class="soft">{texts().not_kept}</p>;
   }
   if (document.name === 'receive_error') {
     void events.pulse.beat.value;
@@ -82,7 +82,7 @@ function DetailsOf({ details, expire, ask }: { details: Details; expire: number 
   const { now, link } = useConsole();
   const t = texts();
   const is_expired = expire !== undefined && expire <= now.value;
-  const until = expire === undefined ? null : is_expired ? <Badge>{t.expired}</Badge> : <span class="messages-soft">{t.expires(clock_time(expire, false))}</span>;
+  const until = expire === undefined ? null : is_expired ? <Badge>{t.expired}</Badge> : <span class="soft">{t.expires(clock_time(expire, false))}</span>;
   switch (details.state) {
     case 'there':
       return (
@@ -92,9 +92,9 @@ function DetailsOf({ details, expire, ask }: { details: Details; expire: number 
         </>
       );
     case 'gone':
-      return <p>{t.gone} <span class="messages-soft">{details.reason}</span> {until}</p>;
+      return <p>{t.gone} <span class="soft">{details.reason}</span> {until}</p>;
     case 'asked':
-      return <p class="messages-soft" role="status">{t.fetching}</p>;
+      return <p class="soft" role="status">{t.fetching}</p>;
     default:
       return (
         <p class="messages-head">

@@ -7,7 +7,7 @@ import { CommandProgress, DetailsOf, LoggedXml, ResultsTable } from '../forms';
 import { useConsole } from '../shell/context';
 import { show_component } from '../shell/layout';
 import type { CommandEntry } from '../state/commands_state';
-import { Button, EmptyState, IconButton, StatusBadge } from '../ui';
+import { Button, IconButton, StatusBadge } from '../ui';
 import { describe, of_mark } from './describe';
 import { key_of, type Mark, mark_key, type Thing } from './things';
 import { texts } from './texts';
@@ -178,8 +178,4 @@ function Many({ marks, view, open }: { marks: readonly Mark[]; view: TimeView; o
       </ul>
     </>
   );
-}
-
-export function NothingOpened() {
-  return <EmptyState title={texts().nothing} />;
 }
