@@ -131,7 +131,7 @@ def goals(rounds):
         at_most("4 ready after the start", value_of(memory.AT_REST, "ready_ms"), 500, "ms"),
         at_most("4 memory at rest", value_of(memory.AT_REST, "resident_mb"), 30, "MB"),
         *(
-            at_most(f"5 growth of a query's CPU: {axis}", None if grown is None else 100 * grown, 20, "%")
+            at_most(f"5 growth of a request's CPU: {axis}", None if grown is None else 100 * grown, 20, "%")
             for axis, grown in growing.items()
         ),
         at_most("6 p99 of requests beside 20 events/s to 1,000", max(latencies) / 1_000 if latencies else None, 5, "ms"),

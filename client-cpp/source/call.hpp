@@ -17,6 +17,19 @@ namespace rois::client {
 // The link broke after the request was sent, and the same session has been resumed: whether it was done is not known.
 struct Interrupted {};
 
+// Until when there must be an answer, and how long that was in the beginning.
+struct Deadline {
+    Deadline(std::chrono::milliseconds time) : whole{bounded(time)} {}
+
+    std::chrono::milliseconds left() const {
+        auto const now = std::chrono::steady_clock::now();
+        return bounded(std::chrono::duration_cast<std::chrono::milliseconds>(due - now));
+    }
+
+    std::chrono::milliseconds whole;
+    Steady due = from_now(whole);
+};
+
 // Lives on the client's thread. Awaited once.
 class Call {
 public:
@@ -28,7 +41,7 @@ public:
     };
     using Outcome = std::variant<Answer, std::string, Interrupted>;  // a text for a raw one
 
-    Call(Kind how, std::string document, std::string request_id, std::chrono::milliseconds within)
+    Call(Kind how, std::string document, std::string request_id, Deadline within)
         : kind{how}, text{std::move(document)}, id{std::move(request_id)}, deadline{within} {}
 
     Call(Call const&) = delete;
@@ -55,8 +68,7 @@ public:
     Kind const kind;
     std::string const text;
     std::string const id;  // empty for a raw one
-    std::chrono::milliseconds const deadline;
-    Steady const due = std::chrono::steady_clock::now() + deadline;
+    Deadline const deadline;
     bool sent = false;  // on this link
 
 private:

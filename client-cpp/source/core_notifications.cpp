@@ -49,8 +49,9 @@ void Core::tell_gap(Gap gap) {
 }
 
 void Core::complete(CommandId const& id, CompletedStatus status) {
-    auto const found = watches_.extract(id);
-    if (found) found.mapped()->complete(status);
+    std::vector<std::shared_ptr<Watch>> over;
+    while (auto found = watches_.extract(id)) over.push_back(std::move(found.mapped()));
+    for (auto const& watch : over) watch->complete(status);
 }
 
 }  // namespace rois::detail

@@ -147,6 +147,7 @@ void Core::give_up_link(std::string const& reason, Failure failure) {
     }
     if (is_closed()) return;
     bool const was_open = is_open();
+    auto const refused = was_open && failure == Failure::too_large ? take_largest() : nullptr;
     if (phase_ == Phase::restoring) {
         --subscribing_;
         restoring_.clear();
@@ -155,13 +156,36 @@ void Core::give_up_link(std::string const& reason, Failure failure) {
     last_reason_ = reason;
     if (session_.text.empty() && had_session_) leave_session();
     if (was_open) change(State::lost, reason);
+    if (was_open && opened_at_ + settings_.longest_pause <= std::chrono::steady_clock::now()) failures_ = 0;
     ++failures_;
-    if (failure == Failure::lasting || (settings_.attempts && failures_ >= *settings_.attempts && !was_open)) {
+    ++attempts_;
+    if (failure == Failure::lasting || (settings_.attempts && attempts_ >= *settings_.attempts && !was_open)) {
         begin_close(Farewell::said);
         return;
     }
+    if (refused) refuse_too_large(*refused, reason);
     if (is_closed()) return;  // who was told has closed it
     attempt_ = loop_.in(pause(), [this] { attempt(); });
+}
+
+// The largest that is on its way, which the gateway did not take: it would break the next link, too. Null when there is none.
+std::shared_ptr<Call> Core::take_largest() {
+    auto const size = [](auto const& call) { return call->sent ? call->text.size() : 0; };
+    auto const largest = std::ranges::max_element(calls_, {}, size);
+    if (largest == calls_.end() || size(*largest) == 0) return nullptr;
+    auto call = *largest;
+    calls_.erase(largest);
+    return call;
+}
+
+void Core::refuse_too_large(Call& call, std::string const& reason) {
+    if (call.is_over()) return;
+    auto why = "a document of " + std::to_string(call.text.size()) + " bytes: " + reason;
+    if (call.kind == Call::Kind::raw) {
+        call.give(NoAnswer{NoAnswer::Why::link_lost, std::move(why)});
+    } else {
+        call.give(Fault{FaultCode::too_large, std::move(why), {}, {}});
+    }
 }
 
 // A session that is gone leaves a gap, which is told in the next one. What waits is told while its names are known; what a
@@ -177,7 +201,8 @@ void Core::leave_session() {
 
 void Core::give_up_misunderstood() { give_up_link("what the gateway says is not understood", Failure::passing); }
 
-// At once after a link that was good; then twice as long each time, cut by up to a half.
+// At once after a link that was good, on which something was answered or which has held for as long as the longest pause; then
+// twice as long each time, cut by up to a half.
 std::chrono::milliseconds Core::pause() {
     if (failures_ <= 1 && had_session_) return std::chrono::milliseconds{0};
     auto longest = settings_.first_pause;
@@ -254,7 +279,8 @@ void Core::all_restored() {
 void Core::become_open() {
     bool const same = !gap_ && state_ == State::lost;
     loop_.cancel(attempt_);
-    failures_ = 0;
+    attempts_ = 0;
+    opened_at_ = std::chrono::steady_clock::now();
     phase_ = Phase::open;
     std::erase_if(calls_, [](auto const& call) { return call->is_over(); });
     auto const gap = std::exchange(gap_, {});

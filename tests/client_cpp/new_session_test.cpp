@@ -206,7 +206,7 @@ TEST_P(TheNewSession, IsMadeAgainWhenItsAnswersAreNotUnderstood) {
         auto const answer = raw.get();
         ASSERT_TRUE(std::holds_alternative<NoAnswer>(answer)) << std::get<std::string>(answer);
         EXPECT_EQ(std::get<NoAnswer>(answer).why, NoAnswer::Why::link_lost);
-        EXPECT_EQ(robot(synthesis.set({.speech_text = "Hello."})), CompletedStatus::ok);
+        EXPECT_EQ(robot(synthesis.set(Speech().with_speech_text("Hello."))), CompletedStatus::ok);
         robot(synthesis.release());
     }
 }

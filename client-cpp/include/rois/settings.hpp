@@ -32,7 +32,8 @@ struct Settings {
     std::chrono::milliseconds ping_interval = std::chrono::seconds{5};
     std::chrono::milliseconds stream_silence = std::chrono::seconds{45};
 
-    // Between two attempts: the first pause, twice as long each time, the longest at most; each cut by up to a half, by chance.
+    // Between two attempts, but for the first one after a link that was good: the first pause, twice as long each time, the
+    // longest at most; each cut by up to a half, by chance.
     std::chrono::milliseconds first_pause = std::chrono::milliseconds{100};
     std::chrono::milliseconds longest_pause = std::chrono::seconds{5};
     std::optional<unsigned> attempts;  // in a row, after which the connection closes; none: never

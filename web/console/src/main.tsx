@@ -5,13 +5,13 @@ import './shell/shell.css';
 
 import { render } from 'preact';
 
+import { Console } from './state/console'; // first: what is like each other stands together, which is smaller with gzip
 import { type Language, language, wished_language } from './i18n/i18n';
 import { panels } from './panels';
 import { App } from './shell/app';
 import { browser } from './shell/environment';
 import { begin_layout } from './shell/layout';
 import { follow_system, type Theme, theme } from './shell/theme';
-import { Console } from './state/console';
 
 theme.value = (browser.recall('theme') as Theme | undefined) ?? 'system';
 language.value = (browser.recall('language') as Language | undefined) ?? wished_language(navigator.languages);

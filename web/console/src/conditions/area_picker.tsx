@@ -2,19 +2,14 @@
 import { useRef, useState } from 'preact/hooks';
 
 import { useConsole, useWatch } from '../shell/context';
-import type { Console } from '../state/console';
-import type { Bounds, FloorMap, Place } from '../state/floor_map';
+import { bounds_around, ground_of, type Point } from '../state/floor';
+import type { Bounds, FloorMap } from '../state/floor_map';
+import { floor_point, rect, SmallFloor } from '../ui/small_floor';
 import { is_number } from './checking';
 import type { Area } from './model';
 import { texts } from './texts';
 
-interface Point {
-  x: number;
-  y: number;
-}
-
 const step = 50; // mm
-const margin = 300; // mm
 const least_box = 100; // mm: less is a click
 
 export function AreaPicker({ area, change, radius }: { area: Area; change: (area: Area) => void; radius?: number | undefined }) {
@@ -24,11 +19,10 @@ export function AreaPicker({ area, change, radius }: { area: Area; change: (area
   const [drag, set_drag] = useState<{ from: Point; to: Point } | undefined>();
   const view = console.map.view.value;
   const map = view.state === 'there' ? view.map : undefined;
-  const bounds = map?.bounds ?? bounds_around(console);
+  const bounds = map?.bounds ?? bounds_around([...console.robots.all.values(), ...console.entities.all.values()]);
   const at = (event: PointerEvent): Point => {
-    const matrix = svg.current!.getScreenCTM()!.inverse();
-    const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix);
-    return { x: Math.round(x / step) * step, y: Math.round(-y / step) * step };
+    const { x, y } = floor_point(svg.current!, event);
+    return { x: Math.round(x / step) * step, y: Math.round(y / step) * step };
   };
   const pressed = (event: PointerEvent) => {
     if (event.button !== 0) return;
@@ -58,54 +52,27 @@ export function AreaPicker({ area, change, radius }: { area: Area; change: (area
   if (area.kind === 'place' && !map) return null;
   return (
     <figure class="conditions-picker">
-      <svg
-        ref={svg}
+      <SmallFloor
+        svg={svg}
+        bounds={bounds}
+        map={map}
         role="img"
         aria-label={t.picker}
-        viewBox={`${bounds.x - margin} ${-bounds.y - bounds.depth - margin} ${bounds.width + 2 * margin} ${bounds.depth + 2 * margin}`}
         onPointerDown={pressed}
         onPointerMove={(event) => drag && set_drag({ ...drag, to: at(event) })}
         onPointerUp={released}
         onPointerCancel={() => set_drag(undefined)}
       >
         <g transform="scale(1 -1)">
-          <rect class="conditions-floor" {...rect(bounds)} />
-          {map ? <Furnishing map={map} chosen={area.kind === 'place' ? area.place : ''} /> : <Grid bounds={bounds} />}
           <Things />
           {box && <rect class="conditions-chosen" {...rect(box)} />}
           {box && radius && area.kind !== 'point' && <rect class="conditions-reach" x={box.x - radius} y={box.y - radius} width={box.width + 2 * radius} height={box.depth + 2 * radius} rx={radius} />}
           {point && radius && <circle class="conditions-reach" cx={point.x} cy={point.y} r={radius} />}
           {point && <circle class="conditions-chosen" cx={point.x} cy={point.y} r={120} />}
         </g>
-        {map?.places.map((one) => (
-          <text key={one.name} class="conditions-place-name" x={one.x} y={-one.y}>
-            {one.name}
-          </text>
-        ))}
-      </svg>
+      </SmallFloor>
       <figcaption class="field-hint">{hint}</figcaption>
     </figure>
-  );
-}
-
-function Furnishing({ map, chosen }: { map: FloorMap; chosen: string }) {
-  return (
-    <>
-      {map.furniture.map((one, i) => <rect key={i} class="conditions-furniture" {...rect(one)} />)}
-      {map.places.map((one) => <rect key={one.name} class={one.name === chosen ? 'conditions-place conditions-chosen' : 'conditions-place'} {...rect(ground_of(one))} />)}
-      {map.walls.map((one, i) => <line key={i} class="conditions-wall" {...one} />)}
-    </>
-  );
-}
-
-// A line each metre.
-function Grid({ bounds: { x, y, width, depth } }: { bounds: Bounds }) {
-  const lines = (from: number, length: number) => Array.from({ length: Math.floor(length / 1000) + 1 }, (_, i) => Math.ceil(from / 1000) * 1000 + i * 1000);
-  return (
-    <>
-      {lines(x, width).map((one) => <line key={`x${one}`} class="conditions-grid" x1={one} x2={one} y1={y} y2={y + depth} />)}
-      {lines(y, depth).map((one) => <line key={`y${one}`} class="conditions-grid" x1={x} x2={x + width} y1={one} y2={one} />)}
-    </>
   );
 }
 
@@ -127,15 +94,6 @@ function Things() {
   );
 }
 
-// The area around a place.
-function ground_of({ x, y, width, depth }: Place): Bounds {
-  return { x: x - width / 2, y: y - depth / 2, width, depth };
-}
-
-function rect({ x, y, width, depth }: Bounds) {
-  return { x, y, width, height: depth };
-}
-
 function box_between(a: Point, b: Point): Bounds {
   return { x: Math.min(a.x, b.x), y: Math.min(a.y, b.y), width: Math.abs(a.x - b.x), depth: Math.abs(a.y - b.y) };
 }
@@ -151,12 +109,4 @@ function chosen_box(area: Area, map: FloorMap | undefined): Bounds | undefined {
 
 function chosen_point({ kind, x, y }: Area): Point | undefined {
   return kind === 'point' && is_number(x) && is_number(y) ? { x: Number(x), y: Number(y) } : undefined;
-}
-
-// For engines without a map: 20 m by 14 m, or what holds all that has been seen.
-function bounds_around({ robots, entities }: Console): Bounds {
-  const seen = [...robots.all.values(), ...entities.all.values()];
-  const [xs, ys] = [[0, 20_000, ...seen.map((one) => one.x)], [0, 14_000, ...seen.map((one) => one.y)]] as const;
-  const [x, y] = [Math.min(...xs), Math.min(...ys)];
-  return { x, y, width: Math.max(...xs) - x, depth: Math.max(...ys) - y };
 }

@@ -33,6 +33,10 @@ export const exchange_texts = in_both({
   in_furniture: (text: string) => [`${text} is where furniture stands.`, `${text} には家具があります。`],
   in_use: (components: string) => [`Running on the same robot: ${components}.`, `同じロボットで実行中: ${components}。`],
   told_error: (type: string) => [`The engine told of an error meanwhile: ${type}.`, `その間にエンジンがエラーを通知しました: ${type}。`],
+  document_gone: ['The document is no longer remembered.', '文書は残っていません。'],
+  in_messages: ['Show in messages', 'メッセージで見る'],
+  fetching: ['Fetching …', '取得中…'],
+  gone: (why: string) => [`The details cannot be had: ${why}`, `詳細を取得できません: ${why}`],
   stop: ['Stop', '停止'],
   stop_it: (title: string) => [`Stop ${title}`, `${title} を停止`],
 });

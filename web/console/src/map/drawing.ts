@@ -3,7 +3,7 @@ import { effect, signal, untracked } from '@preact/signals';
 
 import type { Console } from '../state/console';
 import type { Stop } from '../state/environment';
-import { bearing, distance, type FloorPose, obstacle_at } from './floor';
+import { bearing, distance, type FloorPose, obstacle_at } from '../state/floor';
 import { radius_of } from './glyphs';
 import { Glide } from './glide';
 import { goals_of } from './goals';
@@ -120,6 +120,11 @@ export class Drawing {
 
   floor_at(at: Point): Point {
     return to_floor(this.view, this.size, at);
+  }
+
+  /** Whether it is drawn in the right half. */
+  is_right(at: Point): boolean {
+    return to_screen(this.view, this.size, at).x > this.size.width / 2;
   }
 
   /** What is near the keyboard's cursor, the nearest first. */

@@ -1,5 +1,5 @@
 // Between two places that were told, things move evenly. With reduced motion, or after a leap, they jump.
-import { distance, type FloorPose, turned } from './floor';
+import { distance, type FloorPose, turned } from '../state/floor';
 
 interface Way {
   from: FloorPose;

@@ -6,7 +6,7 @@ import { useConsole } from '../shell/context';
 import type { Console } from '../state/console';
 import type { FloorMap } from '../state/floor_map';
 import { type Driver, drivers_of, motions_of } from './driving';
-import { distance, on_map } from './floor';
+import { distance, on_map } from '../state/floor';
 import { position } from './says';
 import type { Shown } from './scene';
 import type { Point } from './view';

@@ -1,5 +1,5 @@
 // What pointers, wheel and keys do to the map: one step after the other, each a pure function of what was before.
-import { turned } from './floor';
+import { turned } from '../state/floor';
 import { panned, pinched, type Point, type Size, to_floor, to_screen, type View, with_point, zoomed } from './view';
 
 /** Where the robot would be sent. Without `th` it stands as it arrives. */

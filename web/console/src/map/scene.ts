@@ -1,7 +1,7 @@
 // What is on the floor now: robots, people, faces and sounds, each with how sure one can be that it is still there.
 import type { FloorMap, RobotFrame } from '../state/floor_map';
 import { ellipse_of, type Entity, type Robot, type Thing } from '../state/things';
-import { distance, frame_named, out_of, turned_by } from './floor';
+import { distance, frame_named, out_of, turned_by } from '../state/floor';
 import type { Point } from './view';
 
 export type Kind = 'robot' | Entity['kind'];

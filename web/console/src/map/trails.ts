@@ -1,5 +1,5 @@
 // The ways that things have come, on a canvas of their own: while the view stays, only what is new is drawn.
-import { out_of } from './floor';
+import { out_of } from '../state/floor';
 import { color_of } from './glyphs';
 import type { Pen } from './pen';
 import type { Shown } from './scene';

@@ -1,9 +1,8 @@
 // What part of the floor is seen, and how large. Floor: mm, x to the right, y up. Screen: CSS pixels, y down.
 
-export interface Point {
-  x: number;
-  y: number;
-}
+import type { Point } from '../state/floor';
+
+export type { Point };
 /** On the screen. */
 export interface Size {
   width: number;

@@ -5,7 +5,7 @@ import { is_notification, notification_of, parse_xml, Results, results_of } from
 import { CommandProgress, ResultsTable } from '../forms';
 import { clock_time } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
-import { show_panel } from '../shell/layout';
+import { show_component } from '../shell/layout';
 import type { Console } from '../state/console';
 import type { LoggedDocument } from '../state/documents';
 import type { Details, ErrorEntry, EventEntry } from '../state/events_state';
@@ -29,10 +29,6 @@ export function Reader({ document, tape, choose }: ReaderProps) {
   const component = component_of(document);
   const place = place_of(document);
   const answer = document.kind === 'request' ? answer_to(console, tape, document) : undefined;
-  const open = (ref: string) => {
-    console.selection.component.value = ref;
-    show_panel('components');
-  };
   return (
     <div class="messages-reader">
       <div class="messages-head">
@@ -48,7 +44,7 @@ export function Reader({ document, tape, choose }: ReaderProps) {
         {document.request && <Button small icon="up" onClick={() => choose(document.request!)}>{t.to_request}</Button>}
         {answer && <Button small icon="down" onClick={() => choose(answer)}>{t.to_answer}</Button>}
         {component !== '' && !tape && console.profile.component(component) && (
-          <Button small icon="components" onClick={() => open(component)}>{t.to_component(component)}</Button>
+          <Button small icon="components" onClick={() => show_component(console, component)}>{t.to_component(component)}</Button>
         )}
         {direction === 'out' && !tape && <CurlButton request={document.text} />}
         <Checkbox label={t.raw} checked={raw} change={set_raw} />

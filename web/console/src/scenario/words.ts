@@ -21,7 +21,7 @@ export const words = in_both({
   never_run: ['Not started', '未開始'],
   binding: ['Binding …', 'バインド中…'],
   running: ['Running', '実行中'],
-  ended: (state: string) => [`Ended in ${state}`, `${state} で終了`],
+  ended: (state: string) => [`Ended in “${state}”`, `「${state}」で終了`],
   failed: (state: string) => [`Failed in ${state}`, `${state} で失敗`],
   was_stopped: ['Stopped', '停止しました'],
   trouble: ['Ended with trouble', '問題が起きて終了'],

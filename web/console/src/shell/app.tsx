@@ -6,7 +6,6 @@ import { ConsoleContext, useConsole, useWatch } from './context';
 import { Header } from './header';
 import { Layout } from './layout';
 import { LinkBanner } from './link_status';
-import { NoticeArea } from './notices';
 import { texts } from './texts';
 import { TokenDialog } from './token_dialog';
 
@@ -25,7 +24,6 @@ export function App({ console }: { console: Console }) {
         <main id="panels" class={is_stale ? 'app-main app-stale' : 'app-main'} tabIndex={-1}>
           <Layout />
         </main>
-        <NoticeArea />
         <TokenDialog />
         <Watch />
       </div>

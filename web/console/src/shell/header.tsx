@@ -6,6 +6,7 @@ import { Dialog } from '../ui/dialog';
 import { error_text } from '../ui/error_text';
 import { useConsole } from './context';
 import { LinkMark } from './link_status';
+import { NoticeArea } from './notices';
 import { texts } from './texts';
 import { theme, type Theme } from './theme';
 
@@ -23,6 +24,7 @@ export function Header() {
         RoIS {name && <span class="head-engine">{name}</span>}
       </h1>
       <LinkMark />
+      <NoticeArea />
       <div class="head-end">
         <Bound />
         <label class="head-choice">

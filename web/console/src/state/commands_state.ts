@@ -21,6 +21,7 @@ export interface CommandEntry {
   sent_at: number; // ms since 1970, as all times
   started_at?: number; // when we have seen that it runs
   ended_at?: number;
+  completed?: number; // of the document that told how it ended
   results?: Results; // fetched when somebody asks (`fetch_results`), and by itself when it has failed
 }
 
@@ -88,13 +89,14 @@ export class CommandsState {
     if (name === 'set_parameter_response') this.accepted([setting(parse_xml(text).text_of('command_id'), request)], request);
   }
 
-  ended(id: string, status: CompletedStatus): void {
+  ended(id: string, status: CompletedStatus, document?: number): void {
     const entry = this.by_id.get(id);
     if (!entry) {
       this.early.set(id, status);
       if (this.early.size > most_asked) this.early.delete(this.early.keys().next().value!);
       return;
     }
+    if (document !== undefined) entry.completed = document;
     this.end(entry, status);
     this.look();
     if (status !== 'OK') void this.fetch_results(entry);

@@ -249,7 +249,7 @@ export class Console {
         this.events.error(notification, document);
         break;
       case 'completed':
-        this.commands.ended(notification.command_id, notification.status);
+        this.commands.ended(notification.command_id, notification.status, document);
         break;
       case 'profile_changed':
         void this.read_profile();

@@ -72,6 +72,8 @@ function of_command(entry: CommandEntry, at: number): Description {
   ];
   if (entry.started_at !== undefined) facts.push([t.waited, duration(entry.started_at - entry.sent_at)]);
   if (began !== undefined) facts.push([t.ran, duration((entry.ended_at ?? at) - began)]);
+  const why = entry.state === 'OK' ? undefined : entry.results?.text('reason');
+  if (why) facts.push([t.reason, why]);
   return { at: entry.sent_at, kind: t.command, title: entry.command_type, component: entry.component, state: entry.state, facts };
 }
 

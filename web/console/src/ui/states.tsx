@@ -48,11 +48,11 @@ export function Badge({ tone = 'calm', title, children }: { tone?: Tone; title?:
 const tones: Record<string, Tone> = {
   READY: 'good', OK: 'good', open: 'good', resumed: 'good',
   BUSY: 'busy', RUNNING: 'busy', running: 'busy', connecting: 'busy',
-  WARNING: 'warning', UNINITIALIZED: 'calm', waiting: 'calm', WAITING: 'calm', unknown: 'calm',
-  ABORT: 'warning', TIMEOUT: 'bad', ERROR: 'bad', OUT_OF_RESOURCES: 'bad', BAD_PARAMETER: 'bad', UNSUPPORTED: 'bad',
+  WARNING: 'warning', ABORT: 'warning', token: 'warning', draining: 'warning',
+  TIMEOUT: 'bad', ERROR: 'bad', OUT_OF_RESOURCES: 'bad', BAD_PARAMETER: 'bad', UNSUPPORTED: 'bad', lost: 'bad', refused: 'bad',
 };
 
-/** The tone of a status or return code of the specification. */
+/** The tone of a status or return code of the specification, of a command's state, or of the link's phase. */
 export function tone_of(code: string): Tone {
   return tones[code] ?? 'calm';
 }

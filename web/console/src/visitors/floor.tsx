@@ -3,15 +3,13 @@ import { useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 
 import { useConsole, useWatch } from '../shell/context';
-import type { Bounds, FloorMap, RobotFrame } from '../state/floor_map';
+import { bounds_around, type FloorPose, nearest_of, on_map, type Point } from '../state/floor';
+import type { FloorMap } from '../state/floor_map';
 import type { Visitor } from '../state/hall_state';
+import { floor_point, SmallFloor } from '../ui/small_floor';
 import { steering_of } from './steering';
 import { words } from './words';
 
-interface Point {
-  x: number; // mm
-  y: number;
-}
 interface Aim extends Point {
   ref: string;
   /** Held by a pointer, rather than moved by keys. */
@@ -35,13 +33,8 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
   void hall.pulse.beat.value;
   void robots.pulse.beat.value;
   void console.commands.pulse.beat.value;
-  const bounds = map?.bounds ?? bounds_of([...hall.visitors.values(), ...robots.all.values()]);
+  const bounds = map?.bounds ?? bounds_around([...hall.visitors.values(), ...robots.all.values()]);
 
-  // What is drawn has its y downwards.
-  const floor_point = (event: PointerEvent): Point => {
-    const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.current!.getScreenCTM()!.inverse());
-    return within(bounds, { x: at.x, y: -at.y });
-  };
   const send = ({ ref, x, y }: Aim) => void steering.order(ref, 'walk', hall.walk(ref, { x: Math.round(x), y: Math.round(y) }));
 
   const pressed = (event: PointerEvent, { ref, x, y, steered }: Visitor) => {
@@ -55,7 +48,7 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
     const now = aim.value;
     if (now?.pointer !== event.pointerId) return;
     if (!now.has_moved && Math.hypot(event.clientX - pressed_at.current.x, event.clientY - pressed_at.current.y) < slop) return;
-    aim.value = { ...now, ...floor_point(event), has_moved: true };
+    aim.value = { ...now, ...nearest_of(bounds, floor_point(svg.current!, event)), has_moved: true };
   };
   const released = (event: PointerEvent) => {
     const now = aim.value;
@@ -63,13 +56,18 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
     aim.value = undefined;
     if (now.has_moved) send(now);
   };
+  // On the floor: whoever is chosen walks there.
+  const clicked = (event: MouseEvent) => {
+    const chosen = hall.visitors.get(steering.chosen.value);
+    if (chosen?.steered && !(event.target as Element).closest('[data-visitor]')) send({ ref: chosen.ref, has_moved: true, ...nearest_of(bounds, floor_point(svg.current!, event)) });
+  };
   const typed = (event: KeyboardEvent, { ref, x, y, steered }: Visitor) => {
     const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
     const now = aim.value?.ref === ref ? aim.value : undefined;
     if (arrow && steered) {
       const step = event.shiftKey ? steps.coarse : steps.fine;
       const from = now ?? { x: Math.round(x / steps.fine) * steps.fine, y: Math.round(y / steps.fine) * steps.fine };
-      aim.value = { ref, has_moved: true, ...within(bounds, { x: from.x + arrow[0]! * step, y: from.y + arrow[1]! * step }) };
+      aim.value = { ref, has_moved: true, ...nearest_of(bounds, { x: from.x + arrow[0]! * step, y: from.y + arrow[1]! * step }) };
     } else if (event.key === 'Enter' || event.key === ' ') {
       steering.chosen.value = ref;
       if (now) send(now);
@@ -80,11 +78,9 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
   };
 
   const aimed = aim.value;
-  const view = `${bounds.x - 150} ${-bounds.y - bounds.depth - 150} ${bounds.width + 300} ${bounds.depth + 300}`;
   return (
     <div class="visitors-floor">
-      <svg ref={svg} viewBox={view} role="group" aria-label={`${w.map} ${w.map_hint}`}>
-        {map && <Ground map={map} />}
+      <SmallFloor svg={svg} bounds={bounds} map={map} onClick={clicked} role="group" aria-label={`${w.map} ${w.map_hint}`}>
         {[...robots.all.values()].map((robot) => {
           const at = on_map(map, robot.crs, robot);
           const radius = map?.robots.find((one) => one.name === robot.ref)?.radius ?? person_radius;
@@ -113,8 +109,8 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
             <text class="visitors-name" x={one.x} y={-one.y - 420}>{one.ref}</text>
           </g>
         ))}
-      </svg>
-      <p class="visitors-aim" aria-live="polite">{aimed?.has_moved ? w.sends(aimed.ref, metres(aimed)) : ''}</p>
+      </SmallFloor>
+      <p class="visitors-aim" aria-live="polite">{aimed?.has_moved ? w.sends(aimed.ref, metres(aimed)) : hall.visitors.get(steering.chosen.value)?.steered ? w.click_hint(steering.chosen.value) : ''}</p>
     </div>
   );
 
@@ -123,25 +119,8 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
   }
 }
 
-function Ground({ map }: { map: FloorMap }) {
-  const { bounds } = map;
-  return (
-    <g aria-hidden="true">
-      <rect class="visitors-ground" x={bounds.x} y={-bounds.y - bounds.depth} width={bounds.width} height={bounds.depth} />
-      {map.places.map((one) => (
-        <g key={one.name}>
-          <rect class="visitors-place" x={one.x - one.width / 2} y={-one.y - one.depth / 2} width={one.width} height={one.depth} rx={120} />
-          <text class="visitors-place-name" x={one.x} y={-one.y + 110}>{one.name.replaceAll('_', ' ')}</text>
-        </g>
-      ))}
-      {map.furniture.map((one) => <rect key={`${one.x} ${one.y}`} class="visitors-furniture" x={one.x} y={-one.y - one.depth} width={one.width} height={one.depth} />)}
-      {map.walls.map((one) => <line key={`${one.x1} ${one.y1} ${one.x2} ${one.y2}`} class="visitors-wall" x1={one.x1} y1={-one.y1} x2={one.x2} y2={-one.y2} />)}
-    </g>
-  );
-}
-
 // A disc, and a nose where it looks.
-function Body({ at, radius, kind, name }: { at: { x: number; y: number; th?: number }; radius: number; kind: 'robot' | 'person'; name: string }) {
+function Body({ at, radius, kind, name }: { at: FloorPose; radius: number; kind: 'robot' | 'person'; name: string }) {
   const turn = ((at.th ?? 0) * Math.PI) / 180;
   const nose = { x: at.x + Math.cos(turn) * radius * 1.7, y: at.y + Math.sin(turn) * radius * 1.7 };
   return (
@@ -174,27 +153,4 @@ function target_of(text: string, map: FloorMap | undefined): Point | undefined {
   const [x, y] = text.split(',').map(Number);
   if (x !== undefined && y !== undefined && Number.isFinite(x) && Number.isFinite(y)) return { x, y };
   return map?.places.find((one) => one.name === text);
-}
-
-function within({ x, y, width, depth }: Bounds, at: Point): Point {
-  return { x: Math.min(x + width, Math.max(x, at.x)), y: Math.min(y + depth, Math.max(y, at.y)) };
-}
-
-// Without a map: as much as there is to see.
-function bounds_of(points: readonly Point[]): Bounds {
-  const [xs, ys] = [points.map(({ x }) => x), points.map(({ y }) => y)];
-  const [left, low] = [Math.min(0, ...xs) - 1000, Math.min(0, ...ys) - 1000];
-  return { x: left, y: low, width: Math.max(8000, ...xs) + 1000 - left, depth: Math.max(6000, ...ys) + 1000 - low };
-}
-
-function on_map(map: FloorMap | undefined, crs: string, pose: { x: number; y: number; th?: number }): { x: number; y: number; th?: number } | undefined {
-  if (!map || crs === '' || crs.toLowerCase() === map.crs.toLowerCase()) return pose;
-  const frame = map.robots.find((one) => one.frame?.crs.toLowerCase() === crs.toLowerCase())?.frame;
-  return frame && out_of(frame, pose);
-}
-
-function out_of(frame: RobotFrame, { x, y, th }: { x: number; y: number; th?: number }): { x: number; y: number; th?: number } {
-  const turn = (frame.heading * Math.PI) / 180;
-  const placed = { x: frame.x + x * Math.cos(turn) - y * Math.sin(turn), y: frame.y + x * Math.sin(turn) + y * Math.cos(turn) };
-  return th === undefined ? placed : { ...placed, th: th + frame.heading };
 }

@@ -32,6 +32,7 @@ export const words = in_both({
   ],
   visitor: (ref: string, at: string) => [`${ref}, at ${at}`, `${ref}、位置 ${at}`],
   robot: (ref: string) => [`Robot ${ref}`, `ロボット ${ref}`],
+  click_hint: (ref: string) => [`Drag ${ref}, or click where to go`, `${ref} をドラッグするか、行き先をクリック`],
   sends: (ref: string, at: string) => [`${ref} goes to ${at}`, `${ref} は ${at} へ行きます`],
   metres: (x: string, y: string) => `${x} m, ${y} m`,
   // Who

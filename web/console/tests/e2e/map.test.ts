@@ -261,6 +261,9 @@ describe('people', () => {
         await page.getByLabel('How near it comes').fill('1.5');
         await person.getByRole('button', { name: 'Follow' }).click();
         await page.locator('.map-motion', { hasText: /robot1 follows/ }).waitFor();
+        await person.waitFor({ state: 'detached' }); // it hides nothing any more
+        await page.getByRole('application', { name: /^Floor map/ }).focus();
+        await page.keyboard.press('n');
         await pass_until(page, person.getByText(/robot1 1\.[3-7] m away/));
         await picture(page, 'map-follow');
         expect(await violations(page)).toBe('');

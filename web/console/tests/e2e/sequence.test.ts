@@ -176,6 +176,7 @@ describe('sequences', () => {
         const run = panel(page).getByRole('button', { name: 'Run', exact: true });
         expect(await run.isEnabled()).toBe(false); // what waits would run, too
         await page.getByRole('button', { name: 'Disconnect' }).click();
+        await page.getByRole('dialog', { name: 'Disconnect?' }).getByRole('button', { name: 'Disconnect' }).click();
         await page.getByRole('button', { name: 'Connect', exact: true }).click();
         await box(page, 'speech_synthesis').getByText(/^(ABORT|unknown)$/).waitFor();
         await page.waitForFunction(() => !(document.querySelector('.sequence-toolbar button') as HTMLButtonElement).disabled);

@@ -46,7 +46,7 @@ describe('in a world that stands still', () => {
         await row(page, 'anna').getByText('10.0 m, 0.7 m').waitFor();
 
         const from = (await visitor(page, 'anna').locator('.visitors-body').boundingBox())!;
-        const hall = (await page.locator('.visitors-ground').boundingBox())!;
+        const hall = (await page.locator('.floor-ground').boundingBox())!;
         const mm = hall.width / 20_000; // px; the hall is 20 m wide
         await page.mouse.move(from.x + from.width / 2, from.y + from.height - 260 * mm);
         await page.mouse.down();
@@ -89,6 +89,11 @@ describe('in a world that stands still', () => {
         await page.getByRole('button', { name: 'Let 10 seconds pass' }).click();
         await row(page, 'anna').waitFor();
         await row(page, 'ben').getByText(at_desk).waitFor();
+
+        // The floor sends whoever is chosen.
+        await page.getByText('Drag anna, or click where to go').waitFor();
+        await page.locator('.visitors-floor rect.visitors-ground').click({ position: { x: 40, y: 40 } });
+        await row(page, 'anna').getByText('walking').waitFor();
 
         await visitor(page, 'anna').focus();
         for (const key of ['Shift+ArrowUp', 'Shift+ArrowUp', 'ArrowLeft']) await page.keyboard.press(key);

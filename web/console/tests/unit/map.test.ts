@@ -1,7 +1,7 @@
 // The floor map without a canvas: the view, what pointers and keys do, what is on the floor.
 import { describe, expect, test } from 'vitest';
 
-import { bearing, obstacle_at, on_map, turned } from '../../src/map/floor';
+import { bearing, obstacle_at, on_map, turned } from '../../src/state/floor';
 import { Glide } from '../../src/map/glide';
 import { at_rest, type Hit, type Input, type Interaction, is_map_key, stepped, type Surroundings } from '../../src/map/interaction';
 import { Labels } from '../../src/map/labels';

@@ -1,7 +1,11 @@
 // Where things are on the floor: frames, directions, what stands in the way.
-import type { Bounds, FloorMap, RobotFrame } from '../state/floor_map';
-import type { Point } from './view';
+import type { Bounds, FloorMap, Place, RobotFrame } from './floor_map';
 
+/** mm. */
+export interface Point {
+  x: number;
+  y: number;
+}
 /** mm, degrees counter-clockwise. */
 export interface FloorPose extends Point {
   th?: number;
@@ -59,8 +63,21 @@ export function obstacle_at(map: FloorMap | undefined, { x, y }: Point, radius: 
   return near_wall ? 'wall' : undefined;
 }
 
-function nearest_of(box: Bounds, { x, y }: Point): Point {
+/** The place within a box that is nearest. */
+export function nearest_of(box: Bounds, { x, y }: Point): Point {
   return { x: Math.min(box.x + box.width, Math.max(box.x, x)), y: Math.min(box.y + box.depth, Math.max(box.y, y)) };
+}
+
+/** The ground of a place, which is told by its middle. */
+export function ground_of({ x, y, width, depth }: Place): Bounds {
+  return { x: x - width / 2, y: y - depth / 2, width, depth };
+}
+
+/** For engines without a map: 20 m by 14 m, or what holds all that there is. */
+export function bounds_around(seen: readonly Point[]): Bounds {
+  const [xs, ys] = [[0, 20_000, ...seen.map((one) => one.x)], [0, 14_000, ...seen.map((one) => one.y)]] as const;
+  const [x, y] = [Math.min(...xs), Math.min(...ys)];
+  return { x, y, width: Math.max(...xs) - x, depth: Math.max(...ys) - y };
 }
 
 /** A covariance's ellipse, brought along. */
