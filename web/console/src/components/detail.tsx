@@ -1,5 +1,5 @@
 // One component: how it is, who has it, and what it can do.
-import { useDraft } from '../forms';
+import { shown_description, useDraft } from '../forms';
 import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
 import { Button, error_text, StatusBadge, Tabs } from '../ui';
@@ -65,7 +65,7 @@ function Head({ view }: { view: ComponentView }) {
           </Button>
         )}
       </div>
-      {view.description !== '' && <p>{view.description}</p>}
+      {view.description !== '' && <p>{shown_description(view.description)}</p>}
       <p class="soft"><code>{view.type}</code></p>
       {view.unresolved.length > 0 && <p class="soft">{t.unresolved(view.unresolved.join(', '))}</p>}
     </header>

@@ -1,6 +1,7 @@
 // The tree of engines and components, as the ARIA practices have trees: one stop of the Tab key, arrows inside.
 import { useRef, useState } from 'preact/hooks';
 
+import { shown_description } from '../forms';
 import { useConsole } from '../shell/context';
 import type { ComponentView, EngineView } from '../state/profile_state';
 import { Icon, StatusBadge } from '../ui';
@@ -94,7 +95,7 @@ function Row({ component, is_stop }: { component: ComponentView; is_stop: boolea
     selection.component.value = component.ref;
   };
   return (
-    <li role="treeitem" class="engine-component" title={component.description} aria-selected={is_chosen} tabIndex={is_stop ? 0 : -1} data-item={`component ${component.ref}`} onClick={choose}>
+    <li role="treeitem" class="engine-component" title={shown_description(component.description)} aria-selected={is_chosen} tabIndex={is_stop ? 0 : -1} data-item={`component ${component.ref}`} onClick={choose}>
       <span class="engine-ref">{component.ref}</span>
       <span class="engine-type">{component.type_name}</span>
       <Work component={component.ref} />

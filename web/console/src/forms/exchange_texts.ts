@@ -23,7 +23,8 @@ export const exchange_texts = in_both({
   value: ['Value', '値'],
   type: ['Type', '型'],
   ended: (state: CommandState) => ends[state],
-  lasted: (time: string) => [`for ${time}`, `${time}間`],
+  lasts: (time: string) => [`for ${time}`, `${time}間`],
+  lasted: (time: string) => [`(${time})`, `(${time})`],
   outside: (text: string, x: string, y: string) => [
     `${text} is outside of the map, which goes from ${x} and from ${y} (mm).`,
     `${text} は地図の外です。地図の範囲は ${x}、${y} (mm) です。`,

@@ -24,5 +24,5 @@ export function ResultsTable({ label, results }: { label: string; results: Resul
 // Positions and sentences stand below each other; short names side by side.
 function Values({ texts }: { texts: string[] }) {
   const are_long = texts.some((text) => text.length > 12);
-  return <span class={are_long ? 'results-values results-below' : 'results-values'}>{texts.map((text, i) => <span key={i}>{text === '' ? '“”' : text}</span>)}</span>;
+  return <span class={are_long ? `results-values results-below${texts.length > 8 ? ' results-many' : ''}` : 'results-values'}>{texts.map((text, i) => <span key={i}>{text === '' ? '“”' : text}</span>)}</span>;
 }

@@ -8,13 +8,14 @@ import { texts } from './texts';
 
 export function SlotView({ slot, context, is_empty = false }: { slot: Slot; context: LaneContext; is_empty?: boolean }) {
   const t = texts();
-  const { adding, set_adding, drag, store, open_form } = context;
+  const { adding, set_adding, drag, store, go_to, open_form } = context;
   const is = (one: Slot | undefined) => one?.lane === slot.lane && one.index === slot.index;
   const add = (step: Step) => {
     store.change(with_inserted(store.root.value, slot, step));
     set_adding(undefined);
     store.chosen.value = step.id;
-    open_form();
+    if (step.kind === 'parallel') go_to(step.id); // it is filled in the drawing
+    else open_form();
   };
   const name = ['sequence-slot', is(drag.over) && 'sequence-target', is_empty && 'sequence-empty'].filter(Boolean).join(' ');
   return (

@@ -99,7 +99,9 @@ export function Chart({ view, opened, open }: ChartProps) {
     choose: (range) => (choice.value = range),
     click: (event) => {
       const { placed } = found(event);
-      if (placed) open(placed.thing);
+      if (!placed) return;
+      open(placed.thing);
+      pointer.current = hovered.value = undefined; // its card would lie over the details
     },
   });
   const pointer = useRef<{ clientX: number; clientY: number }>();

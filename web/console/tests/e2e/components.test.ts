@@ -92,6 +92,7 @@ describe('components', () => {
       await page.getByLabel('Release it when the command has ended').check();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
       await answer(page).getByText('It is running.').waitFor();
+      await item(page, 'follow').getByText('running').waitFor();
       // It is seen from another form, too.
       await page.getByRole('button', { name: 'resume', exact: true }).click();
       await page.locator('.panel-components').getByText('The answer will stand here.').waitFor();

@@ -84,6 +84,8 @@ describe('descriptions', () => {
     expect(need_of(told('What. Either this or SSML_text is mandatory.'))).toEqual({ kind: 'either', other: 'SSML_text' });
     expect(need_of(told('How loud. Optional.'))).toEqual({ kind: 'optional' });
     expect(shown_description('What the route saves: `time` or `distance`. Optional.')).toBe('What the route saves: time or distance.');
+    expect(shown_description('Speaks (table 44).')).toBe('Speaks.');
+    expect(shown_description('Follows (7.6.15), at 2 (or 3) m.')).toBe('Follows, at 2 (or 3) m.');
     expect(is_position(asked('target_position', 'string[]'))).toBe(true);
     expect(is_position(asked('time_limit', 'int', { description: 'in "x, y"' }))).toBe(false);
     expect(fixed_length(asked('line', 'int[]', { description: 'Distance in millimetre and direction in degree.' }))).toBe(2);
