@@ -1,23 +1,24 @@
 // The panels of the page. A line here puts a panel into the navigation; docs/console.md says what it has to bring.
 import type { ComponentType } from 'preact';
 
-import ComponentsPanel from './components/panel';
-import { texts as components } from './components/texts';
-import ConditionsPanel from './conditions/panel';
-import { texts as conditions } from './conditions/texts';
-import HealthPanel from './health/panel';
-import { texts as health } from './health/texts';
-import MapPanel from './map/panel';
-import { texts as map } from './map/texts';
-import MessagesPanel from './messages/panel';
-import { texts as messages } from './messages/texts';
+import type { IconName } from './ui/icon';
+// Not by name, but so that those that are alike stand together: the page is smaller so (docs/console.md).
 import ScenarioPanel from './scenario/panel';
 import { words as scenario } from './scenario/words';
 import SequencePanel from './sequence/panel';
 import { texts as sequence } from './sequence/texts';
+import ConditionsPanel from './conditions/panel';
+import { texts as conditions } from './conditions/texts';
+import ComponentsPanel from './components/panel';
+import { texts as components } from './components/texts';
+import MessagesPanel from './messages/panel';
+import { texts as messages } from './messages/texts';
+import HealthPanel from './health/panel';
+import { texts as health } from './health/texts';
 import TimelinePanel from './timeline/panel';
 import { texts as timeline } from './timeline/texts';
-import type { IconName } from './ui/icon';
+import MapPanel from './map/panel';
+import { texts as map } from './map/texts';
 import VisitorsPanel from './visitors/panel';
 import { words as visitors } from './visitors/words';
 

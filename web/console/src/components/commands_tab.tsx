@@ -52,8 +52,9 @@ function CommandForm({ view, name }: { view: ComponentView; name: string }) {
     <form class="component-form" onSubmit={(event) => event.preventDefault()}>
       {asked.length > 0 && <ArgumentFields view={view} asked={asked} inputs={inputs} change={change} problems={shown} />}
       {misplaced(console, unit).map((text) => <p key={text} class="exchange-why">{text}</p>)}
-      {timeout !== undefined && <p class="component-soft">{t.start_within(duration(timeout))}</p>}
+      {timeout !== undefined && <p class="soft">{t.start_within(duration(timeout))}</p>}
       <Exchange
+        by_enter
         title={title}
         operation="execute"
         label={name}

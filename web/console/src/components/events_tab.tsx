@@ -43,7 +43,7 @@ function SubscribeForm({ view, event }: { view: ComponentView; event: Offered })
   const results = event.results.map((one) => `${one.name} (${one.data_type_ref.code})`).join(', ');
   return (
     <form class="component-form" onSubmit={(submitted) => submitted.preventDefault()}>
-      <p class="component-soft">{results !== '' && t.brings(results)} {t.not_started}</p>
+      <p class="soft">{results !== '' && t.brings(results)} {t.not_started}</p>
       <div class="component-line">
         <Checkbox label={t.only_mine(view.ref)} checked={only_mine} change={set_only_mine} />
         <Checkbox label={t.inline} checked={inline_results} change={set_inline} />
@@ -93,7 +93,7 @@ function Subscriptions({ event_type }: { event_type: string }) {
         {those.map((one) => (
           <li key={one.id} class="row-spread">
             <span>
-              <code>{one.id}</code> <span class="component-soft">{clock_time(one.since, false)} · {t.counted(one.count)}</span>
+              <code>{one.id}</code> <span class="soft">{clock_time(one.since, false)} · {t.counted(one.count)}</span>
             </span>
             <Button small aria-label={t.unsubscribe_it(one.id)} onClick={() => leave(one.id)}>
               {t.unsubscribe}
@@ -120,7 +120,7 @@ function LastEvents({ view, event_type }: { view: ComponentView; event_type: str
       <ul class="component-list">
         {last.map((one) => (
           <li key={one.number}>
-            <span class="component-soft">{clock_time(one.at)}</span>{' '}
+            <span class="soft">{clock_time(one.at)}</span>{' '}
             {one.details.state === 'there' && one.details.results.parameters.filter((each) => each.name !== 'timestamp').map((each) => `${each.name}: ${each.values.join('; ')}`).join(' · ')}
           </li>
         ))}

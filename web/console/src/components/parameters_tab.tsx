@@ -16,8 +16,8 @@ export function ParametersTab({ view }: { view: ComponentView }) {
   return (
     <>
       <h3>{t.values_now}</h3>
-      {told && told.parameters.length > 0 ? <ResultsTable label={t.values_now} results={told} /> : <p class="component-soft">{t.not_told}</p>}
-      {view.parameters.length > 0 ? <SetForm view={view} /> : <p class="component-soft">{t.no_parameters}</p>}
+      {told && told.parameters.length > 0 ? <ResultsTable label={t.values_now} results={told} /> : <p class="soft">{t.not_told}</p>}
+      {view.parameters.length > 0 ? <SetForm view={view} /> : <p class="soft">{t.no_parameters}</p>}
     </>
   );
 }
@@ -40,6 +40,7 @@ function SetForm({ view }: { view: ComponentView }) {
       <ArgumentFields view={view} asked={asked} inputs={inputs} change={change} problems={problems} />
       {was_tried && given.length === 0 && <p class="field-error" role="alert">{t.set_nothing}</p>}
       <Exchange
+        by_enter
         title={`${view.ref} set_parameter`}
         operation="set_parameter"
         label={t.set}

@@ -7,10 +7,15 @@ import type { ComponentView } from '../state/profile_state';
 import { Pick } from './pick';
 import { texts } from './texts';
 
+/** What can be asked, as it is listed. */
+export function query_names(view: ComponentView): string[] {
+  return [...view.queries.map((one) => one.name), ...(view.parameters.length > 0 ? ['get_parameter'] : [])];
+}
+
 export function QueriesTab({ view }: { view: ComponentView }) {
   const console = useConsole();
   const t = texts();
-  const names = [...view.queries.map((one) => one.name), ...(view.parameters.length > 0 ? ['get_parameter'] : [])];
+  const names = query_names(view);
   const [name, choose] = useDraft(`${view.ref} query`, names[0] ?? '');
   if (!names.includes(name)) return <p>{t.no_queries}</p>;
   const query = view.queries.find((one) => one.name === name);
@@ -24,8 +29,9 @@ export function QueriesTab({ view }: { view: ComponentView }) {
     <>
       <Pick label={t.choose_query} names={names} chosen={name} choose={choose} tell={tell} />
       <form key={name} class="component-form" onSubmit={(event) => event.preventDefault()}>
-        {results !== '' && <p class="component-soft">{t.answers(results)}</p>}
+        {results !== '' && <p class="soft">{t.answers(results)}</p>}
         <Exchange
+          by_enter
           title={`${view.ref} ${name}`}
           operation="query"
           label={name}

@@ -1,6 +1,7 @@
 // What is still missing or wrong in a condition, before anything is sent. References that are not known here are the engine's to refuse.
 import { parse_xml } from 'rois-client';
 
+import { unwritable } from '../forms/data_type';
 import type { Area, Draft, Node, Predicate } from './model';
 import { has_distance, has_two_values, is_spatial, is_temporal, type Reference, resolved } from './vocabulary';
 import { wrapped } from './xml_writing';
@@ -10,7 +11,6 @@ export type Problem = 'no_reference' | 'no_value' | 'no_number' | 'no_time' | 'n
 
 const wrong: readonly Problem[] = ['no_number', 'reversed', 'no_xml', 'unwritable'];
 
-const unwritable = /[^\t\n\r\u0020-\uD7FF\uE000-\uFFFD\u{10000}-\u{10FFFF}]/u; // in XML 1.0
 
 export interface Found {
   field: ProblemField;

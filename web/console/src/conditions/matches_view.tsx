@@ -2,7 +2,7 @@
 import { useEffect } from 'preact/hooks';
 
 import { useConsole, useWatch } from '../shell/context';
-import { show_panel } from '../shell/layout';
+import { show_component } from '../shell/layout';
 import { error_text, StatusBadge } from '../ui';
 import { problems_of } from './checking';
 import { component_part, waits_for_results } from './matches';
@@ -12,7 +12,8 @@ import { texts } from './texts';
 
 export function MatchesView({ store }: { store: ConditionStore }) {
   const t = texts();
-  const { profile, status, link, selection } = useConsole();
+  const console = useConsole();
+  const { profile, status, link } = console;
   const draft = store.draft.value;
   const references = store.references.value;
   const condition = component_part(draft, references);
@@ -20,10 +21,6 @@ export function MatchesView({ store }: { store: ConditionStore }) {
   useWatch(status.poll);
   useWatch(store.matches);
   useEffect(() => store.matches.look_for(condition, eligible(draft, profile.components.value)), [condition.xml, draft.purpose, draft.event_type, draft.query_type, profile.told_at.value]);
-  const open = (ref: string) => {
-    selection.component.value = ref;
-    show_panel('components');
-  };
   const found = store.matches.found.value;
   const shown = found?.refs.filter(eligible(draft, profile.components.value)) ?? [];
   return (
@@ -41,7 +38,7 @@ export function MatchesView({ store }: { store: ConditionStore }) {
           return (
             <li key={ref}>
               {draft.order.length > 0 && <span class="conditions-type">{i + 1}</span>}
-              <button type="button" class="conditions-ref" title={t.open_component} onClick={() => open(ref)}>
+              <button type="button" class="conditions-ref" title={t.open_component} onClick={() => show_component(console, ref)}>
                 {ref}
               </button>
               <span class="conditions-type conditions-fill">{profile.component(ref)?.type_name}</span>

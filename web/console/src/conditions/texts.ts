@@ -123,6 +123,7 @@ export const texts = in_both({
   can_match: (n: number) => [n === 1 ? '1 component can send it' : `${n} components can send it`, `送れるコンポーネント ${n} 個`],
   can_answer: (n: number) => [n === 1 ? '1 component can answer' : `${n} components can answer`, `答えられるコンポーネント ${n} 個`],
   on_results: ['What the event or the answer tells is tested when it comes.', 'イベントや応答の内容は、届いたときに調べられます。'],
+  incomplete_request: ['Something is still missing above.', '上にまだ未記入の項目があります。'],
   incomplete: (n: number) => [
     n === 1 ? 'One thing is missing; it is left out here.' : `${n} things are missing; they are left out here.`,
     `${n} か所が未記入です。ここでは省かれています。`,

@@ -40,23 +40,21 @@ function written_plainly(node: Node, references: readonly Reference[]): Conditio
   return node.kind === 'written' ? new Condition(node.xml) : predicate_of(node, references);
 }
 
+const comparisons = {
+  EqualTo: 'equals',
+  NotEqualTo: 'differs_from',
+  LessThan: 'less_than',
+  GreaterThan: 'greater_than',
+  LessThanOrEqualTo: 'at_most',
+  GreaterThanOrEqualTo: 'at_least',
+} as const;
+const relations = { Within: 'within', Intersects: 'intersects', Disjoint: 'disjoint_from' } as const;
+
 function predicate_of(one: Predicate, references: readonly Reference[]): Condition {
   const subject = property(one.reference.trim());
   const has_several = one.matching !== 'Any' && resolved(one.reference, references)?.is_list;
   const how = { ...(has_several && { match_action: one.matching }), ...(!one.match_case && { match_case: false }) };
   switch (one.operator) {
-    case 'EqualTo':
-      return subject.equals(one.value.trim(), how);
-    case 'NotEqualTo':
-      return subject.differs_from(one.value.trim(), how);
-    case 'LessThan':
-      return subject.less_than(one.value.trim(), how);
-    case 'GreaterThan':
-      return subject.greater_than(one.value.trim(), how);
-    case 'LessThanOrEqualTo':
-      return subject.at_most(one.value.trim(), how);
-    case 'GreaterThanOrEqualTo':
-      return subject.at_least(one.value.trim(), how);
     case 'Between':
       return subject.between(one.value.trim(), one.upper.trim());
     case 'Like':
@@ -64,11 +62,9 @@ function predicate_of(one: Predicate, references: readonly Reference[]): Conditi
     case 'Null':
       return subject.is_null();
     case 'Within':
-      return subject.within(area_of(one.area));
     case 'Intersects':
-      return subject.intersects(area_of(one.area));
     case 'Disjoint':
-      return subject.disjoint_from(area_of(one.area));
+      return subject[relations[one.operator]](area_of(one.area));
     case 'DWithin':
       return subject.no_farther_than(Number(one.distance), area_of(one.area));
     case 'Beyond':
@@ -79,6 +75,8 @@ function predicate_of(one: Predicate, references: readonly Reference[]): Conditi
       return subject.before(new Date(one.value));
     case 'During':
       return subject.during(new Date(one.value), new Date(one.upper));
+    default:
+      return subject[comparisons[one.operator]](one.value.trim(), how);
   }
 }
 

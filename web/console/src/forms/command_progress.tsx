@@ -28,7 +28,7 @@ export function CommandProgress({ entry }: { entry: CommandEntry }) {
       <p class="exchange-line">
         <StatusBadge status={entry.state} />
         <span>{t.ended(entry.state)}</span>
-        <span class="exchange-took">{t.lasted(duration(Math.max(0, now - (entry.started_at ?? entry.sent_at))))}</span>
+        <span class="exchange-took">{(ended ? t.lasted : t.lasts)(duration(Math.max(0, now - (entry.started_at ?? entry.sent_at))))}</span>
         {can_stop && (
           <Button small look="danger" icon="stop" aria-label={t.stop_it(title)} onClick={stop}>
             {t.stop}

@@ -85,7 +85,8 @@ const shapes: Partial<Record<Kind, RegExp>> = {
 const a_date = /^(\d{4})-(\d\d)-(\d\d)/;
 const a_time = /^(?:[01]\d|2[0-3]):[0-5]\d:[0-5]\d(?:\.\d+)?/;
 const a_zone = /^(?:Z|[+-](?:(?:0\d|1[0-3]):[0-5]\d|14:00))$/;
-const unwritable = /[^\t\n\r\u0020-\uD7FF\uE000-\uFFFD\u{10000}-\u{10FFFF}]/u; // in XML 1.0
+/** What cannot stand in XML 1.0. */
+export const unwritable = /[^\t\n\r\u0020-\uD7FF\uE000-\uFFFD\u{10000}-\u{10FFFF}]/u;
 
 /** What is wrong with one item; undefined when it is of the type. */
 export function problem_of(type: DataType, text: string): Problem | undefined {

@@ -59,9 +59,9 @@ export function fixed_length({ data_type_ref, description }: ParameterProfile): 
   return units.length > 1 ? units.length : 0;
 }
 
-/** A description without what the form says by itself. */
+/** A description without what the form says by itself, and without where the specification has it. */
 export function shown_description(description = ''): string {
-  return description.replace(/\s*\b(Optional|Mandatory|Either this or \w+ is mandatory)\.?\s*$/i, '').replaceAll('`', '');
+  return description.replace(/\s*\b(Optional|Mandatory|Either this or \w+ is mandatory)\.?\s*$/i, '').replace(/ \((?:table )?[\d.]+\)/g, '').replaceAll('`', '');
 }
 
 /** Whether its texts are positions, as a floor map can give them. */

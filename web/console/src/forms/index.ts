@@ -6,6 +6,7 @@ export * from './describe';
 export * from './drafts';
 export * from './exchange';
 export * from './inputs';
+export * from './logged';
 export * from './options';
 export * from './parameter_field';
 export * from './results_table';

@@ -30,6 +30,7 @@ export const texts = in_both({
   now: (value: string) => [`now ${value}`, `現在 ${value}`],
   position: ['x, y, th or a place', 'x, y, th または場所'],
   item: (name: string, n: number) => [`${name}, item ${n}`, `${name} の ${n} 番目`],
+  choose: ['Choose from a list', '一覧から選ぶ'],
   add: (name: string) => [`Add to ${name}`, `${name} に追加`],
   remove: (name: string, n: number) => [`Remove item ${n} of ${name}`, `${name} の ${n} 番目を削除`],
   send_empty: (name: string) => [`Send ${name} as empty`, `${name} を空で送る`],

@@ -1,12 +1,10 @@
 // What this session was told of that went wrong; each opens to what is known of it.
 import { useState } from 'preact/hooks';
 
-import { CommandProgress, ResultsTable } from '../forms';
+import { CommandProgress, DetailsOf, LoggedXml } from '../forms';
 import { clock_time, duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
-import { show_panel } from '../shell/layout';
 import { texts as shell } from '../shell/texts';
-import type { Details } from '../state/events_state';
 import type { Phase } from '../state/link_state';
 import { Badge, Button, type Tone, XmlView } from '../ui';
 import { type LogEntry, log_of, reason_of, refused_component } from './log';
@@ -83,7 +81,7 @@ function told(entry: LogEntry): Told {
 function Entry({ entry }: { entry: LogEntry }) {
   const { tone, kind, title, component, more } = told(entry);
   const [is_open, set_open] = useState(false);
-  const at = clock_time(entry.at);
+  const at = clock_time(entry.at); // tells apart those that are open at once
   const summary = (
     <>
       <span class="health-when">{at}</span>
@@ -94,49 +92,28 @@ function Entry({ entry }: { entry: LogEntry }) {
     </>
   );
   if (entry.kind === 'gap' || entry.kind === 'link') return <div class="health-entry">{summary}</div>;
+  const document = entry.kind === 'refused' ? entry.document : entry.kind === 'command' ? entry.command.completed : entry.entry.document;
   return (
     <details onToggle={(event) => set_open(event.currentTarget.open)}>
       <summary class="health-entry">{summary}</summary>
       {is_open && (
         <div class="health-opened">
-          {entry.kind === 'error' && <Known title={at} details={entry.entry.details} />}
-          {entry.kind === 'refused' && entry.document.request && <LoggedText title={texts().request} at={at} text={entry.document.request.text} />}
-          {entry.kind === 'refused' && <LoggedText title={texts().document} at={at} text={entry.document.text} number={entry.document.number} />}
+          {entry.kind === 'error' && <DetailsOf details={entry.entry.details} label={`${texts().details}: ${at}`} none={texts().no_details} />}
+          {entry.kind === 'refused' && entry.document.request && (
+            <>
+              <h4>{texts().request}</h4>
+              <XmlView text={entry.document.request.text} label={`${texts().request}, ${at}`} />
+            </>
+          )}
           {entry.kind === 'command' && <CommandProgress entry={entry.command} />}
-          {entry.kind === 'command' && entry.command.completed !== undefined && <Remembered at={at} number={entry.command.completed} />}
-          {entry.kind === 'error' && <Remembered at={at} number={entry.entry.document} />}
+          {document !== undefined && (
+            <>
+              <h4>{texts().document}</h4>
+              <LoggedXml label={`${texts().document}, ${at}`} document={document} />
+            </>
+          )}
         </div>
       )}
     </details>
-  );
-}
-
-function Known({ title, details }: { title: string; details: Details }) {
-  const t = texts();
-  if (details.state === 'gone') return <p>{t.gone(details.reason)}</p>;
-  if (details.state !== 'there') return <p>{t.asked}</p>;
-  if (details.results.parameters.length === 0) return <p>{t.no_details}</p>;
-  return <ResultsTable label={`${t.details}: ${title}`} results={details.results} />;
-}
-
-function Remembered({ at, number }: { at: string; number: number }) {
-  const { documents } = useConsole();
-  const document = documents.ring.numbered(number);
-  return document ? <LoggedText title={texts().document} at={at} text={document.text} number={number} /> : <p>{texts().document_gone}</p>;
-}
-
-// `at` tells apart those that are open at once.
-function LoggedText({ title, at, text, number }: { title: string; at: string; text: string; number?: number }) {
-  const { selection } = useConsole();
-  const show = () => {
-    selection.document.value = number;
-    show_panel('messages');
-  };
-  return (
-    <>
-      <h4>{title}</h4>
-      <XmlView text={text} label={`${title}, ${at}`} />
-      {number !== undefined && <Button small look="quiet" icon="messages" onClick={show}>{texts().in_messages}</Button>}
-    </>
   );
 }

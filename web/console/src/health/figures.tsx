@@ -4,15 +4,10 @@ import type { ComponentChildren } from 'preact';
 import { bytes_text, count_text, duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import { texts as shell } from '../shell/texts';
-import type { Phase } from '../state/link_state';
-import { Badge, type Tone } from '../ui';
+import { Badge, tone_of } from '../ui';
 import { fresh_for, growth, latencies, type Series } from './series';
 import { texts } from './texts';
 import { ms_text } from './plots';
-
-const tones: Record<Phase, Tone> = {
-  connecting: 'busy', open: 'good', resumed: 'good', lost: 'bad', refused: 'bad', token: 'warning', draining: 'warning', closed: 'calm',
-};
 
 export function Figures() {
   const { link, metrics, traffic, now } = useConsole();
@@ -32,7 +27,7 @@ export function Figures() {
       {metrics.trouble.value !== '' && <p class="health-trouble">{t.metrics_trouble(metrics.trouble.value)}</p>}
       <dl class="health-figures">
         <Figure name={t.link}>
-          <Badge tone={tones[phase]} title={reason}>{shell().phase(phase)}</Badge>
+          <Badge tone={tone_of(phase)} title={reason}>{shell().phase(phase)}</Badge>
           <small>{t.since(Math.max(0, now.value - since))}</small>
         </Figure>
         <Figure name={t.latency}>{last(latencies(traffic.seconds, from).middle, ms_text)}</Figure>

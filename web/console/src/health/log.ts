@@ -7,6 +7,7 @@ import type { LoggedDocument } from '../state/documents';
 import type { ErrorEntry, GapEntry } from '../state/events_state';
 import type { Span } from '../state/history';
 import { placed_commands, units_of } from '../state/sequences';
+import { unescaped } from '../ui/xml_text';
 
 export type LogEntry = { at: number; key: string } & (
   | { kind: 'error'; entry: ErrorEntry }
@@ -32,7 +33,7 @@ export function log_of({ events, traffic, history, commands }: Console): LogEntr
 /** What the engine says for a refusal; empty when it says nothing. */
 export function reason_of({ text }: LoggedDocument): string {
   const said = /<(?:\w+:)?reason>([^<]*)</.exec(text)?.[1] ?? '';
-  return said.replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&quot;', '"').replaceAll('&apos;', "'").replaceAll('&amp;', '&');
+  return unescaped(said);
 }
 
 /** Whom a refusal concerns: of a sequence it says which step it does not take. */

@@ -96,10 +96,6 @@ export const texts = in_both({
   older: (n: number) => [`Show ${count_text(n)} older`, `さらに古い ${count_text(n)} 件を表示`],
   details: ['Details', '詳細'],
   no_details: ['The engine says no more.', 'エンジンからの詳しい情報はありません。'],
-  asked: ['Fetching …', '取得中…'],
-  gone: (why: string) => [`The details cannot be had: ${why}`, `詳細を取得できません: ${why}`],
   request: ['The request', '要求'],
   document: ['The document', '文書'],
-  document_gone: ['The document is no longer remembered.', '文書は残っていません。'],
-  in_messages: ['Show in messages', 'メッセージで見る'],
 });

@@ -4,7 +4,7 @@ import type { ComponentChildren } from 'preact';
 import { value } from 'rois-client';
 
 import { useConsole } from '../shell/context';
-import { show_panel } from '../shell/layout';
+import { show_component } from '../shell/layout';
 import { Button, error_text, IconButton, SelectField, TextField } from '../ui';
 import { type Driver, follow, go, motions_of, stop, target_text } from './driving';
 import { distance, obstacle_at, turned } from '../state/floor';
@@ -91,6 +91,7 @@ export function TargetCard({ target, sending }: { target: Target; sending: Sendi
   const map = session.map;
   const put = (to: Target | undefined) => (session.interaction.value = { ...session.interaction.value, target: to });
   const radius = map?.robots.find((one) => one.name === driver?.robot?.ref)?.radius ?? no_radius;
+  const robot = session.scene().shown.find((one) => one.key === `robot ${driver?.robot?.ref}`);
   const blocked = target.place === undefined ? obstacle_at(map, target, radius) : undefined;
   const limit = seconds_of(session.time_limit.value);
   const places = [{ value: '', label: t.point }, ...(map?.places ?? []).map(({ name }) => ({ value: name, label: name }))];
@@ -123,7 +124,7 @@ export function TargetCard({ target, sending }: { target: Target; sending: Sendi
         {target.th === undefined && <p class="field-hint">{t.turn_hint}</p>}
         <TextField label={t.give_up} unit="s" value={session.time_limit.value} change={(to) => (session.time_limit.value = to)} error={limit === undefined ? t.no_number : undefined} input={{ inputMode: 'numeric', placeholder: t.never }} />
         <p class="map-fact">
-          {driver.robot && t.straight(metres(distance(driver.robot, target), 1))} <code title={t.position}>{target_text(target)}</code>
+          {robot && t.straight(metres(distance(robot, target), 1))} <span>{t.sent_as} <code>{target_text(target)}</code></span>
         </p>
         {blocked && <p class="map-warning">{t.blocked(blocked)}</p>}
         {sending.trouble}
@@ -201,13 +202,9 @@ function Fact({ name, children }: { name: string; children: ComponentChildren })
 
 // Leads to the component.
 function ComponentLink({ component }: { component: string }) {
-  const { selection } = useConsole();
-  const go_to = () => {
-    selection.component.value = component;
-    show_panel('components');
-  };
+  const console = useConsole();
   return (
-    <button type="button" class="map-link" onClick={go_to}>
+    <button type="button" class="map-link" onClick={() => show_component(console, component)}>
       <code>{component}</code>
     </button>
   );

@@ -130,7 +130,12 @@ function draw_place(pen: Pen, place: Place, with_name: boolean): void {
   if (!with_name) return;
   context.font = palette.font;
   context.textBaseline = 'top';
-  pen.text(place.name, { x: at.x, y: at.y + name_below }, palette.soft, 'center');
+  pen.text(place_name(place), { x: at.x, y: at.y + name_below }, palette.soft, 'center');
+}
+
+/** As people write it. */
+export function place_name({ name }: Place): string {
+  return name.replaceAll('_', ' ');
 }
 
 /** Where a place's name stands, so that no other one is written over it. */

@@ -101,8 +101,7 @@ function Frame() {
   if (crs === '') return null;
   return (
     <span class="map-frame" title={`${texts().frame}: ${crs}`}>
-      <span class="unseen">{texts().frame}: </span>
-      {short_name(crs)}
+      {texts().frame}: {short_name(crs)}
     </span>
   );
 }

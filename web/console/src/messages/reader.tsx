@@ -5,7 +5,7 @@ import { is_notification, notification_of, parse_xml, Results, results_of } from
 import { CommandProgress, ResultsTable } from '../forms';
 import { clock_time } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
-import { show_panel } from '../shell/layout';
+import { show_component } from '../shell/layout';
 import type { Console } from '../state/console';
 import type { LoggedDocument } from '../state/documents';
 import type { Details, ErrorEntry, EventEntry } from '../state/events_state';
@@ -29,17 +29,13 @@ export function Reader({ document, tape, choose }: ReaderProps) {
   const component = component_of(document);
   const place = place_of(document);
   const answer = document.kind === 'request' ? answer_to(console, tape, document) : undefined;
-  const open = (ref: string) => {
-    console.selection.component.value = ref;
-    show_panel('components');
-  };
   return (
     <div class="messages-reader">
       <div class="messages-head">
         <h3>{name === '' ? '—' : name}</h3>
         {return_code !== undefined && <StatusBadge status={return_code} />}
         {tape && <Badge tone="warning">{t.not_live}</Badge>}
-        <span class="messages-soft">
+        <span class="soft">
           {direction === 'out' ? t.outward : t.inward} {t.at(document.at)} · {t.size(document.text.length)}
           {document.took !== undefined && ` · ${t.took(document.took)}`}
         </span>
@@ -48,13 +44,13 @@ export function Reader({ document, tape, choose }: ReaderProps) {
         {document.request && <Button small icon="up" onClick={() => choose(document.request!)}>{t.to_request}</Button>}
         {answer && <Button small icon="down" onClick={() => choose(answer)}>{t.to_answer}</Button>}
         {component !== '' && !tape && console.profile.component(component) && (
-          <Button small icon="components" onClick={() => open(component)}>{t.to_component(component)}</Button>
+          <Button small icon="components" onClick={() => show_component(console, component)}>{t.to_component(component)}</Button>
         )}
         {direction === 'out' && !tape && <CurlButton request={document.text} />}
         <Checkbox label={t.raw} checked={raw} change={set_raw} />
       </div>
       {tape ? <Values results={values_in(document)} /> : <Live document={document} />}
-      {place && <p class="messages-soft">{t.place(place.line, place.column)}</p>}
+      {place && <p class="soft">{t.place(place.line, place.column)}</p>}
       <XmlView text={document.text} raw={raw} label={t.document(name)} />
       {place && document.request && <XmlView text={document.request.text} raw label={t.to_request} marked_line={place.line} />}
     </div>
@@ -72,7 +68,7 @@ function Live({ document }: { document: LoggedDocument }) {
   if (document.name === 'receive_event') {
     void events.pulse.beat.value;
     const entry = entry_of(document.is_own ? events.own_events : events.events, document);
-    return entry ? <DetailsOf details={entry.details} expire={expire_of(document)} ask={() => void events.fetch_event(entry)} /> : <p class="messages-soft">{texts().not_kept}</p>;
+    return entry ? <DetailsOf details={entry.details} expire={expire_of(document)} ask={() => void events.fetch_event(entry)} /> : <p class="soft">{texts().not_kept}</p>;
   }
   if (document.name === 'receive_error') {
     void events.pulse.beat.value;
@@ -86,7 +82,7 @@ function DetailsOf({ details, expire, ask }: { details: Details; expire: number 
   const { now, link } = useConsole();
   const t = texts();
   const is_expired = expire !== undefined && expire <= now.value;
-  const until = expire === undefined ? null : is_expired ? <Badge>{t.expired}</Badge> : <span class="messages-soft">{t.expires(clock_time(expire, false))}</span>;
+  const until = expire === undefined ? null : is_expired ? <Badge>{t.expired}</Badge> : <span class="soft">{t.expires(clock_time(expire, false))}</span>;
   switch (details.state) {
     case 'there':
       return (
@@ -96,9 +92,9 @@ function DetailsOf({ details, expire, ask }: { details: Details; expire: number 
         </>
       );
     case 'gone':
-      return <p>{t.gone} <span class="messages-soft">{details.reason}</span> {until}</p>;
+      return <p>{t.gone} <span class="soft">{details.reason}</span> {until}</p>;
     case 'asked':
-      return <p class="messages-soft" role="status">{t.fetching}</p>;
+      return <p class="soft" role="status">{t.fetching}</p>;
     default:
       return (
         <p class="messages-head">

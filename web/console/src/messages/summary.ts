@@ -1,5 +1,6 @@
 // What a document says, in a few words, without reading it whole.
 import type { LoggedDocument } from '../state/documents';
+import { unescaped } from '../ui/xml_text';
 
 const known = new WeakMap<LoggedDocument, string>();
 
@@ -19,7 +20,7 @@ function event_type_of({ text }: LoggedDocument): string {
 /** The component that a document names, be it in a condition; empty: none. */
 export function component_of({ component, text, kind }: LoggedDocument): string {
   if (component !== undefined || kind !== 'request') return component ?? '';
-  return plain(/>component_ref<\/[^>]*>\s*<(?:[\w.-]+:)?Literal>([^<]*)</.exec(text)?.[1] ?? '');
+  return unescaped(/>component_ref<\/[^>]*>\s*<(?:[\w.-]+:)?Literal>([^<]*)</.exec(text)?.[1] ?? '');
 }
 
 /** Of a completed: the command's id. */
@@ -67,7 +68,7 @@ function made_of(document: LoggedDocument): string {
 }
 
 function first_text(text: string, name: string): string {
-  return plain(new RegExp(`<(?:[\\w.-]+:)?${name}(?:\\s[^>]*)?>([^<]*)<`).exec(text)?.[1] ?? '');
+  return unescaped(new RegExp(`<(?:[\\w.-]+:)?${name}(?:\\s[^>]*)?>([^<]*)<`).exec(text)?.[1] ?? '');
 }
 
 const attribute = (name: string) => `(?:[\\w.-]+:)?${name}\\s*=\\s*["']([^"']*)["']`;
@@ -76,7 +77,7 @@ const most = 12; // values or commands
 function values(text: string, element: string): string[] {
   const each = new RegExp(`<(?:[\\w.-]+:)?${element}\\s[^>]*?${attribute('name')}[^>]*>([^]*?)</(?:[\\w.-]+:)?${element}>`, 'g');
   return [...first_of(text.matchAll(each))].filter(([, name]) => name !== 'timestamp').map(([, name, inside]) => {
-    const items = [...inside!.matchAll(/<(?:[\w.-]+:)?value(?:\s[^>]*)?>([^<]*)</g)].map(([, value]) => plain(value!));
+    const items = [...inside!.matchAll(/<(?:[\w.-]+:)?value(?:\s[^>]*)?>([^<]*)</g)].map(([, value]) => unescaped(value!));
     return `${name}: ${items.join('; ')}`;
   });
 }
@@ -97,10 +98,4 @@ function* first_of<T>(all: Iterable<T>): Iterable<T> {
     if (n++ === most) return;
     yield one;
   }
-}
-
-const entities: Record<string, string> = { lt: '<', gt: '>', quot: '"', apos: "'", amp: '&' };
-
-function plain(text: string): string {
-  return text.replace(/&(lt|gt|quot|apos|amp);/g, (_, name: string) => entities[name]!).trim();
 }

@@ -58,7 +58,6 @@ export const texts = in_both({
     `通知 ${count_text(n)} 件がエンジンで破棄されました (待ちが多すぎました)`,
   ],
   gap_session: ['The session was lost and another one began. What happened between is not known', 'セッションが失われ、新しく始まりました。その間に起きたことは分かりません'],
-  gap_title: ['A gap', '欠落'],
   document: (name: string) => [`Document: ${name}`, `文書: ${name}`],
   at: (time: number) => clock_time(time),
   took: (ms: number) => [`answered after ${ms < 10 ? ms.toFixed(1) : Math.round(ms)} ms`, `${ms < 10 ? ms.toFixed(1) : Math.round(ms)} ミリ秒で応答`],
@@ -73,6 +72,5 @@ export const texts = in_both({
   gone: ['The details are gone.', '詳細はもうありません。'],
   expires: (time: string) => [`The engine keeps them until ${time}.`, `エンジンは ${time} まで保持します。`],
   not_kept: ['This event came too long ago for the console to remember it.', '古いイベントのため、コンソールは覚えていません。'],
-  command: ['The command', 'コマンド'],
   place: (line: number, column: number) => [`line ${line}, column ${column}`, `${line} 行 ${column} 桁`],
 });

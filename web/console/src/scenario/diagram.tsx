@@ -16,7 +16,7 @@ export function Diagram({ desk, scenario, edit }: { desk: Desk; scenario: Scenar
   const w = words();
   const frame = useRef<HTMLDivElement>(null);
   const size = useSignal({ width: 600, height: 600 });
-  const is_whole = useSignal(false);
+  const is_whole = desk.shows_whole;
   const layout = picture_of(scenario);
   void desk.pulse.beat.value;
   const { run } = desk;

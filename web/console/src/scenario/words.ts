@@ -8,7 +8,6 @@ export const words = in_both({
   // The bar
   start: ['Start', '開始'],
   stop: ['Stop', '停止'],
-  stopping: ['Stopping …', '停止中…'],
   open: ['Open …', '開く…'],
   save: ['Save', '保存'],
   shipped: ['Reception as shipped', '付属の受付シナリオ'],
@@ -21,7 +20,7 @@ export const words = in_both({
   never_run: ['Not started', '未開始'],
   binding: ['Binding …', 'バインド中…'],
   running: ['Running', '実行中'],
-  ended: (state: string) => [`Ended in ${state}`, `${state} で終了`],
+  ended: (state: string) => [`Ended in “${state}”`, `「${state}」で終了`],
   failed: (state: string) => [`Failed in ${state}`, `${state} で失敗`],
   was_stopped: ['Stopped', '停止しました'],
   trouble: ['Ended with trouble', '問題が起きて終了'],
@@ -87,7 +86,6 @@ export const words = in_both({
   // Problems
   problems: ['What is wrong', '誤り'],
   warnings: ['What this engine cannot do', 'このエンジンにできないこと'],
-  all_well: ['Nothing is wrong', '誤りはありません'],
   at_line: (line: number, column: number) => [`line ${line}, column ${column}`, `${line} 行 ${column} 桁`],
   file_unreadable: ['The file cannot be read', 'ファイルを読めません'],
   unknown_element: (name: string, parent: string) => [

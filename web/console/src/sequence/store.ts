@@ -139,6 +139,10 @@ export class SequenceStore {
 
   // --- Running ---
 
+  get is_empty(): boolean {
+    return this.problems.value[0]?.what === 'nothing';
+  }
+
   get is_running(): boolean {
     void this.console.commands.pulse.beat.value;
     return this.open_entries().some((one) => one.state === 'running' || !this.run.value?.is_stopped);

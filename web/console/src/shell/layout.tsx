@@ -3,6 +3,7 @@ import { signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
 import type { Area, Panel } from '../panels';
+import type { Console } from '../state/console';
 import { SplitPane } from '../ui/split_pane';
 import { Tabs } from '../ui/tabs';
 import { Boundary } from './boundary';
@@ -22,6 +23,18 @@ export function show_panel(id: string): void {
   if (!panel) return;
   shown.value = { ...shown.value, [panel.area]: id, all: id };
   history.replaceState(null, '', `#${id}`);
+}
+
+/** Shows a component among the others. */
+export function show_component({ selection }: Console, ref: string): void {
+  selection.component.value = ref;
+  show_panel('components');
+}
+
+/** Shows a document among the others. */
+export function show_document({ selection }: Console, number: number): void {
+  selection.document.value = number;
+  show_panel('messages');
 }
 
 /** Begins with these panels, those in front that are recalled, and follows the width of the window and the address. */

@@ -1,13 +1,8 @@
 // How the link is: a mark in the header, and a line below it when there is something to say.
 import { useConsole } from './context';
-import type { Phase } from '../state/link_state';
-import { Badge, type Tone } from '../ui/states';
+import { Badge, tone_of } from '../ui/states';
 import { Button } from '../ui/button';
 import { texts } from './texts';
-
-const tones: Record<Phase, Tone> = {
-  connecting: 'busy', open: 'good', resumed: 'good', lost: 'bad', refused: 'bad', token: 'warning', draining: 'warning', closed: 'calm',
-};
 
 export function LinkMark() {
   const { link, now } = useConsole();
@@ -15,7 +10,7 @@ export function LinkMark() {
   const age = now.value - link.heard_at;
   return (
     <div class="link-mark">
-      <Badge tone={tones[phase]} title={reason}>
+      <Badge tone={tone_of(phase)} title={reason}>
         {texts().phase(phase)}
       </Badge>
       {link.heard_at > 0 && <span class="link-age">{texts().age(Math.max(0, age))}</span>}
@@ -41,7 +36,7 @@ export function LinkBanner() {
   return (
     <div class="banners" role="status" aria-live="polite">
       {text !== '' && (
-        <p class={`banner banner-${tones[phase]}`}>
+        <p class={`banner banner-${tone_of(phase)}`}>
           <strong>{t.phase(phase)}.</strong> {text} {reason !== '' && phase !== 'closed' && <code>{reason}</code>}
           {/^(connecting|lost|draining|refused)$/.test(phase) && (
             <Button small icon="refresh" onClick={() => console.retry()}>

@@ -63,5 +63,4 @@ export const texts = in_both({
   main: ['Main area', '主領域'],
   below: ['Lower area', '下の領域'],
   side: ['Side area', '横の領域'],
-  area: ['Areas', '領域'],
 });

@@ -1,6 +1,6 @@
 // Which components this console has bound, and binding on demand.
 import { signal } from '@preact/signals';
-import { type Client, code_of, parse_xml } from 'rois-client';
+import { type Client, code_of, namespaces, parse_xml } from 'rois-client';
 
 import type { LoggedDocument } from './documents';
 
@@ -109,7 +109,7 @@ export class Bindings {
     if (return_code !== 'OK' || request === undefined) return;
     if (name === 'bind_response' && request.component !== undefined) this.add(request.component);
     if (name === 'bind_any_response') {
-      const ref = parse_xml(text).child('component_ref')?.attribute('code', 'http://www.omg.org/spec/RoIS/20240801');
+      const ref = parse_xml(text).child('component_ref')?.attribute('code', namespaces.rois);
       if (ref !== undefined) this.add(ref);
     }
     if (name === 'release_response' && request.component !== undefined && this.mine.value.has(request.component))

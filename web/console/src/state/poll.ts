@@ -30,10 +30,6 @@ export class Poll {
     };
   }
 
-  get is_watched(): boolean {
-    return this.lookers > 0;
-  }
-
   /** Asks out of turn, if somebody looks. */
   now(): void {
     if (this.is_asking || this.lookers === 0 || !this.may_ask()) return;

@@ -1,7 +1,7 @@
 // Command sequences read back from documents: those that were sent as text, and those of recordings.
-import { type CommandMessage, type CommandUnit, identifier_of, parameter_of, type XmlElement } from 'rois-client';
+import { type CommandMessage, type CommandUnit, identifier_of, namespaces, parameter_of, type XmlElement } from 'rois-client';
 
-const { rois, xsi } = { rois: 'http://www.omg.org/spec/RoIS/20240801', xsi: 'http://www.w3.org/2001/XMLSchema-instance' };
+const { rois, xsi } = namespaces;
 
 /** A command and where it stands: `command_unit_list[2]/branch_list[1]/command_list[1]`, as the engine names places. */
 export interface PlacedCommand {

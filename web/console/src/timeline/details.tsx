@@ -3,12 +3,11 @@ import { useEffect, useRef } from 'preact/hooks';
 import { Results } from 'rois-client';
 
 import { clock_time } from '../i18n/i18n';
-import { CommandProgress, ResultsTable } from '../forms';
+import { CommandProgress, DetailsOf, LoggedXml, ResultsTable } from '../forms';
 import { useConsole } from '../shell/context';
-import { show_panel } from '../shell/layout';
+import { show_component } from '../shell/layout';
 import type { CommandEntry } from '../state/commands_state';
-import type { Details } from '../state/events_state';
-import { Button, EmptyState, IconButton, StatusBadge, XmlView } from '../ui';
+import { Button, IconButton, StatusBadge } from '../ui';
 import { describe, of_mark } from './describe';
 import { key_of, type Mark, mark_key, type Thing } from './things';
 import { texts } from './texts';
@@ -33,10 +32,6 @@ export function DetailsPane({ view, thing, open, close }: DetailsProps) {
   void console.commands.pulse.beat.value;
   if (thing.kind === 'span') void console.now.value;
   const { kind, title, component, state, facts } = describe(thing, view.sources.at);
-  const show_component = (ref: string) => {
-    console.selection.component.value = ref;
-    show_panel('components');
-  };
   const closed = (event: KeyboardEvent) => {
     if (event.key !== 'Escape') return;
     event.stopPropagation();
@@ -56,7 +51,7 @@ export function DetailsPane({ view, thing, open, close }: DetailsProps) {
             <div>
               <dt>{t.component}</dt>
               <dd>
-                <button type="button" class="timeline-link" onClick={() => show_component(component)}>{component}</button>
+                <button type="button" class="timeline-link" onClick={() => show_component(console, component)}>{component}</button>
               </dd>
             </div>
           )}
@@ -127,44 +122,29 @@ function MarkDetails({ mark }: { mark: Mark }) {
     if (mark.kind === 'event' && !events.is_expired(mark.entry)) void events.fetch_event(mark.entry);
     if (mark.kind === 'error') void events.fetch_error(mark.entry);
   }, [mark_key(mark)]);
-  if (mark.kind === 'gap') return null;
+  if (mark.kind === 'gap' || mark.kind === 'failed') return null;
+  if (mark.kind === 'refused')
+    return (
+      <>
+        {mark.entry.request && <LoggedText title={texts().request} number={mark.entry.request.number} />}
+        <LoggedText title={texts().document} number={mark.entry.number} />
+      </>
+    );
   const is_expired = mark.kind === 'event' && mark.entry.details.state === 'none' && events.is_expired(mark.entry);
   return (
     <>
       <h4>{texts().results}</h4>
-      {is_expired ? <p>{texts().expired}</p> : <Fetched details={mark.entry.details} />}
+      {is_expired ? <p>{texts().expired}</p> : <DetailsOf details={mark.entry.details} label={texts().results} none={texts().no_results} />}
       <LoggedText title={texts().document} number={mark.entry.document} />
     </>
   );
 }
 
-function Fetched({ details }: { details: Details }) {
-  const t = texts();
-  if (details.state === 'gone') return <p>{t.gone(details.reason)}</p>;
-  if (details.state !== 'there') return <p role="status">{t.fetching}</p>;
-  if (details.results.parameters.length === 0) return <p>{t.no_results}</p>;
-  return <ResultsTable label={t.results} results={details.results} />;
-}
-
 function LoggedText({ title, number }: { title: string; number: number }) {
-  const { documents, selection } = useConsole();
-  const t = texts();
-  const logged = documents.ring.numbered(number);
-  const show = () => {
-    selection.document.value = number;
-    show_panel('messages');
-  };
   return (
     <details class="timeline-document">
       <summary>{title}</summary>
-      {logged ? (
-        <>
-          <XmlView text={logged.text} label={title} />
-          <Button small look="quiet" icon="messages" onClick={show}>{t.in_messages}</Button>
-        </>
-      ) : (
-        <p>{t.document_gone}</p>
-      )}
+      <LoggedXml label={title} document={number} />
     </details>
   );
 }
@@ -198,8 +178,4 @@ function Many({ marks, view, open }: { marks: readonly Mark[]; view: TimeView; o
       </ul>
     </>
   );
-}
-
-export function NothingOpened() {
-  return <EmptyState title={texts().nothing} />;
 }

@@ -1,8 +1,6 @@
 // What stands where there is nothing, or nothing yet; and small marks of how things are.
 import type { ComponentChildren } from 'preact';
 
-import { Button } from './button';
-import { error_text } from './error_text';
 import { Icon, type IconName } from './icon';
 import { texts } from './texts';
 
@@ -12,16 +10,6 @@ export function EmptyState({ icon = 'info', title, children }: { icon?: IconName
       <Icon name={icon} size={24} />
       <p class="state-title">{title}</p>
       {children && <div class="state-more">{children}</div>}
-    </div>
-  );
-}
-
-export function ErrorState({ error, retry }: { error: unknown; retry?: () => void }) {
-  return (
-    <div class="state state-error" role="alert">
-      <Icon name="warning" size={24} />
-      <p class="state-title">{error_text(error)}</p>
-      {retry && <Button onClick={retry}>{texts().retry}</Button>}
     </div>
   );
 }
@@ -48,11 +36,11 @@ export function Badge({ tone = 'calm', title, children }: { tone?: Tone; title?:
 const tones: Record<string, Tone> = {
   READY: 'good', OK: 'good', open: 'good', resumed: 'good',
   BUSY: 'busy', RUNNING: 'busy', running: 'busy', connecting: 'busy',
-  WARNING: 'warning', UNINITIALIZED: 'calm', waiting: 'calm', WAITING: 'calm', unknown: 'calm',
-  ABORT: 'warning', TIMEOUT: 'bad', ERROR: 'bad', OUT_OF_RESOURCES: 'bad', BAD_PARAMETER: 'bad', UNSUPPORTED: 'bad',
+  WARNING: 'warning', ABORT: 'warning', token: 'warning', draining: 'warning',
+  TIMEOUT: 'bad', ERROR: 'bad', OUT_OF_RESOURCES: 'bad', BAD_PARAMETER: 'bad', UNSUPPORTED: 'bad', lost: 'bad', refused: 'bad',
 };
 
-/** The tone of a status or return code of the specification. */
+/** The tone of a status or return code of the specification, of a command's state, or of the link's phase. */
 export function tone_of(code: string): Tone {
   return tones[code] ?? 'calm';
 }

@@ -6,7 +6,6 @@ export const texts = in_both({
   copy_failed: ['The browser did not allow it: select the text and copy it yourself', 'ブラウザが許可しませんでした。文字を選んでコピーしてください'],
   copy_as_curl: ['Copy as curl', 'curl としてコピー'],
   close: ['Close', '閉じる'],
-  cancel: ['Cancel', '取り消し'],
   retry: ['Try again', 'もう一度'],
   loading: ['Loading …', '読み込み中…'],
   panel_failed: ['This panel has failed', 'このパネルに不具合が起きました'],
@@ -22,6 +21,5 @@ export const texts = in_both({
   session_lost: ['The session was lost, with its bindings, commands and subscriptions.', 'セッションが失われ、バインド・コマンド・購読もなくなりました。'],
   closed: ['The console is not connected.', 'コンソールは接続していません。'],
   out_of_resources: ['Another application has it. Try again when it has been released.', 'ほかのアプリケーションが使用中です。解放されてからもう一度試してください。'],
-  not_bound: ['It is not bound by this console.', 'このコンソールはバインドしていません。'],
   unsupported: ['No component of this engine can do that.', 'このエンジンにそれができるコンポーネントはありません。'],
 });

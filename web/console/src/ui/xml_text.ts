@@ -78,3 +78,10 @@ export function laid_out(text: string): string {
   const rest = text.slice(end).trim();
   return found.length === 0 || depth !== 0 ? text : [...lines, ...(rest === '' ? [] : [rest])].join('\n');
 }
+
+const entities: Record<string, string> = { lt: '<', gt: '>', quot: '"', apos: "'", amp: '&' };
+
+/** What a written text means. */
+export function unescaped(text: string): string {
+  return text.replace(/&(lt|gt|quot|apos|amp);/g, (_, name: string) => entities[name]!).trim();
+}

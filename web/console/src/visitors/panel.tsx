@@ -32,7 +32,7 @@ export default function VisitorsPanel() {
       <div class="visitors-people">
         <Entering steering={steering} />
         <Who steering={steering} />
-        {chosen?.steered ? <Orders key={chosen.ref} steering={steering} visitor={chosen} /> : <p class="visitors-soft">{chosen ? w.of_scenario_hint : w.choose_somebody}</p>}
+        {chosen?.steered ? <Orders key={chosen.ref} steering={steering} visitor={chosen} /> : <p class="soft">{chosen ? w.of_scenario_hint : w.choose_somebody}</p>}
       </div>
     </div>
   );
@@ -69,7 +69,7 @@ function Who({ steering }: { steering: Steering }) {
   return (
     <section class="visitors-who" aria-label={w.who}>
       <h2>{w.in_hall(all.length)}</h2>
-      {all.length === 0 && <p class="visitors-soft">{w.nobody}</p>}
+      {all.length === 0 && <p class="soft">{w.nobody}</p>}
       <ul>
         {all.map((one) => {
           const doing = hall.orders_of(one.ref).map(({ command_type }) => w.doing(command_type));
@@ -78,7 +78,7 @@ function Who({ steering }: { steering: Steering }) {
               <button type="button" class="visitors-one" aria-pressed={one.ref === steering.chosen.value} onClick={() => (steering.chosen.value = one.ref)}>
                 <span class="visitors-ref">{one.ref}</span>
                 {one.known && <Badge>{w.is_known}</Badge>}
-                {!one.steered && <span class="visitors-soft">{w.of_scenario}</span>}
+                {!one.steered && <span class="soft">{w.of_scenario}</span>}
                 {doing.length > 0 && <Badge tone="busy">{[...new Set(doing)].join(', ')}</Badge>}
                 <span class="visitors-at">{w.metres((one.x / 1000).toFixed(1), (one.y / 1000).toFixed(1))}</span>
               </button>

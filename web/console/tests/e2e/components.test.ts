@@ -92,6 +92,7 @@ describe('components', () => {
       await page.getByLabel('Release it when the command has ended').check();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
       await answer(page).getByText('It is running.').waitFor();
+      await item(page, 'follow').getByText('running').waitFor();
       // It is seen from another form, too.
       await page.getByRole('button', { name: 'resume', exact: true }).click();
       await page.locator('.panel-components').getByText('The answer will stand here.').waitFor();
@@ -110,11 +111,14 @@ describe('components', () => {
       await now.getByText('available_reactions').waitFor();
       await page.getByRole('button', { name: 'Set', exact: true }).click();
       await page.getByText('Nothing has been typed yet.').waitFor();
-      expect(await page.getByLabel('reaction_ref').evaluate((one: HTMLInputElement) => one.list?.options.length)).toBe(50);
-      await page.getByLabel('reaction_ref').fill('28');
+      expect(await page.getByLabel('reaction_ref', { exact: true }).evaluate((one: HTMLInputElement) => one.list?.options.length)).toBe(50);
+      await page.getByLabel('reaction_ref', { exact: true }).fill('28');
       expect(await page.getByRole('region', { name: 'Request: reaction set_parameter' }).textContent()).toContain('rois:codebook_ref="urn:x-rois:def:codebook:simulation::reaction"');
       await page.getByRole('button', { name: 'Set', exact: true }).click();
-      await now.locator('tr', { hasText: 'reaction_ref' }).getByText('28').waitFor();
+      await now.locator('tr', { hasText: 'reaction_ref' }).getByText('28 – wave the hand').waitFor();
+      await page.getByLabel('Choose from a list').selectOption({ label: '9 – bow the head' });
+      expect(await page.getByLabel('reaction_ref', { exact: true }).inputValue()).toBe('9');
+      await page.getByText('“bow the head”.').waitFor();
       await picture(page, 'components-parameters');
       expect(await violations(page)).toBe('');
     }));

@@ -114,8 +114,9 @@ describe('conditions', () => {
       async (page) => {
         await panel(page).getByRole('button', { name: 'Condition', exact: true }).click();
         await panel(page).getByText('One thing is missing').or(panel(page).getByText('2 things are missing')).waitFor();
-        await panel(page).getByRole('button', { name: 'Search', exact: true }).click();
-        await panel(page).locator('.field-error').getByText('Choose what it is about').waitFor();
+        await panel(page).getByText('Choose what it is about').first().waitFor();
+        expect(await panel(page).getByRole('button', { name: 'Search', exact: true }).isDisabled()).toBe(true);
+        await panel(page).getByText('Something is still missing above.').waitFor();
         await panel(page).getByLabel('What', { exact: true }).selectOption('location');
         await panel(page).getByLabel('How', { exact: true }).selectOption('is within a place');
         await panel(page).getByLabel('Place', { exact: true }).fill('nowhere');

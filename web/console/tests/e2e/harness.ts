@@ -29,6 +29,8 @@ export class Front {
   is_cut = false;
   /** Demanded of everybody while it is set, as a proxy before a gateway may. */
   token: string | undefined;
+  /** Who asks in vain is told that the gateway is shutting down, while this is set: of a real one that takes but a moment. */
+  is_draining = false;
 
   private constructor(
     private readonly server: Server,
@@ -92,7 +94,11 @@ export class Front {
       answer.writeHead(came.statusCode ?? 500, came.headers);
       came.pipe(answer);
     });
-    far.on('error', () => asked.socket.destroy());
+    far.on('error', () => {
+      if (!this.is_draining) return void asked.socket.destroy();
+      answer.writeHead(503, { 'Content-Type': 'application/xml' });
+      answer.end('<fault xmlns="urn:x-rois:psm:xml:message:1" code="shutting_down"><reason>the gateway is shutting down</reason></fault>');
+    });
     asked.pipe(far);
   }
 }

@@ -124,14 +124,14 @@ describe('health', () => {
         await figure(page, 'Round trip').getByText(/ms$/).waitFor();
         stage.front.cut();
         await figure(page, 'Link').getByText('Connection lost').waitFor();
-        await page.getByText(/^The gateway's numbers are .* old\./).waitFor();
+        await page.getByText(/^The gateway's numbers are .* old/).waitFor();
         await figure(page, 'Round trip').getByText('–').waitFor();
         expect(await violations(page)).toBe('');
         await picture(page, 'health-lost');
         stage.front.mend();
         await figure(page, 'Link').getByText('Connected again').waitFor();
         await log(page).filter({ hasText: 'Connection lost' }).waitFor();
-        await page.getByText(/^The gateway's numbers are .* old\./).waitFor({ state: 'detached' });
+        await page.getByText(/^The gateway's numbers are .* old/).waitFor({ state: 'detached' });
       },
       { ...wide, may_complain: broken_link },
       '/#health',

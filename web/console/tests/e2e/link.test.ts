@@ -110,12 +110,22 @@ describe('the link', () => {
       await page.getByLabel('target_position, item 1').fill('exit');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
       await page.locator('.exchange-came').getByText('It is running.').waitFor();
+      stage.front.is_draining = true;
       const stopped = stage.gateway.stop();
       await mark(page, 'Starting or stopping').waitFor();
       await said(page, 'The gateway is starting or shutting down.').waitFor();
       await page.locator('.exchange-came').getByText(/^It was stopped/).waitFor();
       await stopped;
       await is_told(page, 'draining');
+      // As soon as nobody is there, it is lost; what is shown does not look alive, and nobody has to wait for the next try.
+      stage.front.is_draining = false;
+      await page.getByRole('button', { name: 'Try now' }).click();
+      await mark(page, 'Connection lost').waitFor();
+      const asked: string[] = [];
+      page.on('request', (request) => asked.push(new URL(request.url()).pathname));
+      await page.getByRole('button', { name: 'Try now' }).click();
+      await expect.poll(() => asked).toContain('/rois');
+      expect(asked).not.toContain('/metrics');
     }, expected);
   });
 

@@ -173,6 +173,24 @@ describe('the robot', () => {
       await page.getByText('0 bound').waitFor();
     }));
 
+  test('says a sentence from its card, and leads to what else it can do', () =>
+    stage.page(async (page) => {
+      await ready(page);
+      await page.getByRole('button', { name: 'Table' }).click();
+      await page.getByRole('button', { name: 'Choose: robot1' }).click();
+      const card = page.getByRole('region', { name: 'Robot robot1' });
+      await card.getByRole('textbox', { name: 'Speak' }).fill('Welcome.');
+      await page.keyboard.press('Enter');
+      await page.getByText('1 bound').waitFor();
+      await pass_until(page, page.getByText('0 bound'), 200);
+      expect(await page.evaluate(() => (window as unknown as { rois: Console }).rois.commands.all.list().map((one) => `${one.component} ${one.state}`))).toEqual(['speech_synthesis OK']);
+      await card.getByText('All that it can do').click();
+      await card.getByRole('button', { name: 'reaction', exact: true }).click();
+      await page.getByRole('heading', { name: 'reaction', exact: true }).waitFor();
+      expect(await violations(page)).toBe('');
+      await page.getByRole('button', { name: 'Table' }).click();
+    }));
+
   test('is sent to a place by its name', () =>
     stage.page(async (page) => {
       await ready(page);
@@ -264,6 +282,7 @@ describe('people', () => {
         await page.getByLabel('How near it comes').fill('1.5');
         await person.getByRole('button', { name: 'Follow' }).click();
         await page.locator('.map-motion', { hasText: /robot1 follows/ }).waitFor();
+        await person.waitFor({ state: 'detached' }); // it hides nothing any more
         await page.getByRole('application', { name: /^Floor map/ }).focus();
         await page.keyboard.press('n');
         await pass_until(page, person.getByText(/robot1 1\.[3-7] m away/));

@@ -120,6 +120,23 @@ describe('events and messages', () => {
     await forgetful.strike();
   });
 
+  test('its list may go while it is scrolled', () =>
+    stage.page(
+      async (page) => {
+        await page.getByLabel('Also what the console asks by itself').check();
+        await page.locator('.virtual-list').evaluate((list) => list.dispatchEvent(new Event('scroll')));
+        await page.evaluate(() => {
+          const list = document.querySelector('.virtual-list')!;
+          (document.querySelector('[role=tab]') as HTMLElement).click(); // the floor map
+          requestAnimationFrame(() => requestAnimationFrame(() => list.dispatchEvent(new Event('scroll'))));
+        });
+        await page.locator('.virtual-list').waitFor({ state: 'detached' });
+        await page.setViewportSize(sizes.wide);
+        await page.getByRole('tab', { name: 'Components', exact: true }).waitFor();
+      },
+      sizes.tablet,
+    ));
+
   test('time stands still on demand', () =>
     stage.page(async (page) => {
       await page.getByText('So far only the console has asked, by itself').waitFor();

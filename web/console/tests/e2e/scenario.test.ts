@@ -68,7 +68,7 @@ describe('the reception of figure 1', () => {
         await picture(page, 'scenario-wide-dark-running');
         await hall.pass_until(page, page.getByText('received 3 visitors', { exact: true }), 500, an_hour);
         expect(await page.locator('.scenario-printed').allTextContents()).toEqual(history);
-        await page.getByText('Ended in all received', { exact: true }).waitFor();
+        await page.getByText('Ended in “all received”', { exact: true }).waitFor();
         expect(await in_diagram(page, 'all_received').getAttribute('aria-current')).toBe('step');
         expect(await page.locator('.scenario-edge-last title').textContent()).toBe('completed');
         expect(await page.locator('tr', { hasText: 'received' }).locator('.scenario-value').textContent()).toBe('tanaka, suzuki');
@@ -104,6 +104,9 @@ describe('a scenario', () => {
   test('is changed in forms, checked before it runs, and saved as it was written', () =>
     stage.page(
       async (page) => {
+        await page.getByRole('tab', { name: 'Edit' }).click();
+        await page.getByLabel('State', { exact: true }).selectOption('bow');
+        expect(await page.evaluate(() => document.documentElement.scrollHeight <= innerHeight)).toBe(true); // however long the form is
         await open_file(page, 'greeting.xml', greeting);
         await in_diagram(page, 'wait').click();
         const after = page.locator('[data-element="after"]');

@@ -26,6 +26,7 @@ const open_library = (page: Page) => panel(page).getByRole('button', { name: 'Op
 
 /** Two branches: speech, and a way. */
 async function greeting(page: Page, target = 'desk'): Promise<void> {
+  expect(await panel(page).getByRole('button', { name: 'Run', exact: true }).isDisabled()).toBe(true);
   await panel(page).getByRole('button', { name: 'Two at the same time' }).click();
   await component(page).selectOption('speech_synthesis');
   await panel(page).getByLabel('speech_text', { exact: true }).fill('This way, please.');
@@ -43,6 +44,7 @@ describe('sequences', () => {
         await panel(page).locator('.sequence-whole > .sequence-lane > .sequence-last').hover();
         await panel(page).locator('.sequence-whole > .sequence-lane > .sequence-last').getByRole('button', { name: 'Add a step here' }).click();
         await panel(page).getByRole('button', { name: 'Wait', exact: true }).click();
+        await expect.poll(() => panel(page).getByLabel('How long').evaluate((one) => one === document.activeElement)).toBe(true);
         await panel(page).getByLabel('How long').fill('300');
         await panel(page).getByRole('button', { name: 'Add a step', exact: true }).click();
         await panel(page).getByRole('button', { name: 'Command', exact: true }).click();
@@ -101,7 +103,6 @@ describe('sequences', () => {
         await box(page, 'speech_synthesis').focus();
         await page.keyboard.press('Insert');
         await page.waitForFunction(() => document.activeElement?.closest('.sequence-choices'));
-        await page.keyboard.press('Tab');
         await page.keyboard.press('Tab');
         await page.keyboard.press('Enter'); // branches
         const parallel = box(page, 'branches at once');
@@ -175,7 +176,7 @@ describe('sequences', () => {
         const run = panel(page).getByRole('button', { name: 'Run', exact: true });
         expect(await run.isEnabled()).toBe(false); // what waits would run, too
         await page.getByRole('button', { name: 'Disconnect' }).click();
-        await page.getByRole('dialog').getByRole('button', { name: 'Disconnect' }).click(); // something is at work
+        await page.getByRole('dialog', { name: 'Disconnect?' }).getByRole('button', { name: 'Disconnect' }).click();
         await page.getByRole('button', { name: 'Connect', exact: true }).click();
         await box(page, 'speech_synthesis').getByText(/^(ABORT|unknown)$/).waitFor();
         await page.waitForFunction(() => !(document.querySelector('.sequence-toolbar button') as HTMLButtonElement).disabled);

@@ -82,8 +82,17 @@ describe('the page', () => {
 
   test('ends its session when the user says so, and begins a new one', () =>
     stage.page(async (page) => {
+      await page.getByRole('treeitem', { name: /^person_detection / }).click();
+      await page.getByRole('button', { name: 'Bind person_detection' }).click();
+      await page.getByText('1 bound').waitFor();
       await page.getByRole('button', { name: 'Disconnect' }).click();
+      const question = page.getByRole('dialog', { name: 'Disconnect?' });
+      await question.getByText('The session ends: 1 bound component is released.').waitFor();
+      expect(await violations(page)).toBe('');
+      await question.getByRole('button', { name: 'Disconnect' }).click();
       await page.getByText('Disconnected', { exact: true }).waitFor();
+      await page.getByText('0 bound').waitFor();
+      expect(await page.getByRole('treeitem').getByText('READY').count()).toBe(0); // nobody knows
       await page.getByRole('button', { name: 'Connect', exact: true }).click();
       await page.getByText('Connected', { exact: true }).waitFor();
     }));

@@ -86,6 +86,8 @@ describe('the time line', () => {
         await rows(page, /Command startnavigationOK/).waitFor();
         await rows(page, /Command startnavigationERROR/).waitFor();
         await rows(page, /Event person_detectedperson_detection/).first().waitFor();
+        await page.evaluate(() => (window as unknown as Page_).rois.run('speech_synthesis', 'start', { speech_text: 'Hello.', volume: 500 }).catch(() => undefined));
+        await rows(page, /Refused executespeech_synthesisBAD_PARAMETER/).waitFor();
         expect(await violations(page)).toBe('');
         await picture(page, 'timeline-table');
         // One that runs, and one that waits for it.
@@ -137,6 +139,8 @@ describe('the time line', () => {
         expect(await tip.innerText()).toMatch(/Command start[^]*OK[^]*Sent[^]*Ran/);
         await zoom(page, (await sent_at(page, -1)) - 100, (await ended_at(page, -1)) + 50); // it has failed at once
         const failed = await point(page, 'navigation', await middle_of(page, -1));
+        await page.mouse.move(failed.x, failed.y);
+        await tip.getByText(/100000, 4 is outside of the map/).waitFor();
         await page.mouse.click(failed.x, failed.y);
         await details(page).getByText('The component could not do it.').waitFor();
         await details(page).getByRole('region', { name: 'Arguments' }).getByText('100000, 4').waitFor();

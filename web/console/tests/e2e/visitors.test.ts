@@ -90,6 +90,11 @@ describe('in a world that stands still', () => {
         await row(page, 'anna').waitFor();
         await row(page, 'ben').getByText(at_desk).waitFor();
 
+        // The floor sends whoever is chosen.
+        await page.getByText('Drag anna, or click where to go').waitFor();
+        await page.locator('.visitors-floor rect.visitors-ground').click({ position: { x: 40, y: 40 } });
+        await row(page, 'anna').getByText('walking').waitFor();
+
         await visitor(page, 'anna').focus();
         for (const key of ['Shift+ArrowUp', 'Shift+ArrowUp', 'ArrowLeft']) await page.keyboard.press(key);
         await page.getByText('anna goes to 9.75 m, 2.75 m').waitFor();
