@@ -3,6 +3,6 @@
 #include <rois/blocking.hpp>
 
 int main() {
-    rois::Blocking robot;
+    rois::Blocking robot{rois::Settings{.url = rois::default_url()}};
     for (auto const& ref : robot.search(rois::conditions::type == "Navigation")) std::cout << ref.code << '\n';
 }
