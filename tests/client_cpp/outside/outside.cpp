@@ -4,5 +4,7 @@
 
 int main() {
     rois::Blocking robot{rois::Settings{.url = rois::default_url()}};
-    for (auto const& ref : robot.search(rois::conditions::type == "Navigation")) std::cout << ref.code << '\n';
+    rois::Identifier const navigation{"navigation"};  // no warning for what is left out, nor above
+    for (auto const& ref : robot.search(rois::conditions::type == "Navigation"))
+        if (ref.code == navigation.code) std::cout << ref.code << '\n';
 }
