@@ -279,7 +279,8 @@ Task<Speech> say_it_all_at_once(Client& client) {
     EXPECT_THAT(found, SizeIs(1));
     auto const within = co_await client.search(location.within(Box(0_m, 0_m, 20_m, 12_m)));
     EXPECT_THAT(within, testing::Not(testing::IsEmpty()));
-    co_return co_await synthesis.parameters();
+    auto said = co_await synthesis.parameters();
+    co_return said;
 }
 
 TEST_F(TheFacadesThatMove, TakeWhatIsSaidInsideAnAwait) {
