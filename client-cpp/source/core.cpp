@@ -201,6 +201,7 @@ void Core::begin_close(Farewell farewell) {
     bool const says_it = is_open() && farewell == Farewell::due && !is_joined();
     bool const hears_more = is_open() && farewell == Farewell::said && settings_.way == Way::http;
     phase_ = Phase::closing;
+    state_ = State::closed;  // observers are told when they have heard the rest
     loop_.cancel(attempt_);
     for (auto const& call : std::exchange(calls_, {})) call->give(closed());
     for (auto const& stream : subscriptions_.streams()) stream->end();

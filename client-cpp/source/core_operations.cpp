@@ -268,8 +268,11 @@ Task<Answer> Core::unsubscribe(Unsubscribe operation, std::chrono::milliseconds 
     co_return answer;
 }
 
+// Handles may go after the loop has ended: what it is told then stays in it, and must not keep it.
 void Core::streams_changed() {
-    loop_.post([self = shared_from_this()] { self->end_unheard(); });
+    loop_.post([weak = weak_from_this()] {
+        if (auto const self = weak.lock()) self->end_unheard();
+    });
 }
 
 // Not while it is not known what a new subscription is to the engine.

@@ -272,14 +272,15 @@ Task<Speech> say_it_all_at_once(Client& client) {
     auto const navigation = co_await client.bind<Navigation>("navigation");
     co_await synthesis.set(Speech().with_speech_text(long_text).with_language("en").with_character("default").with_volume(50));
     co_await follow.set(FollowParameters().with_target_object_ref(long_text).with_distance(1_m).with_time_limit(2s));
-    co_await navigation.set(NavigationParameters().with_target_position("start").with_target_position(Pose{5_m, 5_m}));
+    co_await navigation.set(NavigationParameters().with_target_position("start").with_target_position(Pose(5_m, 5_m)));
     auto const set = co_await navigation.parameters();
     EXPECT_THAT(set.target_position, SizeIs(2));
     auto const found = co_await client.search(ordered(type == "Navigation", nearest_to("start"), ascending(component_ref)));
     EXPECT_THAT(found, SizeIs(1));
     auto const within = co_await client.search(location.within(Box(0_m, 0_m, 20_m, 12_m)));
     EXPECT_THAT(within, testing::Not(testing::IsEmpty()));
-    co_return co_await synthesis.parameters();
+    auto said = co_await synthesis.parameters();
+    co_return said;
 }
 
 TEST_F(TheFacadesThatMove, TakeWhatIsSaidInsideAnAwait) {

@@ -176,9 +176,15 @@ TEST_P(TheConnection, GivesUpAfterItsAttempts) {
     few.attempts = 3;
     History history;
     Blocking robot{few, history.observers()};
+    auto asked = begun(robot.client(), [](Client& client) -> Task<State> {
+        Search const all;
+        co_await client.call(all);
+        co_return client.state();
+    }(robot.client()));
     EXPECT_THROW(robot.open(), Error);
     EXPECT_EQ(proxy.connections(), 3U);
     history.await_states({"connecting", "closed"});
+    EXPECT_EQ(asked.get(), State::closed) << "as the call was told";
     EXPECT_EQ(robot.call(Search{}).return_code, ReturnCode::error);
 }
 

@@ -125,13 +125,22 @@ TEST_P(Destruction, WaitsForNoNameThatIsStillLookedUp) {
 TEST_P(Destruction, LeavesHandlesThatSayThatItIsOver) {
     std::optional<EventStream> stream;
     std::optional<Component> component;
+    std::weak_ptr<int> inside;
     {
-        Blocking robot{settings()};
+        auto const kept = std::make_shared<int>();
+        inside = kept;
+        Observers observers;
+        observers.gap = [kept](Gap const&) {};
+        Blocking robot{settings(), observers};
         stream.emplace(robot(robot.client().subscribe("person_detected")));
         component.emplace(robot.client().component("navigation"));
     }
     EXPECT_EQ(stream->gaps(), 0U);
     EXPECT_EQ(component->ref().code, "navigation");
+    EXPECT_FALSE(inside.expired());
+    stream.reset();
+    component.reset();
+    EXPECT_TRUE(inside.expired()) << "nothing is left with the last handle";
 }
 
 // What is asked by a handle of a client that is gone, in a coroutine of another one.

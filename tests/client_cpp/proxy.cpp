@@ -66,6 +66,7 @@ void Proxy::wake() const {
 
 void Proxy::cut() {
     std::lock_guard const lock{mutex_};
+    if (!pairs_.empty()) ++cuts_;
     cut_all();
 }
 
@@ -117,7 +118,6 @@ void Proxy::drip(std::size_t bytes, std::chrono::milliseconds each) {
 }
 
 void Proxy::cut_all() {
-    if (!pairs_.empty()) ++cuts_;
     for (auto const& pair : pairs_) {
         close_hard(pair.client);
         close_hard(pair.gateway);
@@ -234,7 +234,10 @@ void Proxy::run() {
             close_hard(pair->gateway);
             pair = pairs_.erase(pair);
         }
-        if (tear) cut_all();
+        if (tear) {  // also when the other side has closed meanwhile
+            ++cuts_;
+            cut_all();
+        }
         if (watched[0].revents != 0) accept();
     }
 }

@@ -106,7 +106,7 @@ struct Target {
     std::string crs{};  // of a pose; the first target's counts for all
 };
 
-//     co_await navigation.go(NavigationParameters().with_target_position("lift").with_target_position(Pose{4_m, 7_m}));
+//     co_await navigation.go(NavigationParameters().with_target_position("lift").with_target_position(Pose(4_m, 7_m)));
 struct NavigationParameters {
     NavigationParameters() = default;
     NavigationParameters with_target_position(Target target) && {  // after those that are there

@@ -1,14 +1,15 @@
 // That a component is at work for this console. Its status does not say so: RoIS has READY for what can be used.
+import { goes_on } from '../forms';
 import { useConsole } from '../shell/context';
 import { Badge } from '../ui';
 import { texts } from './texts';
 
 export function Work({ component }: { component: string }) {
-  const { commands } = useConsole();
+  const { commands, profile } = useConsole();
   const t = texts();
   void commands.pulse.beat.value;
   const running = commands.running_on(component).at(-1);
-  if (!running && !commands.goes_on(component)) return null;
+  if (!running && !(commands.goes_on(component) && goes_on(profile.component(component)))) return null;
   return (
     <Badge tone="busy" title={running ? t.runs(running.command_type) : t.goes_on}>
       {t.running}

@@ -43,6 +43,7 @@ describe('components', () => {
       expect(await request.textContent()).toMatch(/<rois:value>Good morning\.<\/rois:value>[^]*<rois:value>70<\/rois:value>/);
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
       await is_told(page, 'It is done.');
+      expect(await item(page, 'speech_synthesis').getByText('running').count()).toBe(0);
       expect(await page.getByRole('region', { name: 'Answer: speech_synthesis start' }).textContent()).toContain('execute_response');
       await page.getByText('bound by me').first().waitFor();
       await picture(page, 'components-command');
