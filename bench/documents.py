@@ -5,6 +5,8 @@ ROIS = "http://www.omg.org/spec/RoIS/20240801"
 FES = "http://www.opengis.net/fes/2.0"
 XSI = "http://www.w3.org/2001/XMLSchema-instance"
 
+PROBE = "urn:x-rois:def:component:bench::Probe"
+
 SIZES = {"0.3": 300, "0.6": 600, "3": 3_000, "20": 20_000}  # kB -> bytes
 
 
@@ -15,10 +17,10 @@ def is_equal(reference, literal):
     )
 
 
-def condition(predicates):
+def condition(predicates, operator="Or"):
     if not predicates:
         return ""
-    inside = predicates[0] if len(predicates) == 1 else "<fes:Or>" + "".join(predicates) + "</fes:Or>"
+    inside = predicates[0] if len(predicates) == 1 else f"<fes:{operator}>" + "".join(predicates) + f"</fes:{operator}>"
     return f"<condition><fes:Filter>{inside}</fes:Filter></condition>"
 
 
@@ -77,10 +79,10 @@ def execute_of_size(size):
     return execute(units)
 
 
-def subscribe(event_type, predicates=()):
+def subscribe(event_type, predicates=(), operator="Or"):
     return (
         f'<subscribe xmlns="{MESSAGE}" xmlns:fes="{FES}" inline_results="true">'
-        f"<event_type>{event_type}</event_type>{condition(predicates)}</subscribe>"
+        f"<event_type>{event_type}</event_type>{condition(predicates, operator)}</subscribe>"
     )
 
 
@@ -93,6 +95,7 @@ def all_documents():
     documents["execute-20kB"] = execute_of_size(SIZES["20"])
     documents["reading"] = query("reading")
     documents["reading-by-ref"] = query("reading", [is_equal("component_ref", "probe7")])
+    documents["status-by-type"] = query("component_status", [is_equal("component_type", PROBE)])
     documents["bind"] = f'<bind {rois}><component_ref rois:code="probe{{connection}}"/></bind>'
     documents["set_parameter"] = (
         f'<set_parameter {rois}><component_ref rois:code="probe{{connection}}"/>'
@@ -106,6 +109,8 @@ def all_documents():
     documents["subscribe"] = subscribe("probed")
     documents["subscribe-conditioned"] = subscribe("probed", [is_equal("value", 42), is_equal("stamp", "nowhere")])
     documents["subscribe-elsewhere"] = subscribe("probed", [is_equal("value", "1{number}"), is_equal("stamp", "{number}")])
+    another = [is_equal("component_ref", "probe1"), is_equal("value", "{number}")]
+    documents["subscribe-another"] = subscribe("probed", another, "And")
     documents["call-of-xmlrpc"] = call_of_xmlrpc()
     documents["call-of-gsoap"] = call_of_gsoap()
     return documents

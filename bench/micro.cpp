@@ -106,7 +106,7 @@ void decode(benchmark::State& state, std::string const& document) {
 // --- The engine ---
 
 class Nobody final : public Outbox {
-    void notify(SessionId const&) override {}
+    void notify(NotificationQueue&) override {}
 };
 
 // An engine with probes, and one session that has bound the first of them.

@@ -1,10 +1,10 @@
-"""Draws how a query's CPU grows, as an SVG that needs nothing else."""
+"""Draws how a request's CPU grows, as an SVG that needs nothing else."""
 
 from parts import growth
 
 WIDTH, HEIGHT = 760, 420
 LEFT, RIGHT, TOP, BOTTOM = 60, 230, 40, 50
-COLOURS = ("#1b6ca8", "#c0392b", "#2e8b57", "#8e5bb5", "#b8860b")
+COLOURS = ("#1b6ca8", "#c0392b", "#2e8b57", "#8e5bb5", "#b8860b", "#17889b", "#c2548f")
 
 
 def _x(place, count):
@@ -20,7 +20,7 @@ def _text(x, y, text, anchor="middle", colour="#333"):
 
 
 def svg(medians):
-    """CPU of a query against how much there is, relative to the first point of each axis."""
+    """CPU of a request against how much there is, relative to the first point of each axis."""
     lines = {}
     for axis, numbers in growth.AXES.items():
         costs = [medians[growth.row(axis, number)]["cpu_us"] for number in numbers if growth.row(axis, number) in medians]
@@ -30,7 +30,7 @@ def svg(medians):
     out = [
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" font-family="sans-serif" font-size="12">',
         f'<rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>',
-        _text(LEFT, 22, "CPU of a query over HTTP, relative to the smallest number of each line", "start"),
+        _text(LEFT, 22, "CPU of a request, relative to the smallest number of each line", "start"),
     ]
     for step in range(int(most) + 1):
         y = _y(step, most)

@@ -144,13 +144,13 @@ def run_beside(server, command):
 
 @contextlib.contextmanager
 def beside(mode, server, **options):
-    """The load generator while something else is measured."""
+    """The load generator while something else is measured, from when it is ready."""
+    if mode != "hold":
+        options |= {"announce": "yes"}
     process = _start(mode, server, options, stdin=subprocess.PIPE)
     try:
-        if mode == "hold":
-            line = process.stdout.readline()
-            if not line:
-                raise BenchError(f"hold on {server.name} failed")
+        if not process.stdout.readline():
+            raise BenchError(f"{mode} on {server.name} failed")
         yield process
     finally:
         process.stdin.close()
@@ -159,6 +159,8 @@ def beside(mode, server, **options):
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()
+    if process.returncode != 0:
+        raise BenchError(f"{mode} on {server.name} failed: {process.returncode}")
 
 
 def machine():

@@ -102,7 +102,7 @@ def main(what):
     processes.allow_many_descriptors()
     data = processes.WORK / "perf.data"
     server, mode, options = start(what)
-    with processes.running(server), processes.beside(mode, server, seconds=10, **options) as load:
+    with processes.running(server), processes.beside(mode, server, seconds=20, **options) as load:
         time.sleep(2)
         record = ["perf", "record", "-q", "-F", "997", "--call-graph", "dwarf,16384", "-p", str(server.pid), "-o", str(data)]
         subprocess.run([*record, "--", "sleep", "6"], check=True, stderr=subprocess.DEVNULL)

@@ -12,7 +12,7 @@ import processes
 import report
 from parts import Settings
 
-PARTS = ("requests", "fanout", "memory", "growth", "micro", "client")
+PARTS = ("requests", "fanout", "memory", "growth", "micro", "client", "console")
 
 
 def read_arguments():
@@ -53,6 +53,7 @@ def main():
     most = processes.allow_many_descriptors()
     settings = Settings(
         seconds=0.3 if arguments.quick else 0.8,
+        turns=1 if arguments.quick else 3,
         connections=min(1_000 if arguments.quick else 10_000, most - 100),
         gateway=tuple(arguments.gateway),
     )

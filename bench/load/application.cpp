@@ -72,4 +72,10 @@ std::vector<Application> make_applications(Options const& options) {
     return all;
 }
 
+void announce(Options const& options) {
+    if (!options.announce) return;
+    std::puts("{}");
+    std::fflush(stdout);
+}
+
 }  // namespace rois::bench

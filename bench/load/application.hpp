@@ -40,6 +40,9 @@ void disconnect(Options const&, std::span<Application const>);
 // Prepares as many as the options say. The options must outlive them.
 std::vector<Application> make_applications(Options const&);
 
+// When that is wanted, says on a line of its own that all is ready.
+void announce(Options const&);
+
 // Whether this is no answer but something the engine tells on its own.
 bool is_notification(std::string_view document);
 

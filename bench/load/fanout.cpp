@@ -31,6 +31,7 @@ public:
     }
 
     void run() {
+        announce(options_);
         play(options_.warm_up);
         latencies_.clear();
         messages_ = 0;

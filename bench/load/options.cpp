@@ -62,6 +62,7 @@ Options read_options(int argc, char const* const* argv) {
         {"--fire-setup", [&](auto const& text) { options.fire_setup.push_back(text_of(text)); }},
         {"--fire", [&](auto const& text) { options.fire = text_of(text); }},
         {"--burst", [&](auto const& text) { options.burst = whole(text); }},
+        {"--announce", [&](auto const& text) { options.announce = text == "yes"; }},
         {"--spin", [&](auto const& text) { options.spin = text == "yes"; }},
         {"--pid", [&](auto const& text) { options.pid = std::stoi(text); }},
     };

@@ -28,6 +28,7 @@ struct Options {
     std::vector<std::string> fire_setup;
     std::string fire;       // fanout: the document that makes events
     std::size_t burst = 1;  // fanout: how many
+    bool announce = false;  // says on a line of its own when it begins
     bool spin = false;      // never sleeps while it measures
     int pid = 0;            // of the server, whose CPU time is read
 };

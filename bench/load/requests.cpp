@@ -43,6 +43,7 @@ private:
     void take(Socket::Message const& message) {
         bool const told = options_.via == Via::http ? answered_ : is_notification(message.body);
         if (told) {
+            note_sequence(message.body);
             notified_ = message.body.find(options_.await) != message.body.npos;
         } else {
             if (!options_.expect.empty() && message.body.find(options_.expect) == message.body.npos)
@@ -50,14 +51,18 @@ private:
             answered_ = true;
             answer_bytes_ = message.body.size();
         }
-        if (options_.via == Via::http && !options_.await.empty() && !notified_) poll(told ? message.body : "");
+        if (options_.via == Via::http && !options_.await.empty() && !notified_) poll();
     }
 
-    // Over HTTP notifications are asked for.
-    void poll(std::string_view heard) {
+    // The last that this message has, so that the next poll asks for what comes after it.
+    void note_sequence(std::string_view heard) {
         constexpr std::string_view attribute = "sequence=\"";
         auto const last = heard.rfind(attribute);
         if (last != heard.npos) heard_ = std::strtoull(heard.data() + last + attribute.size(), nullptr, 10);
+    }
+
+    // Over HTTP notifications are asked for.
+    void poll() {
         auto const path = options_.path + "/notifications?wait=10&after=" + std::to_string(heard_);
         application_.socket().send(http_get(path, application_.session(), "application/xml"));
     }
@@ -84,6 +89,7 @@ public:
     }
 
     void run() {
+        announce(options_);
         due_ = now();
         play_until(due_ + in_nanoseconds(options_.warm_up));
         latencies_.clear();

@@ -1,8 +1,6 @@
 """One event to many subscribers, and what requests feel of it meanwhile."""
 
-import time
-
-from processes import BIN, WORK, Server, beside, document, load, running, stage
+from processes import BIN, WORK, BenchError, Server, beside, document, load, running, stage
 
 MANY = 1_000
 BURSTS = (1, 8)
@@ -19,7 +17,10 @@ def sender_row(burst):
 
 
 AGAINST = {row(MANY, burst): sender_row(burst) for burst in BURSTS}
-REQUESTS = f"query 0.6 kB at 500/s beside 20 events/s to {MANY:,} subscribers, 2 threads"
+REQUESTS = {
+    via: f"query 0.6 kB at 500/s, {name}, beside 20 events/s to {MANY:,} subscribers, 2 threads"
+    for via, name in (("http", "HTTP"), ("websocket", "WebSocket"))
+}
 
 
 def fire(burst):
@@ -35,27 +36,30 @@ def hear(server, subscribers, burst, seconds):
 
 def round(keep, settings):
     for burst in BURSTS:
-        message_bytes = 0
-        for subscribers in (1, 100, MANY, 5_000):
+        for subscribers in (1, 100, 5_000):
             with running(stage()) as (server,):
-                heard = hear(server, subscribers, burst, settings.seconds)
-            keep(row(subscribers, burst), heard)
-            message_bytes = int(heard["message_bytes"])
-        with running(Server("sender", [BIN / "rois-prebuilt-sender", "{port}", message_bytes])) as (server,):
-            (WORK / "burst").write_text(str(burst))
-            options = {"via": "websocket", "connections": MANY, "fire": WORK / "burst", "burst": burst}
-            keep(sender_row(burst), load("fanout", server, seconds=settings.seconds, **options))
+                keep(row(subscribers, burst), hear(server, subscribers, burst, settings.seconds))
+        for _ in range(settings.turns):
+            with running(stage()) as (server,):
+                heard = hear(server, MANY, burst, settings.seconds)
+            keep(row(MANY, burst), heard)
+            with running(Server("sender", [BIN / "rois-prebuilt-sender", "{port}", int(heard["message_bytes"])])) as (server,):
+                (WORK / "burst").write_text(str(burst))
+                options = {"via": "websocket", "connections": MANY, "fire": WORK / "burst", "burst": burst}
+                keep(sender_row(burst), load("fanout", server, seconds=settings.seconds, **options))
         with running(stage(threads=2)) as (server,):
             keep(row(MANY, burst, 2), hear(server, MANY, burst, settings.seconds))
-    keep(REQUESTS, requests_beside_events(settings))
+    for via, name in REQUESTS.items():
+        keep(name, requests_beside_events(settings, via))
 
 
-def requests_beside_events(settings):
-    seconds = max(2.0, 2 * settings.seconds)
+def requests_beside_events(settings, via):
+    seconds = 4 * settings.seconds
     with running(stage(threads=2)) as (server,):
         events = {"via": "websocket", "connect": "yes", "connections": MANY, "setup": document("subscribe"), "rate": 20}
-        with beside("fanout", server, seconds=seconds + 2, **events, **fire(1)):
-            time.sleep(1.5)
-            requests = {"via": "http", "connect": "yes", "expect": '"OK"', "connections": 16, "rate": 500}
+        with beside("fanout", server, seconds=seconds + 3, **events, **fire(1)) as events_told:
+            requests = {"via": via, "connect": "yes", "expect": '"OK"', "connections": 16, "rate": 500}
             measured = load("requests", server, body=document("reading-0.6kB"), seconds=seconds, **requests)
+            if events_told.poll() is not None:
+                raise BenchError("the events ended before the requests beside them were measured")
             return {name: value for name, value in measured.items() if name != "cpu_us"}  # that of the events is in it

@@ -37,19 +37,23 @@ def round(keep, settings):
 
 
 def compare(ask, settings):
-    def beside(row, server, body, **options):
-        with running(server):
-            ask(row, server, body, connect=False, **options)
-
+    """By turns, so that all of them meet the same weather."""
     query = "query-0.6kB"
-    with running(gateway(1, *settings.gateway)) as (server,):
-        beside(BARE_HTTP, Server("bare-http", [BIN / "rois-bare-http", "{port}", ANSWER_BYTES]), query)
-        ask(HTTP, server, query)
-        beside(GSOAP, Server("gsoap", [BIN / "rois-gsoap", "{port}"]), "call-of-gsoap", path="/", expect=">OK<")
-        xmlrpc = Server("xmlrpc", ["python3", ROOT / "bench" / "xmlrpc_server.py", "{port}"])
-        beside(XMLRPC, xmlrpc, "call-of-xmlrpc", path="/RPC2", expect="9498.984")
-        beside(BARE_WEBSOCKET, Server("bare-websocket", [BIN / "rois-bare-websocket", "{port}"]), query, via="websocket")
-        ask(WEBSOCKET, server, query, via="websocket")
+    servers = (
+        gateway(1, *settings.gateway),
+        Server("bare-http", [BIN / "rois-bare-http", "{port}", ANSWER_BYTES]),
+        Server("gsoap", [BIN / "rois-gsoap", "{port}"]),
+        Server("xmlrpc", ["python3", ROOT / "bench" / "xmlrpc_server.py", "{port}"]),
+        Server("bare-websocket", [BIN / "rois-bare-websocket", "{port}"]),
+    )
+    with running(*servers) as (rois, bare, gsoap, xmlrpc, echo):
+        for _ in range(settings.turns):
+            ask(BARE_HTTP, bare, query, connect=False)
+            ask(HTTP, rois, query)
+            ask(GSOAP, gsoap, "call-of-gsoap", connect=False, path="/", expect=">OK<")
+            ask(XMLRPC, xmlrpc, "call-of-xmlrpc", connect=False, path="/RPC2", expect="9498.984")
+            ask(BARE_WEBSOCKET, echo, query, connect=False, via="websocket")
+            ask(WEBSOCKET, rois, query, via="websocket")
 
 
 def vary_size_and_connections(ask, settings):

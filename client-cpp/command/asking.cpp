@@ -10,6 +10,15 @@
 
 namespace rois::command {
 
+namespace {
+
+// Throws Trouble when there is no such component: a query says no more than that nothing answers it.
+void check_there(Context& context, std::string const& ref) {
+    if (context.ok(Search{conditions::component_ref == ref}).component_ref_list.empty()) context.component(ref);
+}
+
+}  // namespace
+
 void profile(Context& context) {
     if (context.options().ref.empty()) {
         context.show(GetProfile{context.condition()});
@@ -23,6 +32,7 @@ void search(Context& context) { context.show(Search{context.condition()}); }
 void query(Context& context) {
     auto condition = context.condition();
     auto const& ref = context.options().ref;
+    if (!ref.empty()) check_there(context, ref);
     if (!ref.empty()) condition = narrowed(std::move(condition), conditions::component_ref == ref);
     context.show(Query{context.options().name, std::move(condition)});
 }
@@ -30,6 +40,7 @@ void query(Context& context) {
 // By a query, which needs no binding (decision 18).
 void get(Context& context) {
     auto const& options = context.options();
+    check_there(context, options.ref);
     auto reply = context.ok(Query{"get_parameter", conditions::component_ref == options.ref});
     auto& parameters = reply.results.parameters;
     for (auto const& name : options.words) {

@@ -1,9 +1,12 @@
 // The commands that move something: bind, release, set, start, stop, execute.
+#include <filesystem>
+
 #include "command/arguments.hpp"
 #include "command/context.hpp"
 #include "command/request_file.hpp"
 #include "command/sequences.hpp"
 #include "command/terminal.hpp"
+#include "types/texts.hpp"
 
 namespace rois::command {
 
@@ -15,11 +18,16 @@ Identifier ref_of(std::string const& code) { return {code, {}, {}, {}}; }
 void hold(Context& context, Until until) {
     auto& session = context.session();
     auto& printer = context.printer();
+    context.keep_recording();
     while (auto const heard = session.hear(until)) {
         if (session.interrupted()) return;
-        if (auto const* const gap = std::get_if<Gap>(&*heard)) printer.gap(*gap);
-        if (auto const* const change = std::get_if<StateChange>(&*heard); change != nullptr && change->state != State::open)
-            printer.state(*change);
+        if (auto const* const gap = std::get_if<Gap>(&*heard)) {
+            printer.gap(*gap);
+            if (gap->why == Gap::Why::new_session && context.options().command == "start") throw ended_with_session();
+        }
+        auto const* const change = std::get_if<StateChange>(&*heard);
+        bool const usual = change == nullptr || change->state == State::open || change->state == State::connecting;
+        if (!usual) printer.state(*change);
         if (auto const* const news = std::get_if<News>(&*heard);
             news != nullptr && std::holds_alternative<ReceiveError>(news->notification))
             printer.notification(news->notification, news->sequence);
@@ -37,6 +45,15 @@ CommandUnitSequence one_command(std::string const& ref, std::string const& type,
     CommandUnitSequence sequence;
     sequence.command_unit_list.push_back({{}, CommandMessage{ref_of(ref), type, {}, std::move(arguments)}});
     return sequence;
+}
+
+// A component without a command looks like a file that is not there.
+void check_file(std::string const& name) {
+    std::error_code unknown;
+    bool const is_meant = name == "-" || name.find_first_of("./") != std::string::npos || std::filesystem::exists(name, unknown);
+    if (!is_meant)
+        throw Trouble{Exit::usage, "there is no file " + rois::quoted(name) +
+                                       "; of a component, say which command: rois execute " + name + " start"};
 }
 
 ParameterList arguments_of(Context& context, std::string const& ref, std::string const& type,
@@ -90,7 +107,9 @@ void stop(Context& context) { run(context, one_command(context.options().ref, "s
 
 void execute(Context& context) {
     auto const& words = context.options().words;
-    if (words.size() == 1) return run(context, read_sequence_file(context.schemas(), words[0], text_of_file(words[0])));
+    bool const is_file = words.size() == 1;
+    if (is_file) check_file(words[0]);
+    if (is_file) return run(context, read_sequence_file(context.schemas(), words[0], text_of_file(words[0])));
     std::vector<std::string> const given{words.begin() + 2, words.end()};
     run(context, one_command(words[0], words[1], arguments_of(context, words[0], words[1], given)));
 }

@@ -46,6 +46,12 @@ Session& Context::session() {
     return *session_;
 }
 
+void Context::keep_recording() {
+    if (!recorded_) return;
+    recorded_->keep();
+    recorded_->check();
+}
+
 std::shared_ptr<xml::Schemas const> Context::schemas() {
     if (!schemas_) schemas_ = std::make_shared<xml::Schemas const>(files::schemas());
     return schemas_;

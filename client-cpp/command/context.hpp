@@ -30,6 +30,8 @@ public:
     std::shared_ptr<xml::Schemas const> schemas();
     // Of `--record`; null without.
     std::shared_ptr<RecordingWriter> const& recorded() const { return recorded_; }
+    // With `--record`: the command does what it should, so the recording replaces what the file had. Throws Trouble.
+    void keep_recording();
 
     // The reply of an operation that is OK; otherwise it is told, and Trouble is thrown with its code.
     template <class Op>

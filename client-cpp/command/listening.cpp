@@ -28,6 +28,35 @@ void check_known(std::vector<std::string> const& wanted, std::vector<std::string
             throw Trouble{Exit::unsupported, "no component has an event " + rois::quoted(type) + "; there are " + listed(known)};
 }
 
+bool is_new_session(Heard const& heard) {
+    auto const* const gap = std::get_if<Gap>(&heard);
+    return gap != nullptr && gap->why == Gap::Why::new_session;
+}
+
+// Components that were started have stopped with their session: they are started again in the next one. Its link may be lost on
+// the way, too; then it is tried when that is there again.
+class Restarting {
+public:
+    explicit Restarting(Context& context) : context_{context} {}
+
+    void hear(Heard const& heard) {
+        auto const* const change = std::get_if<StateChange>(&heard);
+        bool const there = change != nullptr && (change->state == State::open || change->state == State::resumed);
+        due_ = due_ || is_new_session(heard);
+        if (!due_ || (!there && !is_new_session(heard))) return;
+        try {
+            start_components(context_);
+            due_ = false;
+        } catch (Trouble const& trouble) {
+            if (trouble.exit() != Exit::no_answer && trouble.exit() != Exit::interrupted) throw;
+        }
+    }
+
+private:
+    Context& context_;
+    bool due_ = false;
+};
+
 void show(Printer& printer, Heard const& heard) {
     if (auto const* const news = std::get_if<News>(&heard)) return printer.notification(news->notification, news->sequence);
     if (auto const* const change = std::get_if<StateChange>(&heard)) return printer.state(*change);
@@ -70,6 +99,8 @@ void listen(Context& context, std::function<void(Heard const&)> const& told) {
     auto const& options = context.options();
     auto const until = end_of(options);
     std::size_t events = 0;
+    Restarting restarting{context};
+    context.keep_recording();
     while (!options.count || events < *options.count) {
         auto const heard = session.hear(until);
         if (session.interrupted()) return;
@@ -78,6 +109,7 @@ void listen(Context& context, std::function<void(Heard const&)> const& told) {
         auto const* const news = std::get_if<News>(&*heard);
         if (news != nullptr && std::holds_alternative<ReceiveEvent>(news->notification)) ++events;
         told(*heard);
+        restarting.hear(*heard);
     }
 }
 

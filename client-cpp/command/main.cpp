@@ -50,6 +50,7 @@ int run(int argc, char const* const* argv) {
     Signals signals;
     Context context{std::get<Options>(std::move(read)), signals};
     commands().at(context.options().command)(context);
+    context.keep_recording();
     return 0;
 }
 

@@ -1,8 +1,12 @@
 #include "command/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
+#include <string_view>
+#include <utility>
 
 #include "command/exit.hpp"
 #include "rois/settings.hpp"
@@ -224,6 +228,42 @@ std::string joined(std::vector<std::string> const& words) {
     return text;
 }
 
+// How many letters have to be changed, added or left out to make one word of the other.
+std::size_t distance(std::string_view one, std::string_view other) {
+    std::vector<std::size_t> row(other.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        auto above_left = std::exchange(row[0], i + 1);
+        for (std::size_t j = 0; j < other.size(); ++j) {
+            auto const least = std::min({row[j] + 1, row[j + 1] + 1, above_left + (one[i] != other[j] ? 1 : 0)});
+            above_left = std::exchange(row[j + 1], least);
+        }
+    }
+    return row.back();
+}
+
+std::string no_such_command(CLI::App const& app, std::string const& word) {
+    std::string nearest;
+    std::size_t least = 3;  // letters: what is farther away is not meant
+    for (auto const* const command : app.get_subcommands({})) {
+        auto const& name = command->get_name();
+        auto const off = name.starts_with(word) && word.size() > 1 ? 0 : distance(word, name);
+        if (off >= least) continue;
+        least = off;
+        nearest = name;
+    }
+    return "no such command: " + word + (nearest.empty() ? "" : "; perhaps " + nearest);
+}
+
+// What is wrong, and whose help tells more.
+std::string complaint(CLI::App const& app, CLI::ParseError const& error) {
+    auto const chosen = app.get_subcommands();
+    auto const left_over = app.remaining();
+    bool const is_command = chosen.empty() && !left_over.empty() && !left_over.front().starts_with('-');
+    auto const wrong = is_command ? no_such_command(app, left_over.front()) : error.what();
+    return wrong + "; rois " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help tells more";
+}
+
 bool has(CLI::App const& app, std::string const& command, std::string const& option) {
     auto const* const chosen = app.get_subcommand(command);
     auto const* const known = chosen->get_option_no_throw(option);
@@ -265,8 +305,7 @@ std::variant<Options, Said> read_options(int argc, char const* const* argv) {
     } catch (CLI::CallForAllHelp const&) {
         return Said{app.help("", CLI::AppFormatMode::All)};
     } catch (CLI::ParseError const& error) {
-        throw Trouble{Exit::usage, std::string{error.what()} + "; rois " +
-                                       (options.command.empty() ? "" : options.command + " ") + "--help tells more"};
+        throw Trouble{Exit::usage, complaint(app, error)};
     }
     if (raw.version) return Said{"rois " ROIS_VERSION "\n"};
     if (options.command.empty()) throw Trouble{Exit::usage, "which command? rois --help tells what there is"};

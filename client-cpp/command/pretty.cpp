@@ -69,9 +69,10 @@ std::string underlined(std::string_view document, Place place, bool coloured) {
     end = std::min(end, until);
     auto const number = std::to_string(place.line);
     auto const cut = std::string{from > 0 ? "..." : ""};
-    auto const mark = "^" + std::string(end - at - 1, '~');
+    auto const marked = std::max<std::size_t>(width_of(joined(characters, at, end)), 1);
+    auto const mark = "^" + std::string(marked - 1, '~');
     return number + " | " + cut + joined(characters, from, until) + (until < characters.size() ? "..." : "") + "\n" +
-           std::string(number.size(), ' ') + " | " + std::string(cut.size() + at - from, ' ') +
+           std::string(number.size(), ' ') + " | " + std::string(cut.size() + width_of(joined(characters, from, at)), ' ') +
            painted(mark, Colour::bad, coloured) + "\n";
 }
 

@@ -1,5 +1,6 @@
 #include "command/printer.hpp"
 
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <pugixml.hpp>
@@ -36,7 +37,9 @@ std::string document_of(Notification const& notification, std::uint64_t sequence
 void Printer::write(std::string const& text) {
     std::lock_guard const lock{mutex_};
     bool const written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-    if (!written) throw Trouble{Exit::usage, "standard output cannot be written"};
+    if (written) return;
+    if (errno == EPIPE) throw Trouble{Exit::interrupted, ""};  // as `rois watch | head -1`: who reads has seen enough
+    throw Trouble{Exit::usage, "standard output cannot be written"};
 }
 
 void Printer::text(std::string_view text) { write(std::string{text}); }

@@ -1,7 +1,9 @@
 #include "command/recording.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include "command/exit.hpp"
 #include "command/json.hpp"
@@ -14,6 +16,11 @@ constexpr auto format = "rois-recording-1";
 
 [[noreturn]] void complain(std::string const& file, std::size_t line, std::string const& reason) {
     throw Trouble{Exit::usage, file + ":" + std::to_string(line) + ": " + reason};
+}
+
+bool is_there(std::string const& file) {
+    std::error_code unknown;
+    return std::filesystem::exists(file, unknown);
 }
 
 RecordedDocument document_of(Json const& json) {
@@ -30,10 +37,28 @@ RecordedDocument document_of(Json const& json) {
 }  // namespace
 
 RecordingWriter::RecordingWriter(std::string const& file, std::string_view url)
-    : file_{file}, begun_{std::chrono::steady_clock::now()}, out_{file, std::ios::binary | std::ios::trunc} {
+    : file_{file},
+      begun_{std::chrono::steady_clock::now()},
+      was_there_{is_there(file)},
+      out_{file, std::ios::binary | std::ios::app} {
     Json const head{{"recording", format}, {"url", url}, {"begun", to_text(std::chrono::system_clock::now())}};
-    out_ << line_of(head) << std::flush;
+    held_ = line_of(head);
     check();
+}
+
+RecordingWriter::~RecordingWriter() {
+    std::error_code ignored;
+    if (!kept_ && !was_there_) std::filesystem::remove(file_, ignored);
+}
+
+void RecordingWriter::keep() {
+    std::lock_guard const lock{mutex_};
+    if (kept_ || !answered_) return;
+    kept_ = true;
+    std::error_code failure;
+    if (std::filesystem::is_regular_file(file_, failure)) std::filesystem::resize_file(file_, 0, failure);
+    if (failure) out_.setstate(std::ios::failbit);
+    out_ << std::exchange(held_, {}) << std::flush;
 }
 
 void RecordingWriter::add(Direction direction, std::string_view document, std::string_view session) {
@@ -42,7 +67,12 @@ void RecordingWriter::add(Direction direction, std::string_view document, std::s
     Json json{{"at", std::round(at * 1e6) / 1e6}, {"direction", direction == Direction::out ? "out" : "in"}};
     if (!session.empty()) json["session"] = session;
     json["document"] = document;
-    out_ << line_of(json) << std::flush;
+    answered_ = answered_ || direction == Direction::in;
+    if (kept_) {
+        out_ << line_of(json) << std::flush;
+    } else {
+        held_ += line_of(json);
+    }
 }
 
 void RecordingWriter::check() {

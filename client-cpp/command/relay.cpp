@@ -12,8 +12,11 @@ namespace {
 Observers observers(std::function<void(Notification)> told, std::shared_ptr<RecordingWriter> recorded, std::string session) {
     Observers observers;
     observers.notification = [told = std::move(told)](Notification const& notification, std::uint64_t) { told(notification); };
-    observers.tap = [recorded = std::move(recorded), session = std::move(session)](
-                        Direction direction, std::string_view document) { recorded->add(direction, document, session); };
+    observers.tap = [recorded = std::move(recorded), session = std::move(session)](Direction direction,
+                                                                                   std::string_view document) {
+        recorded->add(direction, document, session);
+        if (direction == Direction::in) recorded->keep();  // there is an engine
+    };
     return observers;
 }
 

@@ -30,6 +30,7 @@ public:
     void run() {
         bind();
         subscribe();
+        context_.keep_recording();
         next_ = scenario_.start;
         while (next_ || !state_->is_end) {
             if (next_) {

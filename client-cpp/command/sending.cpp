@@ -34,6 +34,7 @@ void tell_fault(Context& context, Fault const& fault, std::string const& sent, s
 void send(Context& context) {
     auto const sent = text_of_file(context.options().file);
     auto const answer = context.session().send(sent);
+    context.keep_recording();
     auto& printer = context.printer();
     auto const heard = xml::AnswerReader{}.read(answer);
     if (heard && std::holds_alternative<Fault>(*heard)) tell_fault(context, std::get<Fault>(*heard), sent, answer);

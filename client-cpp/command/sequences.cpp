@@ -49,7 +49,7 @@ private:
             if (std::holds_alternative<ReceiveError>(news->notification))
                 context_.printer().notification(news->notification, news->sequence);
         } else if (auto const* const gap = std::get_if<Gap>(&heard); gap != nullptr && gap->why == Gap::Why::new_session) {
-            throw Trouble{Exit::aborted, "the session has ended, and its commands with it"};
+            throw ended_with_session();
         }
     }
 
@@ -92,7 +92,12 @@ CommandId fresh_command_id() {
     return CommandId{process + "-" + std::to_string(++number)};
 }
 
-void wait_for(Context& context, std::vector<Awaited> awaited) { Waiting{context, std::move(awaited)}.wait(); }
+Trouble ended_with_session() { return Trouble{Exit::aborted, "the session has ended, and its commands with it"}; }
+
+void wait_for(Context& context, std::vector<Awaited> awaited) {
+    context.keep_recording();
+    Waiting{context, std::move(awaited)}.wait();
+}
 
 void run(Context& context, CommandUnitSequence sequence) {
     std::vector<Awaited> awaited;

@@ -25,6 +25,9 @@ struct Awaited {
     std::string label;  // for people: "start navigation"
 };
 
+// What is thrown when the session is gone in which something was commanded.
+Trouble ended_with_session();
+
 // Waits until all have completed. Throws as above.
 void wait_for(Context&, std::vector<Awaited>);
 

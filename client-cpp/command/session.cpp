@@ -8,8 +8,10 @@ namespace {
 Settings settings_for(Options const& options) {
     auto settings = settings_of(options);
     bool const lasts = options.command == "watch" || options.command == "subscribe" || options.command == "record" ||
-                       options.command == "bind" || options.command == "scenario";
+                       options.command == "bind" || options.command == "scenario" || options.span;
     if (!lasts) settings.attempts = 3;
+    // On a WebSocket the engine says nothing of what is not UTF-8 or too long: it closes the link.
+    if (options.command == "send") settings.way = Way::http;
     return settings;
 }
 

@@ -1,6 +1,8 @@
 #include "command/terminal.hpp"
 
+#include <locale.h>
 #include <unistd.h>
+#include <wchar.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -29,6 +31,16 @@ std::string_view sequence_of(Colour colour) {
     return "";
 }
 
+// In UTF-8, whatever the user's locale is. 1 where the system does not know.
+std::size_t columns_of(char32_t character) {
+    static auto const utf8 = newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+    if (character < 0x80 || utf8 == nullptr) return 1;
+    auto const before = uselocale(utf8);
+    auto const width = wcwidth(static_cast<wchar_t>(character));
+    uselocale(before);
+    return width < 0 ? 1 : static_cast<std::size_t>(width);
+}
+
 }  // namespace
 
 bool shows_colours(int file_descriptor) {
@@ -46,7 +58,7 @@ std::string harmless(std::string_view text) {
         auto const bytes = before.substr(0, before.size() - text.size());
         if (character == '\n' || character == '\t' || character == '\r') {
             shown += ' ';
-        } else if (character < 0x20 || (character >= 0x7f && character < 0xa0)) {
+        } else if (character < 0x20 || (character >= 0x7f && character < 0xa0) || (character >= 0x80 && bytes.size() == 1)) {
             shown += '?';
         } else {
             shown += bytes;
@@ -62,8 +74,9 @@ std::string painted(std::string_view text, Colour colour, bool coloured) {
 }
 
 std::size_t width_of(std::string_view text) {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+    std::size_t width = 0;
+    while (auto const character = take_character(text)) width += columns_of(*character);
+    return width;
 }
 
 std::string Table::text(bool coloured, std::string_view indent) const {

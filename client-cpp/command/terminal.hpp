@@ -21,7 +21,8 @@ std::string painted(std::string_view text, Colour, bool coloured);
 // Without control characters, so that nothing from outside steers a terminal. Line ends and tabs become blanks.
 std::string harmless(std::string_view text);
 
-// How many columns a text takes: its characters.
+// How many columns a text takes: one for each character, two for wide ones as those of Japanese, none for what stands above
+// others.
 std::size_t width_of(std::string_view text);
 
 // Rows whose columns begin below each other.

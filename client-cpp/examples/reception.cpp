@@ -34,8 +34,7 @@ Task<std::string> approach(Client& robot, PersonLocalization localization, Navig
         auto const was = std::ranges::find(earlier, ref.code, [](Sighting const& each) { return each.ref.code; });
         if (met.contains(ref.code) || was == earlier.end() || distance(was->pose, pose) > 300_mm) continue;
         for (auto const turn : {0_deg, 60_deg, -60_deg, 120_deg, -120_deg}) {
-            auto const place = before(pose, 1_m, turn);
-            auto const status = co_await navigation.go_to(place, 90s);
+            auto const status = co_await navigation.go_to(before(pose, 1_m, turn), 90s);
             if (status == CompletedStatus::ok) co_return ref.code;
         }
     }
@@ -70,18 +69,15 @@ Task<> receive(Client& robot, int visitors) {
         co_await identification.stop();
         std::string const visitor = identity && !identity->people.empty() ? identity->people.front().code : "";
         if (!visitor.empty() && !met.insert(visitor).second) continue;
-
         auto const message = message_for(visitor);
         std::string line = (visitor.empty() ? "somebody" : visitor) + ": told \"" + message + "\"";
+        if (visitor.empty()) co_await recognition.start();
+        co_await synthesis.say(message);
         if (visitor.empty()) {
-            co_await recognition.start();
-            co_await synthesis.say(message);
             auto const answer = co_await recognized.next(10s);
             co_await recognition.stop();
             if (answer) line += ", heard \"" + answer->recognized_text.at(0) + "\"";
             if (answer) co_await synthesis.say("I shall tell my colleagues at the desk.");
-        } else {
-            co_await synthesis.say(message);
         }
         co_await reaction.react("9");
         co_await synthesis.say("Goodbye.");
@@ -92,7 +88,12 @@ Task<> receive(Client& robot, int visitors) {
     std::printf("received %d visitors\n", visitors);
 }
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
+    auto const visitors = argc > 1 ? std::atoi(argv[1]) : 1;
+    if (visitors < 1) throw Error{ReturnCode::bad_parameter, "expected a number of visitors"};
     Client robot;
-    robot.wait(receive(robot, argc > 1 ? std::atoi(argv[1]) : 1));
+    robot.wait(receive(robot, visitors));
+} catch (std::exception const& problem) {
+    std::fprintf(stderr, "reception: %s\n", problem.what());
+    return 1;
 }

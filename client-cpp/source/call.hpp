@@ -17,17 +17,31 @@ namespace rois::client {
 // The link broke after the request was sent, and the same session has been resumed: whether it was done is not known.
 struct Interrupted {};
 
+// Until when there must be an answer, and how long that was in the beginning.
+struct Deadline {
+    Deadline(std::chrono::milliseconds time) : whole{bounded(time)} {}
+
+    std::chrono::milliseconds left() const {
+        auto const now = std::chrono::steady_clock::now();
+        return bounded(std::chrono::duration_cast<std::chrono::milliseconds>(due - now));
+    }
+
+    std::chrono::milliseconds whole;
+    Steady due = from_now(whole);
+};
+
 // Lives on the client's thread. Awaited once.
 class Call {
 public:
     enum class Kind : std::uint8_t {
-        again,  // sent again when the link breaks: doing it twice is as good as once
-        once,   // not sent again: who waits hears of it
-        raw,    // a document as it stands
+        again,       // sent again when the link breaks: doing it twice is as good as once
+        in_session,  // the same, in its session alone: it names what only this session knows
+        once,        // not sent again: who waits hears of it
+        raw,         // a document as it stands
     };
     using Outcome = std::variant<Answer, std::string, Interrupted>;  // a text for a raw one
 
-    Call(Kind how, std::string document, std::string request_id, std::chrono::milliseconds within)
+    Call(Kind how, std::string document, std::string request_id, Deadline within)
         : kind{how}, text{std::move(document)}, id{std::move(request_id)}, deadline{within} {}
 
     Call(Call const&) = delete;
@@ -54,8 +68,7 @@ public:
     Kind const kind;
     std::string const text;
     std::string const id;  // empty for a raw one
-    std::chrono::milliseconds const deadline;
-    Steady const due = std::chrono::steady_clock::now() + deadline;
+    Deadline const deadline;
     bool sent = false;  // on this link
 
 private:

@@ -93,7 +93,10 @@ Task<CompletedStatus> Localization::set(LocalizationParameters parameters) const
 
 Task<LocalizationParameters> Localization::parameters() const {
     return read_parameters<LocalizationParameters>(*this, [](Reading const& read) {
-        return LocalizationParameters{length_of(read.integer("detection_threshold")), read.milliseconds("minimum_interval")};
+        LocalizationParameters parameters;
+        parameters.detection_threshold = length_of(read.integer("detection_threshold"));
+        parameters.minimum_interval = read.milliseconds("minimum_interval");
+        return parameters;
     });
 }
 
@@ -127,8 +130,12 @@ Task<CompletedStatus> SpeechRecognition::set(SpeechRecognitionParameters paramet
 
 Task<SpeechRecognitionParameters> SpeechRecognition::parameters() const {
     return read_parameters<SpeechRecognitionParameters>(*this, [](Reading const& read) {
-        return SpeechRecognitionParameters{read.texts("languages"), read.text("grammar"), read.text("rule"),
-                                           read.texts("recognizable_languages")};
+        SpeechRecognitionParameters parameters;
+        parameters.languages = read.texts("languages");
+        parameters.grammar = read.text("grammar");
+        parameters.rule = read.text("rule");
+        parameters.recognizable_languages = read.texts("recognizable_languages");
+        return parameters;
     });
 }
 
@@ -167,13 +174,15 @@ Task<CompletedStatus> SpeechSynthesis::set(Speech speech) const { return set_par
 
 Task<Speech> SpeechSynthesis::parameters() const {
     return read_parameters<Speech>(*this, [](Reading const& read) {
-        return Speech{read.text("speech_text"),
-                      read.text("SSML_text"),
-                      read.integer("volume"),
-                      read.text("language"),
-                      read.text("character"),
-                      read.texts("synthesizable_languages"),
-                      read.texts("synthesizable_characters")};
+        Speech speech;
+        speech.speech_text = read.text("speech_text");
+        speech.SSML_text = read.text("SSML_text");
+        speech.volume = read.integer("volume");
+        speech.language = read.text("language");
+        speech.character = read.text("character");
+        speech.synthesizable_languages = read.texts("synthesizable_languages");
+        speech.synthesizable_characters = read.texts("synthesizable_characters");
+        return speech;
     });
 }
 
@@ -226,7 +235,9 @@ ParameterList arguments_of(MoveParameters const& parameters) {
 }  // namespace
 
 Task<CompletedStatus> Navigation::go_to(Target target, std::optional<Milliseconds> time_limit) const {
-    return go({{std::move(target)}, time_limit, {}});
+    auto parameters = NavigationParameters{}.with_target_position(std::move(target));
+    parameters.time_limit = time_limit;
+    return go(std::move(parameters));
 }
 
 Task<CompletedStatus> Navigation::go(NavigationParameters parameters) const { return start(arguments_of(parameters)); }
@@ -235,7 +246,8 @@ Task<CompletedStatus> Navigation::set(NavigationParameters parameters) const { r
 
 Task<NavigationParameters> Navigation::parameters() const {
     return read_parameters<NavigationParameters>(*this, [](Reading const& read) {
-        NavigationParameters parameters{{}, read.milliseconds("time_limit"), {}};
+        NavigationParameters parameters;
+        parameters.time_limit = read.milliseconds("time_limit");
         for (auto& place : read.texts("target_position")) parameters.target_position.emplace_back(std::move(place));
         if (auto const policy = read.text("routing_policy"))
             parameters.routing_policy = *policy == "distance" ? RoutingPolicy::distance : RoutingPolicy::time;
@@ -251,24 +263,32 @@ Task<CompletedStatus> Follow::set(FollowParameters parameters) const { return se
 
 Task<FollowParameters> Follow::parameters() const {
     return read_parameters<FollowParameters>(*this, [](Reading const& read) {
-        return FollowParameters{read.identifier("target_object_ref"), length_of(read.integer("distance")),
-                                read.milliseconds("time_limit")};
+        FollowParameters parameters;
+        parameters.target_object_ref = read.identifier("target_object_ref");
+        parameters.distance = length_of(read.integer("distance"));
+        parameters.time_limit = read.milliseconds("time_limit");
+        return parameters;
     });
 }
 
 Task<CompletedStatus> Move::move(Line line, std::optional<Milliseconds> time) const {
-    return start(arguments_of(MoveParameters{line, {}, time}));
+    auto parameters = MoveParameters{}.with_line(line);
+    parameters.time = time;
+    return start(arguments_of(parameters));
 }
 
 Task<CompletedStatus> Move::move(Curve curve, std::optional<Milliseconds> time) const {
-    return start(arguments_of(MoveParameters{{}, curve, time}));
+    auto parameters = MoveParameters{}.with_curve(curve);
+    parameters.time = time;
+    return start(arguments_of(parameters));
 }
 
 Task<CompletedStatus> Move::set(MoveParameters parameters) const { return set_parameter(arguments_of(parameters)); }
 
 Task<MoveParameters> Move::parameters() const {
     return read_parameters<MoveParameters>(*this, [](Reading const& read) {
-        MoveParameters parameters{{}, {}, read.milliseconds("time")};
+        MoveParameters parameters;
+        parameters.time = read.milliseconds("time");
         auto const line = read.numbers("line");
         if (line.size() == 2) parameters.line = Line{millimetres{line[0]}, degrees{line[1]}};
         auto const curve = read.numbers("curve");
@@ -337,8 +357,12 @@ Task<CompletedStatus> Streaming::set(StreamParameters parameters) const {
 
 Task<StreamParameters> Streaming::parameters() const {
     return read_parameters<StreamParameters>(*this, [](Reading const& read) {
-        return StreamParameters{read.text("encoding_parameters"), read.text("transport_parameters"),
-                                read.text("available_encodings").value_or(""), read.text("available_transports").value_or("")};
+        StreamParameters parameters;
+        parameters.encoding_parameters = read.text("encoding_parameters");
+        parameters.transport_parameters = read.text("transport_parameters");
+        parameters.available_encodings = read.text("available_encodings").value_or("");
+        parameters.available_transports = read.text("available_transports").value_or("");
+        return parameters;
     });
 }
 

@@ -8,8 +8,20 @@ namespace rois::detail {
 using client::Call;
 using client::Steady;
 
+namespace {
+
+// With times that can be doubled and counted from now on.
+Settings within_bounds(Settings settings) {
+    for (auto* const time : {&settings.deadline, &settings.connect_deadline, &settings.ping_interval, &settings.stream_silence,
+                             &settings.first_pause, &settings.longest_pause})
+        *time = client::bounded(*time);
+    return settings;
+}
+
+}  // namespace
+
 Core::Core(Settings settings, Observers observers)
-    : settings_{std::move(settings)},
+    : settings_{within_bounds(std::move(settings))},
       observers_{std::move(observers)},
       target_{client::read_url(settings_.url)},
       name_{std::random_device{}()},
@@ -94,15 +106,14 @@ Task<> Core::pass(std::chrono::milliseconds time) {
 
 // --- Calls ---
 
-std::shared_ptr<Call> Core::send(Call::Kind kind, std::string document, std::string request_id,
-                                 std::chrono::milliseconds deadline) {
+std::shared_ptr<Call> Core::send(Call::Kind kind, std::string document, std::string request_id, client::Deadline deadline) {
     auto call = std::make_shared<Call>(kind, std::move(document), std::move(request_id), deadline);
     if (is_closed()) {
         call->give(closed());
         return call;
     }
     calls_.push_back(call);
-    if (call->due < next_deadline_) watch_deadlines(call->due);
+    if (call->deadline.due < next_deadline_) watch_deadlines(call->deadline.due);
     if (is_open()) {
         call->sent = true;
         send_on_link({call, &call->text});
@@ -123,15 +134,15 @@ void Core::end_late_calls() {
     std::vector<std::shared_ptr<Call>> late;
     for (auto const& call : calls_) {
         if (call->is_over()) continue;
-        if (call->due <= now) {
+        if (call->deadline.due <= now) {
             late.push_back(call);
         } else {
-            earliest = std::min(earliest, call->due);
+            earliest = std::min(earliest, call->deadline.due);
         }
     }
     watch_deadlines(earliest);
     for (auto const& call : late) {
-        auto reason = "no answer within " + std::to_string(call->deadline.count()) + " ms";
+        auto reason = "no answer within " + std::to_string(call->deadline.whole.count()) + " ms";
         if (!is_open() && !last_reason_.empty()) reason += ": " + last_reason_;
         // One that was sent keeps its place in the row until its answer has come, or the link has broken.
         if (!call->sent || !is_open()) std::erase(calls_, call);
@@ -141,15 +152,18 @@ void Core::end_late_calls() {
 
 // Answers come in the order of the requests. An id is a check: documents that were sent as they stand may have any.
 void Core::take_answer(std::string_view document, std::optional<xml::Heard>& heard) {
-    constexpr auto not_understood = "what the gateway says is not understood";
     auto const first = std::ranges::find_if(calls_, [](auto const& call) { return call->sent; });
     if (first == calls_.end()) {
-        if (!heard) give_up_link(not_understood, client::Failure::passing);
+        if (!heard) give_up_misunderstood();
         return;
     }
     auto const call = *first;
-    if (call->kind == Call::Kind::raw) {
+    auto const take_first = [&] {
         calls_.erase(first);
+        failures_ = 0;
+    };
+    if (call->kind == Call::Kind::raw) {
+        take_first();
         call->give(std::string{document});
         return;
     }
@@ -157,15 +171,15 @@ void Core::take_answer(std::string_view document, std::optional<xml::Heard>& hea
     auto* const fault = heard ? std::get_if<Fault>(&*heard) : nullptr;
     auto const& id = answered != nullptr ? answered->request_id : fault != nullptr ? fault->request_id : call->id;
     if (!heard || (!id.empty() && id != call->id)) {
-        give_up_link(not_understood, client::Failure::passing);
+        give_up_misunderstood();
     } else if (answered != nullptr) {
-        calls_.erase(first);
+        take_first();
         call->give(std::in_place_type<Answer>, std::move(answered->reply));
     } else if (fault->code == FaultCode::no_session) {
         call->sent = false;  // it never ran: it is sent in the next session
         session_gone();
     } else {
-        calls_.erase(first);
+        take_first();
         call->give(std::in_place_type<Answer>, std::move(*fault));
     }
 }
@@ -187,6 +201,7 @@ void Core::begin_close(Farewell farewell) {
     bool const says_it = is_open() && farewell == Farewell::due && !is_joined();
     bool const hears_more = is_open() && farewell == Farewell::said && settings_.way == Way::http;
     phase_ = Phase::closing;
+    state_ = State::closed;  // observers are told when they have heard the rest
     loop_.cancel(attempt_);
     for (auto const& call : std::exchange(calls_, {})) call->give(closed());
     for (auto const& stream : subscriptions_.streams()) stream->end();

@@ -38,12 +38,12 @@ public:
 
     void spawn(Task<>);
 
-    // A coroutine goes on on the client's thread. Throws nothing; all others await it first.
+    // A coroutine goes on on the client's thread, or where it is when that has ended: whoever would change something asks
+    // is_closed() first. Throws nothing; all others await it first.
     auto here() { return loop_.here(); }
 
     // Sends it, now or when there is a session; its outcome is to be awaited.
-    std::shared_ptr<client::Call> send(client::Call::Kind, std::string document, std::string request_id,
-                                       std::chrono::milliseconds deadline);
+    std::shared_ptr<client::Call> send(client::Call::Kind, std::string document, std::string request_id, client::Deadline);
     // A request with all that it means to the connection. Its id is given here.
     Task<Answer> request(Request, std::chrono::milliseconds deadline);
 
@@ -74,6 +74,10 @@ private:
     void document(std::string_view) override;
     void failed(std::string const& reason, client::Failure) override;
     void give_up_link(std::string const& reason, client::Failure);
+    void give_up_misunderstood();
+    std::shared_ptr<client::Call> take_largest();
+    static void refuse_too_large(client::Call&, std::string const& reason);
+    void leave_session();
     void open_session();
     void take_opening(xml::Heard);
     void session_gone();
@@ -81,6 +85,7 @@ private:
     void take_restored(xml::Answered const&);
     void take_restored(Fault const&);
     void restored(std::string const& request_id, Outcome const&, Reply const*);
+    void all_restored();
     void become_open();
     std::chrono::milliseconds pause();
     bool is_joined() const { return !settings_.session.empty(); }  // in the session of another program
@@ -99,6 +104,7 @@ private:
     // --- core_notifications.cpp ---
     void take(xml::Told);
     void tell_held();
+    void tell_first_held();
     void tell(xml::Told);
     void tell_gap(Gap);
     void complete(CommandId const&, CompletedStatus);
@@ -106,6 +112,7 @@ private:
     // --- core_operations.cpp ---
     Task<Answer> plain(Request, std::chrono::milliseconds deadline);
     Task<Answer> execute(Execute, std::chrono::milliseconds deadline);
+    void forget(std::vector<std::shared_ptr<Watch>> const&);
     Task<Answer> bind_any(BindAny, std::chrono::milliseconds deadline);
     Task<Answer> subscribe_by_request(Subscribe, std::chrono::milliseconds deadline);
     Task<Answer> unsubscribe(Unsubscribe, std::chrono::milliseconds deadline);
@@ -135,7 +142,9 @@ private:
     SessionId session_;
     bool had_session_ = false;
     std::uint64_t last_sequence_ = 0;
-    unsigned failures_ = 0;  // in a row
+    unsigned attempts_ = 0;  // in a row that have led to no session
+    unsigned failures_ = 0;  // in a row without a link that was good
+    client::Steady opened_at_;
     client::Loop::Ticket attempt_ = 0;
     std::string last_reason_;
     std::uint64_t dice_;
@@ -151,8 +160,8 @@ private:
     std::deque<std::shared_ptr<client::Call>> calls_;       // in the order in which they came
     client::Steady next_deadline_ = client::Steady::max();  // none of theirs is earlier
     client::Loop::Ticket deadlines_ = 0;
-    std::uint64_t last_request_ = 0;
-    std::map<CommandId, std::shared_ptr<Watch>> watches_;
+    std::atomic<std::uint64_t> last_request_ = 0;
+    std::multimap<CommandId, std::shared_ptr<Watch>> watches_;  // one for each who waits, also of a name that is refused
 
     // While it is not known yet which events are whose, notifications wait.
     std::size_t subscribing_ = 0;

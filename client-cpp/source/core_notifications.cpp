@@ -20,11 +20,13 @@ void Core::take(xml::Told told) {
 }
 
 void Core::tell_held() {
-    while (subscribing_ == 0 && !held_.empty()) {
-        auto told = std::move(held_.front());
-        held_.pop_front();
-        tell(std::move(told));
-    }
+    while (subscribing_ == 0 && !held_.empty()) tell_first_held();
+}
+
+void Core::tell_first_held() {
+    auto told = std::move(held_.front());
+    held_.pop_front();
+    tell(std::move(told));
 }
 
 void Core::tell(xml::Told told) {
@@ -47,8 +49,9 @@ void Core::tell_gap(Gap gap) {
 }
 
 void Core::complete(CommandId const& id, CompletedStatus status) {
-    auto const found = watches_.extract(id);
-    if (found) found.mapped()->complete(status);
+    std::vector<std::shared_ptr<Watch>> over;
+    while (auto found = watches_.extract(id)) over.push_back(std::move(found.mapped()));
+    for (auto const& watch : over) watch->complete(status);
 }
 
 }  // namespace rois::detail

@@ -25,24 +25,23 @@ void for_each_command(std::vector<CommandUnit>& units, auto const& function) {
     }
 }
 
+// Whether it names what only its session knows; another one may give the name to something else.
+bool is_of_session(Operation const& operation) {
+    return std::holds_alternative<Unsubscribe>(operation) || std::holds_alternative<GetCommandResult>(operation) ||
+           std::holds_alternative<GetEventDetail>(operation) || std::holds_alternative<GetErrorDetail>(operation);
+}
+
+bool is_of_lost_session(Answer const& answer) {
+    auto const* const none = std::get_if<NoAnswer>(&answer);
+    return none != nullptr && none->why == NoAnswer::Why::session_lost;
+}
+
 template <class R>
 R const* good(Answer const& answer) {
     auto const* const reply = std::get_if<Reply>(&answer);
     auto const* const expected = reply != nullptr ? std::get_if<R>(reply) : nullptr;
     return expected != nullptr && expected->return_code == ReturnCode::ok ? expected : nullptr;
 }
-
-class Remaining {
-public:
-    explicit Remaining(std::chrono::milliseconds whole) : end_{std::chrono::steady_clock::now() + whole} {}
-    std::chrono::milliseconds now() const {
-        auto const left = end_ - std::chrono::steady_clock::now();
-        return std::max(std::chrono::duration_cast<std::chrono::milliseconds>(left), std::chrono::milliseconds{0});
-    }
-
-private:
-    std::chrono::steady_clock::time_point end_;
-};
 
 }  // namespace
 
@@ -62,7 +61,8 @@ Task<Answer> Core::plain(Request request, std::chrono::milliseconds deadline) {
     if (std::holds_alternative<Resume>(request.operation))
         co_return Fault{FaultCode::not_allowed, "the connection resumes its session by itself", {}, {}};
     request.request_id = fresh_request_id();
-    auto const call = send(Call::Kind::again, xml::encode(request), request.request_id, deadline);
+    auto const kind = is_of_session(request.operation) ? Call::Kind::in_session : Call::Kind::again;
+    auto const call = send(kind, xml::encode(request), request.request_id, deadline);
     auto& outcome = co_await call->outcome();
     auto& answer = std::get<Answer>(outcome);
     if (auto const* const op = std::get_if<Bind>(&request.operation); op != nullptr && good<Bind::Reply>(answer) != nullptr)
@@ -82,24 +82,30 @@ Task<std::vector<std::shared_ptr<Watch>>> Core::begin(CommandUnitSequence sequen
     for_each_command(sequence.command_unit_list, [&](CommandMessage& command) {
         if (command.command_id.text.empty()) command.command_id = fresh_command_id();
         watches.push_back(std::make_shared<Watch>(command.command_id));
-        watches_[command.command_id] = watches.back();
+        if (!is_closed()) watches_.emplace(command.command_id, watches.back());
     });
     Execute operation{std::move(sequence)};
     auto answer = co_await execute(std::move(operation), settings_.deadline);
     auto const reply = reply_of<Execute>(std::move(answer));
     if (reply.return_code != ReturnCode::ok) {
-        for (auto const& watch : watches) watches_.erase(watch->id);
+        forget(watches);
         throw Error{reply.return_code, what + ": " + reply.reason};
     }
     co_return watches;
 }
 
-// A sequence that may have arrived: the engine takes no id twice, so it may be sent again. When it is refused then, the first
-// command tells whether it is known from the first time.
+// Those that this call has begun to watch: others may watch a command of the same name.
+void Core::forget(std::vector<std::shared_ptr<Watch>> const& watches) {
+    if (is_closed()) return;
+    std::erase_if(watches_, [&](auto const& each) { return std::ranges::count(watches, each.second) > 0; });
+}
+
+// A sequence that may have arrived: the engine takes no id twice in a session, so it may be sent again there. When it is refused
+// then, the first command tells whether it is known from the first time.
 Task<Answer> Core::execute(Execute operation, std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     co_await here();
-    Remaining const remaining{deadline};
+    client::Deadline const due{deadline};
     CommandId first;
     for_each_command(operation.command_unit_list.command_unit_list, [&](CommandMessage& command) {
         if (command.command_id.text.empty()) command.command_id = fresh_command_id();
@@ -111,7 +117,8 @@ Task<Answer> Core::execute(Execute operation, std::chrono::milliseconds deadline
     bool doubtful = false;
     for (;;) {
         request.request_id = fresh_request_id();
-        auto const call = send(Call::Kind::once, xml::encode(request), request.request_id, remaining.now());
+        auto const kind = doubtful ? Call::Kind::in_session : Call::Kind::once;
+        auto const call = send(kind, xml::encode(request), request.request_id, due);
         auto& outcome = co_await call->outcome();
         if (std::holds_alternative<Interrupted>(outcome)) {
             doubtful = true;
@@ -121,7 +128,8 @@ Task<Answer> Core::execute(Execute operation, std::chrono::milliseconds deadline
         bool const refused = std::holds_alternative<Reply>(answer) && good<Execute::Reply>(answer) == nullptr;
         if (!doubtful || !refused || first.text.empty()) co_return std::move(answer);
         Request ask{GetCommandResult{first, {}}, {}};
-        auto const known = co_await plain(std::move(ask), remaining.now());
+        auto known = co_await plain(std::move(ask), due.left());
+        if (std::holds_alternative<NoAnswer>(known)) co_return known;
         if (good<GetCommandResult::Reply>(known) == nullptr) co_return std::move(answer);
         Reply reply{accepted};
         co_return reply;
@@ -143,12 +151,12 @@ void Core::note_released(Identifier const& ref) {
 Task<Answer> Core::bind_any(BindAny operation, std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     co_await here();
-    Remaining const remaining{deadline};
+    client::Deadline const due{deadline};
     auto const condition = operation.condition;
     Request request{std::move(operation), {}};
     for (;;) {
         request.request_id = fresh_request_id();
-        auto const call = send(Call::Kind::once, xml::encode(request), request.request_id, remaining.now());
+        auto const call = send(Call::Kind::once, xml::encode(request), request.request_id, due);
         auto& outcome = co_await call->outcome();
         if (!std::holds_alternative<Interrupted>(outcome)) {
             auto& answer = std::get<Answer>(outcome);
@@ -156,13 +164,13 @@ Task<Answer> Core::bind_any(BindAny operation, std::chrono::milliseconds deadlin
             co_return std::move(answer);
         }
         Request look{Search{condition}, {}};
-        auto const candidates = co_await plain(std::move(look), remaining.now());
+        auto const candidates = co_await plain(std::move(look), due.left());
         auto const* const found = good<Search::Reply>(candidates);
         if (found == nullptr) continue;
         for (auto const& ref : found->component_ref_list) {
             if (std::ranges::any_of(bound_, [&](auto const& bound) { return bound.code == ref.code; })) continue;
             Request ask{GetParameter{ref}, {}};
-            auto const parameters = co_await plain(std::move(ask), remaining.now());
+            auto const parameters = co_await plain(std::move(ask), due.left());
             if (good<GetParameter::Reply>(parameters) == nullptr) continue;
             note_bound(ref);
             BindAny::Reply done;
@@ -187,6 +195,7 @@ Task<Answer> Core::subscribe_at_engine(Subscribe operation, std::chrono::millise
 Task<Answer> Core::subscribe_by_request(Subscribe operation, std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     co_await here();
+    if (is_closed()) co_return closed();
     if (auto const* const known = subscriptions_.find(operation); known != nullptr && known->heard())
         operation.inline_results = true;
     auto answer = co_await subscribe_at_engine(operation, deadline);
@@ -204,6 +213,7 @@ Task<Answer> Core::subscribe_by_request(Subscribe operation, std::chrono::millis
 Task<std::shared_ptr<Stream>> Core::subscribe(Subscribe operation) {
     auto const self = shared_from_this();
     co_await here();
+    if (is_closed()) throw Error{ReturnCode::error, "subscribe " + operation.event_type + ": " + closed().reason};
     operation.inline_results = true;
     auto answer = co_await subscribe_at_engine(operation, settings_.deadline);
     std::shared_ptr<Stream> stream;
@@ -229,14 +239,18 @@ void Core::end_subscribing() {
     });
 }
 
+// In place of a session that is gone, what nobody hears is not made anew, or is ended as soon as it is.
 Task<Answer> Core::unsubscribe(Unsubscribe operation, std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     co_await here();
+    if (is_closed()) co_return closed();
     auto const id = operation.subscribe_id;
+    bool ours = false;
     if (auto* const known = subscriptions_.find(id)) {
+        ours = true;
         known->by_request = false;
-        if (known->heard() || subscriptions_.shares_engine_id(*known)) {
-            if (!known->heard()) subscriptions_.forget(id);
+        if (known->heard() || gap_ || subscriptions_.ends_nothing(*known)) {
+            if (!known->heard() && !gap_) subscriptions_.forget(id);
             Reply reply{Unsubscribe::Reply{}};
             co_return reply;
         }
@@ -244,14 +258,21 @@ Task<Answer> Core::unsubscribe(Unsubscribe operation, std::chrono::milliseconds 
     }
     Request whole{std::move(operation), {}};
     auto answer = co_await plain(std::move(whole), deadline);
+    if (ours && is_of_lost_session(answer)) {
+        Reply reply{Unsubscribe::Reply{}};
+        co_return reply;
+    }
     auto const* const known = subscriptions_.find(id);
     if (known != nullptr && !known->heard() && !known->by_request && good<Unsubscribe::Reply>(answer) != nullptr)
         subscriptions_.forget(id);
     co_return answer;
 }
 
+// Handles may go after the loop has ended: what it is told then stays in it, and must not keep it.
 void Core::streams_changed() {
-    loop_.post([self = shared_from_this()] { self->end_unheard(); });
+    loop_.post([weak = weak_from_this()] {
+        if (auto const self = weak.lock()) self->end_unheard();
+    });
 }
 
 // Not while it is not known what a new subscription is to the engine.

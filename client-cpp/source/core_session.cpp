@@ -5,6 +5,7 @@
 
 namespace rois::detail {
 
+using client::Call;
 using client::Failure;
 
 namespace {
@@ -63,13 +64,15 @@ void Core::document(std::string_view text) {
     } else if (phase_ == Phase::closing) {
         // Over HTTP the end of the event stream is the last that is heard: it may have `completed` for what the session ended.
         if (heard && is_farewell(*heard) && settings_.way == Way::websocket) finish();
-    } else if (phase_ == Phase::attaching && heard) {
+    } else if (is_open()) {
+        take_answer(text, heard);
+    } else if (!heard) {
+        give_up_misunderstood();
+    } else if (phase_ == Phase::attaching) {
         take_opening(*std::move(heard));
-    } else if (phase_ == Phase::restoring && heard) {
+    } else {
         if (auto const* const answered = std::get_if<xml::Answered>(&*heard)) take_restored(*answered);
         if (auto const* const fault = std::get_if<Fault>(&*heard)) take_restored(*fault);
-    } else {
-        take_answer(text, heard);
     }
 }
 
@@ -144,25 +147,62 @@ void Core::give_up_link(std::string const& reason, Failure failure) {
     }
     if (is_closed()) return;
     bool const was_open = is_open();
+    auto const refused = was_open && failure == Failure::too_large ? take_largest() : nullptr;
     if (phase_ == Phase::restoring) {
         --subscribing_;
         restoring_.clear();
     }
     phase_ = Phase::resting;
     last_reason_ = reason;
-    // A session that is gone leaves a gap, which is told in the next one.
-    if (session_.text.empty() && had_session_ && !gap_) gap_ = Gap{Gap::Why::new_session, {}, {}};
+    if (session_.text.empty() && had_session_) leave_session();
     if (was_open) change(State::lost, reason);
+    if (was_open && opened_at_ + settings_.longest_pause <= std::chrono::steady_clock::now()) failures_ = 0;
     ++failures_;
-    if (failure == Failure::lasting || (settings_.attempts && failures_ >= *settings_.attempts && !was_open)) {
+    ++attempts_;
+    if (failure == Failure::lasting || (settings_.attempts && attempts_ >= *settings_.attempts && !was_open)) {
         begin_close(Farewell::said);
         return;
     }
+    if (refused) refuse_too_large(*refused, reason);
     if (is_closed()) return;  // who was told has closed it
     attempt_ = loop_.in(pause(), [this] { attempt(); });
 }
 
-// At once after a link that was good; then twice as long each time, cut by up to a half.
+// The largest that is on its way, which the gateway did not take: it would break the next link, too. Null when there is none.
+std::shared_ptr<Call> Core::take_largest() {
+    auto const size = [](auto const& call) { return call->sent ? call->text.size() : 0; };
+    auto const largest = std::ranges::max_element(calls_, {}, size);
+    if (largest == calls_.end() || size(*largest) == 0) return nullptr;
+    auto call = *largest;
+    calls_.erase(largest);
+    return call;
+}
+
+void Core::refuse_too_large(Call& call, std::string const& reason) {
+    if (call.is_over()) return;
+    auto why = "a document of " + std::to_string(call.text.size()) + " bytes: " + reason;
+    if (call.kind == Call::Kind::raw) {
+        call.give(NoAnswer{NoAnswer::Why::link_lost, std::move(why)});
+    } else {
+        call.give(Fault{FaultCode::too_large, std::move(why), {}, {}});
+    }
+}
+
+// A session that is gone leaves a gap, which is told in the next one. What waits is told while its names are known; what a
+// session told that was gone before all was made anew belongs to the gap.
+void Core::leave_session() {
+    if (gap_) {
+        held_.clear();
+        return;
+    }
+    while (!held_.empty()) tell_first_held();
+    gap_ = Gap{Gap::Why::new_session, {}, {}};
+}
+
+void Core::give_up_misunderstood() { give_up_link("what the gateway says is not understood", Failure::passing); }
+
+// At once after a link that was good, on which something was answered or which has held for as long as the longest pause; then
+// twice as long each time, cut by up to a half.
 std::chrono::milliseconds Core::pause() {
     if (failures_ <= 1 && had_session_) return std::chrono::milliseconds{0};
     auto longest = settings_.first_pause;
@@ -175,9 +215,10 @@ std::chrono::milliseconds Core::pause() {
 
 // --- A new session in place of the one that is gone ---
 
-// Binds and subscribes anew. Events may come before it is known whose they are: they wait.
+// Binds and subscribes anew, but for what nobody hears any more. Events may come before it is known whose they are: they wait.
 void Core::restore() {
     phase_ = Phase::restoring;
+    subscriptions_.forget_unheard();
     ++subscribing_;
     std::vector<client::Link::Document> documents;
     auto const add = [&](Operation operation, std::string what) {
@@ -188,7 +229,7 @@ void Core::restore() {
     for (auto const& ref : bound_) add(Bind{ref}, "bind " + ref.code);
     for (auto const* const each : subscriptions_.all()) add(each->operation, "subscribe " + each->id.text);
     for (auto const& document : documents) send_on_link(document);
-    if (restoring_.empty()) restored({}, {}, nullptr);
+    if (restoring_.empty()) all_restored();
 }
 
 void Core::take_restored(xml::Answered const& answered) {
@@ -205,46 +246,55 @@ void Core::take_restored(Fault const& fault) {
 
 void Core::restored(std::string const& request_id, Outcome const& outcome, Reply const* reply) {
     auto const found = restoring_.find(request_id);
-    if (found != restoring_.end()) {
-        constexpr std::string_view subscribe = "subscribe ";
-        auto const& what = found->second;
-        auto* const subscription =
-            what.starts_with(subscribe) ? subscriptions_.find(SubscribeId{what.substr(subscribe.size())}) : nullptr;
-        bool const good = outcome.return_code == ReturnCode::ok && reply != nullptr;
-        if (good && subscription != nullptr) {
-            if (auto const* const subscribed = std::get_if<Subscribe::Reply>(reply))
-                subscription->engine_id = subscribed->subscribe_id;
-        } else if (!good) {
-            auto const name = subscription != nullptr ? "subscribe " + subscription->operation.event_type : what;
-            if (subscription == nullptr) std::erase_if(bound_, [&](auto const& ref) { return "bind " + ref.code == what; });
-            gap_->not_restored.push_back(name + ": " + outcome.reason);
-        }
-        restoring_.erase(found);
+    if (found == restoring_.end()) {
+        give_up_misunderstood();
+        return;
     }
-    if (!restoring_.empty()) return;
+    constexpr std::string_view subscribe = "subscribe ";
+    auto const& what = found->second;
+    auto* const subscription =
+        what.starts_with(subscribe) ? subscriptions_.find(SubscribeId{what.substr(subscribe.size())}) : nullptr;
+    bool const good = outcome.return_code == ReturnCode::ok && reply != nullptr;
+    if (good && subscription != nullptr) {
+        if (auto const* const subscribed = std::get_if<Subscribe::Reply>(reply))
+            subscription->engine_id = subscribed->subscribe_id;
+    } else if (!good) {
+        auto const name = subscription != nullptr ? "subscribe " + subscription->operation.event_type : what;
+        if (subscription == nullptr) std::erase_if(bound_, [&](auto const& ref) { return "bind " + ref.code == what; });
+        if (subscription != nullptr) subscription->engine_id = {};
+        gap_->not_restored.push_back(name + ": " + outcome.reason);
+    }
+    restoring_.erase(found);
+    if (restoring_.empty()) all_restored();
+}
+
+// What nobody hears any more since `restore` ends now that its names are known.
+void Core::all_restored() {
     --subscribing_;
     become_open();
+    end_unheard();
 }
 
 // Who waits hears in this order: that there is a session, what was missed, then the answers and notifications to come.
 void Core::become_open() {
     bool const same = !gap_ && state_ == State::lost;
     loop_.cancel(attempt_);
-    failures_ = 0;
+    attempts_ = 0;
+    opened_at_ = std::chrono::steady_clock::now();
     phase_ = Phase::open;
     std::erase_if(calls_, [](auto const& call) { return call->is_over(); });
-    std::vector<std::shared_ptr<client::Call>> doubtful;
-    std::vector<std::shared_ptr<client::Call>> not_again;
+    auto const gap = std::exchange(gap_, {});
+    std::vector<std::shared_ptr<Call>> doubtful;
+    std::vector<std::shared_ptr<Call>> not_again;
     for (auto const& call : calls_) {
-        if (!call->sent) continue;
-        call->sent = false;
-        if (call->kind == client::Call::Kind::once) doubtful.push_back(call);
-        if (call->kind == client::Call::Kind::raw) not_again.push_back(call);
+        bool const sent = std::exchange(call->sent, false);
+        if (sent && call->kind == Call::Kind::once) doubtful.push_back(call);
+        if (gap && call->kind == Call::Kind::in_session) doubtful.push_back(call);
+        if (sent && call->kind == Call::Kind::raw) not_again.push_back(call);
     }
     for (auto const& call : doubtful) std::erase(calls_, call);
     for (auto const& call : not_again) std::erase(calls_, call);
     flush();
-    auto const gap = std::exchange(gap_, {});
     change(same ? State::resumed : State::open);
     if (gap) {
         for (auto const& [id, watch] : std::exchange(watches_, {})) watch->complete(CompletedStatus::abort);

@@ -49,7 +49,7 @@ void EventStream::each_event(std::function<void(ReceiveEvent const&)> told) {
 }
 
 void EventStream::skip() {
-    core_->loop().post([stream = stream_] { stream->skip(); });
+    if (!core_->loop().post([stream = stream_] { stream->skip(); })) stream_->skip();
 }
 
 std::uint64_t EventStream::gaps() const { return stream_->gaps(); }

@@ -1,16 +1,26 @@
 #include "rois/interfaces.hpp"
 
+#include <optional>
 #include <utility>
+
+#include "rois/condition.hpp"
 
 namespace RoIS_HRI {
 
 namespace {
 
+static_assert(static_cast<ReturnCode_t>(rois::ReturnCode::timeout) == TIMEOUT);
+static_assert(static_cast<RoIS_Common::Component_Status>(rois::ComponentStatus::error) == RoIS_Common::ERROR);
+static_assert(static_cast<RoIS_Service::Completed_Status>(rois::CompletedStatus::timeout) == RoIS_Service::TIMEOUT);
+static_assert(static_cast<RoIS_Service::ErrorType>(rois::ErrorType::user_defined_error) == RoIS_Service::USER_DEFINED_ERROR);
+
+ReturnCode_t code_of(rois::Outcome const& outcome) { return static_cast<ReturnCode_t>(outcome.return_code); }
+
 // An out parameter changes when all went well.
 template <class Value>
 ReturnCode_t give(rois::Outcome const& outcome, Value& out, Value& value) {
-    if (outcome.return_code == ReturnCode_t::ok) out = std::move(value);
-    return outcome.return_code;
+    if (code_of(outcome) == OK) out = std::move(value);
+    return code_of(outcome);
 }
 
 }  // namespace
@@ -18,11 +28,11 @@ ReturnCode_t give(rois::Outcome const& outcome, Value& out, Value& value) {
 ReturnCode_t SystemIF::connect() {
     auto const problem = connection().wait(connection().opened());
     set_reason(problem ? problem->reason : "");
-    if (!problem) return ReturnCode_t::ok;
-    return problem->why == rois::NoAnswer::Why::deadline ? ReturnCode_t::timeout : ReturnCode_t::error;
+    if (!problem) return OK;
+    return problem->why == rois::NoAnswer::Why::deadline ? TIMEOUT : ERROR;
 }
 
-ReturnCode_t SystemIF::disconnect() { return call(rois::Disconnect{}).return_code; }
+ReturnCode_t SystemIF::disconnect() { return code_of(call(rois::Disconnect{})); }
 
 ReturnCode_t SystemIF::get_profile(Condition_t const& condition, HRI_Engine_Profile& profile) {
     auto reply = call(rois::GetProfile{condition});
@@ -39,14 +49,14 @@ ReturnCode_t CommandIF::search(Condition_t const& condition, RoIS_IdentifierList
     return give(reply, component_ref_list, reply.component_ref_list);
 }
 
-ReturnCode_t CommandIF::bind(RoIS_Identifier const& component_ref) { return call(rois::Bind{component_ref}).return_code; }
+ReturnCode_t CommandIF::bind(RoIS_Identifier const& component_ref) { return code_of(call(rois::Bind{component_ref})); }
 
 ReturnCode_t CommandIF::bind_any(Condition_t const& condition, RoIS_Identifier& component_ref) {
     auto reply = call(rois::BindAny{condition});
     return give(reply, component_ref, reply.component_ref);
 }
 
-ReturnCode_t CommandIF::release(RoIS_Identifier const& component_ref) { return call(rois::Release{component_ref}).return_code; }
+ReturnCode_t CommandIF::release(RoIS_Identifier const& component_ref) { return code_of(call(rois::Release{component_ref})); }
 
 ReturnCode_t CommandIF::get_parameter(RoIS_Identifier const& component_ref, ParameterList& parameters) {
     auto reply = call(rois::GetParameter{component_ref});
@@ -80,7 +90,7 @@ ReturnCode_t EventIF::subscribe(std::string const& event_type, Condition_t const
 }
 
 ReturnCode_t EventIF::unsubscribe(rois::SubscribeId const& subscribe_id) {
-    return call(rois::Unsubscribe{subscribe_id}).return_code;
+    return code_of(call(rois::Unsubscribe{subscribe_id}));
 }
 
 ReturnCode_t EventIF::get_event_detail(rois::EventId const& event_id, Condition_t const& condition, ResultList& results) {
@@ -90,6 +100,34 @@ ReturnCode_t EventIF::get_event_detail(rois::EventId const& event_id, Condition_
 
 }  // namespace RoIS_HRI
 
+namespace RoIS_Common {
+
+RoIS_HRI::ReturnCode_t Command::run(std::string command_type, RoIS_HRI::ArgumentList arguments) {
+    RoIS_HRI::CommandUnitSequence sequence;
+    sequence.command_unit_list.push_back(
+        {{}, rois::CommandMessage{component_ref_, std::move(command_type), {}, std::move(arguments)}});
+    auto const reply = call(rois::Execute{std::move(sequence)});
+    if (reply.return_code == rois::ReturnCode::ok)
+        command_id_ = std::get<rois::CommandMessage>(reply.command_unit_list.command_unit_list.at(0).unit).command_id;
+    return static_cast<RoIS_HRI::ReturnCode_t>(reply.return_code);
+}
+
+RoIS_HRI::ReturnCode_t Query::component_status(Component_Status& status) {
+    auto const reply = call(rois::Query{"component_status", rois::conditions::component_ref == component_ref_.code});
+    if (reply.return_code != rois::ReturnCode::ok) return static_cast<RoIS_HRI::ReturnCode_t>(reply.return_code);
+    auto const* const told = rois::find(reply.results.parameters, "status");
+    auto const code =
+        told != nullptr && !told->values.empty() ? rois::to_code<rois::ComponentStatus>(told->values.front()) : std::nullopt;
+    if (!code) {
+        set_reason("the answer has no status");
+        return RoIS_HRI::ERROR;
+    }
+    status = static_cast<Component_Status>(*code);
+    return RoIS_HRI::OK;
+}
+
+}  // namespace RoIS_Common
+
 namespace RoIS_Service {
 
 rois::Observers ServiceApplicationBase::observers() {
@@ -98,9 +136,9 @@ rois::Observers ServiceApplicationBase::observers() {
         if (auto const* const event = std::get_if<rois::ReceiveEvent>(&notification))
             receive_event(event->event_id, event->event_type, event->subscribe_id, event->expire);
         if (auto const* const error = std::get_if<rois::ReceiveError>(&notification))
-            receive_error(error->error_id, error->error_type);
+            receive_error(error->error_id, static_cast<ErrorType>(error->error_type));
         if (auto const* const command = std::get_if<rois::Completed>(&notification))
-            completed(command->command_id, command->status);
+            completed(command->command_id, static_cast<Completed_Status>(command->status));
     };
     return observers;
 }

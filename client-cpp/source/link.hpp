@@ -15,8 +15,8 @@
 
 namespace rois::client {
 
-// Whether it is worth another attempt.
-enum class Failure : std::uint8_t { passing, lasting };
+// Whether it is worth another attempt; too_large: yes, but without the document that the gateway does not take.
+enum class Failure : std::uint8_t { passing, lasting, too_large };
 
 // Lives on the client's thread.
 class Link {

@@ -5,6 +5,7 @@ namespace rois::client {
 Loop::Loop() : work_{asio::make_work_guard(io_)}, timer_{io_} {}
 
 Loop::Ticket Loop::at(Steady time, std::function<void()> ring) {
+    if (finishing_) return 0;
     auto const ticket = ++last_ticket_;
     alarms_.emplace(std::pair{time, ticket}, std::move(ring));
     times_.emplace(ticket, time);
@@ -46,10 +47,23 @@ void Loop::start(std::shared_ptr<void> owner) {
         }
         finished_.set_value(io_.stopped() ? Left::nothing : Left::something);
         io_.run();
+        end();
     }};
 }
 
+// What was posted before it was over still runs.
+void Loop::end() {
+    {
+        std::lock_guard const lock{over_mutex_};
+        over_ = true;
+    }
+    io_.restart();
+    io_.run();
+    own_id_ = std::thread::id{};
+}
+
 void Loop::finish() {
+    finishing_ = true;
     alarms_.clear();
     times_.clear();
     timer_.cancel();

@@ -20,11 +20,13 @@ bool Subscription::heard() const {
 }
 
 Subscription& Subscriptions::of(Subscribe const& operation, SubscribeId const& engine_id) {
+    auto id = engine_id;
+    while (find(id) != nullptr) id.text += '+';  // an older session's; each session counts from one
     auto& found = known_[key_of(operation)];
     if (!found) {
         found = std::make_unique<Subscription>();
         found->operation = operation;
-        found->id = engine_id;
+        found->id = std::move(id);
     }
     found->engine_id = engine_id;
     found->operation.inline_results = found->operation.inline_results || operation.inline_results;
@@ -69,7 +71,7 @@ std::vector<SubscribeId> Subscriptions::forget_unheard() {
             ++each;
             continue;
         }
-        if (!shares_engine_id(subscription)) over.push_back(subscription.engine_id);
+        if (!ends_nothing(subscription)) over.push_back(subscription.engine_id);
         each = known_.erase(each);
     }
     return over;
@@ -79,9 +81,10 @@ void Subscriptions::forget(SubscribeId const& id) {
     std::erase_if(known_, [&](auto const& each) { return each.second->id == id; });
 }
 
-bool Subscriptions::shares_engine_id(Subscription const& one) const {
-    return std::ranges::any_of(
-        known_, [&](auto const& each) { return each.second.get() != &one && each.second->engine_id == one.engine_id; });
+bool Subscriptions::ends_nothing(Subscription const& one) const {
+    return one.engine_id.text.empty() || std::ranges::any_of(known_, [&](auto const& each) {
+               return each.second.get() != &one && each.second->engine_id == one.engine_id;
+           });
 }
 
 std::vector<Subscription*> Subscriptions::all() {

@@ -15,8 +15,8 @@ namespace rois::client {
 // One event type with one condition, as the application has written it.
 struct Subscription {
     Subscribe operation;
-    SubscribeId id;           // as the application knows it: the first that the engine gave
-    SubscribeId engine_id;    // as the engine knows it in this session
+    SubscribeId id;           // as the application knows it: the first that the engine gave, unless another one has that
+    SubscribeId engine_id;    // as the engine knows it in this session; empty when it refused to
     bool by_request = false;  // the application has subscribed itself, beside the streams
     std::vector<std::weak_ptr<detail::Stream>> streams;
 
@@ -37,11 +37,11 @@ public:
     Hearing hearing(ReceiveEvent&);
     std::vector<std::shared_ptr<detail::Stream>> streams();
 
-    // Forgets those that nobody hears any more, and gives the engine's ids that nothing else stands for.
+    // Forgets those that nobody hears any more, and gives the engine's ids that are to be ended.
     std::vector<SubscribeId> forget_unheard();
     void forget(SubscribeId const& id);
-    // Whether another one is the same to the engine.
-    bool shares_engine_id(Subscription const&) const;
+    // Whether the engine has nothing to end with it: another one is the same there, or it has none.
+    bool ends_nothing(Subscription const&) const;
 
     // All, to make them anew.
     std::vector<Subscription*> all();

@@ -120,10 +120,7 @@ private:
 
     void was_read(error_code error) {
         if (error) {
-            auto const& closed = stream_.reason();
-            fail(error == websocket::error::closed ? "the gateway closed the link: " + std::string{closed.reason.c_str()}
-                                                   : "the link broke: " + error.message(),
-                 Failure::passing);
+            broke(error);
             return;
         }
         if (stream_.is_message_done()) {
@@ -138,11 +135,22 @@ private:
         stream_.async_write(asio::buffer(*outgoing_.front()), [self = this->shared_from_this()](error_code error, std::size_t) {
             self->outgoing_.pop_front();
             if (error) {
-                self->fail("the link broke: " + error.message(), Failure::passing);
+                self->broke(error);
             } else if (!self->outgoing_.empty() && self->listener_ != nullptr) {
                 self->write();
             }
         });
+    }
+
+    // Once the gateway has said why, that is the reason, whatever fails first.
+    void broke(error_code error) {
+        auto const& closed = stream_.reason();
+        if (!closed) {
+            fail("the link broke: " + error.message(), Failure::passing);
+            return;
+        }
+        fail("the gateway closed the link: " + std::string{closed.reason.c_str()},
+             closed.code == websocket::close_code::too_big ? Failure::too_large : Failure::passing);
     }
 
     void fail(std::string const& reason, Failure failure) {

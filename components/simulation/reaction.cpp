@@ -25,7 +25,8 @@ private:
         auto const wanted = text_of(parameters, "reaction_ref");
         if (wanted.empty() || !reaction_code(wanted).empty()) return {};
         return "parameter 'reaction_ref': " + quoted(wanted) + " is unknown; known are 1 to " +
-               std::to_string(reaction_types.size()) + " of " + std::string{codebook::reaction} + " and their names";
+               std::to_string(reaction_types.size()) + " of " + std::string{codebook::reaction} +
+               " and their names, such as nod (1), bow (9) or wave (28)";
     }
 
     std::optional<std::string> missing(ParameterList const& parameters) const override {

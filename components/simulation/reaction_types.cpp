@@ -1,7 +1,6 @@
 #include "simulation/reaction_types.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "types/texts.hpp"
 
@@ -58,30 +57,42 @@ std::array<ReactionType, 50> const reaction_types{{{"nod the head", 1.2},
                                                    {"put an arm on a shoulder", 2.2},
                                                    {"glance at a wristwatch", 2.0}}};
 
+namespace {
+
+struct SeenAs {
+    std::string_view code;
+    std::string_view gesture;
+};
+
+constexpr std::array<SeenAs, 12> seen_as{{{"1", "nod"},
+                                          {"3", "shake_head"},
+                                          {"9", "bow"},
+                                          {"14", "clap"},
+                                          {"15", "clap"},
+                                          {"16", "point"},
+                                          {"17", "point"},
+                                          {"22", "raise_hand"},
+                                          {"23", "raise_hand"},
+                                          {"24", "raise_hand"},
+                                          {"25", "raise_hand"},
+                                          {"28", "wave"}}};
+
+}  // namespace
+
 std::string reaction_code(std::string_view code_or_name) {
     auto const text = trimmed(code_or_name);
     auto const number = to_int(text);
     if (number && *number >= 1 && *number <= static_cast<int>(reaction_types.size())) return std::to_string(*number);
     auto const found =
         std::ranges::find_if(reaction_types, [&](ReactionType const& r) { return equal_ignoring_case(r.name, text); });
-    return found == reaction_types.end() ? "" : std::to_string(found - reaction_types.begin() + 1);
+    if (found != reaction_types.end()) return std::to_string(found - reaction_types.begin() + 1);
+    auto const gesture = std::ranges::find_if(seen_as, [&](SeenAs const& one) { return equal_ignoring_case(one.gesture, text); });
+    return gesture == seen_as.end() ? "" : std::string{gesture->code};
 }
 
 std::string_view gesture_of(std::string_view code) {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 12> seen_as{{{"1", "nod"},
-                                                                                            {"3", "shake_head"},
-                                                                                            {"9", "bow"},
-                                                                                            {"14", "clap"},
-                                                                                            {"15", "clap"},
-                                                                                            {"16", "point"},
-                                                                                            {"17", "point"},
-                                                                                            {"22", "raise_hand"},
-                                                                                            {"23", "raise_hand"},
-                                                                                            {"24", "raise_hand"},
-                                                                                            {"25", "raise_hand"},
-                                                                                            {"28", "wave"}}};
-    auto const found = std::ranges::find(seen_as, code, &std::pair<std::string_view, std::string_view>::first);
-    return found == seen_as.end() ? std::string_view{} : found->second;
+    auto const found = std::ranges::find(seen_as, code, &SeenAs::code);
+    return found == seen_as.end() ? std::string_view{} : found->gesture;
 }
 
 ReactionType const& reaction_type(std::string_view code) {

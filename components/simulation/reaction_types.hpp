@@ -17,7 +17,8 @@ struct ReactionType {
 // In the annex's order; the code of the first one is "1".
 extern std::array<ReactionType, 50> const reaction_types;
 
-// The code of a reaction that is named by its code or, in any case, by its name; empty when it is neither.
+// The code of a reaction that is named by its code or, in any case, by its name or that of its gesture, "bow", the first one that
+// is seen as it; empty when it is none of these.
 std::string reaction_code(std::string_view code_or_name);
 
 // As which of the gestures() others see the reaction of that code; empty when as none.

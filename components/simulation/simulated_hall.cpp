@@ -189,7 +189,7 @@ private:
                 port_->completed(ordered.command, CompletedStatus::ok);
                 break;
             case Deed::State::failed:
-                port_->completed(ordered.command, CompletedStatus::error, {{text("reason", ordered.deed->why)}, {}});
+                port_->completed(ordered.command, CompletedStatus::error, {}, Afterwards::as_before, ordered.deed->why);
                 break;
             case Deed::State::dropped:
                 port_->completed(ordered.command, CompletedStatus::abort);

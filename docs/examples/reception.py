@@ -6,7 +6,7 @@ for this visitor or ask, bow, say goodbye, return to the start. The history goes
 """
 import math, os, sys, time
 
-from rois import Engine
+from rois import Engine, NoAnswer
 
 MESSAGES = {
     "tanaka": "Mr. Tanaka, your meeting is in room 3.",
@@ -14,7 +14,10 @@ MESSAGES = {
     "somebody": "Welcome. How can I help you?",
 }
 visitors = int(sys.argv[1]) if len(sys.argv) > 1 else 1
-engine = Engine(os.environ.get("ROIS_URL", "http://127.0.0.1:8080"))
+try:
+    engine = Engine(os.environ.get("ROIS_URL", "http://127.0.0.1:8080"))
+except NoAnswer as nobody:
+    sys.exit(str(nobody))
 
 
 def near(a, b, millimetres):
@@ -23,7 +26,7 @@ def near(a, b, millimetres):
 
 def look():
     """Looks around once: who is where."""
-    engine.run("person_localization")
+    engine.skip().run("person_localization")
     seen = engine.event("person_localized", 3)
     engine.run("person_localization", "stop")
     places = zip(seen["person_ref"], seen["position_data"]) if seen else ()
@@ -56,7 +59,7 @@ def say(text):
 
 def ask(question):
     """Says it, and gives what somebody answers."""
-    engine.run("speech_recognition")
+    engine.skip().run("speech_recognition")
     say(question)
     heard = engine.event("speech_recognized", 10)
     engine.run("speech_recognition", "stop")
@@ -71,17 +74,15 @@ for component in ("person_detection", "person_localization", "person_identificat
 for event_type in ("person_detected", "person_localized", "person_identified", "speech_recognized"):
     engine.subscribe(event_type)
 start = engine.query("robot_position")["position_data"][0]
-met = set()  # the temporary names of those who were received, and their permanent ids
-received = 0
+received, met = 0, set()  # met: the temporary names of those who were received, and their permanent ids
 while received < visitors:
     engine.run("navigation", target_position=["string[]", start])  # from where the hall is seen
-    engine.run("person_detection")
+    engine.skip().run("person_detection")
     engine.event("person_detected", 30, lambda results: int(results["number"][0]) > 0)
     engine.run("person_detection", "stop")
-    person = approach()
-    if person is None:
+    if (person := approach()) is None:
         continue
-    engine.run("person_identification")
+    engine.skip().run("person_identification")
     visitor = (engine.event("person_identified", 8) or {}).get("person_ref", ["somebody"])[0]
     engine.run("person_identification", "stop")
     met.add(person)

@@ -24,6 +24,7 @@ session=
 answer=         # the last answer
 after=0         # the sequence number of the last notification that was looked at
 notification=   # the last notification that was waited for
+broken=         # since when nothing is answered; after ten seconds the script ends
 news=$(mktemp)  # notifications that were fetched and not looked at, one a line
 
 # What is there for whom: the permanent id of a visitor, and the message.
@@ -44,11 +45,14 @@ ask() {
     # curl takes a head that is cut off for one without a body.
     until answer=$(curl -sS -m 10 --data-binary "$document" -H 'Content-Type: application/xml' \
         ${session:+-H "RoIS-Session: $session"} "$url/rois") && [ -n "$answer" ]; do pause; done
+    broken=
     case $answer in *return_code=\"OK\"*) return 0 ;; esac
     return 1
 }
 
 pause() {
+    broken=${broken:-$(date +%s)}
+    [ $(($(date +%s) - broken)) -lt 10 ] || { tell "$url does not answer."; exit 1; }
     tell 'The link broke; asking again.'
     sleep 1
 }
@@ -94,6 +98,8 @@ execute() {
 # fetch SECONDS: adds the notifications that are there, or come within that time, to the news.
 fetch() {
     fetched=$(curl -sS -m $(($1 + 10)) -H "RoIS-Session: $session" "$url/rois/notifications?after=$after&wait=$1") || { pause; return; }
+    broken=
+    case $fetched in *'<fault '*) answer=$fetched; refused notifications ;; esac
     printf '%s' "$fetched" | tr '\n' ' ' |
         sed 's/<receive_event /\
 &/g; s/<receive_error /\
@@ -284,7 +290,7 @@ go_back() {
 }
 
 leave() {
-    [ -z "$session" ] || curl -sS -o /dev/null --data-binary "<disconnect $names/>" -H 'Content-Type: application/xml' \
+    [ -z "$session" ] || curl -sS -m 10 -o /dev/null --data-binary "<disconnect $names/>" -H 'Content-Type: application/xml' \
         -H "RoIS-Session: $session" "$url/rois" || true
     rm -f "$news" "$news.rest"
 }

@@ -17,15 +17,24 @@ class Refused(Exception):
     """The engine answered with another return code than OK, or with a fault."""
 
 
-class Engine:
-    """A session. What gets lost on the way is asked for again; commands have names, so that none is executed twice."""
+class NoAnswer(Exception):
+    """The gateway did not answer within the deadline. Whether it did what it was asked is not known."""
 
-    def __init__(self, url):
-        self.url = url.rstrip("/")
+
+class Engine:
+    """A session. What gets lost on the way is asked for again, for as long as `deadline` seconds; commands have names, so that none
+    is executed twice."""
+
+    most_kept = 1000  # notifications that nobody wanted until now; the oldest make room
+
+    def __init__(self, url, deadline=10):
+        self.url, self.deadline = url.rstrip("/"), deadline
         self.session = ""
         self.after = 0  # the sequence of the last notification that came
         self.lost = 0  # how many the engine has dropped
+        self.dropped = 0  # how many made room here
         self.news = []  # notifications that came and were not looked at
+        self.kept = []  # those that were looked at, and not wanted yet
         self.names = (f"step-{n}" for n in itertools.count(1))
         self.session = self.request("connect").findtext(M + "session")
 
@@ -64,29 +73,46 @@ class Engine:
         return self.next(lambda one: one.findtext(M + "command_id") == name, math.inf).findtext(M + "status")
 
     def event(self, event_type, seconds, wanted=lambda results: True):
-        """The results of the next event of this type that `wanted` says yes to; None when none comes within the time."""
+        """The results of the first event of this type that `wanted` says yes to, also of those that came while something else was
+        waited for; None when none comes within the time."""
         one = self.next(lambda one: one.findtext(M + "event_type") == event_type and wanted(results_of(one)), seconds)
         return None if one is None else results_of(one)
 
+    def skip(self):
+        """Forgets what came until now: `engine.skip().run(...)`, and then `event` tells only what comes of that."""
+        self.news, self.kept = [], []
+        return self
+
     def next(self, wanted, seconds):
-        """The next notification that `wanted` says yes to; None when none comes within the time. Others are dropped."""
+        """The first notification that `wanted` says yes to; None when none comes within the time. Others are kept."""
+        for one in self.kept:
+            if wanted(one):
+                self.kept.remove(one)
+                return one
         end = time.monotonic() + seconds
         while True:
             while self.news:
                 one = self.news.pop(0)
-                self.after = int(one.get("sequence"))
-                if one.tag == M + "lost":
-                    self.lost += int(one.get("count"))
                 if wanted(one):
                     return one
+                self.kept.append(one)
+                if len(self.kept) > self.most_kept:
+                    self.kept.pop(0)
+                    self.dropped += 1
             left = end - time.monotonic()
             if left <= 0:
                 return None
             wait = math.ceil(min(30, left))
-            self.news = list(self._fetch(f"/rois/notifications?after={self.after}&wait={wait}", patience=wait + 10))
+            for one in self._fetch(f"/rois/notifications?after={self.after}&wait={wait}", patience=wait + 10):
+                self.after = int(one.get("sequence"))
+                if one.tag == M + "lost":
+                    self.lost += int(one.get("count"))
+                else:
+                    self.news.append(one)
 
     def _fetch(self, path, body=None, patience=10):
         headers = {"Content-Type": "application/xml", "RoIS-Session": self.session}
+        end = None  # of asking again
         for pause in itertools.chain((0.01, 0.1), itertools.repeat(1)):
             try:
                 with urllib.request.urlopen(urllib.request.Request(self.url + path, body, headers), timeout=patience) as answer:
@@ -94,6 +120,9 @@ class Engine:
             except urllib.error.HTTPError as fault:
                 raise Refused(fault.read().decode()) from None
             except (OSError, http.client.HTTPException, ElementTree.ParseError) as trouble:  # the last: cut off in its head
+                end = end or time.monotonic() + self.deadline
+                if time.monotonic() >= end:
+                    raise NoAnswer(f"{self.url} does not answer: {trouble}") from None
                 print(f"asking again after {trouble!r}", file=sys.stderr)
                 time.sleep(pause)
 

@@ -71,11 +71,9 @@ Reply Engine::Core::perform(Session& session, BindAny const& bind, Instant) {
     if (auto* problem = std::get_if<std::string>(&compiled))
         return refused<BindAny::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto const& selection = std::get<Selection>(compiled);
-    Perspective ever{registry_, places_, &session, Perspective::Of::ever};
-    if (std::ranges::none_of(possible(selection.refs()),
-                             [&](auto const* c) { return selection.match(ever.candidate(*c)) != Match::no; }))
+    if (!may_ever_match(selection.filter(), registry_.possible(selection.filter().demand()), session))
         return refused<BindAny::Reply>(ReturnCode::unsupported, "no component of this engine can match the condition");
-    auto const matches = select(selection, session);
+    auto const matches = select(selection, session, [](auto const& component) { return component.bound_to == nullptr; });
     auto found = std::ranges::find(matches, nullptr, &RegisteredComponent::bound_to);
     if (found == matches.end()) found = std::ranges::find(matches, &session, &RegisteredComponent::bound_to);
     if (found == matches.end())

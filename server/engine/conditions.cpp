@@ -5,28 +5,29 @@
 
 namespace rois {
 
-std::vector<RegisteredComponent*> Engine::Core::possible(std::optional<Refs> const& refs) const {
-    std::vector<RegisteredComponent*> components;
-    if (refs) {
-        for (auto const& ref : *refs)
-            if (auto* component = registry_.find(ref)) components.push_back(component);
-        return components;
-    }
-    components.reserve(registry_.all().size());
-    for (auto const& [ref, component] : registry_.all()) components.push_back(component.get());
-    return components;
+bool Engine::Core::may_ever_match(Filter const& filter, ComponentsInOrder possible, Session const& asker) const {
+    Perspective ever{registry_, places_, &asker, Perspective::Of::ever};
+    while (auto const* component = possible.next())
+        if (filter.match(ever.candidate(*component)) != Match::no) return true;
+    return false;
 }
 
-std::vector<RegisteredComponent*> Engine::Core::select(Selection const& selection, Session const& asker) const {
+std::vector<RegisteredComponent*> Engine::Core::select(Selection const& selection, Session const& asker, IsEnough enough) const {
     Perspective present{registry_, places_, &asker, Perspective::Of::present};
+    std::vector<RegisteredComponent*> components;
     std::vector<Candidate const*> candidates;
-    for (auto const* component : possible(selection.refs())) {
+    auto possible = registry_.possible(selection.filter().demand());
+    while (auto* component = possible.next()) {
         auto const& candidate = present.candidate(*component);
-        if (selection.match(candidate) == Match::yes) candidates.push_back(&candidate);
+        if (selection.match(candidate) != Match::yes) continue;
+        components.push_back(component);
+        candidates.push_back(&candidate);
+        if (enough != nullptr && !selection.sorts() && enough(*component)) break;
     }
+    if (!selection.sorts()) return components;
     std::vector<RegisteredComponent*> found;
-    found.reserve(candidates.size());
-    for (auto const place : selection.order(candidates)) found.push_back(registry_.find(candidates[place]->rid()));
+    found.reserve(components.size());
+    for (auto const place : selection.order(candidates)) found.push_back(components[place]);
     return found;
 }
 

@@ -41,7 +41,7 @@ public:
     void link_opened(SessionId const&);
     void link_closed(SessionId const&, Link, Instant now);
 
-    std::shared_ptr<EngineProfile const> profile() const { return profile_; }
+    std::shared_ptr<EngineProfile const> profile() const;
     std::vector<ComponentEntry> components() const;
     EngineStatistics statistics() const;
 
@@ -49,8 +49,8 @@ private:
     // Components (components.cpp)
     using SharedComponent = std::shared_ptr<RegisteredComponent>;
     SharedComponent made(std::unique_ptr<Component>, std::vector<ComponentProfile> const& known);
-    void enter(SharedComponent, EngineProfile&);
-    void leave(RegisteredComponent&, EngineProfile&, Instant now);
+    void enter(SharedComponent);
+    void leave(RegisteredComponent&, Instant now);
     void check(ComponentChange const&) const;
 
     // System interface (system_interface.cpp)
@@ -84,10 +84,11 @@ private:
 
     // Conditions (conditions.cpp)
     Vocabulary vocabulary(Declarations const* results = nullptr) const { return {&places_, &registry_.parameters(), results}; }
-    // All of these refs, or all of the engine's components; by ref.
-    std::vector<RegisteredComponent*> possible(std::optional<Refs> const&) const;
-    // Those that the selection lets through, in its order.
-    std::vector<RegisteredComponent*> select(Selection const&, Session const& asker) const;
+    // Whether one of these may meet it, whatever becomes of them.
+    bool may_ever_match(Filter const&, ComponentsInOrder possible, Session const& asker) const;
+    // Those that the selection lets through, in its order; when it does not sort, nobody behind the first that is enough.
+    using IsEnough = bool (*)(RegisteredComponent const&);
+    std::vector<RegisteredComponent*> select(Selection const&, Session const& asker, IsEnough = nullptr) const;
     // Leaves all results or none. Why the condition cannot be used, or nothing.
     std::optional<std::string> choose(Results&, QueryExpression const&, Declarations const& known, std::string_view id) const;
 
@@ -103,7 +104,8 @@ private:
     EngineSettings settings_;
     FreshSecret fresh_secret_;
     std::vector<ComponentProfile> known_profiles_;
-    std::shared_ptr<EngineProfile const> profile_;  // never changed: another takes its place
+    EngineProfile profile_;
+    mutable std::shared_ptr<EngineProfile const> told_profile_;  // the same for those who read it; null until somebody does
     Agenda agenda_;
     Places places_;
     Registry registry_;

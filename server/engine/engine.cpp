@@ -15,7 +15,7 @@ Engine::Core::Core(EngineProfile profile, std::vector<ComponentProfile> known_pr
     : settings_{settings},
       fresh_secret_{std::move(fresh_secret)},
       known_profiles_{std::move(known_profiles)},
-      profile_{std::make_shared<EngineProfile const>(std::move(profile))},
+      profile_{std::move(profile)},
       notifier_{outbox},
       executor_{settings_, registry_, agenda_, deadlines_, notifier_},
       events_{"e-", settings_.event_details},
@@ -48,7 +48,7 @@ void Engine::Core::tick(Instant now) {
     details_checked_ = now.steady;
     events_.forget_expired(now);
     errors_.forget_expired(now);
-    for (auto const& [id, session] : sessions_) executor_.forget_old_results(*session, now);
+    executor_.forget_old_results(now);
 }
 
 // A device that fails is not advanced again: it would fail for ever.
@@ -109,6 +109,7 @@ void Engine::Core::end(Session& session, Instant now) {
     }
     for (auto* component : session.bound) component->bound_to = nullptr;
     subscriptions_.remove_all(session);
+    executor_.forget(session);
     notifier_.close(session);
     sessions_.erase(SessionId{session.id});
 }

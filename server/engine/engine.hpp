@@ -21,8 +21,8 @@ namespace rois {
 class Outbox {
 public:
     virtual ~Outbox() = default;
-    // There is something to read for this session, or its queue was closed.
-    virtual void notify(SessionId const&) = 0;
+    // There is something to read in this session's queue, or it was closed.
+    virtual void notify(NotificationQueue&) = 0;
 };
 
 // Why an operation did not run at all; the network layer makes a fault of it.

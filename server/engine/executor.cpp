@@ -282,18 +282,31 @@ void Executor::end(SharedCommand const& command, CompletedStatus status, std::st
 
 void Executor::remember(SharedCommand const& command, Instant now) {
     auto& session = *command->session;
+    if (session.ended.empty()) by_age_.emplace(command->ended_at, &session);
     session.ended.push_back(command);
     forget_old_results(session, now);
 }
 
-void Executor::forget_old_results(Session& session, Instant now) const {
+void Executor::forget_old_results(Session& session, Instant now) {
     auto const is_old = [&](Command const& command) {
         return session.ended.size() > settings_.max_command_results || command.ended_at + settings_.command_results <= now.steady;
     };
+    if (session.ended.empty() || !is_old(*session.ended.front())) return;
+    forget(session);
     while (!session.ended.empty() && is_old(*session.ended.front())) {
         session.commands.erase(session.ended.front()->id);
         session.ended.pop_front();
     }
+    if (!session.ended.empty()) by_age_.emplace(session.ended.front()->ended_at, &session);
+}
+
+void Executor::forget_old_results(Instant now) {
+    while (!by_age_.empty() && by_age_.begin()->first + settings_.command_results <= now.steady)
+        forget_old_results(*by_age_.begin()->second, now);
+}
+
+void Executor::forget(Session& session) {
+    if (!session.ended.empty()) by_age_.erase({session.ended.front()->ended_at, &session});
 }
 
 void Executor::release(Session& session, RegisteredComponent& component, Instant now) {

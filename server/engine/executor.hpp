@@ -56,8 +56,12 @@ public:
     // Ends all that still runs or is active, whoever commanded it.
     void stop_all(Instant now);
 
-    // Removes results of the session that are older than they are kept.
-    void forget_old_results(Session&, Instant now) const;
+    // Removes results, of the session or of all, that are older than they are kept.
+    void forget_old_results(Session&, Instant now);
+    void forget_old_results(Instant now);
+
+    // Looks no more after what the session keeps.
+    void forget(Session&);
 
     std::array<std::uint64_t, 5> const& completed_by_status() const { return completed_by_status_; }
     std::uint64_t stray_answers() const { return stray_answers_; }
@@ -97,6 +101,7 @@ private:
     std::unordered_map<std::uint64_t, SharedCommand> live_;                 // waiting or running, by handle
     std::deque<std::pair<std::shared_ptr<Execution>, std::size_t>> ready_;  // units whose turn has come
     bool running_ready_ = false;
+    std::set<std::pair<Steady, Session*>> by_age_;  // the sessions that keep results, by when their oldest one ended
     std::uint64_t last_handle_ = 0;
     std::uint64_t last_id_ = 0;
     std::array<std::uint64_t, 5> completed_by_status_{};

@@ -36,13 +36,10 @@ std::string Filter::meaning() const { return predicate_ ? predicate_->canonical(
 
 Match Filter::match(Candidate const& candidate) const { return predicate_ ? predicate_->match(candidate) : Match::yes; }
 
-std::optional<Refs> Filter::refs() const {
-    auto refs = predicate_ ? predicate_->refs() : std::nullopt;
-    if (!refs) return refs;
-    std::ranges::sort(*refs);
-    auto const again = std::ranges::unique(*refs);
-    refs->erase(again.begin(), again.end());
-    return refs;
+std::optional<Demand> Filter::demand() const {
+    auto demand = predicate_ ? predicate_->demand() : std::nullopt;
+    if (demand) demand->tidy();
+    return demand;
 }
 
 Selection::Selection() = default;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/candidate.hpp"
+#include "engine/demand.hpp"
 #include "engine/vocabulary.hpp"
 #include "types/condition.hpp"
 
@@ -18,8 +19,6 @@ namespace rois {
 
 class Predicate;
 class SortKey;
-
-using Refs = std::vector<std::string_view>;  // of components
 
 // What is true or false of candidates.
 class Filter {
@@ -38,9 +37,9 @@ public:
     // The condition's canonical text: the same for conditions that mean the same (decision 20). Made anew each time.
     std::string meaning() const;
 
-    // The components that alone can be let through, ordered by ref, each once, when the condition names them; nothing when it may
-    // be any. Good for as long as the filter.
-    std::optional<Refs> refs() const;
+    // Which components alone can be let through, be it with `maybe`, in order and each once; nothing when it may be any. Good for
+    // as long as the filter.
+    std::optional<Demand> demand() const;
 
     // How many predicates it is made of: what it costs to hold it against something.
     std::size_t predicates() const { return predicates_; }
@@ -67,7 +66,7 @@ public:
     static std::variant<Selection, std::string> compile(QueryExpression const&, Vocabulary const&);
 
     Match match(Candidate const& candidate) const { return filter_.match(candidate); }
-    std::optional<Refs> refs() const { return filter_.refs(); }
+    Filter const& filter() const { return filter_; }
 
     bool sorts() const { return !keys_.empty(); }
 

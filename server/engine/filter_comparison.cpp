@@ -38,8 +38,7 @@ struct Manner {
         Comparable value;
         if (kind == ValueKind::any) value.number = to_double(text);
         if (kind == ValueKind::any && !value.number) value.time = to_utc(text);
-        auto const said = trimmed(text);
-        value.text = letters == Case::ignored ? folded_case(said) : std::string{said};
+        value.text = letters == Case::ignored ? folded_name(text) : std::string{trimmed(text)};
         return value;
     }
 
@@ -142,6 +141,11 @@ public:
                (reference->part == Reference::Part::value || reference->part == Reference::Part::code);
     }
 
+    bool is_component_type() const {
+        auto const* reference = std::get_if<Reference>(&what_);
+        return reference != nullptr && reference->to == Reference::To::component_type;
+    }
+
 private:
     using DistancePtr = std::unique_ptr<Distance const>;
 
@@ -221,7 +225,10 @@ public:
         manner_ = settle(compiler, sides_, {&comparison.left, &comparison.right},
                          comparison.match_case ? Case::matched : Case::ignored);
         if (comparator_ == Comparator::greater || comparator_ == Comparator::greater_or_equal) std::swap(sides_[0], sides_[1]);
-        named_ = named();
+        bool const exact =
+            comparator_ == Comparator::equal && manner_.kind == ValueKind::text && manner_.letters == Case::matched;
+        if (exact) named_ = literal_beside(&Side::is_component_ref);
+        if (comparator_ == Comparator::equal) type_ = literal_beside(&Side::is_component_type);
     }
 
     Match match(Candidate const& candidate) const override {
@@ -255,26 +262,25 @@ public:
                (by_letters && manner_.letters == Case::ignored ? "~" : "") + "(" + left + "," + right + ")";
     }
 
-    std::optional<Refs> refs() const override {
-        if (named_ == nullptr) return {};
-        return Refs{*named_};
+    std::optional<Demand> demand() const override {
+        if (named_ != nullptr) return Demand{.refs = {*named_}, .types = {}};
+        if (type_ != nullptr) return Demand{.refs = {}, .types = {*type_}};
+        return {};
     }
 
 private:
-    // The component that alone meets it, by ref; null when it is not about that.
-    std::string const* named() const {
-        bool const exact =
-            comparator_ == Comparator::equal && manner_.kind == ValueKind::text && manner_.letters == Case::matched;
-        if (!exact) return nullptr;
-        if (sides_[0].is_component_ref()) return sides_[1].literal();
-        return sides_[1].is_component_ref() ? sides_[0].literal() : nullptr;
+    // What stands on the other side of such a reference; null when there is none, or no literal.
+    std::string const* literal_beside(bool (Side::*is_such)() const) const {
+        if ((sides_[0].*is_such)()) return sides_[1].literal();
+        return (sides_[1].*is_such)() ? sides_[0].literal() : nullptr;
     }
 
     Comparator comparator_;
     MatchAction action_;
     std::array<Side, 2> sides_;
     Manner manner_;
-    std::string const* named_ = nullptr;
+    std::string const* named_ = nullptr;  // the component that alone meets it, by ref; null when it is not about that
+    std::string const* type_ = nullptr;   // the same of the type whose components alone meet it
 };
 
 // One of the values is between the boundaries, both included.

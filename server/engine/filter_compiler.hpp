@@ -24,8 +24,8 @@ public:
     // The same text for conditions that mean the same.
     virtual std::string canonical() const = 0;
     virtual bool met_by_everything() const { return false; }
-    // The components that alone can meet it, in any order, by refs of its own; nothing when it names none.
-    virtual std::optional<Refs> refs() const { return {}; }
+    // Which components alone can meet it, be it perhaps, in texts of its own; nothing when it may be any.
+    virtual std::optional<Demand> demand() const { return {}; }
 };
 
 using PredicatePtr = std::unique_ptr<Predicate const>;

@@ -33,10 +33,13 @@ public:
     }
     bool met_by_everything() const override { return operands_.empty(); }
     std::string canonical() const override { return joined('&', operands_); }
-    std::optional<Refs> refs() const override {
+    // One of its operands' will do: refs rather than types, of which there are many components.
+    std::optional<Demand> demand() const override {
+        std::optional<Demand> narrowest;
         for (auto const& operand : operands_)
-            if (auto refs = operand->refs()) return refs;
-        return {};
+            if (auto demand = operand->demand(); demand && (!narrowest || demand->types.size() < narrowest->types.size()))
+                narrowest = std::move(demand);
+        return narrowest;
     }
 
 private:
@@ -54,12 +57,12 @@ public:
         return best;
     }
     std::string canonical() const override { return joined('|', operands_); }
-    std::optional<Refs> refs() const override {
-        Refs all;
+    std::optional<Demand> demand() const override {
+        Demand all;
         for (auto const& operand : operands_) {
-            auto const refs = operand->refs();
-            if (!refs) return {};
-            all.insert(all.end(), refs->begin(), refs->end());
+            auto const demand = operand->demand();
+            if (!demand) return {};
+            all.widen(*demand);
         }
         return all;
     }

@@ -78,7 +78,7 @@ public:
 
     Match match(Candidate const& candidate) const override { return candidate.rid() == rid_ ? Match::yes : Match::no; }
     std::string canonical() const override { return "rid(" + std::to_string(rid_.size()) + ":" + rid_ + ")"; }
-    std::optional<Refs> refs() const override { return Refs{rid_}; }
+    std::optional<Demand> demand() const override { return Demand{.refs = {rid_}, .types = {}}; }
 
 private:
     std::string rid_;

@@ -52,19 +52,25 @@ bool NotificationQueue::make_room() {
 
 std::vector<Numbered> NotificationQueue::read(std::uint64_t after, std::size_t most) {
     std::vector<Numbered> entries;
+    read(after, most, entries);
+    return entries;
+}
+
+NotificationQueue::Next NotificationQueue::read(std::uint64_t after, std::size_t most, std::vector<Numbered>& into) {
     std::lock_guard const lock{mutex_};
     auto const until = visible_until();
     auto entry = first_after(after);
-    entries.reserve(std::min(most, static_cast<std::size_t>(entries_.end() - entry)));
+    auto const begin = into.size();
     if (entry != entries_.end() && entry->sequence <= until && before(*entry) != after) {
         // The position lies before all that is kept, or inside a gap: what is missing comes first, counted from the position.
         auto const missing_until = as_lost(*entry) == nullptr ? before(*entry) : entry->sequence;
-        if (missing_until > after) entries.push_back(gap_until(missing_until, missing_until - after));
+        if (missing_until > after) into.push_back(gap_until(missing_until, missing_until - after));
         if (as_lost(*entry) != nullptr) ++entry;
     }
-    for (; entry != entries_.end() && entry->sequence <= until && entries.size() < most; ++entry) entries.push_back(*entry);
-    if (!entries.empty()) mark_sent(entries.back().sequence);
-    return entries;
+    for (; entry != entries_.end() && entry->sequence <= until && into.size() - begin < most; ++entry) into.push_back(*entry);
+    if (into.size() == begin) return after_locked(after);
+    mark_sent(into.back().sequence);
+    return after_locked(into.back().sequence);
 }
 
 // Most readers go on where the last has stopped: at the first that waits.
@@ -77,7 +83,11 @@ std::vector<Numbered>::const_iterator NotificationQueue::first_after(std::uint64
 
 NotificationQueue::Next NotificationQueue::next(std::uint64_t after) const {
     std::lock_guard const lock{mutex_};
-    auto const entry = first_after(after);
+    return after_locked(after);
+}
+
+NotificationQueue::Next NotificationQueue::after_locked(std::uint64_t sequence) const {
+    auto const entry = first_after(sequence);
     if (entry != entries_.end() && entry->sequence <= visible_until()) return Next::more;
     if (!shows_closed()) return Next::wait;
     return overflowed_ ? Next::overflowed : Next::ended;

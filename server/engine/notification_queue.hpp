@@ -38,13 +38,16 @@ struct Numbered {
     std::shared_ptr<OutgoingNotification const> notification;
 };
 
+// Those who read a session's notifications, as the outbox knows them.
+struct Audience;
+
 // Holds the notifications of a session: those that wait (never read) and those that were read, for reading them again. Any number
 // of readers, each with its own position; reading discards nothing but marks as sent. Only the engine pushes and closes, and asks
 // what it has done; readers and holders come from any thread, and wait for nothing but each other: not for the engine's turn.
 class NotificationQueue {
 public:
     NotificationQueue(SessionId session, std::size_t max_waiting, std::size_t max_sent)
-        : session_{std::move(session)}, max_waiting_{max_waiting}, max_sent_{max_sent} {}
+        : max_waiting_{max_waiting}, max_sent_{max_sent}, session_{std::move(session)} {}
 
     SessionId const& session() const { return session_; }
 
@@ -68,13 +71,14 @@ public:
     // Whether the session had to end because too many waited.
     bool overflowed() const { return overflowed_; }
 
-    // At most `most` visible entries with a sequence above `after`, oldest first, which count as sent from now on. A position
-    // that is older than what is kept begins with a `Lost`.
-    std::vector<Numbered> read(std::uint64_t after, std::size_t most);
-
     // What comes behind a position: ended: nothing, ever; overflowed: as well, because too many waited.
     enum class Next : std::uint8_t { more, wait, ended, overflowed };
     Next next(std::uint64_t after) const;
+
+    // At most `most` visible entries with a sequence above `after`, oldest first, which count as sent from now on. A position
+    // that is older than what is kept begins with a `Lost`. They are appended to `into`; what is said is what comes behind them.
+    Next read(std::uint64_t after, std::size_t most, std::vector<Numbered>& into);
+    std::vector<Numbered> read(std::uint64_t after, std::size_t most);
     bool has_after(std::uint64_t after) const { return next(after) == Next::more; }
 
     // While held, what is pushed from now on stays invisible: an answer that must come first is still on its way (decision 22).
@@ -86,16 +90,20 @@ public:
 
     bool closed() const;
 
+    // For the outbox, which finds them here without a search; guarded as the engine is.
+    std::shared_ptr<Audience> const& audience() const { return audience_; }
+    void set_audience(std::shared_ptr<Audience> audience) { audience_ = std::move(audience); }
+
 private:
     std::uint64_t visible_until() const { return holds_.empty() ? last_sequence_ : holds_.front(); }
     bool make_room();
     bool shows_closed() const { return closed_ && holds_.empty(); }
     std::vector<Numbered>::const_iterator first_after(std::uint64_t sequence) const;
+    Next after_locked(std::uint64_t sequence) const;
     void mark_sent(std::uint64_t until);
 
-    SessionId session_;
-    std::size_t max_waiting_;
-    std::size_t max_sent_;
+    // In the order of use: an event to a thousand sessions finds each of them far away in memory.
+    std::shared_ptr<Audience> audience_;
     mutable std::mutex mutex_;  // guards what follows; what only the engine changes it may read without
     // In the order of their sequence; a `Lost` stands for several; first those that were forgotten, then those that were sent.
     // Nothing is allocated for a session that has heard nothing.
@@ -108,6 +116,10 @@ private:
     std::vector<Hold> holds_;  // ascending, since sequences are
     bool closed_ = false;
     bool overflowed_ = false;
+
+    std::size_t max_waiting_;  // what follows never changes
+    std::size_t max_sent_;
+    SessionId session_;
 };
 
 }  // namespace rois

@@ -21,24 +21,25 @@ public:
         tell(session, std::make_shared<OutgoingNotification const>(std::move(notification)));
     }
 
-    void tell(Session& session, SharedNotification notification) {
-        auto& queue = *session.notifications;
+    void tell(Session& session, SharedNotification notification) { tell(*session.notifications, std::move(notification)); }
+
+    void tell(NotificationQueue& queue, SharedNotification notification) {
         bool const known = queue.overflowed();
         auto const lost = queue.lost(), last = queue.last_sequence();
         if (queue.push(std::move(notification)) == NotificationQueue::Pushed::overflow && !known) {
-            overflowed_.push_back(session.id);
+            overflowed_.push_back(queue.session());
             ++overflows_;
         }
         if (queue.last_sequence() == last) return;
         ++told_;
         lost_ += queue.lost() - lost;
-        outbox_.notify(session.id);
+        outbox_.notify(queue);
     }
 
     // Nothing more will be told to this session.
     void close(Session& session) {
         session.notifications->close();
-        outbox_.notify(session.id);
+        outbox_.notify(*session.notifications);
     }
 
     // Sessions that could not be told something, since the last call (decision 23).

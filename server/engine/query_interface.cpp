@@ -22,16 +22,16 @@ bool is_ready(Possible& possible, Session const& asker) {
     return possible.status == ComponentStatus::ready;
 }
 
-// So many components are sooner looked at than looked up by the refs that a condition names.
+// So many components are sooner looked at than looked up by what a condition demands.
 constexpr std::size_t few = 4;
 
 // A component is asked only when the condition or SortBy may depend on what it answers; and nobody behind the one that will be
 // chosen when nothing is sorted.
 template <class RowsOf>
-std::vector<Possible> who_may_answer(std::vector<RegisteredComponent*> const& able, Selection const& selection,
-                                     Perspective& looked_at, RowsOf const& rows_of) {
+std::vector<Possible> who_may_answer(ComponentsInOrder able, Selection const& selection, Perspective& looked_at,
+                                     RowsOf const& rows_of) {
     std::vector<Possible> found;
-    for (auto* component : able) {
+    while (auto* component = able.next()) {
         auto const& candidate = looked_at.candidate(*component);
         auto const match = selection.match(candidate);
         if (match == Match::no) continue;
@@ -74,14 +74,9 @@ Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
         return refused<Query::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto const& selection = std::get<Selection>(compiled);
     Perspective looked_at{registry_, places_, &session, Perspective::Of::present};
-    auto const& all = registry_.with(MessageKind::query, query.query_type);
-    auto const refs = all.size() > few ? selection.refs() : std::nullopt;
-    auto named = refs ? possible(refs) : std::vector<RegisteredComponent*>{};
-    std::erase_if(named, [&](auto const* component) {
-        return find_message(component->profile(), MessageKind::query, query.query_type) == nullptr;
-    });
-    auto const& able = refs ? named : all;
-    auto found = who_may_answer(able, selection, looked_at, [&](RegisteredComponent& component) {
+    auto const& able = registry_.with(MessageKind::query, query.query_type);
+    auto meant = able.possible(able.all().size() > few ? selection.filter().demand() : std::nullopt);
+    auto found = who_may_answer(std::move(meant), selection, looked_at, [&](RegisteredComponent& component) {
         return answers(session, component, query.query_type, now);
     });
     if (found.empty())

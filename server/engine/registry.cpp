@@ -86,6 +86,7 @@ RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, C
     crs_ = description.crs;
     positions_ = description.positions;
     auto type = profile.object.identifier;
+    type_key_ = folded_name(type);
     entry_ = {.ref = ref_.code,
               .type = std::move(type),
               .engine = std::move(engine),
@@ -269,18 +270,14 @@ RegisteredComponent& Registry::add(std::shared_ptr<RegisteredComponent> componen
     place->second = std::move(component);
     auto& registered = *place->second;
     parameters_.reset();
-    for (auto const& message : registered.profile().messages) {
-        auto& list = change(message).components;
-        list.insert(std::ranges::upper_bound(
-                        list, ref, {}, [](auto const* c) -> auto const& { return c->ref().code; }),
-                    &registered);
-    }
+    everybody_.add(registered);
+    for (auto const& message : registered.profile().messages) change(message).components.add(registered);
     return registered;
 }
 
 void Registry::remove(RegisteredComponent const& component) {
-    for (auto const& message : component.profile().messages)
-        std::erase_if(change(message).components, [&](auto const* each) { return each == &component; });
+    everybody_.remove(component);
+    for (auto const& message : component.profile().messages) change(message).components.remove(component);
     components_.erase(component.ref().code);
     parameters_.reset();
 }
@@ -316,17 +313,13 @@ RegisteredComponent* Registry::find(std::string_view ref) const {
     return found == components_.end() ? nullptr : found->second.get();
 }
 
-std::vector<RegisteredComponent*> const& Registry::with(MessageKind kind, std::string_view message) const {
-    return tellers(kind, message).components;
-}
-
 Declarations const& Registry::results(MessageKind kind, std::string_view message) const {
     auto const& [components, results] = tellers(kind, message);
     static Declarations const none;
-    if (components.empty()) return none;
+    if (components.all().empty()) return none;
     if (results) return *results;
     auto& gathered = results.emplace();
-    for (auto const* component : components) gathered.add(find_message(component->profile(), kind, message)->results);
+    for (auto const* component : components.all()) gathered.add(find_message(component->profile(), kind, message)->results);
     return gathered;
 }
 

@@ -13,6 +13,7 @@
 #include "engine/agenda.hpp"
 #include "engine/command.hpp"
 #include "engine/component.hpp"
+#include "engine/component_index.hpp"
 #include "engine/frames.hpp"
 #include "engine/parameters.hpp"
 #include "engine/vocabulary.hpp"
@@ -34,6 +35,8 @@ public:
 
     Identifier const& ref() const { return ref_; }
     ComponentEntry const& entry() const { return entry_; }
+    // Its type as conditions compare it.
+    std::string const& type_key() const { return type_key_; }
     // With the messages of the sub components, and those that go without saying.
     ComponentProfile const& profile() const { return *entry_.profile; }
 
@@ -114,6 +117,7 @@ private:
     mutable std::set<ErrorType> told_once_;  // and not to be told so again
     Identifier ref_;
     ComponentEntry entry_;
+    std::string type_key_;
     std::vector<ParameterProfile> settable_;
     std::vector<ParameterProfile> start_arguments_;  // of the profile's own `start`, beside them
     std::vector<ParameterProfile> startable_;        // both
@@ -153,8 +157,11 @@ public:
     RegisteredComponent* find(std::string_view ref) const;  // null when unknown
     Components const& all() const { return components_; }
 
-    // The components whose profile has this message, ordered by ref.
-    std::vector<RegisteredComponent*> const& with(MessageKind, std::string_view message) const;
+    // The components that alone can meet the demand; all when there is none.
+    ComponentsInOrder possible(std::optional<Demand> const& demand) const { return everybody_.possible(demand); }
+
+    // The components whose profile has this message.
+    ComponentIndex const& with(MessageKind kind, std::string_view message) const { return tellers(kind, message).components; }
 
     // What those components tell with this message, as all their profiles say it. Good until the next change.
     Declarations const& results(MessageKind, std::string_view message) const;
@@ -168,7 +175,7 @@ public:
 private:
     // Who has a message, and what they tell with it: nothing when that is to be gathered anew.
     struct Tellers {
-        std::vector<RegisteredComponent*> components;
+        ComponentIndex components;
         mutable std::optional<Declarations> results;
     };
     using ByName = std::map<std::string, Tellers, std::less<>>;
@@ -177,6 +184,7 @@ private:
     Tellers const& tellers(MessageKind, std::string_view message) const;
 
     Components components_;
+    ComponentIndex everybody_;
     mutable std::optional<Declarations> parameters_;  // nothing when they are to be gathered anew
     std::map<MessageKind, ByName> by_message_;
 };

@@ -23,10 +23,10 @@ struct Subscription;
 
 // Owned by the engine; state only.
 struct Session {
+    std::shared_ptr<NotificationQueue> notifications;
     SessionId id;
     std::uint64_t number = 0;  // in the order of connecting
     Steady connected;
-    std::shared_ptr<NotificationQueue> notifications;
 
     std::set<RegisteredComponent*> bound;
     std::set<Subscription*> subscriptions;

@@ -8,6 +8,37 @@
 
 namespace rois {
 
+namespace {
+
+void take_out(auto& by_text, std::string_view text, Subscription* subscription) {
+    auto const found = by_text.find(text);
+    if (found == by_text.end()) return;
+    found->second.erase(subscription);
+    if (found->second.empty()) by_text.erase(found);
+}
+
+}  // namespace
+
+void Subscriptions::OfType::add(Subscription& subscription) {
+    by_meaning.emplace(subscription.filter.meaning(), &subscription);
+    auto const demand = subscription.filter.demand();
+    if (!demand) {
+        others.insert(&subscription);
+        return;
+    }
+    for (auto const ref : demand->refs) by_ref[std::string{ref}].insert(&subscription);
+    for (auto const type : demand->types) by_type[std::string{type}].insert(&subscription);
+}
+
+void Subscriptions::OfType::remove(Subscription& subscription) {
+    by_meaning.erase(subscription.filter.meaning());
+    others.erase(&subscription);
+    auto const demand = subscription.filter.demand();
+    if (!demand) return;
+    for (auto const ref : demand->refs) take_out(by_ref, ref, &subscription);
+    for (auto const type : demand->types) take_out(by_type, type, &subscription);
+}
+
 Subscription* Subscriptions::find(std::string_view event_type, Filter const& filter) const {
     auto const alike = by_type_.find(event_type);
     if (alike == by_type_.end()) return nullptr;
@@ -19,16 +50,15 @@ Subscription& Subscriptions::add(Session& session, std::string const& event_type
     auto* subscription = find(event_type, filter);
     if (subscription == nullptr) {
         auto made = std::make_unique<Subscription>();
-        made->id.text = "s-" + std::to_string(++last_);
+        made->number = ++last_;
+        made->id.text = "s-" + std::to_string(last_);
         made->event_type = event_type;
         made->filter = std::move(filter);
         subscription = made.get();
-        auto& alike = by_type_[event_type];
-        alike.all.push_back(subscription);
-        alike.by_meaning.emplace(subscription->filter.meaning(), subscription);
+        by_type_[event_type].add(*subscription);
         by_id_.emplace(subscription->id, std::move(made));
     }
-    subscription->sessions[&session] = inline_results;
+    subscription->sessions[&session] = {inline_results, session.notifications.get()};
     if (session.subscriptions.insert(subscription).second) session.predicates += subscription->filter.predicates();
     return *subscription;
 }
@@ -55,24 +85,37 @@ void Subscriptions::part(Session& session, Subscription& subscription) {
     session.predicates -= subscription.filter.predicates();
 }
 
-std::vector<Subscription*> const& Subscriptions::of(std::string_view event_type) const {
-    static std::vector<Subscription*> const none;
+std::vector<Subscription*> Subscriptions::possible(std::string_view event_type, RegisteredComponent const& component) const {
+    std::vector<Subscription*> all;
     auto const found = by_type_.find(event_type);
-    return found == by_type_.end() ? none : found->second.all;
+    if (found == by_type_.end()) return all;
+    auto const& of_type = found->second;
+    auto const add = [&](InOrder const& more) {
+        auto const middle = all.insert(all.end(), more.begin(), more.end());
+        std::ranges::inplace_merge(all, middle, {}, &Subscription::number);
+    };
+    add(of_type.others);
+    if (auto const of_ref = of_type.by_ref.find(component.ref().code); of_ref != of_type.by_ref.end()) add(of_ref->second);
+    if (auto const alike = of_type.by_type.find(component.type_key()); alike != of_type.by_type.end()) add(alike->second);
+    auto const again = std::ranges::unique(all);
+    all.erase(again.begin(), again.end());
+    return all;
 }
 
-bool Subscriptions::hears(Session const& session, RegisteredComponent const& component, Perspective& ever) {
-    return std::ranges::any_of(session.subscriptions, [&](Subscription const* subscription) {
-        return find_message(component.profile(), MessageKind::event, subscription->event_type) != nullptr &&
-               subscription->filter.match(ever.candidate(component)) != Match::no;
-    });
+std::set<Session*> Subscriptions::hearers(RegisteredComponent const& component, Perspective& ever) const {
+    std::set<Session*> hearing;
+    for (auto const& message : component.profile().messages) {
+        if (message.kind != MessageKind::event) continue;
+        for (auto const* subscription : possible(message.name, component))
+            if (subscription->filter.match(ever.candidate(component)) != Match::no)
+                for (auto const& [session, hearer] : subscription->sessions) hearing.insert(session);
+    }
+    return hearing;
 }
 
 void Subscriptions::forget_if_unheard(Subscription& subscription) {
     if (!subscription.sessions.empty()) return;
-    auto& alike = by_type_[subscription.event_type];
-    std::erase(alike.all, &subscription);
-    alike.by_meaning.erase(subscription.filter.meaning());
+    by_type_[subscription.event_type].remove(subscription);
     by_id_.erase(subscription.id);
 }
 

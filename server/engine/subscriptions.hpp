@@ -1,6 +1,7 @@
 // Who hears of which events (decisions 18 to 21).
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <set>
@@ -16,15 +17,21 @@
 
 namespace rois {
 
+class NotificationQueue;
 class RegisteredComponent;
 struct Session;
 
 // An event type and a condition, and those who asked for it.
 struct Subscription {
+    std::uint64_t number = 0;  // in the order of subscribing
     SubscribeId id;
     std::string event_type;
     Filter filter;
-    std::unordered_map<Session*, bool> sessions;  // with inline_results or not
+    struct Hearer {
+        bool inline_results = false;
+        NotificationQueue* queue = nullptr;  // the session's own, found without it
+    };
+    std::unordered_map<Session*, Hearer> sessions;
 };
 
 // Kept both ways: a subscription knows its sessions, a session its subscriptions.
@@ -40,18 +47,30 @@ public:
     void remove(Session&, SubscribeId const&);
     void remove_all(Session&);
 
-    // Those of an event type.
-    std::vector<Subscription*> const& of(std::string_view event_type) const;
+    // Those of an event type to which alone this component may matter, in the order of subscribing.
+    std::vector<Subscription*> possible(std::string_view event_type, RegisteredComponent const&) const;
 
-    // Whether the session has subscribed to an event that this component has and may match, whatever happens.
-    static bool hears(Session const&, RegisteredComponent const&, Perspective& ever);
+    // The sessions that have subscribed to an event that this component has and may match, whatever happens.
+    std::set<Session*> hearers(RegisteredComponent const&, Perspective& ever) const;
 
     std::size_t size() const { return by_id_.size(); }
 
 private:
+    struct Earlier {
+        bool operator()(Subscription const* a, Subscription const* b) const { return a->number < b->number; }
+    };
+    using InOrder = std::set<Subscription*, Earlier>;
+    using ByText = std::map<std::string, InOrder, std::less<>>;
+
+    // Each is found by all refs and types that its condition demands, or is one of the others.
     struct OfType {
-        std::vector<Subscription*> all;
+        ByText by_ref;
+        ByText by_type;
+        InOrder others;
         std::unordered_map<std::string, Subscription*> by_meaning;  // of their filters
+
+        void add(Subscription&);
+        void remove(Subscription&);
     };
 
     static void part(Session&, Subscription&);

@@ -63,7 +63,7 @@ Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
         return refused<GetProfile::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     GetProfile::Reply reply;
     for (auto const* component : select(std::get<Selection>(selection), session)) reply.components.push_back(component->entry());
-    reply.profile = profile_of_those(profile_, reply.components);
+    reply.profile = profile_of_those(profile(), reply.components);
     return reply;
 }
 
@@ -103,12 +103,14 @@ void Engine::Core::publish(ErrorOccurred said, Instant now) {
     ReceiveError error{.error_id = {errors_.add(std::move(results), nullptr, now)}, .error_type = said.type, .component_ref = {}};
     if (said.component != nullptr) error.component_ref = said.component->ref();
     auto const notification = std::make_shared<OutgoingNotification const>(std::move(error));
-    Perspective ever{registry_, places_, nullptr, Perspective::Of::ever};
-    for (auto const& [id, session] : sessions_) {
-        bool const concerns = said.component == nullptr || said.component->bound_to == session.get() ||
-                              Subscriptions::hears(*session, *said.component, ever);
-        if (concerns) notifier_.tell(*session, notification);
+    if (said.component == nullptr) {
+        for (auto const& [id, session] : sessions_) notifier_.tell(*session, notification);
+        return;
     }
+    Perspective ever{registry_, places_, nullptr, Perspective::Of::ever};
+    auto concerned = subscriptions_.hearers(*said.component, ever);
+    if (said.component->bound_to != nullptr) concerned.insert(said.component->bound_to);
+    for (auto* session : concerned) notifier_.tell(*session, notification);
 }
 
 }  // namespace rois

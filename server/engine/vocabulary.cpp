@@ -121,6 +121,8 @@ bool restrict(Reference& reference, std::size_t position, std::span<PathStep::Pr
 
 }  // namespace
 
+std::string folded_name(std::string_view text) { return folded_case(trimmed(text)); }
+
 std::string canonical(Reference const& reference) {
     auto const sized = [](std::string const& text) { return std::to_string(text.size()) + ":" + text; };
     return "R" + std::to_string(static_cast<int>(reference.to)) + "," + sized(reference.name) + "," + sized(reference.entity) +

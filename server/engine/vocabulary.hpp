@@ -17,6 +17,9 @@ namespace rois {
 // How values are compared. `any`: as what both sides look like. `name`: a text without regard to case.
 enum class ValueKind : std::uint8_t { any, number, time, boolean, text, name };
 
+// A text as it is compared without regard to case.
+std::string folded_name(std::string_view);
+
 // A value reference, resolved.
 struct Reference {
     enum class To : std::uint8_t {

@@ -23,13 +23,13 @@ Connection::Connection(Loop& loop, Socket socket, Admission::Place place)
       place_{std::move(place)},
       wire_{std::move(socket), loop.poller(), loop.shared().settings.write_timeout, loop.shared().telemetry},
       counted_{std::in_place, loop.shared().telemetry, Telemetry::Kind::http} {
+    loop.add(*this);
     loop.shared().telemetry.accepted();
 }
 
-Connection::~Connection() { loop_.connections_.erase(this); }
+Connection::~Connection() { loop_.remove(*this); }
 
 Task<> Connection::run() {
-    loop_.connections_.insert(this);
     auto then = Then::end;
     if (!loop_.draining()) then = co_await serve();
     if (then == Then::websocket) co_await serve_websocket();

@@ -31,6 +31,8 @@ public:
     void cut() { wire_.cut(); }
 
 private:
+    friend class Loop;
+
     // What becomes of the connection after a request; `receive`: it has not arrived whole.
     enum class Then : std::uint8_t { next, receive, websocket, linger, end };
 
@@ -55,6 +57,7 @@ private:
     Task<> flush();
 
     Loop& loop_;
+    std::size_t seat_ = 0;  // among the loop's connections: the loop's own
     Admission::Place place_;
     Wire wire_;
     std::optional<Telemetry::Counted> counted_;

@@ -53,7 +53,7 @@ void Hold::release() {
     if (!gateway) return;
     if (!queue_->release(place_)) return;
     std::lock_guard const lock{gateway->mutex_};
-    gateway->readers_.notify(queue_->session());
+    gateway->readers_.notify(*queue_);
 }
 
 Reading::Reading(Gateway& gateway, Link link, std::uint64_t after, Reader& reader, std::shared_ptr<NotificationQueue> queue)
@@ -65,10 +65,16 @@ Reading::~Reading() {
     gateway_.engine_.link_closed(session(), link_, present());
 }
 
+Reading::Then Reading::take(std::size_t most, std::vector<Numbered>& into) {
+    auto const before = into.size();
+    auto const then = queue_->read(after_, most, into);
+    if (into.size() > before) after_ = into.back().sequence;
+    return then;
+}
+
 Reading::Taken Reading::take(std::size_t most) {
-    Taken taken{queue_->read(after_, most), {}};
-    if (!taken.notifications.empty()) after_ = taken.notifications.back().sequence;
-    taken.then = queue_->next(after_);
+    Taken taken;
+    taken.then = take(most, taken.notifications);
     return taken;
 }
 
@@ -143,7 +149,7 @@ std::unique_ptr<Reading> Gateway::read(SessionId const& session, Link link, std:
     auto queue = engine_.notifications(session);
     if (!queue || queue->closed()) return {};
     engine_.link_opened(session);
-    readers_.join(session, link, reader);
+    readers_.join(*queue, link, reader);
     return std::make_unique<Reading>(*this, link, after, reader, std::move(queue));
 }
 
@@ -184,7 +190,7 @@ EngineStatistics Gateway::statistics() const {
 Farewell::Farewell(Gateway& gateway, SessionId session, Reader& reader)
     : gateway_{gateway}, session_{std::move(session)}, reader_{reader} {
     std::lock_guard const lock{gateway_.mutex_};
-    gateway_.readers_.join(session_, Link::stream, reader_);
+    gateway_.readers_.join(session_, reader_);
 }
 
 Farewell::~Farewell() {

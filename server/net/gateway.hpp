@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/engine.hpp"
+#include "engine/prefetch.hpp"
 #include "net/readers.hpp"
 #include "net/telemetry.hpp"
 #include "xml/codec.hpp"
@@ -52,10 +53,14 @@ public:
     using Then = NotificationQueue::Next;
     struct Taken {
         std::vector<Numbered> notifications;
-        Then then;
+        Then then = Then::wait;
     };
     // The next ones, at most `most`; the place moves behind them. The engine is not locked for it.
     Taken take(std::size_t most);
+    Then take(std::size_t most, std::vector<Numbered>& into);  // appends them
+
+    // Prefetches what `take` needs.
+    void approach() const { prefetch(queue_.get(), sizeof(NotificationQueue)); }
 
     SessionId const& session() const { return queue_->session(); }
 

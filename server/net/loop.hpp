@@ -2,7 +2,7 @@
 #pragma once
 
 #include <memory>
-#include <unordered_set>
+#include <vector>
 
 #include "net/admission.hpp"
 #include "net/asio.hpp"
@@ -52,10 +52,15 @@ private:
     friend class Connection;
 
     Task<> sweep();
+    void sweep_some(Steady now);
+    void add(Connection&);
+    void remove(Connection const&);
 
     Shared const& shared_;
     xml::RequestReader reader_;
-    std::unordered_set<Connection*> connections_;
+    std::vector<Connection*> connections_;
+    std::size_t sweeps_for_all_;
+    std::size_t swept_ = 0;               // where the next sweep goes on
     Steady last_moment_ = Steady::max();  // set by shut_down: at that time whoever is still there is cut
     asio::io_context io_{1};
     Wakes wakes_{io_.get_executor()};

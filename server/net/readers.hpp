@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -28,11 +29,17 @@ public:
     void take_over();
 
 protected:
+    // How far it is to what `woken` needs: what the reader itself points to, and what lies behind that.
+    enum class Distance : std::uint8_t { far, near };
+
     Wakes& wakes() { return wakes_; }
 
 private:
     friend class Wakes;
     void serve();
+
+    // Prefetches that.
+    virtual void approach(Distance) const {}
 
     // On the reader's own thread.
     virtual void woken() = 0;
@@ -47,18 +54,25 @@ private:
 class Readers : public Outbox {
 public:
     // A WebSocket that joins takes over from one that is there.
-    void join(SessionId const&, Link, Reader&);
+    void join(NotificationQueue&, Link, Reader&);
+    // The same for a session that has ended: to see how the others leave.
+    void join(SessionId const&, Reader&);
     void leave(SessionId const&, Reader const&);
     std::size_t count(SessionId const&) const;
 
-    void notify(SessionId const&) override;
+    void notify(NotificationQueue&) override;
 
 private:
-    struct Joined {
-        Link link;
-        Reader* reader;
-    };
-    std::unordered_map<SessionId, std::vector<Joined>, IdHash> readers_;
+    std::unordered_map<SessionId, std::shared_ptr<Audience>, IdHash> audiences_;  // that somebody is in
 };
 
 }  // namespace rois::net
+
+// Also found from the session's queue itself, since events go to many sessions at once.
+struct rois::Audience {
+    struct Joined {
+        Link link;
+        net::Reader* reader;
+    };
+    std::vector<Joined> joined;
+};

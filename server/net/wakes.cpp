@@ -4,13 +4,15 @@
 #include <boost/asio/post.hpp>
 #include <utility>
 
+#include "engine/prefetch.hpp"
 #include "net/readers.hpp"
 
 namespace rois::net {
 
 namespace {
 
-constexpr std::size_t most_at_once = 32;  // some 200 us of work
+constexpr std::size_t most_at_once = 32;        // some 200 us of work
+constexpr std::size_t bytes_of_a_reader = 256;  // of those that it needs at once
 
 }  // namespace
 
@@ -29,8 +31,21 @@ void Wakes::post() {
 
 void Wakes::serve() {
     auto const end = std::min(served_ + most_at_once, serving_.size());
-    while (served_ < end) std::exchange(serving_[served_++], {})->serve();
+    for (; served_ < end; ++served_) {
+        approach();
+        std::exchange(serving_[served_], {})->serve();
+    }
     if (served_ < serving_.size() || take_more()) post();
+}
+
+// A thousand readers are far away in memory, each of them: they are called for some turns before theirs.
+void Wakes::approach() const {
+    auto const later = [&](std::size_t turns) {
+        return served_ + turns < serving_.size() ? serving_[served_ + turns].get() : nullptr;
+    };
+    if (auto const* reader = later(2)) reader->approach(Reader::Distance::near);
+    if (auto const* reader = later(4)) reader->approach(Reader::Distance::far);
+    if (auto const* reader = later(6)) prefetch(reader, bytes_of_a_reader);
 }
 
 // False when nobody waits: then the next to come posts.

@@ -26,6 +26,7 @@ public:
 private:
     void post();
     void serve();
+    void approach() const;
     bool take_more();
 
     Executor executor_;

@@ -6,6 +6,7 @@
 #include <boost/asio/detached.hpp>
 #include <utility>
 
+#include "engine/prefetch.hpp"
 #include "net/event_stream.hpp"
 
 namespace rois::net {
@@ -28,12 +29,12 @@ WebSocket::WebSocket(std::shared_ptr<Wire> wire, Gateway& gateway, Telemetry& te
                      Settings const& settings)
     : Reader{wakes},
       wire_{std::move(wire)},
-      gateway_{gateway},
       telemetry_{telemetry},
-      reader_{reader},
+      heard_{now()},
       settings_{settings},
-      messages_{settings.document.bytes, settings.max_fragments},
-      heard_{now()} {}
+      gateway_{gateway},
+      reader_{reader},
+      messages_{settings.document.bytes, settings.max_fragments} {}
 
 Task<> WebSocket::run() {
     std::optional outcome = Wire::Outcome::done;
@@ -151,6 +152,15 @@ void WebSocket::close(Ending ending) {
     ending_ = ending;
 }
 
+void WebSocket::approach(Distance distance) const {
+    if (distance == Distance::near) {
+        if (reading_) reading_->approach();
+        return;
+    }
+    prefetch(wire_.get());
+    prefetch(reading_.get());
+}
+
 void WebSocket::taken_over() { close({CloseCode::policy_violation, "the session goes on elsewhere"}); }
 
 void WebSocket::sweep(Steady at) {
@@ -215,16 +225,18 @@ bool WebSocket::gather(std::string& out) {
 // Appends some of the session's notifications; true when there are more. The link ends with the session's last.
 bool WebSocket::gather_notifications(std::string& out) {
     if (!reading_) return false;
-    auto const taken = reading_->take(most_at_once);
-    for (auto const& numbered : taken.notifications) {
+    thread_local std::vector<Numbered> taken;
+    auto const then = reading_->take(most_at_once, taken);
+    for (auto const& numbered : taken) {
         NotificationDocument const document{numbered};
         append_text_head(out, document.size());
         document.append_to(out);
     }
-    telemetry_.delivered(taken.notifications.size());
-    session_over_ = taken.then == Reading::Then::ended || taken.then == Reading::Then::overflowed;
-    if (taken.then == Reading::Then::overflowed) close({CloseCode::policy_violation, "too many notifications waited"});
-    return taken.then == Reading::Then::more;
+    telemetry_.delivered(taken.size());
+    taken.clear();
+    session_over_ = then == Reading::Then::ended || then == Reading::Then::overflowed;
+    if (then == Reading::Then::overflowed) close({CloseCode::policy_violation, "too many notifications waited"});
+    return then == Reading::Then::more;
 }
 
 void WebSocket::written() {

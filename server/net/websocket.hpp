@@ -36,6 +36,7 @@ private:
 
     void woken() override { flush(); }
     void taken_over() override;
+    void approach(Distance) const override;
 
     bool take_frames();
     void take(MessageReader::Heard const&);
@@ -55,34 +56,35 @@ private:
     void written();
     Task<> drain();
 
+    // What every notification needs comes first, close together: an event to a thousand WebSockets finds each of them far away in
+    // memory.
     std::shared_ptr<Wire> wire_;
-    Gateway& gateway_;
     Telemetry& telemetry_;
-    xml::RequestReader& reader_;
-    Settings const& settings_;
-    MessageReader messages_;
-    std::shared_ptr<Signal> room_;  // raised when output was written; null while nobody waits for that
-    SessionId session_;
     std::unique_ptr<Reading> reading_;  // of the session, until its last notification was written
-    bool session_over_ = false;         // reading_ has given its last
-
-    std::unique_ptr<Answer> farewell_;  // to a disconnect: waits for the session's last notifications to be heard
     std::string answers_;               // frames that wait for the next write
     std::size_t answers_waiting_ = 0;
-    std::string out_;  // what `drain` writes; empty while everything is taken at once
     std::size_t answers_in_out_ = 0;
-    std::optional<std::string> pong_;
+    std::shared_ptr<Signal> room_;  // raised when output was written; null while nobody waits for that
+    bool session_over_ = false;     // reading_ has given its last
     bool ping_due_ = false;
     bool writing_ = false;
     bool broken_ = false;
-
+    bool close_gathered_ = false;   // the close frame is in out_; nothing follows
     std::optional<Ending> ending_;  // decided: the close frame goes out behind what was said before
-    bool close_gathered_ = false;   // it is in out_; nothing follows
+    std::optional<std::string> pong_;
     Steady close_due_ = Steady::max();
+
     bool heard_something_ = false;        // from the peer, since the last sweep
+    bool pinged_ = false;                 // since it was heard
     Steady heard_;                        // from the peer, last
-    bool pinged_ = false;                 // since then
     Steady message_due_ = Steady::max();  // when what has begun to arrive must be whole
+    Settings const& settings_;
+    Gateway& gateway_;
+    xml::RequestReader& reader_;
+    MessageReader messages_;
+    SessionId session_;
+    std::unique_ptr<Answer> farewell_;  // to a disconnect: waits for the session's last notifications to be heard
+    std::string out_;                   // what `drain` writes; empty while everything is taken at once
 };
 
 }  // namespace rois::net

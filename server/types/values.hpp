@@ -16,10 +16,10 @@ namespace rois {
 
 // RoIS_Identifier (table 9): a code, unique within its codebook. Absent attributes are empty.
 struct Identifier {
-    std::string code;
-    std::string authority;
-    std::string codebook_ref;
-    std::string version;
+    std::string code{};
+    std::string authority{};
+    std::string codebook_ref{};
+    std::string version{};
 
     bool operator==(Identifier const&) const = default;
 };

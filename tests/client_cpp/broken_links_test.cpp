@@ -1,4 +1,6 @@
 // Links that break, in every way: the session goes on, nothing is done twice, and what is missed is told.
+#include <algorithm>
+
 #include "client/http_client.hpp"
 #include "client_cpp/rig.hpp"
 
@@ -76,7 +78,7 @@ TEST_P(TheLink, RunsNoSequenceTwice) {
     History history;
     Blocking robot{settings(proxy.url()), history.observers()};
     auto const synthesis = robot.bind<SpeechSynthesis>("speech_synthesis");
-    auto const setting = [&] { return robot(synthesis.set({.speech_text = "Hello."})); };
+    auto const setting = [&] { return robot(synthesis.set(Speech().with_speech_text("Hello."))); };
     for (int i = 0; i < 3; ++i) {
         proxy.cut_before("<execute_response");
         EXPECT_EQ(setting(), CompletedStatus::ok);
@@ -88,6 +90,81 @@ TEST_P(TheLink, RunsNoSequenceTwice) {
     for (auto const& [id, count] : completions) EXPECT_EQ(count, 1) << id;
     expect_all_once(history);
     robot(synthesis.release());
+}
+
+TEST_P(TheLink, IsAnotherOneWhenAnAnswerIsToAnotherRequest) {
+    Proxy proxy{shared_gateway().port()};
+    History history;
+    auto const misquote = [&] { proxy.misquote("request_id=\"rois-cpp-", "request_id=\"somebody-"); };
+    Blocking robot{settings(proxy.url()), history.observers()};
+    auto& client = robot.client();
+    auto const synthesis = robot.bind<SpeechSynthesis>("speech_synthesis");
+    misquote();
+    auto first = begun(client, client.call(Search{type == "Navigation"}));
+    auto second = begun(client, client.call(Search{type == "Move"}));
+    EXPECT_EQ(first.get().component_ref_list.size(), 1U);
+    EXPECT_EQ(second.get().component_ref_list.size(), 1U);
+    misquote();
+    EXPECT_EQ(robot(synthesis.set(Speech().with_speech_text("Hello."))), CompletedStatus::ok);
+    EXPECT_THAT(history.completions(), ElementsAre(testing::Pair(testing::_, 1)));
+    misquote();
+    auto const moving = robot.bind_any(type == "Move");
+    EXPECT_EQ(robot(moving.component_status()), ComponentStatus::ready) << "bound once, and ours";
+    EXPECT_EQ(proxy.connections(), GetParam() == Way::http ? 8U : 4U);
+    EXPECT_EQ(history.states().back(), "resumed");
+    robot(moving.release());
+    robot(synthesis.release());
+}
+
+// A gateway takes a mebibyte at once. On a WebSocket it closes the link then; what else was on the way is done on the next one.
+TEST_P(TheLink, IsNotBrokenTwiceByADocumentThatIsTooLarge) {
+    History history;
+    Blocking robot{settings(), history.observers()};
+    auto& client = robot.client();
+    std::string const too_long(2'000'000, 'x');
+    auto const synthesis = robot.bind<SpeechSynthesis>("speech_synthesis");
+    auto before = begun(client, client.call(Search{type == "Navigation"}));
+    auto saying = begun(client, synthesis.say(too_long));
+    auto after = begun(client, client.call(Search{type == "Move"}));
+    try {
+        saying.get();
+        ADD_FAILURE() << "it was accepted";
+    } catch (Error const& refused) {
+        EXPECT_EQ(refused.code(), ReturnCode::error);
+        EXPECT_THAT(refused.what(), HasSubstr("too_large: "));
+    }
+    EXPECT_EQ(before.get().component_ref_list.size(), 1U);
+    EXPECT_EQ(after.get().component_ref_list.size(), 1U);
+    EXPECT_THAT(robot.call(BindAny{type == too_long}).reason, HasSubstr("too_large: "));
+    EXPECT_THAT(robot.call(Query{too_long, {}}).reason, HasSubstr("too_large: "));
+    if (GetParam() == Way::websocket) {
+        EXPECT_THAT(std::get<NoAnswer>(robot(client.send(too_long))).reason, HasSubstr("2000000 bytes: "));
+        EXPECT_EQ(robot.call(Search{}).return_code, ReturnCode::ok);
+        auto const states = history.states();
+        EXPECT_EQ(std::ranges::count(states, "lost"), 4) << "once for each";
+    }
+    robot(synthesis.release());
+}
+
+// The first attempt follows at once, all others after a pause, since nothing is answered on links that are open.
+TEST_P(TheLink, IsNoGoodOneBeforeItHasAnswered) {
+    Proxy proxy{shared_gateway().port()};
+    auto slow = settings(proxy.url());
+    slow.first_pause = slow.longest_pause = 1h;
+    History history;
+    auto observers = history.observers();
+    observers.state = [&, told = observers.state](StateChange const& change) {
+        if (change.state == State::lost) proxy.cut_before("<search_response");
+        told(change);
+    };
+    Blocking robot{slow, observers};
+    robot.open();
+    proxy.cut_before("<search_response");
+    auto const unanswered = begun(robot.client(), robot.client().call(Search{}, 1h));
+    std::vector<std::string> const states{"connecting", "open", "lost", "resumed", "lost"};
+    history.await_states(states);
+    EXPECT_EQ(robot(robot.client().call(Search{}, 100ms)).return_code, ReturnCode::timeout);
+    EXPECT_EQ(history.states(), states);
 }
 
 TEST_P(TheLink, TellsARefusalAfterABreakAsARefusal) {
@@ -142,7 +219,7 @@ TEST_P(TheLink, MakesAnewWhatWentWithItsSession) {
     auto detected = robot(detection.person_detected(result("number") >= 0));
     auto again = robot(detection.person_detected(result("number") >= 0));  // the same subscription
     auto const following =
-        robot(follow.begin_following({.target_object_ref = Identifier{"nobody", {}, {}, {}}, .distance = 500_mm}));
+        robot(follow.begin_following(FollowParameters().with_target_object_ref("nobody").with_distance(500_mm)));
     auto const session = robot.client().session();
 
     proxy.refuse(true);

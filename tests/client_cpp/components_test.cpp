@@ -58,7 +58,7 @@ protected:
     void expect_stream(char const* encoding) {
         auto const streaming = robot.bind_any<Facade>();
         auto notified = robot(streaming.notify_stream_status());
-        expect_ok(streaming.set({.encoding_parameters = {}, .transport_parameters = "http"}));
+        expect_ok(streaming.set(StreamParameters().with_transport_parameters("http")));
         auto const set = robot(streaming.parameters());
         EXPECT_EQ(set.transport_parameters, "http");
         EXPECT_THAT(set.available_encodings, HasSubstr(encoding));
@@ -121,7 +121,7 @@ TEST_F(TheFacades, Localization) {
     first<SoundLocalization, SoundLocalized>(&SoundLocalization::sound_localized,
                                              [&](auto& event) { return is_one(event.sounds, "sound-"); });
     auto const localization = robot.bind<PersonLocalization>("person_localization");
-    expect_ok(localization.set({.detection_threshold = 0.5_m, .minimum_interval = 40ms}));
+    expect_ok(localization.set(LocalizationParameters().with_detection_threshold(0.5_m).with_minimum_interval(40ms)));
     auto const set = robot(localization.parameters());
     EXPECT_EQ(set.detection_threshold, 500_mm);
     EXPECT_EQ(set.minimum_interval, 40ms);
@@ -136,7 +136,8 @@ TEST_F(TheFacades, PersonIdentification) {
 
 TEST_F(TheFacades, SpeechRecognition) {
     auto const recognition = robot.bind<SpeechRecognition>("speech_recognition");
-    expect_ok(recognition.set({.languages = {"en"}, .grammar = "greeting = hello | goodbye", .rule = "greeting"}));
+    expect_ok(recognition.set(
+        SpeechRecognitionParameters().with_language("en").with_grammar("greeting = hello | goodbye").with_rule("greeting")));
     auto const set = robot(recognition.parameters());
     EXPECT_THAT(set.languages, ElementsAre("en"));
     EXPECT_THAT(set.grammar.value_or(""), HasSubstr("goodbye"));
@@ -165,8 +166,9 @@ TEST_F(TheFacades, GestureRecognition) {
 TEST_F(TheFacades, SpeechSynthesis) {
     auto const synthesis = robot.bind<SpeechSynthesis>("speech_synthesis");
     expect_ok(synthesis.say("Welcome."));
-    expect_ok(synthesis.say({.SSML_text = "<speak>Good <emphasis>day</emphasis>.</speak>", .volume = 40, .language = "en"}));
-    expect_ok(synthesis.set({.speech_text = "Hello.", .volume = 60, .language = "de", .character = "default"}));
+    expect_ok(synthesis.say(
+        Speech().with_SSML_text("<speak>Good <emphasis>day</emphasis>.</speak>").with_volume(40).with_language("en")));
+    expect_ok(synthesis.set(Speech().with_speech_text("Hello.").with_volume(60).with_language("de").with_character("default")));
     auto const set = robot(synthesis.parameters());
     EXPECT_EQ(set.speech_text, "Hello.");
     EXPECT_FALSE(set.SSML_text) << "one drops the other";
@@ -187,7 +189,11 @@ TEST_F(TheFacades, Reaction) {
 TEST_F(TheFacadesThatMove, Navigation) {
     auto const navigation = robot.bind<Navigation>("navigation");
     auto reached = robot(navigation.reached_target());
-    expect_ok(navigation.go({{Pose{5_m, 5_m, 90_deg}, "start"}, 60s, RoutingPolicy::distance}));
+    expect_ok(navigation.go(NavigationParameters()
+                                .with_target_position(Pose{5_m, 5_m, 90_deg})
+                                .with_target_position("start")
+                                .with_time_limit(60s)
+                                .with_routing_policy(RoutingPolicy::distance)));
     auto const any = [](ReachedTarget const&) { return true; };
     auto const on_the_way = heard<ReachedTarget>(reached, any);
     EXPECT_EQ(on_the_way.target, "5000, 5000, 90");
@@ -195,7 +201,10 @@ TEST_F(TheFacadesThatMove, Navigation) {
     EXPECT_TRUE(heard<ReachedTarget>(reached, any).is_final_target);
     EXPECT_EQ(robot(navigation.go_to("entrance", 1ms)), CompletedStatus::timeout);
     expect_ok(navigation.go_to(Pose{6_m, 6_m}, 0ms));
-    expect_ok(navigation.set({{Pose{7_m, 6.5_m}}, 2s, RoutingPolicy::time}));
+    expect_ok(navigation.set(NavigationParameters()
+                                 .with_target_position(Pose{7_m, 6.5_m})
+                                 .with_time_limit(2s)
+                                 .with_routing_policy(RoutingPolicy::time)));
     auto const set = robot(navigation.parameters());
     EXPECT_THAT(set.target_position, ElementsAre(Field(&Target::text, "7000, 6500, 0")));
     EXPECT_EQ(set.time_limit, 2s);
@@ -205,12 +214,14 @@ TEST_F(TheFacadesThatMove, Navigation) {
 TEST_F(TheFacadesThatMove, Follow) {
     auto const follow = robot.bind<Follow>("follow");
     Identifier const nobody{"nobody", {}, {}, {}};
-    EXPECT_EQ(robot(follow.follow({nobody, 1_m, 100ms})), CompletedStatus::timeout);
-    auto const following = robot(follow.begin_following({nobody, 1_m, 0ms}));
+    EXPECT_EQ(robot(follow.follow(FollowParameters().with_target_object_ref(nobody).with_distance(1_m).with_time_limit(100ms))),
+              CompletedStatus::timeout);
+    auto const following =
+        robot(follow.begin_following(FollowParameters().with_target_object_ref(nobody).with_distance(1_m).with_time_limit(0ms)));
     expect_ok(follow.stop());
     EXPECT_EQ(robot(following.completed()), CompletedStatus::ok);
     EXPECT_THAT(robot(following.results()).parameters, Contains(Field(&Parameter::name, "status")));
-    expect_ok(follow.set({.target_object_ref = nobody, .distance = 1.5_m, .time_limit = 5s}));
+    expect_ok(follow.set(FollowParameters().with_target_object_ref(nobody).with_distance(1.5_m).with_time_limit(5s)));
     auto const set = robot(follow.parameters());
     EXPECT_EQ(set.target_object_ref->code, "nobody");
     EXPECT_EQ(set.distance, 1.5_m);
@@ -226,14 +237,14 @@ TEST_F(TheFacadesThatMove, Move) {
     EXPECT_NEAR(distance(before, where()).value, 500, 100);
     expect_ok(move.move(Curve{500_mm, 180_deg}, 3s));
     EXPECT_NEAR(std::abs(std::remainder((where().th - before.th).value, 360)), 180, 20);
-    expect_ok(move.set({.line = Line{100_mm, -90_deg}, .curve = {}, .time = 2s}));
+    expect_ok(move.set(MoveParameters().with_line(Line{100_mm, -90_deg}).with_time(2s)));
     auto const line = robot(move.parameters());
     ASSERT_TRUE(line.line);
     EXPECT_EQ(line.line->distance, 100_mm);
     EXPECT_EQ(line.line->direction, -90_deg);
     EXPECT_FALSE(line.curve);
     EXPECT_EQ(line.time, 2s);
-    expect_ok(move.set({.line = {}, .curve = Curve{300_mm, 45_deg}, .time = {}}));
+    expect_ok(move.set(MoveParameters().with_curve(Curve{300_mm, 45_deg})));
     auto const curve = robot(move.parameters());
     ASSERT_TRUE(curve.curve);
     EXPECT_EQ(curve.curve->radius, 300_mm);
@@ -244,6 +255,40 @@ TEST_F(TheFacadesThatMove, Move) {
 TEST_F(TheFacades, AudioStreaming) { expect_stream<AudioStreaming>("audio/wav"); }
 
 TEST_F(TheFacades, VideoStreaming) { expect_stream<VideoStreaming>("multipart/x-mixed-replace"); }
+
+// --- What is said inside a co_await ---
+
+template <class... Parameters>
+constexpr bool none_is_aggregate = (!std::is_aggregate_v<Parameters> && ...);
+static_assert(none_is_aggregate<LocalizationParameters, SpeechRecognitionParameters, Speech, NavigationParameters,
+                                FollowParameters, MoveParameters, StreamParameters, Target, Pose, Box, QueryExpression>);
+
+// Too long for a string to have it in itself: what is destroyed twice is noticed.
+constexpr auto long_text = "Welcome to the hall of the conformance program, in which nobody is at home.";
+
+Task<Speech> say_it_all_at_once(Client& client) {
+    auto const synthesis = co_await client.bind<SpeechSynthesis>("speech_synthesis");
+    auto const follow = co_await client.bind<Follow>("follow");
+    auto const navigation = co_await client.bind<Navigation>("navigation");
+    co_await synthesis.set(Speech().with_speech_text(long_text).with_language("en").with_character("default").with_volume(50));
+    co_await follow.set(FollowParameters().with_target_object_ref(long_text).with_distance(1_m).with_time_limit(2s));
+    co_await navigation.set(NavigationParameters().with_target_position("start").with_target_position(Pose(5_m, 5_m)));
+    auto const set = co_await navigation.parameters();
+    EXPECT_THAT(set.target_position, SizeIs(2));
+    auto const found = co_await client.search(ordered(type == "Navigation", nearest_to("start"), ascending(component_ref)));
+    EXPECT_THAT(found, SizeIs(1));
+    auto const within = co_await client.search(location.within(Box(0_m, 0_m, 20_m, 12_m)));
+    EXPECT_THAT(within, testing::Not(testing::IsEmpty()));
+    auto said = co_await synthesis.parameters();
+    co_return said;
+}
+
+TEST_F(TheFacadesThatMove, TakeWhatIsSaidInsideAnAwait) {
+    auto const said = robot(say_it_all_at_once(robot.client()));
+    EXPECT_EQ(said.speech_text, long_text);
+    EXPECT_EQ(said.language, "en");
+    EXPECT_EQ(said.volume, 50);
+}
 
 // --- Events as callbacks ---
 

@@ -86,7 +86,7 @@ TEST(AConditionInCode, IsWrittenAsTheStandardSays) {
 }
 
 TEST(AConditionInCode, SaysWhoComesFirst) {
-    EXPECT_EQ(written({type == "Move", {nearest_to("desk"), descending(parameter("volume")), ascending(component_ref)}}),
+    EXPECT_EQ(written(ordered(type == "Move", nearest_to("desk"), descending(parameter("volume")), ascending(component_ref))),
               "(condition (Filter (PropertyIsEqualTo component_type 'urn:x-rois:def:component:OMG::Move')) (SortBy "
               "(SortProperty (Function name=distance location 'desk')) "
               "(SortProperty Property/volume (SortOrder DESC)) (SortProperty component_ref)))");

@@ -116,6 +116,47 @@ TEST_P(TheConnection, EveryCallHasADeadline) {
     EXPECT_EQ(std::get<NoAnswer>(raw).why, NoAnswer::Why::deadline);
 }
 
+TEST_P(TheConnection, WaitsForEverWhenItIsToldTo) {
+    constexpr auto ever = std::chrono::milliseconds::max();
+    auto patient = settings();
+    patient.deadline = patient.connect_deadline = patient.ping_interval = patient.stream_silence = patient.longest_pause = ever;
+    Blocking robot{patient};
+    auto& client = robot.client();
+    robot.open();
+    EXPECT_FALSE(robot(client.opened(ever)));
+    auto const sleeping = begun(client, client.sleep(ever));
+    for (std::chrono::milliseconds const long_enough : {ever, std::chrono::milliseconds{std::chrono::years{400}}})
+        EXPECT_EQ(robot(client.call(Search{}, long_enough)).return_code, ReturnCode::ok);
+    EXPECT_TRUE(std::holds_alternative<std::string>(robot(client.send("<search/>", ever))));
+    auto const detection = robot.bind_any<PersonDetection>();
+    auto detected = robot(detection.person_detected());
+    EXPECT_EQ(robot(detection.start()), CompletedStatus::ok);
+    EXPECT_TRUE(robot(detected.next(ever)));
+    EXPECT_EQ(sleeping.wait_for(0s), std::future_status::timeout);
+    EXPECT_EQ(robot(client.call(Search{}, std::chrono::milliseconds::min())).return_code, ReturnCode::timeout);
+    robot(detection.release());
+}
+
+TEST_P(TheConnection, KeepsTheFirstOfTwoCommandsOfOneName) {
+    Blocking robot{settings()};
+    auto& client = robot.client();
+    auto const follow = robot.bind<Follow>("follow");
+    auto following = command(follow, "start", {reference("target_object_ref", "nobody"), integer("distance", 500)});
+    std::get<CommandMessage>(following.unit).command_id = {"mine"};
+    CommandUnitSequence sequence;
+    sequence.command_unit_list = {following};
+    auto first = begun(client, client.execute(sequence));
+    auto at_once = begun(client, client.execute(sequence));
+    auto const mine = first.get().at(0);
+    EXPECT_THROW(at_once.get(), Error);
+    EXPECT_THROW(robot(client.execute(sequence)), Error);
+    EXPECT_EQ(robot(follow.stop()), CompletedStatus::ok);
+    auto completed = begun(client, mine.completed());
+    ASSERT_EQ(completed.wait_for(5s), std::future_status::ready);
+    EXPECT_EQ(completed.get(), CompletedStatus::ok);
+    robot(follow.release());
+}
+
 TEST_P(TheConnection, KeepsTryingAndSaysWhyNothingComes) {
     Proxy proxy{shared_gateway().port()};
     proxy.refuse(true);
@@ -135,9 +176,15 @@ TEST_P(TheConnection, GivesUpAfterItsAttempts) {
     few.attempts = 3;
     History history;
     Blocking robot{few, history.observers()};
+    auto asked = begun(robot.client(), [](Client& client) -> Task<State> {
+        Search const all;
+        co_await client.call(all);
+        co_return client.state();
+    }(robot.client()));
     EXPECT_THROW(robot.open(), Error);
     EXPECT_EQ(proxy.connections(), 3U);
     history.await_states({"connecting", "closed"});
+    EXPECT_EQ(asked.get(), State::closed) << "as the call was told";
     EXPECT_EQ(robot.call(Search{}).return_code, ReturnCode::error);
 }
 

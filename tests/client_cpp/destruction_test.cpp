@@ -7,7 +7,24 @@
 namespace rois::test {
 namespace {
 
-class Destruction : public BothWays {};
+class Destruction : public BothWays {
+public:
+    struct Handles {
+        std::optional<EventStream> stream{};
+        std::optional<Component> component{};
+        std::optional<Command> command{};
+    };
+
+    static Handles handles_of(Blocking& robot) {
+        Handles handles;
+        handles.stream = robot(robot.client().subscribe("person_detected"));
+        auto const follow = robot.bind<Follow>("follow");
+        handles.component = follow;
+        handles.command =
+            robot(follow.begin_following(FollowParameters().with_target_object_ref("nobody").with_distance(500_mm)));
+        return handles;
+    }
+};
 ROIS_BOTH_WAYS(Destruction);
 
 TEST_P(Destruction, AtOnce) {
@@ -56,8 +73,7 @@ Task<> wait_for_event(Client& robot, Ends& ends) {
 
 Task<> wait_for_command(Client& robot, Ends& ends) {
     auto const follow = co_await robot.bind<Follow>("follow");
-    FollowParameters const whom{.target_object_ref = Identifier{"nobody", {}, {}, {}}, .distance = 500_mm};
-    auto const status = co_await follow.follow(whom);
+    auto const status = co_await follow.follow(FollowParameters().with_target_object_ref("nobody").with_distance(500_mm));
     if (status == CompletedStatus::abort) ++ends.count;
 }
 
@@ -109,13 +125,80 @@ TEST_P(Destruction, WaitsForNoNameThatIsStillLookedUp) {
 TEST_P(Destruction, LeavesHandlesThatSayThatItIsOver) {
     std::optional<EventStream> stream;
     std::optional<Component> component;
+    std::weak_ptr<int> inside;
     {
-        Blocking robot{settings()};
+        auto const kept = std::make_shared<int>();
+        inside = kept;
+        Observers observers;
+        observers.gap = [kept](Gap const&) {};
+        Blocking robot{settings(), observers};
         stream.emplace(robot(robot.client().subscribe("person_detected")));
         component.emplace(robot.client().component("navigation"));
     }
     EXPECT_EQ(stream->gaps(), 0U);
     EXPECT_EQ(component->ref().code, "navigation");
+    EXPECT_FALSE(inside.expired());
+    stream.reset();
+    component.reset();
+    EXPECT_TRUE(inside.expired()) << "nothing is left with the last handle";
+}
+
+// What is asked by a handle of a client that is gone, in a coroutine of another one.
+Task<> ask_when_it_is_over(Destruction::Handles& handles, std::promise<std::vector<std::string>>& told) {
+    std::vector<std::string> said;
+    auto const event = co_await handles.stream->next_event(1h);
+    said.emplace_back(event ? "event" : "no event");
+    auto const status = co_await handles.command->completed();
+    said.emplace_back(to_text(status));
+    try {
+        co_await handles.component->component_status();
+    } catch (Error const& refused) {
+        said.emplace_back(refused.what());
+    }
+    try {
+        co_await handles.component->subscribe("person_detected");
+    } catch (Error const& refused) {
+        said.emplace_back(refused.what());
+    }
+    try {
+        co_await handles.component->run("start");
+    } catch (Error const& refused) {
+        said.emplace_back(refused.what());
+    }
+    told.set_value(std::move(said));
+}
+
+TEST_P(Destruction, LeavesHandlesThatAnswerInAnotherClient) {
+    Blocking other{settings()};
+    other.open();
+    Handles handles;
+    {
+        Blocking robot{settings()};
+        handles = handles_of(robot);
+    }
+    std::promise<std::vector<std::string>> told;
+    other.client().spawn(ask_when_it_is_over(handles, told));
+    auto said = told.get_future();
+    ASSERT_EQ(said.wait_for(5s), std::future_status::ready);
+    auto const closed = testing::HasSubstr("the connection is closed");
+    EXPECT_THAT(said.get(), testing::ElementsAre("no event", "ABORT", closed, closed, closed));
+    handles.stream->each_event([](ReceiveEvent const&) { ADD_FAILURE(); });
+    handles.stream->skip();
+}
+
+// The observers live as long as the inside of the connection.
+TEST_P(Destruction, LeavesNothingBehindItsHandles) {
+    auto const inside = std::make_shared<int>();
+    for (int i = 0; i < 10; ++i) {
+        Handles handles;
+        {
+            Observers observers;
+            observers.state = [inside](StateChange const&) {};
+            Blocking robot{settings(), std::move(observers)};
+            handles = handles_of(robot);
+        }
+    }
+    EXPECT_EQ(inside.use_count(), 1);
 }
 
 }  // namespace

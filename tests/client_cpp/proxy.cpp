@@ -40,7 +40,7 @@ int at_once(int descriptor) {
 }  // namespace
 
 Proxy::Proxy(std::uint16_t gateway)
-    : gateway_{gateway}, listener_{socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)}, wake_{eventfd(0, EFD_CLOEXEC)} {
+    : listener_{socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)}, wake_{eventfd(0, EFD_CLOEXEC)}, gateway_{gateway} {
     auto address = loopback(0);
     socklen_t size = sizeof address;
     if (bind(listener_, reinterpret_cast<sockaddr*>(&address), size) != 0 || listen(listener_, 64) != 0 ||
@@ -66,6 +66,7 @@ void Proxy::wake() const {
 
 void Proxy::cut() {
     std::lock_guard const lock{mutex_};
+    if (!pairs_.empty()) ++cuts_;
     cut_all();
 }
 
@@ -82,6 +83,13 @@ void Proxy::cut_before(std::string text) {
     before_ = std::move(text);
 }
 
+void Proxy::misquote(std::string text, std::string as) {
+    if (text.size() != as.size()) throw std::invalid_argument{"lengths are said before"};
+    std::lock_guard const lock{mutex_};
+    misquoted_ = std::move(text);
+    misquoted_as_ = std::move(as);
+}
+
 void Proxy::half_open() {
     std::lock_guard const lock{mutex_};
     for (auto& pair : pairs_) pair.swallows = true;
@@ -90,6 +98,11 @@ void Proxy::half_open() {
 void Proxy::refuse(bool refuses) {
     std::lock_guard const lock{mutex_};
     refuses_ = refuses;
+}
+
+void Proxy::lead_to(std::uint16_t gateway) {
+    std::lock_guard const lock{mutex_};
+    gateway_ = gateway;
 }
 
 void Proxy::delay(std::chrono::milliseconds time) {
@@ -105,7 +118,6 @@ void Proxy::drip(std::size_t bytes, std::chrono::milliseconds each) {
 }
 
 void Proxy::cut_all() {
-    if (!pairs_.empty()) ++cuts_;
     for (auto const& pair : pairs_) {
         close_hard(pair.client);
         close_hard(pair.gateway);
@@ -199,6 +211,11 @@ void Proxy::run() {
             bool alive = true;
             if (watched[index].revents != 0) alive = pass(*pair, pair->client, pair->to_gateway);
             if (watched[index + 1].revents != 0) alive = pass(*pair, pair->gateway, pair->to_client) && alive;
+            auto const quoted = pair->to_client.waiting.find(misquoted_);
+            if (!misquoted_.empty() && quoted != pair->to_client.waiting.npos) {
+                pair->to_client.waiting.replace(quoted, misquoted_.size(), misquoted_as_);
+                misquoted_.clear();
+            }
             auto const said = pair->to_client.waiting.find(before_);
             if (!before_.empty() && said != pair->to_client.waiting.npos) {
                 pair->to_client.waiting.erase(said);
@@ -217,7 +234,10 @@ void Proxy::run() {
             close_hard(pair->gateway);
             pair = pairs_.erase(pair);
         }
-        if (tear) cut_all();
+        if (tear) {  // also when the other side has closed meanwhile
+            ++cuts_;
+            cut_all();
+        }
         if (watched[0].revents != 0) accept();
     }
 }

@@ -31,10 +31,14 @@ public:
     void cut_at_random(std::uint32_t seed, std::size_t longest, std::size_t times);
     // The next time that the gateway says this, its words are lost and all connections are cut.
     void cut_before(std::string text);
+    // The next time that the gateway says this, it is as if it had said that, which is as long.
+    void misquote(std::string text, std::string as);
     // What is sent either way is lost, without any other sign; connections to come are as good as new.
     void half_open();
     // Whether connections to come are cut at once.
     void refuse(bool);
+    // Connections to come go to this port.
+    void lead_to(std::uint16_t gateway);
     // Bytes are passed on so much later; or in pieces of so many, each so much later.
     void delay(std::chrono::milliseconds);
     void drip(std::size_t bytes, std::chrono::milliseconds each);
@@ -66,7 +70,6 @@ private:
     bool tears(std::size_t bytes);
     void wake() const;
 
-    std::uint16_t gateway_;
     std::uint16_t port_ = 0;
     int listener_ = -1;
     int wake_ = -1;
@@ -76,8 +79,11 @@ private:
 
     std::mutex mutex_;  // guards what follows
     std::list<Pair> pairs_;
+    std::uint16_t gateway_;
     bool refuses_ = false;
     std::string before_;
+    std::string misquoted_;
+    std::string misquoted_as_;
     std::chrono::milliseconds delay_{0};
     std::size_t drip_ = 0;
     std::minstd_rand dice_;

@@ -1,4 +1,6 @@
 // The reception as an application in C++: the same day as with every client, the same history.
+#include <sys/wait.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -9,11 +11,14 @@
 namespace rois::test {
 namespace {
 
-std::string printed_by(std::string const& command) {
+// What the reception prints, and how it ends.
+std::string printed(std::string const& url, std::string const& visitors, int exit_code = 0) {
     std::string text;
-    auto* const pipe = popen(command.c_str(), "r");
+    auto* const pipe = popen(("ROIS_URL=" + url + " " ROIS_BINARY_DIR "/bin/reception " + visitors + " 2>&1").c_str(), "r");
     for (int c = std::getc(pipe); c != EOF; c = std::getc(pipe)) text.push_back(static_cast<char>(c));
-    EXPECT_EQ(pclose(pipe), 0) << text;
+    auto const status = pclose(pipe);
+    EXPECT_TRUE(WIFEXITED(status)) << text;
+    EXPECT_EQ(WEXITSTATUS(status), exit_code) << text;
     return text;
 }
 
@@ -22,8 +27,15 @@ TEST(TheReceptionInCpp, TellsTheHistoryOfTheDay) {
     GatewayProcess const gateway{{"--floor-plan", data + "watchful_hall.xml", "--scenario", data + "three_visitors.xml",
                                   "--sim-speed", "20", "--seed", "7"}};
     std::ifstream expected{data + "three_visitors.txt"};
-    EXPECT_EQ(printed_by("ROIS_URL=" + gateway.url() + " " ROIS_BINARY_DIR "/bin/reception 3"),
-              std::string(std::istreambuf_iterator<char>{expected}, {}));
+    EXPECT_EQ(printed(gateway.url(), "3"), std::string(std::istreambuf_iterator<char>{expected}, {}));
+}
+
+TEST(TheReceptionInCpp, SaysWhyItCannotReceive) {
+    auto const& gateway = shared_gateway().url();
+    for (auto const* visitors : {"abc", "0", "-1"})
+        EXPECT_EQ(printed(gateway, visitors, 1), "reception: expected a number of visitors\n");
+    EXPECT_THAT(printed(gateway + "/nowhere", "1", 1), testing::MatchesRegex("reception: bind_any: .*404.*\n"));
+    EXPECT_THAT(printed("nowhere", "1", 1), testing::StartsWith("reception: "));
 }
 
 TEST(TheReceptionInCpp, IsShort) {

@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <condition_variable>
 #include <functional>
+#include <future>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -52,6 +55,9 @@ public:
     void await_state(std::string const& state) {
         await([&] { return !states_.empty() && states_.back() == state; });
     }
+    void await_once(std::string const& state) {  // then or before
+        await([&] { return std::ranges::count(states_, state) > 0; });
+    }
     void await_gap() {
         await([&] { return !gaps_.empty(); });
     }
@@ -90,6 +96,17 @@ private:
     std::vector<Gap> gaps_;
     std::vector<std::pair<std::uint64_t, Notification>> notifications_;
 };
+
+// Begins an operation, whose outcome is waited for later.
+template <class T>
+std::future<T> begun(Client& client, Task<T> task) {
+    auto const promise = std::make_shared<std::promise<T>>();
+    client.spawn([](Task<T> operation, std::shared_ptr<std::promise<T>> outcome) -> Task<> {
+        auto delivered = detail::deliver(std::move(operation), *outcome);
+        co_await std::move(delivered);
+    }(std::move(task), promise));
+    return promise->get_future();
+}
 
 // For tests that say the same over both ways.
 class BothWays : public testing::TestWithParam<Way> {

@@ -73,7 +73,7 @@ TEST_P(TheSession, TellsTheEndOfItsCommandsBeforeItsOwn) {
             Blocking robot{settings(), history.observers()};
             auto const follow = robot.bind<Follow>("follow");
             auto const following =
-                robot(follow.begin_following({.target_object_ref = Identifier{"nobody", {}, {}, {}}, .distance = 500_mm}));
+                robot(follow.begin_following(FollowParameters().with_target_object_ref("nobody").with_distance(500_mm)));
             id = following.id().text;
             if (ends_it) robot.call(Disconnect{});
         }

@@ -93,10 +93,28 @@ TEST(TheCompletion, KnowsCommandsOptionsAndWhatTheEngineHas) {
              {"rois watch person_localized --start person_loc", "rois watch person_localized --start person_localization "},
              {"rois send " ROIS_SOURCE_DIR "/READ", "rois send " ROIS_SOURCE_DIR "/README.md "},
              {"rois start elev", "rois start elev"},
+             {"rois query ", "rois query component_status engine_status get_parameter robot_position "},
+             {"rois execute navigation ", "rois execute navigation resume set_parameter start stop suspend "},
+             {"rois execute navigation start time", "rois execute navigation start time_limit= "},
+             {"rois execute spee", "rois execute speech_recognition speech_synthesis "},
          })
         EXPECT_EQ(shell.completed(typed), completed);
     EXPECT_EQ(shell.completed("rois set navigation time", "\t"), "rois set navigation time_limit=") << "no blank behind it";
     EXPECT_EQ(shell.completed("rois watch person_d", "\t"), "rois watch person_detected ");
+}
+
+TEST(TheCompletion, AsksTheProgramAndTheEngineOfTheLine) {
+    Shell shell{"http://127.0.0.1:1"};
+    auto const url = shared_gateway().url();
+    for (auto const& begin : {"rois --url " + url, "rois --url=" + url, "rois --http --url '" + url + "'",
+                              ROIS_BINARY_DIR "/bin/rois --colour auto --url " + url}) {
+        EXPECT_EQ(shell.completed(begin + " start navi"), begin + " start navigation ");
+        EXPECT_EQ(shell.completed(begin + " set reaction rea"), begin + " set reaction reaction_ref= ");
+    }
+    EXPECT_EQ(shell.completed("rois start --url " + url + " navi"), "rois start --url " + url + " navigation ");
+    EXPECT_EQ(shell.completed("rois query robot_position --url " + url + " --of sys"),
+              "rois query robot_position --url " + url + " --of system_information ");
+    EXPECT_EQ(shell.completed("rois --url http://127.0.0.1:2 start navi"), "rois --url http://127.0.0.1:2 start navi");
 }
 
 TEST(TheCompletion, IsSilentWithoutAnEngine) {

@@ -1,6 +1,8 @@
 // `rois record` and `rois replay`.
 #include <signal.h>
 
+#include <filesystem>
+
 #include "client/http_client.hpp"
 #include "command/rois_fixture.hpp"
 
@@ -64,6 +66,30 @@ TEST_F(Rois, RecordsWhatOthersSay) {
     Variables const replayed{{"ROIS_URL", json::parse(engine.line())["listening"]}};
     EXPECT_EQ(run_rois({"start", "speech_synthesis", "speech_text=Hello."}, {}, replayed).out, "start speech_synthesis  OK\n")
         << "roughly the same";
+}
+
+TEST_F(Rois, LeavesARecordingAloneUntilItHasAnother) {
+    std::string const before = "a recording\n";
+    auto const file = file_with("kept.jsonl", before);
+    auto const nobody = run_rois({"record", file, "--timeout", "1"});
+    EXPECT_EQ(nobody.exit_code, 8) << "no engine";
+    expect(4, "no component has an event 'rain'", {"record", file, "rain"});
+    expect(3, "unknown component 'elevator'", {"record", file, "--start", "elevator"});
+    expect(3, "unknown component 'elevator'", {"watch", "person_detected", "--start", "elevator", "--record", file});
+    expect(3, "unknown component 'elevator'", {"start", "elevator", "--record", file});
+    EXPECT_EQ(run_rois({"search", "--timeout", "1", "--record", file}).exit_code, 8);
+    {
+        RoisProcess between{{"record", file, "--listen", "127.0.0.1:0", "--json"}};
+        Variables const there{{"ROIS_URL", json::parse(between.line())["listening"]}};
+        EXPECT_EQ(run_rois({"search", "--timeout", "1"}, {}, there).exit_code, 8);
+    }
+    EXPECT_EQ(text_of(file), before);
+    EXPECT_EQ(run({"search", "--record", file}).exit_code, 0);
+    EXPECT_THAT(lines_of(text_of(file)).front(), testing::StartsWith("{\"recording\":\"rois-recording-1\""));
+
+    auto const none = file_named("none.jsonl");
+    EXPECT_EQ(run_rois({"search", "--timeout", "1", "--record", none}).exit_code, 8);
+    EXPECT_FALSE(std::filesystem::exists(none));
 }
 
 TEST_F(Rois, RefusesWhatIsNoRecording) {

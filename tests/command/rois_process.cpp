@@ -13,8 +13,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace rois::test {
 
@@ -145,6 +147,8 @@ std::string RoisProcess::line_with(std::string const& text) {
     return one;
 }
 
+void RoisProcess::stop_reading() { close(std::exchange(out_, -1)); }
+
 void RoisProcess::signal(int number) { kill(process_, number); }
 
 Ended RoisProcess::wait() {
@@ -162,6 +166,12 @@ std::string file_with(std::string const& name, std::string const& text) {
     auto const file = file_named(name);
     std::ofstream{file, std::ios::binary} << text;
     return file;
+}
+
+std::string text_of(std::string const& file) {
+    std::ifstream in{file, std::ios::binary};
+    EXPECT_TRUE(in.is_open()) << file;
+    return {std::istreambuf_iterator<char>{in}, {}};
 }
 
 std::vector<std::string> lines_of(std::string const& text) {

@@ -26,6 +26,9 @@ public:
     // The next line that has this in it.
     std::string line_with(std::string const& text);
 
+    // As `| head` does: what it writes from now on cannot be written.
+    void stop_reading();
+
     void signal(int number);
     // Waits for its end; `out` is what was not read as lines.
     Ended wait();
@@ -40,6 +43,7 @@ private:
 // A file in a folder of this test program that is removed at the end.
 std::string file_with(std::string const& name, std::string const& text);
 std::string file_named(std::string const& name);
+std::string text_of(std::string const& file);
 
 std::vector<std::string> lines_of(std::string const& text);
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <cstdio>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -64,6 +64,8 @@ TEST_F(Rois, SetsAndGetsParametersByTheirTypes) {
     expect(2, "time_limit: 'soon' is not of the type int", {"set", "navigation", "time_limit=soon"});
     expect(2, "has no argument 'speed'; it has target_position", {"set", "navigation", "speed=1"});
     expect(3, "no parameter 'speed'", {"get", "navigation", "speed"});
+    expect(3, "unknown component 'elevator'; there are ", {"get", "elevator"});
+    expect(3, "unknown component 'elevator'; there are ", {"query", "component_status", "--of", "elevator"});
 }
 
 TEST_F(Rois, StartsStopsAndExecutes) {
@@ -122,6 +124,7 @@ TEST_F(Rois, BindsAnyThatIsMeantForSomeTime) {
     auto const ended = run({"bind", "--where", "type = Move", "--for", "0"});
     EXPECT_EQ(ended.exit_code, 0) << ended.error;
     EXPECT_THAT(ended.out, StartsWith("bound move\nsession "));
+    EXPECT_EQ(lines_of(ended.out).size(), 2u) << "that it connected is no news: " << ended.out;
     expect(2, "which components?", {"bind"});
     expect(3, "unknown component 'elevator'", {"bind", "elevator"});
 }
@@ -135,6 +138,34 @@ TEST_F(Rois, ShowsEventsAsTheyCome) {
     RoisProcess starting{{"start", "person_detection", "--for", "60"}, at()};
     EXPECT_THAT(subscribed.line(), HasSubstr("person_detected  person_detection  timestamp="));
     expect(4, "no component has an event 'rain'; there are ", {"watch", "rain"});
+}
+
+TEST_F(Rois, EndsQuietlyWhenNobodyReadsOn) {
+    RoisProcess watching{{"watch", "person_detected", "--start", "person_detection", "--for", "60"}, at()};
+    watching.line_with("open");
+    watching.stop_reading();
+    auto const ended = watching.wait();
+    EXPECT_EQ(ended.exit_code, 130);
+    EXPECT_EQ(ended.error, "");
+}
+
+TEST(AGatewayThatComesAgain, IsWatchedAgain) {
+    auto gateway = std::make_unique<GatewayProcess>();
+    Variables const there{{"ROIS_URL", gateway->url()}};
+    RoisProcess watching{{"watch", "person_detected", "--start", "person_detection", "--for", "90", "--json"}, there};
+    RoisProcess keeping{{"start", "sound_detection", "--for", "90"}, there};
+    watching.line_with("receive_event");
+    keeping.line_with("OK");
+    std::vector<std::string> const listen{"--listen", "127.0.0.1:" + std::to_string(gateway->port())};
+    gateway.reset();
+    GatewayProcess const again{listen};
+    watching.line_with("\"gap\":\"new_session\"");
+    watching.line_with("receive_event");
+    watching.signal(SIGINT);
+    EXPECT_EQ(watching.wait().exit_code, 0);
+    auto const ended = keeping.wait();
+    EXPECT_EQ(ended.exit_code, 7) << ended.out;
+    EXPECT_THAT(ended.error, HasSubstr("the session has ended, and its commands with it"));
 }
 
 TEST_F(Rois, SendsAnyDocumentAndUnderlinesItsMistake) {
@@ -154,6 +185,16 @@ TEST_F(Rois, SendsAnyDocumentAndUnderlinesItsMistake) {
     EXPECT_EQ(json::parse(unknown.out)["operation"], "bind");
 }
 
+TEST_F(Rois, SendsWhatNoWebSocketTakes) {
+    auto const bind = "<bind " + std::string{messages} + ">\n";
+    auto const latin = file_with("latin.xml", bind + "  <!-- gr\xf6\xdf --></bind>");
+    expect(9, latin + ":2:10: not_well_formed: the document is not UTF-8\n2 |   <!-- gr", {"send", latin});
+    auto const wide = file_with("wide.xml", std::string("\xff\xfe<\0a\0/\0>\0", 10));
+    expect(9, wide + ":1:1: not_well_formed: the document is not UTF-8", {"send", wide});
+    auto const long_one = file_with("long.xml", bind + "<!--" + std::string(2'000'000, 'x') + "--></bind>");
+    expect(9, long_one + ": too_large: the body may have 1048576 bytes", {"send", long_one});
+}
+
 TEST_F(Rois, KnowsWhetherTheEngineIsReady) {
     EXPECT_EQ(run({"health"}).out, "healthy\n");
     EXPECT_EQ(objects({"health"})[0]["ready"], true);
@@ -166,10 +207,14 @@ TEST_F(Rois, KnowsWhetherTheEngineIsReady) {
 }
 
 TEST_F(Rois, SaysWhatIsWrongWithItsCommandLine) {
-    expect(2, "bogus", {"bogus"});
     expect(2, "which command?", {});
     expect(2, "--colour", {"search", "--colour", "blue"});
-    expect(2, "REF is required", {"start"});
+    expect(2, "REF is required; rois start --help tells more", {"start"});
+    expect(2, "no such command: bogus; rois --help tells more", {"bogus"});
+    expect(2, "no such command: serch; perhaps search; ", {"serch", "type", "=", "Move"});
+    expect(2, "no such command: subs; perhaps subscribe; ", {"--json", "subs"});
+    expect(2, "--nothing", {"--nothing"});
+    expect(2, "there is no file 'navigation'; of a component, say which command", {"execute", "navigation"});
     expect(2, "URL", {"search", "--url", "ftp://there"});
     EXPECT_EQ(run_rois({"search", "--timeout", "2"}).exit_code, 8);
     EXPECT_THAT(run({"--version"}).out, StartsWith("rois "));
@@ -181,15 +226,6 @@ TEST_F(Rois, SpeaksHttpToo) {
 }
 
 // --- What is installed beside the program ---
-
-std::string text_of(std::string const& file) {
-    std::string text;
-    auto* const in = std::fopen(file.c_str(), "r");
-    EXPECT_NE(in, nullptr) << file;
-    for (int c = std::getc(in); c != EOF; c = std::getc(in)) text.push_back(static_cast<char>(c));
-    std::fclose(in);
-    return text;
-}
 
 TEST_F(Rois, HasItsCommandsAndOptionsInTheManualAndTheCompletion) {
     auto const help = run({"--help-all"}).out;

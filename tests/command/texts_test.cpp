@@ -21,6 +21,14 @@ TEST(ATable, AlignsWhatIsReadAndEndsWithNoBlanks) {
     EXPECT_EQ(table.text(false, "  "), "  a       x\n  größer     z\n");
 }
 
+TEST(ATable, KnowsThatSomeCharactersTakeTwoColumnsOrNone) {
+    Table table;
+    table.add({{"日本"}, {"x"}});
+    table.add({{"e\u0301"}, {"y"}});
+    table.add({{"large"}, {"z"}});
+    EXPECT_EQ(table.text(false), "日本   x\ne\u0301      y\nlarge  z\n");
+}
+
 TEST(ATable, PaintsNothingButTexts) {
     Table table;
     table.add({{"a", Colour::good}, {"b"}});
@@ -30,6 +38,7 @@ TEST(ATable, PaintsNothingButTexts) {
 TEST(WhatComesFromOutside, DoesNotSteerTheTerminal) {
     EXPECT_EQ(harmless("a\x1b[31m\x07\nb\x7f\xc2\x9b"), "a?[31m? b??");
     EXPECT_EQ(harmless("größer, 日本"), "größer, 日本");
+    EXPECT_EQ(harmless("gr\xf6\xdf"), "gr??") << "no UTF-8";
 }
 
 TEST(ADocument, IsIndented) {
@@ -41,6 +50,9 @@ TEST(ADocument, IsIndented) {
 TEST(APlace, IsUnderlinedToTheEndOfItsTag) {
     EXPECT_EQ(underlined("<a>\r\n  <b c='1'/><d/>\r\n</a>", {2, 3}, false), "2 |   <b c='1'/><d/>\n  |   ^~~~~~~~~~\n");
     EXPECT_EQ(underlined("<größe x='1'>", {1, 8}, false), "1 | <größe x='1'>\n  |        ^~~~~~\n") << "characters, not bytes";
+    EXPECT_EQ(underlined("<!-- 日本語日本語 --><bad/>", {1, 16}, false),
+              "1 | <!-- 日本語日本語 --><bad/>\n  | " + std::string(21, ' ') + "^~~~~~\n");
+    EXPECT_EQ(underlined("<日本/>", {1, 1}, false), "1 | <日本/>\n  | ^~~~~~~\n");
     EXPECT_EQ(underlined("<a>", {2, 1}, false), "");
     EXPECT_EQ(underlined("<a>", {1, 9}, false), "");
 }

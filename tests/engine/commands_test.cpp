@@ -349,4 +349,40 @@ TEST(Results, ThatHaveAgedOutLeaveTheirNameFree) {
     EXPECT_EQ(desk.execute(named("halt", stop("navigation"))).return_code, ReturnCode::ok);
 }
 
+TEST(Results, OfEachSessionAgeOutInTheirTurn) {
+    EngineSettings settings;
+    settings.max_command_results = 2;
+    settings.command_results = 10s;
+    settings.on_session_end = OnSessionEnd::continue_;
+    World world{{navigation, speech, named("speech_b", speech)}, settings};
+    auto desk = world.connect(), hall = world.connect(), door = world.connect();
+    desk.bind("navigation");
+    hall.bind("speech");
+    door.bind("speech_b");
+    auto const halt = [](Application& who, std::string const& id, std::string const& ref) { who.execute(named(id, stop(ref))); };
+    halt(desk, "d1", "navigation");
+    halt(door, "gone", "speech_b");
+    world.advance(2s);
+    halt(hall, "h1", "speech");
+    halt(desk, "d2", "navigation");
+    world.advance(2s);
+    halt(desk, "d3", "navigation");  // d1 is one too many
+    EXPECT_EQ(desk.result_of("d1"), "BAD_PARAMETER");
+    world.advance(1s);
+    door.leave();  // before its result has aged out
+    world.advance(8s);
+    auto const known = [&] {
+        std::string words;
+        for (auto const* id : {"d2", "d3"}) words += desk.result_of(id) + " ";
+        return words + hall.result_of("h1");
+    };
+    EXPECT_EQ(known(), "BAD_PARAMETER OK BAD_PARAMETER");
+    halt(hall, "h2", "speech");
+    world.advance(2s);
+    EXPECT_EQ(known(), "BAD_PARAMETER BAD_PARAMETER BAD_PARAMETER");
+    EXPECT_EQ(hall.result_of("h2"), "OK");
+    world.advance(8s);
+    EXPECT_EQ(hall.result_of("h2"), "BAD_PARAMETER");
+}
+
 }  // namespace rois

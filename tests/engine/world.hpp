@@ -109,7 +109,7 @@ public:
     }
     std::uint64_t stray_answers() const { return engine->statistics().stray_answers; }
 
-    void notify(SessionId const& session) override { ++notified[session]; }
+    void notify(NotificationQueue& queue) override { ++notified[queue.session()]; }
 
     Instant now{Steady{std::chrono::hours{1}}, Utc{std::chrono::hours{24 * 20'777 + 12}}};  // 2026-11-20, noon
     std::map<SessionId, int> notified;  // how often the outbox was called for a session

@@ -36,11 +36,23 @@ TEST(Reaction, IsCalledByNameAsWell) {
     EXPECT_EQ(stage.robot_state().showing->reaction, "9");
 }
 
+TEST(Reaction, IsCalledByItsPlainNameAsWell) {
+    EXPECT_EQ(reaction_code("bow"), "9");
+    EXPECT_EQ(reaction_code("Nod"), "1");
+    EXPECT_EQ(reaction_code(" clap "), "14");
+    Stage stage;
+    stage["reaction"].start({reaction_ref("bow")});
+    stage.step();
+    ASSERT_TRUE(stage.robot_state().showing);
+    EXPECT_EQ(stage.robot_state().showing->reaction, "9");
+}
+
 TEST(Reaction, RefusesWhatIsUnknown) {
     Stage stage;
     auto& reaction = stage["reaction"];
     for (auto code : {"0", "51", "-1", "dance", "9.5"})
         EXPECT_THAT(reaction.refusal("set_parameter", {reaction_ref(code)}).value_or(""), HasSubstr(code));
+    EXPECT_THAT(reaction.refusal("start", {reaction_ref("dance")}).value_or(""), HasSubstr("bow (9)"));
     EXPECT_THAT(reaction.refusal("start", {}).value_or(""), HasSubstr("mandatory"));
     EXPECT_FALSE(reaction.refusal("set_parameter", {}));
     for (int code = 1; code <= 50; ++code) EXPECT_FALSE(reaction.refusal("start", {reaction_ref(std::to_string(code))})) << code;

@@ -124,7 +124,7 @@ protected:
         return reply.return_code;
     }
 
-    void notify(SessionId const&) override {}
+    void notify(NotificationQueue&) override {}
 
     xml::Platform platform_;
     std::vector<ComponentProfile> profiles_;

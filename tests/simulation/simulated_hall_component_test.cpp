@@ -64,8 +64,8 @@ public:
     Results visitors() { return component->query("visitors", now_).at(0); }
 
     void started(CommandHandle) override {}
-    void completed(CommandHandle command, CompletedStatus status, Results results, Afterwards, std::string) override {
-        auto const text = std::string{to_text(status)} + (results.parameters.empty() ? "" : " " + value(results, "reason"));
+    void completed(CommandHandle command, CompletedStatus status, Results, Afterwards, std::string reason) override {
+        auto const text = std::string{to_text(status)} + (reason.empty() ? "" : " " + reason);
         EXPECT_TRUE(ended_.emplace(static_cast<std::uint64_t>(command), text).second) << "a command ends once";
     }
     void event(std::string_view, Results) override { ADD_FAILURE() << "the hall has no events"; }

@@ -1,5 +1,6 @@
 // The 15 basic components (7.6, tables 34 to 46 and Move) and the two that stream (2.0), with the names of the specification and
-// with units in types. An event is made of what the component told; what it left out is as if it were zero or empty.
+// with units in types; what they take is in parameters.hpp. An event is made of what the component told; what it left out is as
+// if it were zero or empty.
 #pragma once
 
 #include <chrono>
@@ -11,11 +12,10 @@
 #include <vector>
 
 #include "rois/component.hpp"
+#include "rois/parameters.hpp"
 #include "rois/units.hpp"
 
 namespace rois {
-
-using Milliseconds = std::chrono::milliseconds;
 
 // --- System Information (table 34) ---
 
@@ -111,12 +111,6 @@ struct SoundLocalized {
     std::vector<Sighting> sounds{};
 };
 
-// How far something must have moved to be told of again, and how long nothing is told after an event.
-struct LocalizationParameters {
-    std::optional<millimetres> detection_threshold{};
-    std::optional<Milliseconds> minimum_interval{};
-};
-
 class Localization : public Component {
 public:
     explicit Localization(Component component) : Component{std::move(component)} {}
@@ -182,13 +176,6 @@ struct SpeechInputFinished {
     Utc timestamp{};
 };
 
-struct SpeechRecognitionParameters {
-    std::vector<std::string> languages{};  // ISO 639-1; empty: not set
-    std::optional<std::string> grammar{};
-    std::optional<std::string> rule{};
-    std::vector<std::string> recognizable_languages{};  // read only
-};
-
 class SpeechRecognition : public Component {
 public:
     static constexpr std::string_view component_type = "SpeechRecognition";
@@ -219,16 +206,6 @@ public:
 
 // --- Speech Synthesis (table 44) ---
 
-struct Speech {
-    std::optional<std::string> speech_text{};  // plain; or as W3C SSML:
-    std::optional<std::string> SSML_text{};
-    std::optional<int> volume{};
-    std::optional<std::string> language{};  // ISO 639-1
-    std::optional<std::string> character{};
-    std::vector<std::string> synthesizable_languages{};   // read only
-    std::vector<std::string> synthesizable_characters{};  // read only
-};
-
 class SpeechSynthesis : public Component {
 public:
     static constexpr std::string_view component_type = "SpeechSynthesis";
@@ -253,28 +230,11 @@ public:
 
 // --- Navigation (table 46) ---
 
-enum class RoutingPolicy : std::uint8_t { time, distance };
-
 struct ReachedTarget {
     static constexpr std::string_view name = "reached_target";
     static ReachedTarget from(ReceiveEvent const&);
     std::string target{};  // as it was given: a pose as text, or a place's name
     bool is_final_target = false;
-};
-
-// Where to go: a pose, or a place that the engine knows by name.
-struct Target {
-    Target(Pose const&);
-    Target(std::string place) : text{std::move(place)} {}
-    Target(char const* place) : text{place} {}
-    std::string text{};
-    std::string crs{};  // of a pose; the first target's counts for all
-};
-
-struct NavigationParameters {
-    std::vector<Target> target_position{};     // in order; empty: not set
-    std::optional<Milliseconds> time_limit{};  // 0: none
-    std::optional<RoutingPolicy> routing_policy{};
 };
 
 class Navigation : public Component {
@@ -291,12 +251,6 @@ public:
 
 // --- Follow (7.6.14) ---
 
-struct FollowParameters {
-    std::optional<Identifier> target_object_ref{};
-    std::optional<millimetres> distance{};     // how near the robot comes
-    std::optional<Milliseconds> time_limit{};  // 0: none
-};
-
 class Follow : public Component {
 public:
     static constexpr std::string_view component_type = "Follow";
@@ -309,22 +263,6 @@ public:
 };
 
 // --- Move (7.6.15) ---
-
-// Straight on: how far, and in which direction from where the robot looks. Or around: the radius, and how far around.
-struct Line {
-    millimetres distance{};
-    degrees direction{};
-};
-struct Curve {
-    millimetres radius{};
-    degrees direction{};
-};
-
-struct MoveParameters {
-    std::optional<Line> line{};
-    std::optional<Curve> curve{};
-    std::optional<Milliseconds> time{};  // how long the motion takes
-};
 
 class Move : public Component {
 public:
@@ -351,13 +289,6 @@ struct StreamStatusNotified {
     std::string stream_id{};
     Utc timestamp{};
     StreamStatus status = StreamStatus::not_running;
-};
-
-struct StreamParameters {
-    std::optional<std::string> encoding_parameters{};
-    std::optional<std::string> transport_parameters{};
-    std::string available_encodings{};   // read only
-    std::string available_transports{};  // read only
 };
 
 class Streaming : public Component {

@@ -17,9 +17,12 @@ namespace rois {
 
 // Along the axes of a frame: two opposite corners.
 struct Box {
+    Box(millimetres west, millimetres south, millimetres east, millimetres north, std::string frame = {})
+        : x1{west}, y1{south}, x2{east}, y2{north}, crs{std::move(frame)} {}
+
     millimetres x1, y1;
     millimetres x2, y2;
-    std::string crs{};  // empty: the frame of whatever it is related to
+    std::string crs;  // empty: the frame of whatever it is related to
 };
 
 Expression literal(std::string_view);
@@ -117,7 +120,13 @@ Condition operator&&(Condition, Condition);
 Condition operator||(Condition, Condition);
 Condition operator!(Condition);
 
-// In which order components are told, or taken by bind_any: QueryExpression{type == "Navigation", {nearest_to("desk")}}.
+// In which order components are told, or taken by bind_any: ordered(type == "Navigation", nearest_to("desk")). The first counts
+// most.
+template <std::same_as<SortProperty>... Order>
+QueryExpression ordered(QueryExpression condition, Order... order) {
+    (condition.sort_by.push_back(std::move(order)), ...);
+    return condition;
+}
 SortProperty nearest_to(std::string_view place);
 SortProperty ascending(Reference const&);
 SortProperty descending(Reference const&);

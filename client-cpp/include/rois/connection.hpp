@@ -82,7 +82,7 @@ public:
     Connection(Connection const&) = delete;
     Connection& operator=(Connection const&) = delete;
 
-    State state() const;
+    State state() const;        // closed as soon as calls fail; observers hear that last
     SessionId session() const;  // empty before the first one
 
     // Waits until there is a session, as long as `within` (the settings' connect_deadline when left out). What happened else is

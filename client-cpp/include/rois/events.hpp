@@ -18,7 +18,7 @@ class Stream;
 
 // The events of one subscription, results inline, in the order in which they happened, each once. Several streams of one
 // connection may hear the same; the engine is subscribed to once for all with the same type and condition. A handle: copies are
-// the same stream. With its last handle the stream ends, and with the last stream the subscription.
+// the same stream. With its last handle the stream ends, and with the last stream the subscription. It may outlive its client.
 class EventStream {
 public:
     EventStream(std::shared_ptr<detail::Core>, std::shared_ptr<detail::Stream>);

@@ -1,18 +1,27 @@
-// The interfaces by the specification's names (7.4.2, tables 2 to 6; its C++ PSM): they wait for the answer and give the return
-// code. Results come in the out parameters, which stay as they are unless the code is OK.
+// The interfaces by the specification's names (7.4.2, tables 2 to 6 and 32; its C++ PSM): they wait for the answer and give the
+// return code. Results come in the out parameters, which stay as they are unless the code is OK.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rois/connection.hpp"
 
 namespace RoIS_HRI {
 
-using ReturnCode_t = rois::ReturnCode;
+// The enumerations here have their values in the order of ours (types/codes.hpp): a static_cast goes from one to the other.
+enum ReturnCode_t : std::uint8_t { OK, ERROR, BAD_PARAMETER, UNSUPPORTED, OUT_OF_RESOURCES, TIMEOUT };
+
+using DateTime = rois::Utc;
+using Integer = std::int32_t;
 using RoIS_Identifier = rois::Identifier;
 using RoIS_IdentifierList = std::vector<rois::Identifier>;
 using Condition_t = rois::QueryExpression;
+using Result = rois::Parameter;
+using Parameter = rois::Parameter;
+using Argument = rois::Parameter;
 using ResultList = rois::Results;
 using ParameterList = rois::ParameterList;
 using ArgumentList = rois::ParameterList;
@@ -87,10 +96,54 @@ public:
 
 }  // namespace RoIS_HRI
 
+// What all components have in common.
+namespace RoIS_Common {
+
+enum Component_Status : std::uint8_t { UNINITIALIZED, READY, BUSY, WARNING, ERROR };
+
+// Of one component, which is bound. Each waits until the command is accepted; how it ends is told as `completed`, of
+// command_id().
+class Command : public RoIS_HRI::Interface {
+public:
+    Command(rois::Connection& connection, RoIS_HRI::RoIS_Identifier component_ref)
+        : Interface{connection}, component_ref_{std::move(component_ref)} {}
+    virtual ~Command() = default;
+
+    virtual RoIS_HRI::ReturnCode_t start() { return run("start"); }
+    virtual RoIS_HRI::ReturnCode_t stop() { return run("stop"); }
+    virtual RoIS_HRI::ReturnCode_t suspend() { return run("suspend"); }
+    virtual RoIS_HRI::ReturnCode_t resume() { return run("resume"); }
+
+    rois::CommandId const& command_id() const { return command_id_; }  // of the last one that was accepted
+
+protected:
+    RoIS_HRI::ReturnCode_t run(std::string command_type, RoIS_HRI::ArgumentList arguments = {});
+
+private:
+    RoIS_HRI::RoIS_Identifier component_ref_;
+    rois::CommandId command_id_;
+};
+
+class Query : public RoIS_HRI::Interface {
+public:
+    Query(rois::Connection& connection, RoIS_HRI::RoIS_Identifier component_ref)
+        : Interface{connection}, component_ref_{std::move(component_ref)} {}
+
+    RoIS_HRI::ReturnCode_t component_status(Component_Status& status);
+
+private:
+    RoIS_HRI::RoIS_Identifier component_ref_;
+};
+
+// It has none.
+class Event {};
+
+}  // namespace RoIS_Common
+
 namespace RoIS_Service {
 
-using Completed_Status = rois::CompletedStatus;
-using ErrorType = rois::ErrorType;
+enum Completed_Status : std::uint8_t { OK, ERROR, ABORT, OUT_OF_RESOURCES, TIMEOUT };
+enum ErrorType : std::uint8_t { ENGINE_INTERNAL_ERROR, COMPONENT_INTERNAL_ERROR, COMPONENT_NOT_RESPONDING, USER_DEFINED_ERROR };
 
 // Table 6: what the engine tells on its own. Derive from it, and give its observers to the connection:
 //
@@ -104,7 +157,7 @@ public:
     virtual ~ServiceApplicationBase() = default;
 
     virtual void receive_event(rois::EventId const& event_id, std::string const& event_type,
-                               rois::SubscribeId const& subscribe_id, rois::Utc expire) = 0;
+                               rois::SubscribeId const& subscribe_id, RoIS_HRI::DateTime expire) = 0;
     virtual void receive_error(rois::ErrorId const& error_id, ErrorType error_type) = 0;
     virtual void completed(rois::CommandId const& command_id, Completed_Status status) = 0;
 

@@ -19,11 +19,11 @@ struct Settings {
     // Where the gateway is: "http://host:port" or "ws://...", "https://..." or "wss://..." with TLS; a path is put before /rois.
     std::string url = default_url();
     Way way = Way::websocket;
-    std::string token;    // sent as Authorization: Bearer; empty: none
-    std::string ca_file;  // PEM, certificates that are trusted for TLS beside the system's; empty: none
+    std::string token{};    // sent as Authorization: Bearer; empty: none
+    std::string ca_file{};  // PEM, certificates that are trusted for TLS beside the system's; empty: none
     // Another program's session, to act in it beside that one: over HTTP, since a WebSocket would take it over. What it was told
     // before is told first. It does not end with the connection; the connection closes when it has ended. Empty: an own one.
-    std::string session;
+    std::string session{};
 
     std::chrono::milliseconds deadline = std::chrono::seconds{10};         // of a call, with all that happens to it on the way
     std::chrono::milliseconds connect_deadline = std::chrono::seconds{5};  // of one attempt, with TLS and handshake
@@ -32,10 +32,11 @@ struct Settings {
     std::chrono::milliseconds ping_interval = std::chrono::seconds{5};
     std::chrono::milliseconds stream_silence = std::chrono::seconds{45};
 
-    // Between two attempts: the first pause, twice as long each time, the longest at most; each cut by up to a half, by chance.
+    // Between two attempts, but for the first one after a link that was good: the first pause, twice as long each time, the
+    // longest at most; each cut by up to a half, by chance.
     std::chrono::milliseconds first_pause = std::chrono::milliseconds{100};
     std::chrono::milliseconds longest_pause = std::chrono::seconds{5};
-    std::optional<unsigned> attempts;  // in a row, after which the connection closes; none: never
+    std::optional<unsigned> attempts{};  // in a row, after which the connection closes; none: never
 
     std::size_t most_waiting = 1'024;           // events that wait in one stream; the oldest make room, which is told as a gap
     std::size_t longest_document = 16'000'000;  // bytes that are read; a longer one ends the link

@@ -14,7 +14,7 @@ export const open_browser_socket: OpenSocket = (url, subprotocols, listener) => 
   };
   socket.onclose = ({ code, reason }) => {
     const why = was_open ? `was closed with ${code}${reason && `, ${reason}`}` : "could not be opened; the browser's console may say why";
-    if (told) listener.ended({ reason: `the WebSocket ${why}`, final: false });
+    if (told) listener.ended({ reason: `the WebSocket ${why}`, final: false, code });
     told = false;
   };
   return {

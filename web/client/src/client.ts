@@ -9,9 +9,10 @@ import { Listeners } from './listeners.js';
 import type { Gap, Notification } from './messages.js';
 import type { Profile } from './profiles.js';
 import { component_ref_xml, condition_xml, type Operation, parameter_xml, sequence_xml, type Writable } from './requests.js';
-import type { OpenSocket } from './socket.js';
+import { type OpenSocket, socket_url } from './socket.js';
 import { Stream } from './stream.js';
 import { Subscription, Subscriptions, type Wanted } from './subscriptions.js';
+import { for_timer } from './times.js';
 import { type Arguments, code_of, type Identifier, parameters_of, type Ref, Results } from './values.js';
 import { element, text_element, type XmlElement } from './xml.js';
 
@@ -27,6 +28,8 @@ export interface ClientOptions {
   first_delay?: number;
   /** ms between two tries at most: 5,000. */
   most_delay?: number;
+  /** Whether a new session binds again what the lost one had bound: true. */
+  rebind?: boolean;
   /** How many notifications wait in a stream that nobody reads: 10,000. Then the oldest go, and the gap is told. */
   buffer?: number;
   /** 0 to 1, for the delays. */
@@ -37,6 +40,9 @@ export interface ClientOptions {
 export interface CallOptions {
   deadline?: number; // ms
 }
+
+// Of one request: `of` is the deadline of the whole call, when that takes several.
+type RequestOptions = CallOptions & { of?: number };
 
 export interface SubscribeOptions extends CallOptions {
   condition?: Writable;
@@ -55,16 +61,19 @@ export interface ClientNews {
   state: StateChange;
   gap: Gap;
   notification: Notification;
+  /** A new session could not bind this one again: another session has it, or it is gone. */
+  unbound: { component_ref: string; error: RoisError };
   /** Every document, as it goes in and out. */
   document: { direction: 'in' | 'out'; text: string };
 }
 
 const close_within = 3000; // ms
-const without_end = 2 ** 31 - 1; // ms; the longest that a timer takes
 
 export class Client {
   private readonly listeners = new Listeners<ClientNews>();
   private readonly link: Link;
+  private readonly deadline: number;
+  private readonly rebind: boolean;
   private readonly buffer: number;
   private readonly commands = new Commands();
   private readonly subscriptions = new Subscriptions();
@@ -76,9 +85,11 @@ export class Client {
   /** Does not connect; `connect` of the package does both. */
   constructor(url: string, options: ClientOptions, open_socket: OpenSocket) {
     this.buffer = options.buffer ?? 10_000;
+    this.deadline = options.deadline ?? 10_000;
+    this.rebind = options.rebind ?? true;
     const settings: LinkSettings = {
       url: socket_url(url),
-      deadline: options.deadline ?? 10_000,
+      deadline: this.deadline,
       heartbeat: options.heartbeat ?? 10_000,
       first_delay: options.first_delay ?? 100,
       most_delay: options.most_delay ?? 5000,
@@ -108,7 +119,7 @@ export class Client {
         if (change.state === 'closed') reject(new RoisError('unreachable', change.reason));
         else resolve();
       });
-      const timer = setTimeout(() => this.link.finish(new RoisError('unreachable', `no session within ${deadline} ms: ${reason}`)), deadline);
+      const timer = setTimeout(() => this.link.finish(new RoisError('unreachable', `no session within ${deadline} ms: ${reason}`)), for_timer(deadline));
       this.link.start();
     });
   }
@@ -117,6 +128,11 @@ export class Client {
 
   get state(): State {
     return this.link.current_state;
+  }
+
+  /** Tries at once, when the link is away and the next try would come later. */
+  retry(): void {
+    this.link.retry();
   }
 
   /** The session's id; empty while there is none. */
@@ -188,7 +204,9 @@ export class Client {
   }
 
   release(component_ref: Ref, options: CallOptions = {}): Promise<void> {
-    return this.ask('release', () => component_ref_xml(component_ref), options, () => void this.bound.delete(code_of(component_ref)));
+    const forget = () => void this.bound.delete(code_of(component_ref));
+    forget(); // a session that is lost before the answer is no reason to bind it again
+    return this.ask('release', () => component_ref_xml(component_ref), options, forget);
   }
 
   get_parameter(component_ref: Ref, options: CallOptions = {}): Promise<Results> {
@@ -255,7 +273,7 @@ export class Client {
 
   // --- Inside ---
 
-  private ask<T>(operation: Operation, content: () => string, options: CallOptions, read: (answer: XmlElement) => T, repeatable = true): Promise<T> {
+  private ask<T>(operation: Operation, content: () => string, options: RequestOptions, read: (answer: XmlElement) => T, repeatable = true): Promise<T> {
     return this.asked(operation, {}, content, options, read, repeatable);
   }
 
@@ -263,7 +281,7 @@ export class Client {
     operation: Operation,
     attributes: Record<string, boolean>,
     content: () => string,
-    { deadline }: CallOptions,
+    { deadline, of }: RequestOptions,
     read: (answer: XmlElement) => T,
     repeatable: boolean,
   ): Promise<T> {
@@ -272,17 +290,16 @@ export class Client {
       if (trouble) throw trouble;
       return read(answer);
     };
-    return this.link.ask(operation, attributes, content, { deadline, repeatable, read: checked });
+    return this.link.ask(operation, attributes, content, { deadline, of, repeatable, read: checked });
   }
 
   // What is left of the time of a call that takes several requests.
-  private deadline_of({ deadline }: CallOptions): () => CallOptions {
-    if (deadline === undefined) return () => ({});
+  private deadline_of({ deadline = this.deadline }: CallOptions): () => RequestOptions {
     const end = performance.now() + deadline;
-    return () => ({ deadline: Math.max(0, end - performance.now()) });
+    return () => ({ deadline: Math.max(0, end - performance.now()), of: deadline });
   }
 
-  private async execute_once(sequence: () => string, id: string | undefined, deadline: () => CallOptions): Promise<void> {
+  private async execute_once(sequence: () => string, id: string | undefined, deadline: () => RequestOptions): Promise<void> {
     for (let sent = 1; ; ++sent) {
       try {
         return await this.ask('execute', sequence, deadline(), () => undefined, false);
@@ -296,7 +313,7 @@ export class Client {
     }
   }
 
-  private is_known(command_id: string, options: CallOptions): Promise<boolean> {
+  private is_known(command_id: string, options: RequestOptions): Promise<boolean> {
     return this.get_command_result(command_id, undefined, options).then(
       () => true,
       (error: unknown) => {
@@ -307,7 +324,7 @@ export class Client {
   }
 
   // What a bind_any whose answer was lost has bound: meets the condition, is this session's, and we do not know of it.
-  private async bound_unawares(condition: Writable | undefined, options: CallOptions): Promise<Identifier | undefined> {
+  private async bound_unawares(condition: Writable | undefined, options: RequestOptions): Promise<Identifier | undefined> {
     const is_mine = all_of(property('bound').equals('true'), property('status').differs_from('BUSY'));
     const [meant, mine] = await Promise.all([this.search(condition, options), this.search(is_mine, options)]);
     return meant.find(({ code }) => mine.some((one) => one.code === code) && !this.bound.has(code));
@@ -336,11 +353,18 @@ export class Client {
     });
   }
 
-  // In a new session: all subscriptions, each once. When this session is lost, too, the next one restores them.
+  // In a new session: all bindings and subscriptions, each once. When this session is lost, too, the next one restores them.
   private restore(): void {
+    const again = (asked: Promise<unknown>, refused: (error: RoisError) => void) =>
+      asked.catch((error: RoisError) => {
+        if (!is_failure(error, 'session_lost') && !is_failure(error, 'closed')) refused(error);
+      });
+    for (const code of this.bound)
+      again(this.ask('bind', () => component_ref_xml(code), { deadline: Infinity }, () => undefined), (error) => {
+        if (this.bound.delete(code)) this.listeners.tell('unbound', { component_ref: code, error });
+      });
     for (const subscription of this.subscriptions.list())
-      this.ask_to_subscribe(subscription, { deadline: without_end }).catch((error: unknown) => {
-        if (is_failure(error, 'session_lost') || is_failure(error, 'closed')) return;
+      again(this.ask_to_subscribe(subscription, { deadline: Infinity }), (error) => {
         this.subscriptions.remove(subscription);
         subscription.end(error);
       });
@@ -348,7 +372,7 @@ export class Client {
 
   private ended(error: RoisError): void {
     this.commands.fail(error);
-    this.bound.clear();
+    if (!this.rebind) this.bound.clear();
     this.subscriptions.forget_ids();
     if (error.failure === 'session_lost') return;
     for (const stream of [...this.subscriptions.list(), ...this.streams]) stream.end();
@@ -372,17 +396,4 @@ export class Client {
 
 function is_failure(error: unknown, failure: RoisError['failure']): error is RoisError {
   return error instanceof RoisError && error.failure === failure;
-}
-
-// http(s)://host[/path] or ws(s)://...: the WebSocket's address below it.
-function socket_url(url: string): string {
-  let at: URL;
-  try {
-    at = new URL(url);
-  } catch {
-    throw new RoisError('invalid', `'${url}' is no URL`);
-  }
-  if (!/^(https?|wss?):$/.test(at.protocol)) throw new RoisError('invalid', `a gateway is not reached by ${at.protocol}`);
-  const path = at.pathname.replace(/\/+$/, '');
-  return `${at.protocol.replace('http', 'ws')}//${at.host}${path.endsWith('/rois') ? path : `${path}/rois`}`;
 }

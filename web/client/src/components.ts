@@ -5,7 +5,7 @@ import { command } from './commands.js';
 import { component_ref, component_type, type Condition } from './conditions.js';
 import type { CompletedStatus, ComponentStatus } from './errors.js';
 import type { Subscription } from './subscriptions.js';
-import { type Arguments, code_of, type Pose, pose_text, type Ref, type Results, value } from './values.js';
+import { type Arguments, code_of, type Pose, pose_text, type Ref, type Results, type Value, value } from './values.js';
 
 /** A kind of component: the class and the name of its type. */
 export interface ComponentClass<Kind extends Component> {
@@ -16,6 +16,11 @@ export interface ComponentClass<Kind extends Component> {
 /** How long an action may take. */
 export interface ActionOptions {
   deadline?: number; // ms until its end is waited for no longer; it goes on
+}
+
+// An int that may be left out; numbers of other kinds are rounded.
+function int(n: number | undefined): Value | undefined {
+  return n === undefined ? undefined : value.int(n);
 }
 
 /** Any component, by name; what all have (RoIS_Common). */
@@ -142,18 +147,27 @@ export class SpeechRecognition extends Component {
   }
 }
 
+/** How something is said: the volume is 0 to 100, the language of ISO 639-1. */
+export interface VoiceOptions extends ActionOptions {
+  volume?: number;
+  language?: string;
+  character?: string;
+}
+
+function voice({ volume, language, character }: VoiceOptions): Arguments {
+  return { volume: int(volume), language, character };
+}
+
 /** 7.6.11 */
 export class SpeechSynthesis extends Component {
   static override readonly type = 'SpeechSynthesis';
 
-  /** Says a text; done when it is said. The volume is 0 to 100. */
-  say(text: string, how: { volume?: number; language?: string; character?: string } & ActionOptions = {}): Promise<CompletedStatus> {
-    const { deadline: _, ...rest } = how;
-    return this.start({ speech_text: text, ...rest }, how);
+  /** Says a text; done when it is said. */
+  say(text: string, how: VoiceOptions = {}): Promise<CompletedStatus> {
+    return this.start({ speech_text: text, ...voice(how) }, how);
   }
-  say_ssml(document: string, how: { volume?: number; language?: string; character?: string } & ActionOptions = {}): Promise<CompletedStatus> {
-    const { deadline: _, ...rest } = how;
-    return this.start({ SSML_text: document, ...rest }, how);
+  say_ssml(document: string, how: VoiceOptions = {}): Promise<CompletedStatus> {
+    return this.start({ SSML_text: document, ...voice(how) }, how);
   }
 }
 
@@ -177,9 +191,9 @@ export class Navigation extends Component {
     where: Pose | string | (Pose | string)[],
     how: { time_limit?: number; routing_policy?: 'time' | 'distance' } & ActionOptions = {},
   ): Promise<CompletedStatus> {
-    const { deadline: _, ...rest } = how;
+    const { time_limit, routing_policy } = how;
     const targets = (Array.isArray(where) ? where : [where]).map((one) => (typeof one === 'string' ? one : pose_text(one)));
-    return this.start({ target_position: value.strings(targets), ...rest }, how);
+    return this.start({ target_position: value.strings(targets), time_limit: int(time_limit), routing_policy }, how);
   }
 }
 
@@ -189,8 +203,7 @@ export class Follow extends Component {
 
   /** Follows somebody or something at this distance, until `stop` or until the time is over. */
   follow(target_object_ref: Ref, distance: number, how: { time_limit?: number } & ActionOptions = {}): Promise<CompletedStatus> {
-    const { deadline: _, ...rest } = how;
-    return this.start({ target_object_ref: value.identifier(target_object_ref), distance: value.int(distance), ...rest }, how);
+    return this.start({ target_object_ref: value.identifier(target_object_ref), distance: value.int(distance), time_limit: int(how.time_limit) }, how);
   }
 }
 
@@ -200,14 +213,12 @@ export class Move extends Component {
 
   /** Goes straight on, or back when negative, then turns on the spot. */
   line(distance: number, turn: number, how: { time?: number } & ActionOptions = {}): Promise<CompletedStatus> {
-    const { deadline: _, ...rest } = how;
-    return this.start({ line: value.ints([distance, turn]), ...rest }, how);
+    return this.start({ line: value.ints([distance, turn]), time: int(how.time) }, how);
   }
 
   /** Goes along a circle of this radius, until the heading has changed by so much. */
   curve(radius: number, turn: number, how: { time?: number } & ActionOptions = {}): Promise<CompletedStatus> {
-    const { deadline: _, ...rest } = how;
-    return this.start({ curve: value.ints([radius, turn]), ...rest }, how);
+    return this.start({ curve: value.ints([radius, turn]), time: int(how.time) }, how);
   }
 }
 

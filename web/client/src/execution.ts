@@ -1,6 +1,7 @@
 // Commands on their way, and how they ended.
 import { type CompletedStatus, RoisError } from './errors.js';
 import type { Completed } from './messages.js';
+import { for_timer } from './times.js';
 
 /** Commands that the engine has accepted. */
 export class Execution {
@@ -19,7 +20,7 @@ export class Execution {
     if (deadline === undefined) return all;
     let timer: ReturnType<typeof setTimeout> | undefined;
     const late = new Promise<never>((_, reject) => {
-      timer = setTimeout(() => reject(new RoisError('deadline', `not completed within ${deadline} ms`)), deadline);
+      timer = setTimeout(() => reject(new RoisError('deadline', `not completed within ${deadline} ms`)), for_timer(deadline));
     });
     return Promise.race([all, late]).finally(() => clearTimeout(timer));
   }

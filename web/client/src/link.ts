@@ -4,7 +4,8 @@ import { is_notification, notification_of, trouble_of } from './answers.js';
 import { RoisError } from './errors.js';
 import type { Gap, Notification } from './messages.js';
 import { type Operation, request } from './requests.js';
-import { type OpenSocket, type Socket, type SocketEnd, subprotocol } from './socket.js';
+import { type OpenSocket, type Socket, type SocketEnd, subprotocols_with } from './socket.js';
+import { for_timer } from './times.js';
 import { parse_xml, type XmlElement, XmlError } from './xml.js';
 
 /**
@@ -42,6 +43,8 @@ export interface LinkListener {
 /** How a call is made. */
 export interface Asking<T> {
   deadline?: number | undefined; // ms
+  /** What the caller is told in the end that there was no answer within: `deadline`, unless that is the rest of a longer one. */
+  of?: number | undefined; // ms
   /** Sent again on a new link when the old one broke before the answer; else it fails with `link_lost`. */
   repeatable: boolean;
   /** Makes the result of an answer, before anything that came after it is looked at. */
@@ -62,6 +65,7 @@ const open_within = 10_000; // ms for a link to be opened and greeted
 
 export class Link {
   private state: State = 'connecting';
+  private reason = ''; // why the link is not open
   private session = '';
   private last_sequence = 0; // of the session
   private socket: Socket | undefined;
@@ -69,7 +73,7 @@ export class Link {
   private queue: Call[] = []; // to be sent
   private in_flight: Call[] = []; // sent, in order, without their answers
   private heard_at = 0;
-  private tries = 0; // since the link was ready
+  private tries = 0; // since a link was of use
   private next_id = 1;
   private closing: Promise<void> | undefined;
   private patience: ReturnType<typeof setTimeout> | undefined; // until the next try, or until one has failed
@@ -96,6 +100,13 @@ export class Link {
   ask<T>(operation: Operation, attributes: Record<string, string | number | boolean | undefined>, content: () => string, how: Asking<T>): Promise<T> {
     const request_id = `r${this.next_id++}`;
     return this.call(() => request(operation, { ...attributes, request_id }, content()), request_id, how);
+  }
+
+  /** While it waits before the next try to open a link: tries at once. */
+  retry(): void {
+    if (this.socket || !this.patience || this.state === 'closed') return;
+    clearTimeout(this.patience);
+    this.open();
   }
 
   /** Sends a document as it is; gives the answer, whatever it says. */
@@ -163,8 +174,8 @@ export class Link {
       };
       const timer = setTimeout(() => {
         this.queue = this.queue.filter((one) => one !== call);
-        call.failed(new RoisError('deadline', `no answer within ${deadline} ms`));
-      }, deadline);
+        call.failed(new RoisError('deadline', `no answer within ${how.of ?? deadline} ms${this.reason && `: ${this.reason}`}`));
+      }, for_timer(deadline));
       if (this.ready) this.transmit(call);
       else this.queue.push(call);
     });
@@ -196,10 +207,9 @@ export class Link {
 
   private open(): void {
     const { url, token, open_socket } = this.settings;
-    const subprotocols = token === undefined ? [subprotocol] : [subprotocol, `rois.bearer.${base64url(token)}`];
     this.patience = setTimeout(() => this.drop(`no session within ${open_within} ms`), open_within);
     try {
-      this.socket = open_socket(url, subprotocols, {
+      this.socket = open_socket(url, subprotocols_with(token), {
         opened: () => this.opened(),
         received: (text) => this.received(text),
         ended: (end) => this.ended(end),
@@ -244,9 +254,8 @@ export class Link {
   private live(state: State, first: () => void): void {
     clearTimeout(this.patience);
     clearInterval(this.heart);
-    this.heart = setInterval(() => this.beat(), this.settings.heartbeat / 2);
+    this.heart = setInterval(() => this.beat(), for_timer(this.settings.heartbeat / 2));
     this.ready = true;
-    this.tries = 0;
     first();
     this.flush();
     this.turn(state, '');
@@ -264,6 +273,7 @@ export class Link {
   }
 
   private beat(): void {
+    this.tries = 0; // it has lasted for a while
     const now = performance.now();
     const oldest = this.in_flight[0];
     if (oldest && now - Math.max(this.heard_at, oldest.sent_at) >= this.settings.heartbeat)
@@ -286,9 +296,13 @@ export class Link {
     this.ended({ reason, final: false });
   }
 
-  private ended({ reason, final }: SocketEnd): void {
+  private ended({ reason, final, code }: SocketEnd): void {
     this.quieten();
     this.socket = undefined;
+    // What the gateway would not read, it would not read again. Of what is no UTF-8 nothing is known but that it was the next one.
+    const most = code === 1009 && largest(this.in_flight);
+    if (most) most.failed(unread('too_large', `${reason}; this has ${bytes(most)} bytes`));
+    if (code === 1007) this.in_flight[0]?.failed(unread('not_well_formed', reason));
     for (const call of this.in_flight.splice(0)) {
       if (call.settled) continue;
       if (call.repeatable) this.queue.push(call); // where nothing is while such calls are in flight
@@ -299,7 +313,7 @@ export class Link {
       return;
     }
     const delay = Math.min(this.settings.most_delay, this.settings.first_delay * 2 ** Math.min(this.tries++, 30));
-    this.patience = setTimeout(() => this.open(), delay * (1 - this.settings.random() / 2));
+    this.patience = setTimeout(() => this.open(), for_timer(delay * (1 - this.settings.random() / 2)));
     this.turn(this.state === 'connecting' ? 'connecting' : 'lost', reason);
   }
 
@@ -311,6 +325,7 @@ export class Link {
 
   private turn(state: State, reason: string): void {
     this.state = state;
+    this.reason = reason;
     this.listener.state_changed(state, reason);
   }
 
@@ -354,9 +369,22 @@ export class Link {
       return;
     }
     this.in_flight.shift();
+    if (this.ready) this.tries = 0;
     if (!call.settled) call.answered(document);
     if (document.name === 'disconnect_response' && !this.closing) this.finish(new RoisError('closed', 'the session was disconnected'));
   }
+}
+
+function bytes({ text }: Call): number {
+  return new TextEncoder().encode(text).length;
+}
+
+function largest(calls: Call[]): Call | undefined {
+  return calls.reduce<Call | undefined>((most, one) => (most && bytes(most) >= bytes(one) ? most : one), undefined);
+}
+
+function unread(code: string, reason: string): RoisError {
+  return new RoisError('fault', `${code}: ${reason}`, { fault: { code, reason } });
 }
 
 function written(make: () => string): string {
@@ -366,9 +394,4 @@ function written(make: () => string): string {
     if (error instanceof XmlError) throw new RoisError('invalid', error.message, { cause: error });
     throw error;
   }
-}
-
-function base64url(text: string): string {
-  const bytes = String.fromCharCode(...new TextEncoder().encode(text));
-  return btoa(bytes).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '');
 }

@@ -73,7 +73,8 @@ class NodeSocket implements Socket {
       ping: (payload) => stream.write(frame(Opcode.pong, payload)),
       close: (code, reason) => {
         stream.end(frame(Opcode.close, Buffer.alloc(0)));
-        this.end({ reason: `the gateway closed the link with ${code ?? 'no code'}${reason && `, ${reason}`}`, final: false });
+        const why = `the gateway closed the link with ${code ?? 'no code'}${reason && `, ${reason}`}`;
+        this.end(code === undefined ? { reason: why, final: false } : { reason: why, final: false, code });
       },
     });
     const feed = (bytes: Buffer) => {
@@ -98,7 +99,7 @@ class NodeSocket implements Socket {
   private failed(error: NodeJS.ErrnoException): void {
     const socket = this.request.socket as Partial<TLSSocket> | null;
     if (socket?.authorizationError) this.end({ reason: `the gateway's certificate is refused: ${error.message}`, final: true });
-    else if (error.code === 'EPROTO') this.end({ reason: `no TLS is spoken there: ${error.message.trim()}`, final: true });
+    else if (error.code === 'EPROTO') this.end({ reason: `TLS cannot be spoken there: ${error.message.trim()}`, final: true });
     else this.end({ reason: error.message, final: false });
   }
 

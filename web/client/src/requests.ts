@@ -70,7 +70,7 @@ export function sequence_xml(units: readonly CommandUnit[]): string {
 
 function unit_xml(unit: CommandUnit): string {
   const name = 'rois:command_unit_list';
-  const attributes = (type?: string) => ({ 'xsi:type': type, 'rois:delay_time': unit.delay_time });
+  const attributes = (type?: string) => ({ 'xsi:type': type, 'rois:delay_time': whole(unit.delay_time) });
   switch (unit.kind) {
     case 'command':
       return command_xml(name, unit);
@@ -89,6 +89,10 @@ function unit_xml(unit: CommandUnit): string {
   }
 }
 
+function whole(n: number | undefined): number | undefined {
+  return n && Math.round(n);
+}
+
 function command_xml(name: string, unit: CommandMessage): string {
   const given = unit.arguments.map((one) => parameter_xml(one, 'rois:parameter'));
   return element(
@@ -97,7 +101,7 @@ function command_xml(name: string, unit: CommandMessage): string {
       'xsi:type': 'rois:CommandMessageType',
       'rois:command_type': unit.command_type,
       'rois:command_id': unit.command_id,
-      'rois:delay_time': unit.delay_time,
+      'rois:delay_time': whole(unit.delay_time),
     },
     component_ref_xml(unit.component_ref, 'rois:component_ref'),
     given.length === 0 ? '' : element('rois:arguments', {}, ...given),

@@ -1,4 +1,5 @@
 // Things that come by and by, awaited one after the other.
+import { for_timer } from './times.js';
 
 /** Bounded: when nobody takes them, the oldest go. One reader at a time sees each of them; several share them. */
 export class Stream<T> implements AsyncIterable<T> {
@@ -54,7 +55,7 @@ export class Stream<T> implements AsyncIterable<T> {
       const timer = setTimeout(() => {
         this.takers.splice(this.takers.indexOf(taker), 1);
         resolve(undefined);
-      }, milliseconds);
+      }, for_timer(milliseconds));
       taker.resolve = (taken) => {
         clearTimeout(timer);
         resolve(taken);

@@ -27,9 +27,9 @@ export interface Parameter extends Value {
   name: string;
 }
 
-/** Makers of values of each type. */
+/** Makers of values of each type. Where whole numbers are wanted, others are rounded. */
 export const value = {
-  int: (n: number): Value => made('int', String(Math.trunc(n))),
+  int: (n: number): Value => made('int', int_text(n)),
   double: (n: number): Value => made('double', double_text(n)),
   bool: (b: boolean): Value => made('bool', String(b)),
   string: (text: string): Value => made('string', text),
@@ -38,7 +38,7 @@ export const value = {
     typeof ref === 'string' || ref.codebook_ref === undefined
       ? made('RoISIdentifier', code_of(ref))
       : { data_type_ref: { code: 'RoISIdentifier', codebook_ref: ref.codebook_ref }, values: [ref.code] },
-  ints: (list: number[]): Value => made('int[]', list.map(Math.trunc).join(' ')),
+  ints: (list: number[]): Value => made('int[]', list.map(int_text).join(' ')),
   doubles: (list: number[]): Value => made('double[]', list.map(double_text).join(' ')),
   bools: (list: boolean[]): Value => made('bool[]', list.join(' ')),
   strings: (list: string[]): Value => ({ data_type_ref: { code: 'string[]' }, values: list }),
@@ -47,6 +47,10 @@ export const value = {
 
 function made(type: string, text: string): Value {
   return { data_type_ref: { code: type }, values: [text] };
+}
+
+function int_text(n: number): string {
+  return String(Math.round(n));
 }
 
 function double_text(n: number): string {

@@ -22,15 +22,17 @@ test('a page speaks to the gateway that serves it, without a URL', () =>
       const event = await targets.next(5000);
       const profile = await client.get_profile(component_type('Move').sorted_by(distance('location', 'desk')));
       const fault = await client.send('<bind').then((answer) => answer.attribute('code'));
+      const too_large = await client.bind('x'.repeat(2_000_000)).catch((error) => [error.fault.code, error.message.includes('1009')]);
       const refusal = await client.bind('elevator').catch((error) => [error.name, error.failure, error.return_code]);
       await client.close();
-      return { status, target: event?.results.text('target'), components: profile.components, fault, refusal, state: client.state, first: documents[0] };
+      return { status, target: event?.results.text('target'), components: profile.components, fault, too_large, refusal, state: client.state, first: documents[0] };
     });
     assert.deepEqual(came, {
       status: 'OK',
       target: '6500, 6000, 0',
       components: [{ ref: 'move', type: 'urn:x-rois:def:component:OMG::Move', engine: 'reception' }],
       fault: 'not_well_formed',
+      too_large: ['too_large', true],
       refusal: ['RoisError', 'refused', 'BAD_PARAMETER'],
       state: 'closed',
       first: 'out <bind_any xmlns="urn:x-rois:ps',

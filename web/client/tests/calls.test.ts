@@ -1,7 +1,7 @@
 // What a client makes of answers that are late, lost or strange: step by step, before a gateway that the test plays.
 import assert from 'node:assert/strict';
 
-import { type Client, command, type Subscription } from 'rois-client';
+import { type Client, command, namespaces, type Subscription, type XmlElement } from 'rois-client';
 
 import type { Clock } from './clock.js';
 import { type Scripted, scripted } from './scripted.js';
@@ -13,19 +13,22 @@ const refs = (...codes: string[]) => {
 
 const go = (command_id?: string) => [command('navigation', 'start', {}, command_id === undefined ? {} : { command_id })];
 
+// The link breaks, and there is a new one.
+async function relinked(gateway: Scripted, clock: Clock): Promise<void> {
+  await gateway.socket.end('cut');
+  for (const tries = gateway.sockets.length; gateway.sockets.length === tries;) await clock.pass(100);
+  await gateway.socket.open();
+}
+
 // The link breaks, and the session is resumed.
 async function again(gateway: Scripted, clock: Clock): Promise<void> {
-  await gateway.socket.end('cut');
-  await clock.pass(100);
-  await gateway.socket.open();
+  await relinked(gateway, clock);
   await gateway.socket.answer();
 }
 
 // The session is lost, and there is a new one.
 async function anew(gateway: Scripted, clock: Clock, session = 'two'): Promise<void> {
-  await gateway.socket.end('cut');
-  await clock.pass(100);
-  await gateway.socket.open();
+  await relinked(gateway, clock);
   await gateway.socket.fault('no_session');
   await gateway.socket.answer(`<session>${session}</session>`);
 }
@@ -92,14 +95,17 @@ scripted('the deadline of a call is for all of its requests', {}, async (client,
   assert.deepEqual(gateway.socket.names, ['resume', 'get_command_result'], 'nobody waits for it any more');
 });
 
-scripted('a call without a deadline of its own has the usual one for each request', {}, async (client, gateway, clock) => {
-  const executing = client.execute(go());
-  await clock.pass(9_000);
-  await again(gateway, clock);
-  await clock.pass(9_000);
-  await gateway.socket.answer();
-  await executing;
-});
+for (const [what, call] of [
+  ['execute', (client: Client) => client.execute(go())],
+  ['bind_any', (client: Client) => client.bind_any('Navigation')],
+] as const)
+  scripted(`${what} without a deadline of its own has the usual one for all of its requests`, { deadline: 1000 }, async (client, gateway, clock) => {
+    const outcome = assert.rejects(call(client), { failure: 'deadline', message: 'no answer within 1000 ms' });
+    await clock.pass(600);
+    await again(gateway, clock);
+    await clock.pass(300);
+    await outcome;
+  });
 
 scripted('a name that runs keeps its end when it is used again', {}, async (client, gateway) => {
   const executing = client.execute(go('mine'));
@@ -186,10 +192,81 @@ scripted('bind_any may have bound what was released', {}, async (client, gateway
   assert.equal(await bind_any_when(client, gateway, clock, ['a', 'b'], ['a', 'x']), undefined);
 });
 
-scripted('nothing is bound in a new session', {}, async (client, gateway, clock) => {
-  const binding = client.bind('a');
+// --- Bindings in a new session ---
+
+async function bound(client: Client, gateway: Scripted, ...refs: string[]): Promise<void> {
+  for (const ref of refs) {
+    const binding = client.bind(ref);
+    await gateway.socket.answer();
+    await binding;
+  }
+}
+
+const refs_of = (came: XmlElement[]) => came.map((one) => one.child('component_ref')?.attribute('code', namespaces.rois));
+
+scripted('what was bound comes before all else in a new session', {}, async (client, gateway, clock) => {
+  await bound(client, gateway, 'a', 'b');
+  const subscription = await subscribed(client, gateway, 'a', 's-1');
+  await gateway.socket.end('cut');
+  await clock.pass(100);
+  await gateway.socket.open();
+  await gateway.socket.fault('no_session');
+  const found = client.search();
+  await gateway.socket.answer('<session>two</session>');
+  assert.deepEqual(gateway.socket.names.slice(2), ['bind', 'bind', 'subscribe', 'search']);
+  assert.deepEqual(refs_of(gateway.socket.came.slice(2, 4)), ['a', 'b']);
+  for (const content of ['', '', '<subscribe_id>s-1</subscribe_id>', '']) await gateway.socket.answer(content);
+  await found;
+  assert.equal(subscription.ended, false);
+});
+
+scripted('when the new session is lost, too, the next one binds, each once', {}, async (client, gateway, clock) => {
+  await bound(client, gateway, 'a');
+  await anew(gateway, clock);
+  await anew(gateway, clock, 'three');
+  await again(gateway, clock);
+  assert.deepEqual(gateway.socket.names, ['resume', 'bind']);
   await gateway.socket.answer();
-  await binding;
+  await anew(gateway, clock, 'four');
+  assert.deepEqual(gateway.socket.names, ['resume', 'connect', 'bind']);
+});
+
+scripted('what a new session cannot bind is told, and not bound in the next one', {}, async (client, gateway, clock) => {
+  const unbound: string[] = [];
+  client.on('unbound', ({ component_ref, error }) => unbound.push(`${component_ref} ${error.failure}`));
+  await bound(client, gateway, 'a', 'b', 'c');
+  await anew(gateway, clock);
+  await gateway.socket.answer('', 'OUT_OF_RESOURCES');
+  await gateway.socket.fault('not_allowed');
+  await gateway.socket.answer();
+  assert.deepEqual(unbound, ['a refused', 'b fault']);
+  await anew(gateway, clock, 'three');
+  assert.deepEqual(refs_of(gateway.socket.came.slice(2)), ['c']);
+});
+
+scripted('what is released is not bound again', {}, async (client, gateway, clock) => {
+  await bound(client, gateway, 'a', 'b');
+  const releasing = assert.rejects(client.release('a'), { failure: 'session_lost' });
+  await anew(gateway, clock);
+  await releasing;
+  assert.deepEqual(refs_of(gateway.socket.came.slice(2)), ['b']);
+  const released = client.release('b'); // while it is being bound
+  for (const _ of [1, 2]) await gateway.socket.answer();
+  await released;
+  await anew(gateway, clock, 'three');
+  assert.deepEqual(gateway.socket.names, ['resume', 'connect']);
+});
+
+scripted('bind_any has not bound what a new session has bound again', {}, async (client, gateway, clock) => {
+  await bound(client, gateway, 'a', 'b');
+  await anew(gateway, clock);
+  await gateway.socket.answer();
+  await gateway.socket.answer('', 'OUT_OF_RESOURCES');
+  assert.equal(await bind_any_when(client, gateway, clock, ['a', 'c'], ['a', 'x']), 'bind_any');
+});
+
+scripted('nothing is bound in a new session when the application does that', { rebind: false }, async (client, gateway, clock) => {
+  await bound(client, gateway, 'a');
   await anew(gateway, clock);
   assert.equal(await bind_any_when(client, gateway, clock, ['a', 'b'], ['a', 'x']), undefined);
 });

@@ -168,6 +168,22 @@ spoken('the facades say what their components do', async () => {
   await assert.rejects(navigation.stop(), refused('ERROR'));
 });
 
+spoken('whole numbers are rounded where RoIS wants them', async () => {
+  const [navigation, speech, move] = [await Navigation.bind_any(client), await SpeechSynthesis.bind_any(client), await Move.bind_any(client)];
+  const follow = await Follow.bind_any(client);
+  assert.equal(await navigation.go_to('6000.5, 6000', { time_limit: 90_000.5 }), 'OK');
+  assert.equal(await speech.say('Good day.', { volume: 20.4 }), 'OK');
+  assert.equal(await speech.say_ssml('<speak version="1.0" xml:lang="en">Hello.</speak>', { volume: 60.6 }), 'OK');
+  assert.equal((await speech.get()).text('volume'), '61');
+  assert.equal(await move.line(99.5, 0.4, { time: 1000.5 }), 'OK');
+  assert.equal(await move.curve(500.5, 10.4, { time: 1000.5 }), 'OK');
+  const following = follow.follow('nobody', 500.5, { time_limit: 90_000.5 });
+  assert.equal(await follow.stop(), 'OK');
+  assert.equal(await following, 'OK');
+  const timed = [command('speech_synthesis', 'start', { speech_text: 'Then.' }, { delay_time: 0.6 }), delay(1.5), concurrently(command('move', 'stop'))];
+  assert.equal(await (await client.execute(timed)).status(), 'OK');
+});
+
 spoken('a stream is connected, and said where to fetch', async () => {
   const audio = await AudioStreaming.bind_any(client);
   const changes = await audio.subscribe('notify_stream_status');

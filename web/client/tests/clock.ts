@@ -16,8 +16,10 @@ export class Clock {
 
   /** Stands in for the program's own, until `remove`. */
   constructor() {
+    // What is longer than a timer takes is over at once, as with the real ones.
+    const taken = (milliseconds: number) => (milliseconds < 2 ** 31 ? milliseconds : 1);
     const wait = (happen: () => void, milliseconds: number, every?: number) => {
-      const one = { at: this.time + milliseconds, every, happen };
+      const one = { at: this.time + taken(milliseconds), every: every && taken(every), happen };
       this.waiting.add(one);
       return one;
     };

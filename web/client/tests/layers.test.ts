@@ -9,7 +9,8 @@ const source = `${root}/web/client/src`;
 
 // From the bottom up; those of one line do not know each other.
 const layers = [
-  ['errors', 'xml', 'stream', 'listeners', 'socket', 'node_frames'],
+  ['errors', 'times'],
+  ['xml', 'stream', 'listeners', 'socket', 'node_frames'],
   ['browser_socket', 'node_socket', 'values'],
   ['commands', 'conditions', 'profiles', 'messages'],
   ['requests', 'execution'],

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { type Client, command, connect, Navigation, PersonDetection } from 'rois-client';
+import { type Client, command, connect, Navigation, PersonDetection, property, SpeechSynthesis } from 'rois-client';
 
 import { Gateway, root } from './gateway.js';
 import { Proxy } from './proxy.js';
@@ -95,12 +95,22 @@ behind_a_proxy('every call ends with its deadline', { deadline: 1000 }, async (c
   proxy.refuses = true;
   proxy.cut();
   await seen.until('lost');
-  await assert.rejects(client.search(), { failure: 'deadline', message: 'no answer within 1000 ms' });
-  await assert.rejects(client.search(undefined, { deadline: 1 }), { message: 'no answer within 1 ms' });
+  await assert.rejects(client.search(), { failure: 'deadline', message: /^no answer within 1000 ms: \w/ });
+  await assert.rejects(client.search(undefined, { deadline: 1 }), { message: /^no answer within 1 ms: \w/ });
   await assert.rejects(client.execute([command('move', 'start')], { deadline: 20 }), { failure: 'deadline' });
   proxy.refuses = false;
   await seen.until('resumed');
   assert.deepEqual(seen.out.filter((name) => name !== 'resume'), [], 'what nobody waits for is not sent');
+});
+
+behind_a_proxy('a call may take for ever', { deadline: Infinity }, async (client, proxy) => {
+  proxy.lateness = 40;
+  await client.bind('navigation');
+  const targets = await client.subscribe('reached_target');
+  const execution = await go(client, 0, 1);
+  const event = targets.next(Infinity);
+  assert.equal(await execution.status(3e9), 'OK');
+  assert.equal((await event)?.event_type, 'reached_target');
 });
 
 behind_a_proxy('a call whose deadline has passed is not sent again', {}, async (client, proxy, seen) => {
@@ -111,6 +121,33 @@ behind_a_proxy('a call whose deadline has passed is not sent again', {}, async (
   await resumed;
   await client.get_profile();
   assert.deepEqual(seen.out, ['search', 'resume', 'get_profile']);
+});
+
+// The link never lasts for as long as it takes to send this.
+behind_a_proxy('a call ends with its deadline while one link after another breaks', { deadline: 300 }, async (client, proxy) => {
+  const long = 'x'.repeat(100_000);
+  const speech = await SpeechSynthesis.bind_any(client);
+  proxy.next_cut = () => 10_000;
+  proxy.cut_after_next();
+  await assert.rejects(speech.say(long), { failure: 'deadline', message: /^no answer within 300 ms/ });
+  await assert.rejects(client.bind_any(property('name').equals(long)), { failure: 'deadline', message: /^no answer within 300 ms/ });
+  assert.ok(proxy.cuts > 2);
+  proxy.next_cut = undefined;
+  proxy.cut_after_next();
+});
+
+// RoIS Gateway takes 1 MiB.
+behind_a_proxy('a request that is too large fails, and says so', {}, async (client, _, seen) => {
+  const speech = await SpeechSynthesis.bind_any(client);
+  const long = 'x'.repeat(2_000_000);
+  const too_large = { failure: 'fault', message: /^too_large: the gateway closed the link with 1009, the message is too large; this has 2000\d{3} bytes$/ };
+  for (const call of [() => speech.say(long), () => client.bind_any(property('name').equals(long)), () => client.search(property('name').equals(long)), () => client.send(`<${long}/>`)]) {
+    const [small] = await Promise.all([client.search(), assert.rejects(call(), too_large)]);
+    assert.equal(small.length, 15);
+  }
+  assert.equal(await speech.say('Good day.'), 'OK');
+  assert.deepEqual(seen.states, Array(4).fill(['lost', 'resumed']).flat());
+  assert.deepEqual(seen.out.filter((name) => name === 'execute'), ['execute', 'execute']);
 });
 
 behind_a_proxy('a name that was used before does not make a lost command an accepted one', {}, async (client, proxy) => {

@@ -20,10 +20,71 @@ scripted('new tries come less and less often, until one succeeds', {}, async (cl
   await gateway.socket.open();
   await gateway.socket.answer();
   assert.equal(client.state, 'resumed');
-  await gateway.socket.end('cut');
+});
+
+// Resumes on a new link, which must come after so many ms.
+async function resumed_after(delay: number, gateway: Scripted, clock: Clock): Promise<void> {
   const tries = gateway.sockets.length;
-  await clock.pass(100);
-  assert.equal(gateway.sockets.length, tries + 1, 'as often as at first');
+  await clock.pass(delay - 1);
+  assert.equal(gateway.sockets.length, tries, `${delay}`);
+  await clock.pass(1);
+  assert.equal(gateway.sockets.length, tries + 1, `${delay}`);
+  await gateway.socket.open();
+  await gateway.socket.answer();
+}
+
+scripted('a link that breaks before it was of use is no reason to try as often as at first', {}, async (client, gateway, clock) => {
+  const found = client.search();
+  for (const delay of [100, 200, 400]) {
+    await gateway.socket.end('cut');
+    await resumed_after(delay, gateway, clock);
+  }
+  await gateway.socket.answer();
+  await found;
+  await gateway.socket.end('cut');
+  await resumed_after(100, gateway, clock); // a call was answered
+  await gateway.socket.end('cut');
+  await resumed_after(200, gateway, clock);
+  await clock.pass(5_000);
+  await gateway.socket.end('cut');
+  await resumed_after(100, gateway, clock); // it has lasted for a while
+  assert.equal(client.state, 'resumed');
+});
+
+scripted('what is too large for the gateway fails, and only that', {}, async (client, gateway, clock) => {
+  const calls: Promise<unknown>[] = [client.search(), client.send(`<mine>${'日'.repeat(1000)}</mine>`), client.bind('b'.repeat(2000))];
+  const told = Promise.allSettled(calls);
+  await gateway.socket.end('closed with 1009', false, 1009);
+  await resumed_after(100, gateway, clock);
+  assert.deepEqual(gateway.socket.names, ['resume', 'search', 'bind']);
+  for (const _ of [1, 2]) await gateway.socket.answer();
+  const [search, send, bind] = await told;
+  assert.deepEqual([search!.status, bind!.status], ['fulfilled', 'fulfilled']);
+  assert.ok(send!.status === 'rejected');
+  assert.equal(send!.reason.failure, 'fault');
+  assert.deepEqual(send!.reason.fault, { code: 'too_large', reason: 'closed with 1009; this has 3013 bytes' });
+});
+
+scripted('what nobody waits for any more may have been too large', {}, async (client, gateway, clock) => {
+  const late = assert.rejects(client.bind('b'.repeat(2000), { deadline: 10 }), { failure: 'deadline' });
+  const found = client.search();
+  await clock.pass(10);
+  await late;
+  await gateway.socket.end('closed with 1009', false, 1009);
+  await resumed_after(100, gateway, clock);
+  await gateway.socket.answer();
+  await found;
+});
+
+scripted('the oldest of what a gateway does not take for UTF-8 fails', {}, async (client, gateway, clock) => {
+  const outcome = assert.rejects(client.search(), { failure: 'fault', message: 'not_well_formed: closed with 1007' });
+  const profile = client.get_profile().catch(() => undefined);
+  await gateway.socket.end('closed with 1007', false, 1007);
+  await outcome;
+  await resumed_after(100, gateway, clock);
+  assert.deepEqual(gateway.socket.names, ['resume', 'get_profile']);
+  await gateway.socket.answer();
+  await profile;
 });
 
 scripted('a new try comes sooner by chance', { random: () => 0.5 }, async (_, gateway, clock) => {
@@ -67,7 +128,7 @@ for (const [how, refuse] of [
     await gateway.socket.answer('<session>two</session>');
     await gateway.socket.completed(1);
     await gateway.socket.end('cut');
-    await clock.pass(100);
+    await clock.pass(200);
     await gateway.socket.open();
     assert.equal(gateway.socket.came[0]!.attribute('session'), 'two');
     assert.equal(gateway.socket.came[0]!.attribute('last_sequence'), '1');

@@ -44,9 +44,10 @@ export class ScriptedSocket implements Socket {
     await settled();
   }
 
-  async end(reason: string, final = false): Promise<void> {
+  /** The code is that of a WebSocket that the gateway has closed. */
+  async end(reason: string, final = false, code?: number): Promise<void> {
     this.ended = true;
-    if (!this.closed) this.listener.ended({ reason, final });
+    if (!this.closed) this.listener.ended(code === undefined ? { reason, final } : { reason, final, code });
     await settled();
   }
 

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { command, component_ref, connect, PersonDetection } from 'rois-client';
+import { command, component_ref, connect, Navigation, PersonDetection } from 'rois-client';
 
 import { Gateway } from './gateway.js';
 import { Proxy } from './proxy.js';
@@ -32,7 +32,6 @@ test('a lost session is told, and a new one has its subscriptions, each once', a
   assert.deepEqual(seen.states, ['lost', ...seen.states.filter((state) => state === 'lost').slice(1), 'open']);
   assert.deepEqual(seen.gaps.filter((gap) => gap.reason === 'session').length, 1);
   await assert.rejects(execution.status(1000), { failure: 'session_lost' });
-  await client.bind('navigation');
   assert.equal(await (await go(client, 0, 3)).status(5000), 'OK');
   for (const subscription of [one, same]) {
     for (let i = 0; i < 3; ++i) assert.equal(number_of((await subscription.next(5000))!.results.text('target')!), i);
@@ -43,6 +42,54 @@ test('a lost session is told, and a new one has its subscriptions, each once', a
   await client.close();
   await proxy.stop();
   await engine.stop();
+});
+
+test('a new session binds again what the lost one had, and tells what it cannot have', async () => {
+  let engine = await Gateway.start(...flags);
+  const proxy = await Proxy.before(engine.port);
+  const client = await connect(proxy.url, quick);
+  const seen = watched(client);
+  const unbound: string[] = [];
+  client.on('unbound', ({ component_ref, error }) => unbound.push(`${component_ref}: ${error.return_code}`));
+  const navigation = await Navigation.bind_any(client);
+  for (const ref of ['speech_synthesis', 'move']) await client.bind(ref);
+  await client.release('move');
+  const restart = async (meanwhile: (url: string) => Promise<void>) => {
+    proxy.refuses = true;
+    await engine.stop('SIGKILL');
+    engine = await Gateway.start(...flags);
+    await meanwhile(engine.url);
+    const open = seen.until('open');
+    proxy.target = engine.port;
+    proxy.refuses = false;
+    await open;
+  };
+  let other = await connect(engine.url);
+  await restart(async (url) => {
+    await other.close({ deadline: 1 });
+    other = await connect(url);
+    await other.bind('speech_synthesis');
+  });
+  assert.equal(await navigation.go_to('4000, 5000'), 'OK');
+  assert.deepEqual(unbound, ['speech_synthesis: OUT_OF_RESOURCES']);
+  await other.bind('move');
+  await other.close();
+  await restart(async () => undefined);
+  assert.equal(await navigation.go_to('4000, 5000'), 'OK');
+  assert.deepEqual(unbound, ['speech_synthesis: OUT_OF_RESOURCES']);
+  assert.equal(seen.out.filter((name) => name === 'bind').length, 2 + 2 + 1, 'what another had is not asked for again');
+  await client.close();
+  await proxy.stop();
+  await engine.stop();
+});
+
+test('a client may leave it to its application to bind again', async () => {
+  const client = await connect(gateway.url, { ...quick, rebind: false });
+  const navigation = await Navigation.bind_any(client);
+  await said_over_http(client, 'disconnect');
+  await assert.rejects(client.search(), { failure: 'session_lost' });
+  await assert.rejects(navigation.go_to('4000, 5000'), { failure: 'refused', return_code: 'ERROR' });
+  await client.close();
 });
 
 test('commands that an engine stops while it shuts down have ended, and say so', async () => {

@@ -37,7 +37,7 @@ test('Node speaks with whom it trusts', async () => {
 test('Node says at once whom it does not trust', async () => {
   const patient = { deadline: 1_000_000 };
   await assert.rejects(connect(tls.url, patient), { failure: 'unreachable', message: "the gateway's certificate is refused: self-signed certificate" });
-  await assert.rejects(connect(`https://127.0.0.1:${gateway.port}`, patient), { failure: 'unreachable', message: /^no TLS is spoken there: / });
+  await assert.rejects(connect(`https://127.0.0.1:${gateway.port}`, patient), { failure: 'unreachable', message: /^TLS cannot be spoken there: / });
   const other = await TlsProxy.before(gateway.port, 'DNS:robot.example');
   assert.match(await told_in_node(other.url, other), /^unreachable the gateway's certificate is refused: .*IP: 127\.0\.0\.1 is not in the cert's list/);
   await other.stop();

@@ -6,12 +6,12 @@ import { type Parameter, pose_of, pose_text, Results, value } from 'rois-client'
 const one = (name: string, code: string, ...values: string[]): Parameter => ({ name, data_type_ref: { code }, values });
 
 test('values are written as their types want', () => {
-  assert.deepEqual(value.int(-3.7).values, ['-3']);
+  assert.deepEqual([-3.7, 2.4, -0.2].map((n) => value.int(n).values[0]), ['-4', '2', '0']);
   assert.deepEqual(value.double(0.5).values, ['0.5']);
   assert.deepEqual([NaN, Infinity, -Infinity].map((n) => value.double(n).values[0]), ['NaN', 'INF', '-INF']);
   assert.deepEqual(value.bool(false).values, ['false']);
   assert.deepEqual(value.date_time(new Date(0)).values, ['1970-01-01T00:00:00.000Z']);
-  assert.deepEqual(value.ints([1, -2]), { data_type_ref: { code: 'int[]' }, values: ['1 -2'] });
+  assert.deepEqual(value.ints([1.4, -1.6]), { data_type_ref: { code: 'int[]' }, values: ['1 -2'] });
   assert.deepEqual(value.bools([true, false]).values, ['true false']);
   assert.deepEqual(value.strings([]), { data_type_ref: { code: 'string[]' }, values: [] });
   assert.deepEqual(value.identifier({ code: 'wave', codebook_ref: 'urn:g' }), {

@@ -52,6 +52,7 @@ function CommandForm({ view, name }: { view: ComponentView; name: string }) {
       {misplaced(console, unit).map((text) => <p key={text} class="exchange-why">{text}</p>)}
       {timeout !== undefined && <p class="soft">{t.start_within(duration(timeout))}</p>}
       <Exchange
+        by_enter
         title={title}
         operation="execute"
         label={name}

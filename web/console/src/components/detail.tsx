@@ -1,5 +1,5 @@
 // One component: how it is, who has it, and what it can do.
-import { useDraft } from '../forms';
+import { shown_description, useDraft } from '../forms';
 import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
 import { Button, error_text, StatusBadge, Tabs } from '../ui';
@@ -7,18 +7,20 @@ import { CommandsTab } from './commands_tab';
 import { EventsTab } from './events_tab';
 import { holder_text } from './holder';
 import { ParametersTab } from './parameters_tab';
-import { QueriesTab } from './queries_tab';
+import { QueriesTab, query_names } from './queries_tab';
 import * as t from './texts';
+import { Work } from './work';
 
 type Part = 'commands' | 'parameters' | 'queries' | 'events';
 
 export function Detail({ view }: { view: ComponentView }) {
+  const console = useConsole();
   const [part, set_part] = useDraft<Part>('part', 'commands');
   const count = (n: number) => (n === 0 ? undefined : String(n));
   const tabs = [
     { id: 'commands' as const, title: t.commands(), badge: count(view.commands.length) },
-    { id: 'parameters' as const, title: t.parameters(), badge: count(view.parameters.length) },
-    { id: 'queries' as const, title: t.queries(), badge: count(view.queries.length) },
+    { id: 'parameters' as const, title: t.parameters(), badge: count(console.parameters.of(view.ref)?.parameters.length ?? view.parameters.length) },
+    { id: 'queries' as const, title: t.queries(), badge: count(query_names(view).length) },
     { id: 'events' as const, title: t.events(), badge: count(view.events.length) },
   ];
   return (
@@ -48,6 +50,7 @@ function Head({ view }: { view: ComponentView }) {
       <div class="component-line">
         <h2>{view.ref}</h2>
         {entry && <StatusBadge status={entry.status} title={entry.trouble} />}
+        <Work component={view.ref} />
         {entry && <span class="soft">{t.since(Math.max(0, now.value - entry.since))}</span>}
         <span class="component-holder">{holder_text(console, view.ref) || t.nobody()}</span>
         {bindings.mine.value.has(view.ref) ? (
@@ -60,7 +63,7 @@ function Head({ view }: { view: ComponentView }) {
           </Button>
         )}
       </div>
-      {view.description !== '' && <p>{view.description}</p>}
+      {view.description !== '' && <p>{shown_description(view.description)}</p>}
       <p class="soft"><code>{view.type}</code></p>
       {view.unresolved.length > 0 && <p class="soft">{t.unresolved(view.unresolved.join(', '))}</p>}
     </header>

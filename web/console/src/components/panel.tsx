@@ -17,7 +17,7 @@ export default function ComponentsPanel() {
   const view = profile.component(ref);
   const detail = view ? <Detail key={ref} view={view} /> : <EmptyState icon="components" title={profile.is_empty.value ? texts.empty() : ref === '' ? texts.pick() : texts.gone(ref)} />;
   return (
-    <div ref={frame} class="engine-panel">
+    <div ref={frame} class={view || is_wide ? 'engine-panel' : 'engine-panel engine-alone'}>
       {!engine ? (
         <EmptyState icon="components" title={texts.none()} />
       ) : is_wide ? (

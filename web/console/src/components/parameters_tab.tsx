@@ -38,6 +38,7 @@ function SetForm({ view }: { view: ComponentView }) {
       <ArgumentFields view={view} asked={asked} inputs={inputs} change={change} problems={problems} />
       {was_tried && given.length === 0 && <p class="field-error" role="alert">{t.set_nothing()}</p>}
       <Exchange
+        by_enter
         title={`${view.ref} set_parameter`}
         operation="set_parameter"
         label={t.set()}

@@ -7,9 +7,14 @@ import type { ComponentView } from '../state/profile_state';
 import { Pick } from './pick';
 import * as t from './texts';
 
+/** What can be asked, as it is listed. */
+export function query_names(view: ComponentView): string[] {
+  return [...view.queries.map((one) => one.name), ...(view.parameters.length > 0 ? ['get_parameter'] : [])];
+}
+
 export function QueriesTab({ view }: { view: ComponentView }) {
   const console = useConsole();
-  const names = [...view.queries.map((one) => one.name), ...(view.parameters.length > 0 ? ['get_parameter'] : [])];
+  const names = query_names(view);
   const [name, choose] = useDraft(`${view.ref} query`, names[0] ?? '');
   if (!names.includes(name)) return <p>{t.no_queries()}</p>;
   const query = view.queries.find((one) => one.name === name);
@@ -25,6 +30,7 @@ export function QueriesTab({ view }: { view: ComponentView }) {
       <form key={name} class="component-form" onSubmit={(event) => event.preventDefault()}>
         {results !== '' && <p class="soft">{t.answers(results)}</p>}
         <Exchange
+          by_enter
           title={`${view.ref} ${name}`}
           operation="query"
           label={name}

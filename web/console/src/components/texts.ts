@@ -12,6 +12,9 @@ export const other = text_of((session: string) => [
   session === '' ? '別のセッションがバインド' : `セッション ${session} がバインド`,
 ]);
 export const nobody = text('not bound', 'バインドなし');
+export const running = text('running', '実行中');
+export const runs = text_of((name: string) => [`The command ${name} is running.`, `コマンド ${name} を実行中です。`]);
+export const goes_on = text('It has been started, and works until it is stopped or released.', '開始済みです。停止または解放するまで動作します。');
 export const unasked = text('has no status', '状態なし');
 export const bind = text('Bind', 'バインド');
 export const release = text('Release', '解放');

@@ -1,11 +1,13 @@
 // The tree of engines and components, as the ARIA practices have trees: one stop of the Tab key, arrows inside.
 import { useRef, useState } from 'preact/hooks';
 
+import { shown_description } from '../forms';
 import { useConsole } from '../shell/context';
 import type { ComponentView, EngineView } from '../state/profile_state';
-import { Badge, Icon, StatusBadge } from '../ui';
+import { Icon, StatusBadge } from '../ui';
 import { holder_text } from './holder';
 import * as texts from './texts';
+import { Work } from './work';
 
 export function Tree({ engine }: { engine: EngineView }) {
   const { selection } = useConsole();
@@ -84,21 +86,19 @@ function Engine({ engine, at, closed, toggle }: EngineProps) {
 
 function Row({ component, is_stop }: { component: ComponentView; is_stop: boolean }) {
   const console = useConsole();
-  const { status, commands, selection } = console;
-  void commands.pulse.beat.value;
+  const { status, selection } = console;
   const entry = status.of(component.ref);
   const holder = holder_text(console, component.ref);
-  const running = commands.running_on(component.ref).at(-1);
   const is_chosen = selection.component.value === component.ref;
   const choose = (event: Event) => {
     event.stopPropagation();
     selection.component.value = component.ref;
   };
   return (
-    <li role="treeitem" class="engine-component" title={component.description} aria-selected={is_chosen} tabIndex={is_stop ? 0 : -1} data-item={`component ${component.ref}`} onClick={choose}>
+    <li role="treeitem" class="engine-component" title={shown_description(component.description)} aria-selected={is_chosen} tabIndex={is_stop ? 0 : -1} data-item={`component ${component.ref}`} onClick={choose}>
       <span class="engine-ref">{component.ref}</span>
       <span class="engine-type">{component.type_name}</span>
-      {running && <Badge tone="busy">{running.command_type}</Badge>}
+      <Work component={component.ref} />
       {holder !== '' && <span class="engine-holder">{holder}</span>}
       {entry ? <StatusBadge status={entry.status} title={entry.trouble} /> : <span class="engine-holder">{texts.unasked()}</span>}
     </li>

@@ -22,10 +22,7 @@ export default function ConditionsPanel() {
   const [pasting, set_pasting] = useState(false);
   if (!console.profile.profile.value) return <EmptyState icon="conditions" title={t.looking()} />;
   const { root, order, purpose } = store.draft.value;
-  const clear = () => {
-    store.is_strict.value = false;
-    store.change({ root: new_group(), order: [] });
-  };
+  const clear = () => store.change({ root: new_group(), order: [] });
   const is_empty = root.members.length === 0 && order.length === 0;
   return (
     <div class="conditions">

@@ -16,7 +16,7 @@ export function PredicateView({ store, predicate, remove, wrap }: { store: Condi
   const is_usual = !predicate.is_not && predicate.match_case && predicate.matching === 'Any';
   const [more, set_more] = useState(false);
   const change = (to: Partial<Predicate>) => store.change_root((root) => with_changed(root, predicate.id, (one) => ({ ...one, ...to }) as Node));
-  const found = problems_of(predicate, references).map((one) => ({ ...one, is_missing: one.is_missing && !store.is_strict.value }));
+  const found = problems_of(predicate, references);
   return (
     <div class="conditions-predicate">
       <div class="conditions-line">

@@ -12,8 +12,6 @@ export class ConditionStore {
   readonly references: ReadonlySignal<readonly Reference[]>;
   readonly known: ReadonlySignal<Known>;
   readonly matches: LiveMatches;
-  /** Whether what is missing has been complained of: from when somebody has tried to send it. */
-  readonly is_strict = signal(false);
   /** Those that were made here, the newest first. */
   readonly subscribed = signal<readonly Subscription[]>([]);
 

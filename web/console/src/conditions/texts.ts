@@ -145,6 +145,7 @@ export const matching = text_of((found: number, all: number) => [`${found} of ${
 export const can_match = text_of((n: number) => [n === 1 ? '1 component can send it' : `${n} components can send it`, `送れるコンポーネント ${n} 個`]);
 export const can_answer = text_of((n: number) => [n === 1 ? '1 component can answer' : `${n} components can answer`, `答えられるコンポーネント ${n} 個`]);
 export const on_results = text('What the event or the answer tells is tested when it comes.', 'イベントや応答の内容は、届いたときに調べられます。');
+export const incomplete_request = text('Something is still missing above.', '上にまだ未記入の項目があります。');
 export const incomplete = text_of((n: number) => [
   n === 1 ? 'One thing is missing; it is left out here.' : `${n} things are missing; they are left out here.`,
   `${n} か所が未記入です。ここでは省かれています。`,

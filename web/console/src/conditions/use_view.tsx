@@ -30,22 +30,19 @@ export function UseView({ store }: { store: ConditionStore }) {
         return console.query(draft.query_type, condition);
     }
   };
-  const may_send = () => {
-    const complete = is_complete(draft, references);
-    store.is_strict.value = !complete;
-    return complete;
-  };
+  const complete = is_complete(draft, references);
   return (
     <section class="conditions-part" aria-label={t.request()}>
       <h3>{t.request()}</h3>
       {draft.purpose === 'subscribe' && <Checkbox label={t.details()} checked={draft.inline_results} change={(inline_results) => store.change({ inline_results })} />}
+      {!complete && <p class="field-hint">{t.incomplete_request()}</p>}
       <Exchange
         key={draft.purpose}
         title={draft.purpose}
         operation={operation}
         request={request_of(draft, condition)}
         act={act}
-        may_send={may_send}
+        can_send={complete}
         label={t.action_named(draft.purpose)}
         icon={icons[draft.purpose]}
       />

@@ -14,7 +14,7 @@ export function CommandProgress({ entry }: { entry: CommandEntry }) {
   const console = useConsole();
   void console.commands.pulse.beat.value;
   const ended = has_ended(entry);
-  const now = ended ? entry.ended_at! : console.now.value;
+  const now = ended ? entry.ended_at! : console.time();
   const title = `${entry.component} ${entry.command_type}`;
   const has_results = (console.profile.component(entry.component)?.commands.find((one) => one.name === entry.command_type)?.results.length ?? 0) > 0;
   useEffect(() => {
@@ -27,7 +27,7 @@ export function CommandProgress({ entry }: { entry: CommandEntry }) {
       <p class="exchange-line">
         <StatusBadge status={entry.state} />
         <span>{t.ended(entry.state)}</span>
-        <span class="exchange-took">{t.lasted(duration(Math.max(0, now - (entry.started_at ?? entry.sent_at))))}</span>
+        <span class="exchange-took">{(ended ? t.lasted : t.lasts)(duration(Math.max(0, now - (entry.started_at ?? entry.sent_at))))}</span>
         {can_stop && (
           <Button small look="danger" icon="stop" aria-label={t.stop_it(title)} onClick={stop}>
             {t.stop()}

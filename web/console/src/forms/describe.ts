@@ -59,9 +59,9 @@ export function fixed_length({ data_type_ref, description }: ParameterProfile): 
   return units.length > 1 ? units.length : 0;
 }
 
-/** A description without what the form says by itself. */
+/** A description without what the form says by itself, and without where the specification has it. */
 export function shown_description(description = ''): string {
-  return description.replace(/\s*\b(Optional|Mandatory|Either this or \w+ is mandatory)\.?\s*$/i, '').replaceAll('`', '');
+  return description.replace(/\s*\b(Optional|Mandatory|Either this or \w+ is mandatory)\.?\s*$/i, '').replace(/ \((?:table )?[\d.]+\)/g, '').replaceAll('`', '');
 }
 
 /** Whether its texts are positions, as a floor map can give them. */
@@ -77,4 +77,11 @@ export function same(a: string, b: string): boolean {
 export function signature({ name, arguments: given, results }: MessageProfile): string {
   const list = given.length > 0 ? given : results;
   return `${name}(${list.map((one) => one.name).join(', ')})`;
+}
+
+const lasting = /(Detection|Localization|Identification|Recognition|Streaming)$/i;
+
+/** Whether its work goes on when `start` has completed. */
+export function goes_on(view: ComponentView | undefined): boolean {
+  return view !== undefined && [view.type, ...view.includes].some((urn) => lasting.test(urn));
 }

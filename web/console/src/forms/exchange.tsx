@@ -25,6 +25,10 @@ export interface ExchangeProps {
   act: () => Promise<unknown>;
   /** Called before; what is false keeps it from being sent. */
   may_send?: () => boolean;
+  /** There is something to send: the button can be pressed. */
+  can_send?: boolean;
+  /** Enter in a field of the form sends it. */
+  by_enter?: boolean;
   label?: string;
   icon?: IconName;
   /** More buttons. */
@@ -37,11 +41,12 @@ export interface Outcome {
   error: unknown;
 }
 
-export function Exchange({ title, operation, request, act, may_send, label, icon, children }: ExchangeProps) {
+export function Exchange({ title, operation, request, act, may_send, can_send = true, by_enter = false, label, icon, children }: ExchangeProps) {
   const console = useConsole();
   const [outcome, set_outcome] = useDraft<Outcome | undefined>(key_of(title), undefined);
   const [is_busy, set_busy] = useState(false);
   const whole = useRef<HTMLDivElement>(null);
+  const came = useRef<HTMLDivElement>(null);
   const send = async () => {
     if (may_send && !may_send()) {
       const form = whole.current?.closest('form') ?? whole.current?.parentElement;
@@ -51,21 +56,22 @@ export function Exchange({ title, operation, request, act, may_send, label, icon
     set_busy(true);
     set_outcome(await watched(console, operation, act));
     set_busy(false);
+    requestAnimationFrame(() => came.current?.firstElementChild?.scrollIntoView({ block: 'nearest' })); // what came of it is seen
   };
   return (
     <div class="exchange" ref={whole}>
-      <div class="exchange-asked">
+      <div class="exchange-parts">
         <div class="exchange-buttons">
-          <Button look="primary" icon={icon ?? 'play'} busy={is_busy} disabled={!console.link.is_open} onClick={() => void send()}>
+          <Button type={by_enter ? 'submit' : 'button'} look="primary" icon={icon ?? 'play'} busy={is_busy} disabled={!can_send || !console.link.is_open} onClick={() => void send()}>
             {label ?? t.send()}
           </Button>
           {children}
           <CurlButton request={request} disabled={request === ''} class="exchange-curl" />
         </div>
-        {request !== '' && <XmlView text={request} label={t.request(title)} />}
-      </div>
-      <div class="exchange-came" aria-live="polite">
-        {outcome ? <Came title={title} {...outcome} /> : <p class="exchange-none">{t.none()}</p>}
+        <div class="exchange-came" aria-live="polite" ref={came}>
+          {outcome ? <Came title={title} {...outcome} /> : <p class="exchange-none">{t.none()}</p>}
+        </div>
+        {request !== '' && <div class="exchange-request"><XmlView text={request} label={t.request(title)} /></div>}
       </div>
     </div>
   );

@@ -22,7 +22,8 @@ export const name = text('Name', '名前');
 export const value = text('Value', '値');
 export const type = text('Type', '型');
 export const ended = text_of((state: CommandState) => ends[state]);
-export const lasted = text_of((time: string) => [`for ${time}`, `${time}間`]);
+export const lasts = text_of((time: string) => [`for ${time}`, `${time}間`]);
+export const lasted = text_of((time: string) => [`(${time})`, `(${time})`]);
 export const outside = text_of((text: string, x: string, y: string) => [
   `${text} is outside of the map, which goes from ${x} and from ${y} (mm).`,
   `${text} は地図の外です。地図の範囲は ${x}、${y} (mm) です。`,

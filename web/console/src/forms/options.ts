@@ -2,6 +2,7 @@
 import type { Results } from 'rois-client';
 
 import type { Entity, Robot } from '../state/things';
+import { name_in } from './codebooks';
 import { all_values, data_type } from './data_type';
 import { type Asked, choices_of, is_position, same } from './describe';
 import type { Option } from './inputs';
@@ -38,7 +39,12 @@ function offered_by(name: string, told: Results | undefined): Option[] {
   const plural = name.replace(/_ref$/i, '').replace(/s$/, '') + 's';
   const list = told?.parameters.find((one) => !same(one.name, name) && one.name.toLowerCase().endsWith(`_${plural.toLowerCase()}`));
   const codebook = list?.data_type_ref.codebook_ref;
-  return list && told ? told.texts(list.name).map((value) => (codebook === undefined ? { value } : { value, codebook })) : [];
+  return list && told ? told.texts(list.name).map((value) => option_of(value, codebook)) : [];
+}
+
+function option_of(value: string, codebook: string | undefined): Option {
+  const label = name_in(codebook, value);
+  return { value, ...(codebook !== undefined && { codebook }), ...(label !== undefined && { label }) };
 }
 
 function things_for(name: string, { robots, entities, components }: World): Option[] {

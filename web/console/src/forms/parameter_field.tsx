@@ -21,7 +21,8 @@ export interface ParameterFieldProps {
 export function ParameterField(props: ParameterFieldProps) {
   const { asked, problem } = props;
   const type = data_type(asked.data_type_ref.code);
-  const hint = [shown_description(asked.description), t.of_type(asked.data_type_ref.code), asked.default_value && t.preset(asked.default_value)].filter(Boolean).join(' ');
+  const called = props.options.list.find((one) => one.value === props.input?.texts[0]?.trim())?.label; // what was chosen
+  const hint = [!props.options.is_closed && called && `“${called}”.`, shown_description(asked.description), t.of_type(asked.data_type_ref.code), asked.default_value && t.preset(asked.default_value)].filter(Boolean).join(' ');
   const shared = { label: asked.name, hint, error: problem && t.problem(problem), required: asked.need.kind === 'needed' };
   if (type.is_list) return <ListField {...props} type={type} {...shared} />;
   const unit = units_of(asked.description);
@@ -108,9 +109,15 @@ function Item({ asked, input, options, now, type, own, text, put }: ItemProps) {
         onInput={(event) => put(event.currentTarget.value)}
       />
       {options.list.length > 0 && (
-        <datalist id={list}>
-          {options.list.map((one) => <option key={one.value} value={one.value} label={one.label} />)}
-        </datalist>
+        <>
+          <datalist id={list}>
+            {options.list.map((one) => <option key={one.value} value={one.value} label={one.label} />)}
+          </datalist>
+          <select class="form-choose" aria-label={t.choose()} title={t.choose()} value="" onChange={(event) => put(event.currentTarget.value)}>
+            <option value="" disabled hidden />
+            {options.list.map(({ value, label = value }) => <option key={value} value={value}>{label.includes(value) ? label : `${value} – ${label}`}</option>)}
+          </select>
+        </>
       )}
     </>
   );

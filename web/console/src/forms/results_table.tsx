@@ -1,6 +1,7 @@
 import type { Parameter, Results } from 'rois-client';
 
 import { Table } from '../ui';
+import { with_name } from './codebooks';
 import * as t from './exchange_texts';
 
 /** Results, or the parameters of a component: name, value, type. */
@@ -12,7 +13,7 @@ export function ResultsTable({ label, results }: { label: string; results: Resul
       key_of={(one) => one.name}
       columns={[
         { id: 'name', title: t.name(), cell: (one) => one.name },
-        { id: 'value', title: t.value(), cell: (one) => <Values texts={results.texts(one.name)} /> },
+        { id: 'value', title: t.value(), cell: (one) => <Values texts={results.texts(one.name).map((text) => with_name(one.data_type_ref.codebook_ref, text))} /> },
         { id: 'type', title: t.type(), cell: (one) => <span class="results-type" title={one.data_type_ref.codebook_ref}>{one.data_type_ref.code}</span> },
       ]}
     />
@@ -22,5 +23,5 @@ export function ResultsTable({ label, results }: { label: string; results: Resul
 // Positions and sentences stand below each other; short names side by side.
 function Values({ texts }: { texts: string[] }) {
   const are_long = texts.some((text) => text.length > 12);
-  return <span class={are_long ? 'results-values results-below' : 'results-values'}>{texts.map((text, i) => <span key={i}>{text === '' ? '“”' : text}</span>)}</span>;
+  return <span class={are_long ? `results-values results-below${texts.length > 8 ? ' results-many' : ''}` : 'results-values'}>{texts.map((text, i) => <span key={i}>{text === '' ? '“”' : text}</span>)}</span>;
 }

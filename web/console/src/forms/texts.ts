@@ -29,6 +29,7 @@ export const left_out = text('leave it out', '省略');
 export const now = text_of((value: string) => [`now ${value}`, `現在 ${value}`]);
 export const position = text('x, y, th or a place', 'x, y, th または場所');
 export const item = text_of((name: string, n: number) => [`${name}, item ${n}`, `${name} の ${n} 番目`]);
+export const choose = text('Choose from a list', '一覧から選ぶ');
 export const add = text_of((name: string) => [`Add to ${name}`, `${name} に追加`]);
 export const remove = text_of((name: string, n: number) => [`Remove item ${n} of ${name}`, `${name} の ${n} 番目を削除`]);
 export const send_empty = text_of((name: string) => [`Send ${name} as empty`, `${name} を空で送る`]);

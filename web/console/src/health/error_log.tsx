@@ -1,13 +1,13 @@
 // What this session was told of that went wrong; each opens to what is known of it.
 import { useState } from 'preact/hooks';
 
-import { DetailsOf, LoggedXml } from '../forms';
+import { CommandProgress, DetailsOf, LoggedXml } from '../forms';
 import { clock_time, duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import * as shell from '../shell/texts';
 import type { Phase } from '../state/link_state';
 import { Badge, Button, type Tone, XmlView } from '../ui';
-import { type LogEntry, log_of, reason_of } from './log';
+import { type LogEntry, log_of, reason_of, refused_component } from './log';
 import * as t from './texts';
 
 const shown_at_first = 50;
@@ -16,6 +16,7 @@ export function ErrorLog() {
   const console = useConsole();
   const [most, set_most] = useState(shown_at_first);
   void console.events.pulse.beat.value;
+  void console.commands.pulse.beat.value;
   void console.history.pulse.beat.value;
   void console.now.value; // what was refused
   const entries = log_of(console);
@@ -62,7 +63,11 @@ function told(entry: LogEntry): Told {
     case 'refused': {
       const { document } = entry;
       const title = [document.request?.name, document.return_code ?? document.name].filter(Boolean).join(': ');
-      return { tone: 'warning', kind: t.refused(), title, component: document.component ?? '', more: reason_of(document) };
+      return { tone: 'warning', kind: t.refused(), title, component: refused_component(document), more: reason_of(document) };
+    }
+    case 'command': {
+      const { state, command_type, component, results } = entry.command;
+      return { tone: 'bad', kind: t.command(), title: `${command_type}: ${state}`, component, more: results?.text('reason') ?? '' };
     }
     case 'link': {
       const { value, from, to, note } = entry.span;
@@ -85,6 +90,7 @@ function Entry({ entry }: { entry: LogEntry }) {
     </>
   );
   if (entry.kind === 'gap' || entry.kind === 'link') return <div class="health-entry">{summary}</div>;
+  const document = entry.kind === 'refused' ? entry.document : entry.kind === 'command' ? entry.command.completed : entry.entry.document;
   return (
     <details onToggle={(event) => set_open(event.currentTarget.open)}>
       <summary class="health-entry">{summary}</summary>
@@ -97,8 +103,13 @@ function Entry({ entry }: { entry: LogEntry }) {
               <XmlView text={entry.document.request.text} label={`${t.request()}, ${at}`} />
             </>
           )}
-          <h4>{t.document()}</h4>
-          <LoggedXml label={`${t.document()}, ${at}`} document={entry.kind === 'refused' ? entry.document : entry.entry.document} />
+          {entry.kind === 'command' && <CommandProgress entry={entry.command} />}
+          {document !== undefined && (
+            <>
+              <h4>{t.document()}</h4>
+              <LoggedXml label={`${t.document()}, ${at}`} document={document} />
+            </>
+          )}
         </div>
       )}
     </details>

@@ -1,7 +1,7 @@
 // The numbers that one looks at first.
 import type { ComponentChildren } from 'preact';
 
-import { bytes_text, count_text } from '../i18n/i18n';
+import { bytes_text, count_text, duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import * as shell from '../shell/texts';
 import { Badge, tone_of } from '../ui';
@@ -22,6 +22,7 @@ export function Figures() {
   const memory = scrape?.value('process_resident_memory_bytes');
   return (
     <>
+      {metrics.trouble.value === '' && metrics.is_stale(now.value) && <p class="health-trouble">{t.stale(duration(now.value - scrape!.at))}</p>}
       {metrics.trouble.value !== '' && <p class="health-trouble">{t.metrics_trouble(metrics.trouble.value)}</p>}
       <dl class="health-figures">
         <Figure name={t.link()}>

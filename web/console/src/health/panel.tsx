@@ -9,11 +9,11 @@ import { Limits, Sessions, Troubles } from './tables';
 import * as t from './texts';
 
 export default function HealthPanel() {
-  const { metrics, traffic } = useConsole();
+  const { metrics, traffic, now } = useConsole();
   useWatch(metrics.poll);
   useWatch(traffic.ping);
   return (
-    <div class="health" role="region" aria-label={t.all()} tabIndex={0}>
+    <div class={metrics.is_stale(now.value) ? 'health health-stale' : 'health'} role="region" aria-label={t.all()} tabIndex={0}>
       <h2 class="unseen">{t.title()}</h2>
       <Figures />
       <Plots />

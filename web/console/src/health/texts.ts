@@ -37,6 +37,7 @@ export const metrics_trouble = text_of((why: string) => [
   `The gateway's numbers cannot be had: ${why}. What follows is as old as the last ones.`,
   `ゲートウェイの数値を取得できません: ${why}。以下は最後に得た数値です。`,
 ]);
+export const stale = text_of((age: string) => [`The gateway's numbers are ${age} old.`, `ゲートウェイの数値は${age}前のものです。`]);
 export const no_metrics = text('The gateway has not told its numbers yet.', 'ゲートウェイの数値はまだありません。');
 export const plots = text('The last minute', '直近 1 分');
 export const latency_plot = text('How long answers take, ms', '応答にかかる時間（ミリ秒）');
@@ -88,6 +89,7 @@ export const no_log = text('This session was told of no error.', 'このセッ�
 export const error = text('Error', 'エラー');
 export const missed = text('Missed', '受信漏れ');
 export const refused = text('Refused', '拒否');
+export const command = text('Command', 'コマンド');
 export const gap_lost = text_of((n: number) => [`${count_text(n)} notifications were lost`, `通知 ${count_text(n)} 件を失いました`]);
 export const gap_session = text('The session was lost', 'セッションを失いました');
 export const older = text_of((n: number) => [`Show ${count_text(n)} older`, `さらに古い ${count_text(n)} 件を表示`]);

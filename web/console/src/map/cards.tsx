@@ -1,6 +1,7 @@
 // What was chosen on the floor, and what can be done with it: a target to send a robot to, a person to follow, a robot.
 import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
+import { value } from 'rois-client';
 
 import { useConsole } from '../shell/context';
 import { show_component } from '../shell/layout';
@@ -89,6 +90,7 @@ export function TargetCard({ target, sending }: { target: Target; sending: Sendi
   const map = session.map;
   const put = (to: Target | undefined) => (session.interaction.value = { ...session.interaction.value, target: to });
   const radius = map?.robots.find((one) => one.name === driver?.robot?.ref)?.radius ?? no_radius;
+  const robot = session.scene().shown.find((one) => one.key === `robot ${driver?.robot?.ref}`);
   const blocked = target.place === undefined ? obstacle_at(map, target, radius) : undefined;
   const limit = seconds_of(session.time_limit.value);
   const places = [{ value: '', label: t.point() }, ...(map?.places ?? []).map(({ name }) => ({ value: name, label: name }))];
@@ -121,7 +123,7 @@ export function TargetCard({ target, sending }: { target: Target; sending: Sendi
         {target.th === undefined && <p class="field-hint">{t.turn_hint()}</p>}
         <TextField label={t.give_up()} unit="s" value={session.time_limit.value} change={(to) => (session.time_limit.value = to)} error={limit === undefined ? t.no_number() : undefined} input={{ inputMode: 'numeric', placeholder: t.never() }} />
         <p class="map-fact">
-          {driver.robot && t.straight(metres(distance(driver.robot, target), 1))} <code title={t.position()}>{target_text(target)}</code>
+          {robot && t.straight(metres(distance(robot, target), 1))} <span>{t.sent_as()} <code>{target_text(target)}</code></span>
         </p>
         {blocked && <p class="map-warning">{t.blocked(blocked)}</p>}
         {sending.trouble}
@@ -182,7 +184,7 @@ export function ThingCard({ thing, close }: { thing: Shown; close: () => void })
         {thing.frame && <Fact name={t.own_frame()}><code>{thing.frame.crs}</code></Fact>}
         {others?.robot && <Fact name={t.distance()}>{t.near(others.name, metres(distance(others.robot, thing), 1))}</Fact>}
       </dl>
-      {own ? <OwnRobot driver={own} /> : others && thing.kind !== 'sound' && <Pursuit driver={others} thing={thing} />}
+      {own ? <OwnRobot driver={own} /> : others && thing.kind !== 'sound' && <Pursuit driver={others} thing={thing} close={close} />}
     </Card>
   );
 }
@@ -210,20 +212,58 @@ function OwnRobot({ driver }: { driver: Driver }) {
   const console = useConsole();
   const deed = useDeed();
   void console.commands.pulse.beat.value;
-  if (motions_of(console, driver).length === 0) return null;
+  const those = console.profile.components.value.filter((one) => one.engine === driver.engine && !one.type_name.startsWith('System'));
+  const voice = those.find((one) => one.type_name === 'SpeechSynthesis')?.ref;
   return (
     <>
+      {voice !== undefined && <Speaking voice={voice} />}
+      <details class="map-commands">
+        <summary>{t.commands()}</summary>
+        <ul class="plain-list">{those.map(({ ref }) => <li key={ref}><ComponentLink component={ref} /></li>)}</ul>
+      </details>
       {deed.trouble}
-      <div class="map-actions">
-        <Button look="danger" icon="stop" busy={deed.is_busy} onClick={() => deed.run(() => stop(console, driver))}>
-          {t.stop_robot(driver.name)}
-        </Button>
-      </div>
+      {motions_of(console, driver).length > 0 && (
+        <div class="map-actions">
+          <Button look="danger" icon="stop" busy={deed.is_busy} onClick={() => deed.run(() => stop(console, driver))}>
+            {t.stop_robot(driver.name)}
+          </Button>
+        </div>
+      )}
     </>
   );
 }
 
-function Pursuit({ driver, thing }: { driver: Driver; thing: Shown }) {
+// A sentence, said at once.
+function Speaking({ voice }: { voice: string }) {
+  const console = useConsole();
+  const deed = useDeed();
+  const words = useSignal('');
+  const say = async () => {
+    const { command_ids, ends } = await console.run(voice, 'start', { speech_text: value.string(words.value.trim()) }, { give_back: true });
+    words.value = '';
+    const [status] = await ends;
+    if (status !== 'ERROR') return;
+    const entry = console.commands.find(command_ids[0]!);
+    throw new Error((entry && (await console.commands.fetch_results(entry))?.text('reason')) || status);
+  };
+  return (
+    <form
+      class="map-form"
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (words.value.trim() !== '') deed.run(say);
+      }}
+    >
+      <TextField label={t.speak()} value={words.value} change={(to) => (words.value = to)} input={{ enterkeyhint: 'send', placeholder: t.speak_hint() }} />
+      {deed.trouble}
+      <div class="map-actions">
+        <Button type="submit" look="primary" icon="messages" busy={deed.is_busy} disabled={!console.link.is_open || words.value.trim() === ''}>{t.speak()}</Button>
+      </div>
+    </form>
+  );
+}
+
+function Pursuit({ driver, thing, close }: { driver: Driver; thing: Shown; close: () => void }) {
   const console = useConsole();
   const session = session_of(console);
   const deed = useDeed();
@@ -235,7 +275,7 @@ function Pursuit({ driver, thing }: { driver: Driver; thing: Shown }) {
       class="map-form"
       onSubmit={(event) => {
         event.preventDefault();
-        if (is_number && driver.follow) deed.run(() => follow(console, driver, thing, Math.round(gap * 1000)));
+        if (is_number && driver.follow) deed.run(() => follow(console, driver, thing, Math.round(gap * 1000)).then(close)); // the map says it, and has a button to stop it
       }}
     >
       <DriverChoice />
@@ -252,6 +292,7 @@ function Pursuit({ driver, thing }: { driver: Driver; thing: Shown }) {
           </Button>
         )}
         {driver.navigation && <Button icon="send" onClick={go_there}>{t.go_there()}</Button>}
+        {driver.navigation && driver.follow && <p class="field-hint">{t.follow_or_go()}</p>}
       </div>
     </form>
   );

@@ -122,6 +122,11 @@ export class Drawing {
     return to_floor(this.view, this.size, at);
   }
 
+  /** Whether it is drawn in the right half. */
+  is_right(at: Point): boolean {
+    return to_screen(this.view, this.size, at).x > this.size.width / 2;
+  }
+
   /** What is near the keyboard's cursor, the nearest first. */
   near(point: Point): Shown[] {
     return this.shown.filter((one) => distance(one, point) < 2000).sort((a, b) => distance(a, point) - distance(b, point));

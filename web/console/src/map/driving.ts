@@ -1,6 +1,7 @@
 // The robots that can be sent about, with the components that move them, and what they are doing for this console.
 import { value } from 'rois-client';
 
+import { show_panel } from '../shell/layout';
 import { error_text } from '../ui/error_text';
 import { type CommandEntry, has_ended } from '../state/commands_state';
 import type { Console } from '../state/console';
@@ -48,14 +49,14 @@ export function target_text({ x, y, th, place }: Target): string {
 export async function go(console: Console, driver: Driver, target: Target, time_limit: number): Promise<void> {
   const named = { target_position: value.strings([target_text(target)]), time_limit: value.int(time_limit) };
   const said = target_words(target);
-  await drive(console, driver, driver.navigation!, named, texts.going(driver.name, said), texts.arrived(driver.name, said));
+  await drive(console, driver, driver.navigation!, named, said, texts.going(driver.name, said), texts.arrived(driver.name, said));
 }
 
 /** Has it follow somebody, by the permanent name when it is known. */
 export async function follow(console: Console, driver: Driver, { thing, identity, name }: Shown, distance: number): Promise<void> {
   const { ref: code, codebook } = identity ?? thing;
   const whom = value.identifier(codebook === '' ? code : { code, codebook_ref: codebook });
-  await drive(console, driver, driver.follow!, { target_object_ref: whom, distance: value.int(distance) }, texts.following(driver.name, name), texts.followed(driver.name, name));
+  await drive(console, driver, driver.follow!, { target_object_ref: whom, distance: value.int(distance) }, name, texts.following(driver.name, name), texts.followed(driver.name, name));
 }
 
 /** Stops what this console has it do. */
@@ -70,21 +71,28 @@ async function end_all(console: Console, motions: readonly CommandEntry[]): Prom
 }
 
 // Another component of the same wheels is stopped first; a new start of the same one replaces what it did.
-async function drive(console: Console, driver: Driver, ref: string, named: Parameters<Console['run']>[2], begun: string, done: string): Promise<void> {
+async function drive(console: Console, driver: Driver, ref: string, named: Parameters<Console['run']>[2], whither: string, begun: string, done: string): Promise<void> {
   await end_all(console, motions_of(console, driver).filter((one) => one.component !== ref));
   const { command_ids, ends } = await console.run(ref, 'start', named, { give_back: true });
-  const { notices } = console;
+  const { notices, commands } = console;
+  const about = `drive ${driver.engine}`;
+  const entry = commands.find(command_ids[0] ?? '');
   const halt = () => {
-    const entry = console.commands.find(command_ids[0] ?? '');
     if (entry && !has_ended(entry)) stop(console, driver).catch((error: unknown) => notices.tell('error', error_text(error)));
   };
-  const notice = notices.tell('info', begun, { action: { label: texts.stop(), act: halt } });
+  const notice = notices.tell('info', begun, { about, action: { label: texts.stop(), act: halt } });
   ends.then(
-    ([status]) => {
+    async ([status]) => {
       notices.dismiss(notice);
-      if (status === 'OK') notices.tell('good', done);
-      else if (status !== 'ABORT') notices.tell('error', texts.failed(begun), { detail: status! });
-      else if (motions_of(console, driver).length === 0) notices.tell('info', texts.stopped(driver.name));
+      if (status === 'OK') notices.tell('good', done, { about });
+      else if (status !== 'ABORT') {
+        const reason = entry && (await commands.fetch_results(entry))?.text('reason');
+        const open = () => {
+          console.selection.document.value = entry?.completed;
+          show_panel('messages');
+        };
+        notices.tell('error', texts.failed(whither), { about, detail: reason || status!, action: { label: texts.why(), act: open } });
+      } else if (motions_of(console, driver).length === 0) notices.tell('info', texts.stopped(driver.name), { about });
     },
     () => notices.dismiss(notice), // the session is gone; the link says so
   );

@@ -130,7 +130,12 @@ function draw_place(pen: Pen, place: Place, with_name: boolean): void {
   if (!with_name) return;
   context.font = palette.font;
   context.textBaseline = 'top';
-  pen.text(place.name, { x: at.x, y: at.y + name_below }, palette.soft, 'center');
+  pen.text(place_name(place), { x: at.x, y: at.y + name_below }, palette.soft, 'center');
+}
+
+/** As people write it. */
+export function place_name({ name }: Place): string {
+  return name.replaceAll('_', ' ');
 }
 
 /** Where a place's name stands, so that no other one is written over it. */
@@ -142,7 +147,7 @@ export function name_box(pen: Pen, place: Place, width: number): { x: number; y:
 function draw_axes(pen: Pen, frame: { x: number; y: number; heading: number }, name: string): void {
   const { context, palette } = pen;
   const at = pen.at(frame);
-  for (const [turn, letter] of [[0, 'x'], [90, 'y']] as const) {
+  for (const [turn, letter, side] of [[0, 'x', 1], [90, 'y', -1]] as const) {
     pen.turned(at, frame.heading + turn, () => {
       pen.line({ x: 0, y: 0 }, { x: 30, y: 0 });
       pen.stroke(palette.ink, 1.5, 0.75);
@@ -156,7 +161,9 @@ function draw_axes(pen: Pen, frame: { x: number; y: number; heading: number }, n
     const angle = ((frame.heading + turn) * Math.PI) / 180;
     context.font = palette.font;
     context.textBaseline = 'middle';
-    pen.text(letter, { x: at.x + 44 * Math.cos(angle), y: at.y - 44 * Math.sin(angle) }, palette.soft, 'center');
+    // Beside its arrow, between both: there may be a wall along it.
+    const [along, beside] = [36, 10 * side];
+    pen.text(letter, { x: at.x + along * Math.cos(angle) - beside * Math.sin(angle), y: at.y - along * Math.sin(angle) - beside * Math.cos(angle) }, palette.soft, 'center');
   }
   pen.circle(at, 2.5);
   pen.fill(palette.ink, 0.75);

@@ -46,6 +46,12 @@ export class Observer {
         if (left.length < on.length && !is_busy) this.tell(left.length > 0 || !console.link.is_open ? { on: left } : off);
       });
     });
+    // Neither is what was stopped: it is started again as soon as nobody else has a use for it.
+    effect(() => {
+      void console.commands.pulse.beat.value;
+      void console.now.value;
+      untracked(() => this.look());
+    });
   }
 
   /** Those of the engine that it is about. */
@@ -69,11 +75,12 @@ export class Observer {
   }
 
   private async take(): Promise<void> {
+    const { commands, bindings } = this.console;
     for (const ref of this.components) {
-      if (this.held.has(ref) || !this.state.value.is_wanted) continue;
+      if (!this.state.value.is_wanted || (this.held.has(ref) && (commands.goes_on(ref) || bindings.lent(ref) !== 1))) continue;
       try {
         await this.start(ref);
-        this.tell({ on: [...this.held.keys()], refused: this.state.value.refused.filter((one) => one.ref !== ref) });
+        this.tell({ on: this.sensing(), refused: this.state.value.refused.filter((one) => one.ref !== ref) });
       } catch (error) {
         if (error instanceof RoisError && ['link_lost', 'session_lost', 'closed'].includes(error.failure)) return; // it is tried again with the next link
         this.tell({ refused: [...this.state.value.refused.filter((one) => one.ref !== ref), { ref, error }] });
@@ -82,10 +89,11 @@ export class Observer {
   }
 
   private async start(ref: string): Promise<void> {
-    const was_running = this.is_running(ref);
-    const give_back = await this.console.bindings.borrow([ref]);
+    const known = this.held.get(ref);
+    const was_running = known?.was_running ?? this.console.commands.goes_on(ref);
+    const give_back = known?.give_back ?? (await this.console.bindings.borrow([ref]));
     this.held.set(ref, { give_back, was_running });
-    if (was_running) return;
+    if (this.console.commands.goes_on(ref)) return;
     try {
       const status = await (await this.console.client.execute([command(ref, 'start')])).status();
       if (status !== 'OK') throw new Error(status);
@@ -94,6 +102,19 @@ export class Observer {
       await give_back();
       throw error;
     }
+  }
+
+  private sensing(): string[] {
+    return [...this.held.keys()].filter((ref) => this.console.commands.goes_on(ref));
+  }
+
+  private look(): void {
+    const { commands, bindings, link } = this.console;
+    const { is_wanted, is_busy, on } = this.state.value;
+    if (!is_wanted || is_busy || !link.is_open) return;
+    const sensing = this.sensing();
+    if (sensing.length !== on.length) this.tell({ on: sensing });
+    if ([...this.held.keys()].some((ref) => !commands.goes_on(ref) && bindings.lent(ref) === 1)) void this.next(() => this.take());
   }
 
   // Releasing stops what was bound for it; what the user had bound before is stopped, unless it was at work already.
@@ -105,13 +126,6 @@ export class Observer {
       if (!was_running && console.bindings.mine.value.has(ref)) await console.client.execute([command(ref, 'stop')]).catch(() => undefined);
     }
     this.tell(this.state.value.is_wanted ? { on: [] } : off);
-  }
-
-  // Whether this console has it sense already.
-  private is_running(ref: string): boolean {
-    if (!this.console.bindings.mine.value.has(ref)) return false;
-    const told = this.console.commands.all.list().filter((one) => one.component === ref && one.state === 'OK' && /^(start|stop)$/.test(one.command_type));
-    return told.at(-1)?.command_type === 'start';
   }
 
   private forget(session: string): void {

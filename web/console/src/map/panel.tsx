@@ -2,6 +2,7 @@
 import './map.css';
 
 import { useSignal } from '@preact/signals';
+import { useMemo } from 'preact/hooks';
 
 import { useConsole, useWatch } from '../shell/context';
 import { Button, IconButton } from '../ui';
@@ -35,7 +36,7 @@ export default function MapPanel() {
           <Remarks />
           <Motions />
         </div>
-        <Chosen sending={sending} />
+        <Chosen sending={sending} drawing={drawing.value} />
       </div>
       <div class="map-foot">
         <div class="map-zoom">
@@ -52,13 +53,18 @@ export default function MapPanel() {
   );
 }
 
-function Chosen({ sending }: { sending: ReturnType<typeof useSending> }) {
+// The card stands where it does not cover what it is about, and stays on that side.
+function Chosen({ sending, drawing }: { sending: ReturnType<typeof useSending>; drawing: Drawing | undefined }) {
   const console = useConsole();
   const session = session_of(console);
   const { target, chosen } = session.interaction.value;
-  if (target) return <TargetCard target={target} sending={sending} />;
-  if (chosen === undefined) return null;
-  return <ChosenThing chosen={chosen} />;
+  const key = target ? `${target.x} ${target.y}` : chosen;
+  const at_left = useMemo(() => {
+    const at = target ?? session.scene().shown.find((one) => one.key === chosen);
+    return at !== undefined && drawing !== undefined && drawing.is_right(at);
+  }, [key, drawing]);
+  if (key === undefined) return null;
+  return <div class={at_left ? 'map-cards map-cards-left' : 'map-cards'}>{target ? <TargetCard target={target} sending={sending} /> : <ChosenThing chosen={chosen!} />}</div>;
 }
 
 // As often as positions come in.
@@ -94,8 +100,7 @@ function Frame() {
   if (crs === '') return null;
   return (
     <span class="map-frame" title={`${t.frame()}: ${crs}`}>
-      <span class="unseen">{t.frame()}: </span>
-      {short_name(crs)}
+      {t.frame()}: {short_name(crs)}
     </span>
   );
 }

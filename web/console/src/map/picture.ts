@@ -3,7 +3,7 @@ import type { Place } from '../state/floor_map';
 import { bearing, type FloorPose } from '../state/floor';
 import { draw_certainty, draw_choice, draw_thing, radius_of } from './glyphs';
 import type { Goal } from './goals';
-import { type Layers, name_box } from './ground';
+import { type Layers, name_box, place_name } from './ground';
 import type { Target } from './interaction';
 import { type Label, Labels, type Place as LabelBox } from './labels';
 import type { Pen } from './pen';
@@ -154,7 +154,7 @@ function draw_names(pen: Pen, { chosen, hovered, age_text, places: named, layers
     wanted.push({ key: one.key, width: Math.ceil(width_of(pen, text)) + 10, at, radius: radius_of(pen, one) * 1.3, must: is_marked || one.kind === 'robot' });
   }
   wanted.sort((a, b) => Number(b.must) - Number(a.must));
-  const taken = layers.places ? named.map((place) => name_box(pen, place, width_of(pen, place.name))) : [];
+  const taken = layers.places ? named.map((place) => name_box(pen, place, width_of(pen, place_name(place)))) : [];
   for (const [one, , at] of seen) if (one.kind === 'robot' || one.kind === 'person') taken.push(box_of(at, radius_of(pen, one)));
   const places = labels.placed(wanted, size, taken);
   for (const [one] of seen) {

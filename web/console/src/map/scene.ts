@@ -9,9 +9,10 @@ export type Kind = 'robot' | Entity['kind'];
 /**
  * - `live`: told of just now;
  * - `quiet`: sensed, but not told of for a while: who stands still is not told of;
+ * - `old`: sensed, and not told of for so long that one should not rely on it;
  * - `gone`: out of sight, or nobody senses any longer, or the link is lost. It was there.
  */
-export type Freshness = 'live' | 'quiet' | 'gone';
+export type Freshness = 'live' | 'quiet' | 'old' | 'gone';
 
 export interface Shown extends Point {
   key: string;
@@ -49,6 +50,7 @@ export interface Scene {
 const robot_radius = 250; // mm, of one that is not on the map
 const radii: Record<Entity['kind'], number> = { person: 220, face: 90, sound: 110 };
 const quiet_after: Record<Kind, number> = { robot: 2000, person: 5000, face: 2000, sound: 1500 }; // ms
+const old_after = 30_000; // ms
 const shown_for = 30_000; // ms, when it is gone
 // Nobody tells that a sound is over, or that somebody has looked away: a sound that is not told of any more is over, and a face is where
 // it was as long as somebody is there.
@@ -76,7 +78,7 @@ export function scene_of({ robots, entities, map, now, is_live, senses }: Told):
     const age = now - entity.at;
     const is_there = is_live && entity.is_seen && (age < surely_sensed || senses(entity.component));
     const is_over = age > quiet_after[kind] && (kind === 'sound' || (kind === 'face' && !people.some((one) => distance(one, entity) < head)));
-    const freshness: Freshness = !is_there || is_over ? 'gone' : age > quiet_after[kind] ? 'quiet' : 'live';
+    const freshness: Freshness = !is_there || is_over ? 'gone' : age > old_after ? 'old' : age > quiet_after[kind] ? 'quiet' : 'live';
     if (is_live && freshness === 'gone' && age > (kind === 'person' ? shown_for : echo)) continue;
     add(entity, kind, { name: identity?.ref ?? entity.ref, radius: radii[kind], freshness, identity });
   }

@@ -35,14 +35,14 @@ export class MapSession {
 
   /** As it is at this moment. */
   scene(): Scene {
-    const { robots, entities, environment, link, bindings, status } = this.console;
+    const { robots, entities, environment, link, bindings, commands, status } = this.console;
     return scene_of({
       robots: robots.all.values(),
       entities: entities.all.values(),
       map: this.map,
       now: environment.now(),
       is_live: link.is_open,
-      senses: (ref) => bindings.mine.value.has(ref) || status.of(ref)?.status !== 'READY',
+      senses: (ref) => (bindings.mine.value.has(ref) ? commands.goes_on(ref) : status.of(ref)?.status !== 'READY'),
     });
   }
 

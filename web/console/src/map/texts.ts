@@ -56,7 +56,7 @@ export const scale = text_of((length: string) => [`Scale: ${length}`, `縮尺: $
 export const frame = text('Frame', '座標系');
 export const not_live = text_of((age: string) => [`Not live: as it was ${age} ago`, `現在の様子ではありません: ${age}前`]);
 export const nothing = text('Nothing to be seen yet', 'まだ何も見えません');
-export const nobody_hint = text('Nobody is told of. Switch on Observe to have the engine look for people.', '人の情報がありません。「観察」を入れると、エンジンが人を探します。');
+export const nobody_hint = text('No people are reported. Switch on Observe to have the engine look for people.', '人の情報がありません。「観察」を入れると、エンジンが人を探します。');
 export const unplaced = text_of((n: number) => [`${n} in frames that nobody has placed on the map`, `地図上の位置が分からない座標系に ${n} 件`]);
 export const metres = text_of((m: string) => `${m} m`);
 export const degrees = text_of((degrees: string) => `${degrees}°`);
@@ -71,6 +71,7 @@ export const point = text('Point on the floor', '床の上の点');
 export const direction = text('Direction', '向き');
 export const as_it_arrives = text('as it arrives', '着いたまま');
 export const straight = text_of((away: string) => [`${away} away`, `直線で ${away}`]);
+export const sent_as = text('sent as', '送る値');
 export const give_up = text('Give up after', '制限時間');
 export const never = text('never', 'なし');
 export const no_number = text('A number, please', '数値を入れてください');
@@ -84,6 +85,7 @@ export const going = text_of((robot: string, where: string) => [`${robot} is goi
 export const arrived = text_of((robot: string, where: string) => [`${robot} has reached ${where}`, `${robot} が ${where} に着きました`]);
 export const stopped = text_of((robot: string) => [`${robot} was stopped`, `${robot} を止めました`]);
 export const failed = text_of((what: string) => [`Not reached: ${what}`, `到達できませんでした: ${what}`]);
+export const why = text('Why', '理由');
 export const stop = text('Stop', '止める');
 export const stop_robot = text_of((robot: string) => [`Stop ${robot}`, `${robot} を止める`]);
 
@@ -105,7 +107,7 @@ export const told = text('Told', '通知');
 export const ago = text_of((age: string) => [`${age} ago`, `${age}前`]);
 export const told_by = text('Told by', '通知元');
 export const freshness = text_of((state: string, kind: string) =>
-  state === 'live' ? ['Now', '現在'] : state === 'quiet' ? ['Still there', '変化なし'] : gone[kind] ?? ['Out of sight', '見えません']);
+  state === 'live' ? ['Seen now', '検出中'] : state === 'quiet' ? ['Still there', '変化なし'] : state === 'old' ? ['No news for long', 'しばらく通知なし'] : gone[kind] ?? ['Out of sight', '見えません']);
 export const state = text('State', '状態');
 export const own_frame = text('Own frame', '固有の座標系');
 export const follow = text('Follow', '追う');
@@ -115,6 +117,10 @@ export const gap = text('How near it comes', '保つ間隔');
 export const go_there = text('Go there', 'そこへ行く');
 export const following = text_of((robot: string, whom: string) => [`${robot} follows ${whom}`, `${robot} が ${whom} を追っています`]);
 export const followed = text_of((robot: string, whom: string) => [`${robot} no longer follows ${whom}`, `${robot} は ${whom} を追うのをやめました`]);
+export const follow_or_go = text('Follow keeps near them as they move. Go there sends it once, to where they are now.', '「追う」は動きに合わせて付いて行き、「そこへ行く」は今いる場所へ一度だけ行きます。');
+export const speak = text('Speak', '話す');
+export const speak_hint = text('A sentence', '文を入力');
+export const commands = text('All that it can do', 'できること一覧');
 export const no_follow = text('This engine has no component that follows.', 'このエンジンには追従できるコンポーネントがありません。');
 export const close = text('Close', '閉じる');
 export const choose = text('Choose', '選ぶ');

@@ -52,9 +52,10 @@ export class Trails {
         if (!point || point.at > now - lag) break;
         const at = on_floor(one, point);
         if (!is_begun) pen.context.beginPath();
-        if (!is_begun && state.last) move(pen, state.last);
-        is_begun = true;
         const to = pen.at(at);
+        if (point.begins) pen.context.moveTo(to.x, to.y);
+        else if (!is_begun && state.last) move(pen, state.last);
+        is_begun = true;
         pen.context.lineTo(to.x, to.y);
         state.last = at;
       }

@@ -22,8 +22,19 @@ export default function MessagesPanel() {
   const [frame, is_wide] = useIsWide(900); // for the list and the document side by side
   const tape = recording.value;
   const feed = useMemo(() => new Feed(tape ? source_of(tape) : live(console), filter.value), [tape, filter.value]);
+  // What the filter could show: not what the console has asked by itself, unless that is wanted.
+  const { with_own } = filter.value;
+  const whole = useMemo(() => new Feed(tape ? source_of(tape) : live(console), { ...no_filter, with_own: with_own || tape !== undefined }), [tape, with_own]);
   const [, again] = useState(0);
-  useEffect(() => console.environment.every(look_every, () => feed.update() && again((n) => n + 1)), [feed]);
+  const is_bare = console.documents.ring.size === 0;
+  useEffect(
+    () =>
+      console.environment.every(look_every, () => {
+        const is_new = [feed, whole].filter((one) => one.update()).length > 0;
+        if (is_new || (is_bare && console.documents.ring.size > 0)) again((n) => n + 1);
+      }),
+    [feed, whole, is_bare],
+  );
   const held = tape ? undefined : paused.value;
   const rows = held ? held.rows : feed.rows;
   const picked = console.selection.document;
@@ -34,7 +45,7 @@ export default function MessagesPanel() {
     if (recording.value && picked.value !== undefined) recording.value = undefined;
   }, [picked.value]);
   const document = chosen === undefined ? undefined : tape ? tape.documents[chosen] : (console.documents.ring.numbered(chosen) ?? held?.rows.find((one): one is LoggedDocument => !is_gap(one) && one.number === chosen));
-  const all = tape ? tape.documents.length : console.documents.ring.size;
+  const all = whole.rows.length;
 
   const list =
     rows.length > 0 ? (
@@ -49,15 +60,15 @@ export default function MessagesPanel() {
         follow={!tape && !held}
       />
     ) : (
-      <EmptyState icon="messages" title={all === 0 ? t.none() : filter.value === no_filter ? t.only_own() : t.none_pass()}>
-        {all > 0 && <Button onClick={() => (filter.value = { ...no_filter, with_own: true })}>{t.clear()}</Button>}
+      <EmptyState icon="messages" title={is_bare && !tape ? t.none() : filter.value === no_filter ? t.only_own() : t.none_pass()}>
+        {(tape || !is_bare) && <Button onClick={() => (filter.value = { ...no_filter, with_own: true })}>{t.clear()}</Button>}
       </EmptyState>
     );
   const reader = document ? <Reader key={document.number} document={document} tape={tape} choose={(one) => (choice.value = one.number)} /> : <EmptyState icon="messages" title={t.pick()} />;
   const direction = is_wide ? 'row' : 'column';
   return (
     <div class="messages" ref={frame}>
-      <Toolbar feed={feed} rows={rows} />
+      <Toolbar feed={feed} rows={rows} all={all} />
       {tape && <TapeBanner tape={tape} />}
       <div class="messages-body">
         <SplitPane key={direction} id={`messages.${direction}`} direction={direction} share={0.58} label={t.list()} first={list} second={reader} />

@@ -22,15 +22,19 @@ export const pause = text('Pause', '一時停止');
 export const go_on = text('Go on', '再開');
 export const waiting = text_of((n: number) => [`${count_text(n)} new`, `新着 ${count_text(n)} 件`]);
 export const shown = text_of((n: number, all: number) => [`${count_text(n)} of ${count_text(all)}`, `${count_text(all)} 件中 ${count_text(n)} 件`]);
-export const export_it = text('Export', '書き出す');
+export const shown_hint = text(
+  'How many pass the filter, of all that the console still has. What it asks by itself counts only where it is shown.',
+  'コンソールに残る文書のうち、条件に合う件数。コンソール自身の問い合わせは、表示するときだけ数えます。',
+);
+export const export_it = text('Export all', 'すべて書き出す');
 export const import_it = text('Open a recording', '記録を開く');
 export const exported = text_of((n: number) => [
-  `${count_text(n)} documents were saved. \`rois replay\` serves them as an engine.`,
-  `文書 ${count_text(n)} 件を保存しました。\`rois replay\` でエンジンとして再生できます。`,
+  `${count_text(n)} documents were saved: all that the console still has, whatever the filter shows. The command rois replay serves them as an engine.`,
+  `文書 ${count_text(n)} 件を保存しました(絞り込みに関わらず、コンソールに残るすべて)。rois replay コマンドでエンジンとして再生できます。`,
 ]);
 export const session_inside = text(
-  'The id of this session is in the file: whoever has it can act as this console while it is connected.',
-  'ファイルにはこのセッションの ID が含まれます。接続中は、それを持つ人がこのコンソールとして操作できます。',
+  'What the console asked by itself is among them. The id of this session is in the file: whoever has it can act as this console while it is connected.',
+  'コンソール自身の問い合わせも含みます。ファイルにはこのセッションの ID が含まれます。接続中は、それを持つ人がこのコンソールとして操作できます。',
 );
 export const import_failed = text_of((file: string) => [`${file} cannot be read as a recording`, `${file} を記録として読めません`]);
 export const too_large = text_of((most: number) => [`It is larger than ${bytes_text(most)}.`, `${bytes_text(most)} を超えています。`]);

@@ -11,14 +11,13 @@ import * as t from './texts';
 
 const most_bytes = 64 * 1024 * 1024; // of a recording that is opened
 
-export function Toolbar({ feed, rows }: { feed: Feed; rows: readonly Row[] }) {
-  const { profile, documents } = useConsole();
+export function Toolbar({ feed, rows, all }: { feed: Feed; rows: readonly Row[]; all: number }) {
+  const { profile } = useConsole();
   const now = filter.value;
   const put = (some: Partial<Filter>) => (filter.value = { ...now, ...some });
   const toggle = (name: Category) => put({ hidden: now.hidden.has(name) ? new Set([...now.hidden].filter((one) => one !== name)) : new Set([...now.hidden, name]) });
   const tape = recording.value;
   const refs = tape ? [...new Set(tape.documents.flatMap((one) => one.component ?? []))].sort() : profile.components.value.map((one) => one.ref);
-  const all = tape ? tape.documents.length : documents.ring.size;
   return (
     <div class="messages-bar" role="group" aria-label={t.title()}>
       <h2 class="unseen">{t.title()}</h2>
@@ -35,7 +34,7 @@ export function Toolbar({ feed, rows }: { feed: Feed; rows: readonly Row[] }) {
         <TextField label={t.search()} hide_label value={now.text} change={(text) => put({ text })} input={{ type: 'search', placeholder: t.search() }} />
       </div>
       <Checkbox label={t.own()} checked={now.with_own} change={(with_own) => put({ with_own })} />
-      <span class="messages-count">{t.shown(rows.length, all)}</span>
+      <span class="messages-count" title={t.shown_hint()}>{t.shown(rows.length, Math.max(all, rows.length))}</span>
       <Recordings />
     </div>
   );
@@ -63,8 +62,9 @@ function Recordings() {
   const chooser = useRef<HTMLInputElement>(null);
   const write = () => {
     const { ring } = console.documents;
+    const { size } = ring;
     save(`rois-${new Date(console.environment.now()).toISOString().slice(0, 19).replaceAll(':', '')}.jsonl`, recording_of(ring, console.environment.origin));
-    console.notices.tell('good', t.exported(ring.size), { detail: t.session_inside() });
+    console.notices.tell('good', t.exported(size), { detail: t.session_inside() });
   };
   const read = async (file: File | undefined) => {
     if (!file) return;

@@ -41,6 +41,8 @@ export class Desk {
   /** The last one that could be run, for the diagram. */
   readonly drawn = signal<Scenario | undefined>(undefined);
   readonly is_running = signal(false);
+  /** All of the diagram, however small. */
+  readonly shows_whole = signal(false);
   /** The state that is looked at; empty: the scenario itself. */
   readonly chosen = signal('');
   readonly history = new Ring<HistoryEntry>(most_history);

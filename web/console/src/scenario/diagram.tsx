@@ -15,7 +15,7 @@ const smallest = 0.68; // below that one scrolls
 export function Diagram({ desk, scenario, edit }: { desk: Desk; scenario: Scenario; edit: (state: string) => void }) {
   const frame = useRef<HTMLDivElement>(null);
   const size = useSignal({ width: 600, height: 600 });
-  const is_whole = useSignal(false);
+  const is_whole = desk.shows_whole;
   const layout = picture_of(scenario);
   void desk.pulse.beat.value;
   const { run } = desk;

@@ -111,14 +111,15 @@ export class Machine {
       this.subscriptions.push(await this.console.subscribe(type));
   }
 
-  // Gives back all that was bound for it. What the user had bound before stays so, but does not go on with what it was told here.
+  // Gives back all that was bound for it. What the user had bound before stays so, but does not go on with what it was told here; what others of
+  // this page have a use for goes on.
   private async let_go(): Promise<void> {
     const { bindings } = this.console;
     const session_is_there = this.inbox.ended !== 'session' && this.inbox.ended !== 'closed';
     for (const give_back of this.borrowed.reverse()) await give_back();
     if (!session_is_there) return;
-    const kept = [...this.refs.values()].filter((ref) => bindings.mine.value.has(ref));
-    await Promise.all([...kept.map((ref) => this.console.run(ref, 'stop').catch(() => undefined)), ...this.subscriptions.map((one) => one.close().catch(() => undefined))]);
+    const kept = [...this.refs.values()].filter((ref) => bindings.mine.value.has(ref) && bindings.lent(ref) === 0);
+    await Promise.all([...kept.map((ref) => this.console.run(ref, 'stop', {}, { give_back: true }).catch(() => undefined)), ...this.subscriptions.map((one) => one.close().catch(() => undefined))]);
   }
 
   private async enter(state: State): Promise<void> {

@@ -31,11 +31,11 @@ export function state_of(run: Run | undefined, is_running: boolean): { tone: Ton
 }
 
 export function RunState({ desk }: { desk: Desk }) {
-  const { environment, now } = useConsole();
+  const console = useConsole();
   void desk.pulse.beat.value;
   const { run } = desk;
   const { tone, text } = state_of(run, desk.is_running.value);
-  const until = run?.ended_at ?? Math.max(now.value, environment.now());
+  const until = run?.ended_at ?? console.time();
   return (
     <span class="scenario-run-state">
       <Badge tone={tone}>{text}</Badge>

@@ -21,7 +21,7 @@ export const mend_first = text('Mend what is wrong first', '先に誤りを直�
 export const never_run = text('Not started', '未開始');
 export const binding = text('Binding …', 'バインド中…');
 export const running = text('Running', '実行中');
-export const ended = text_of((state: string) => [`Ended in ${state}`, `${state} で終了`]);
+export const ended = text_of((state: string) => [`Ended in “${state}”`, `「${state}」で終了`]);
 export const failed = text_of((state: string) => [`Failed in ${state}`, `${state} で失敗`]);
 export const was_stopped = text('Stopped', '停止しました');
 export const trouble = text('Ended with trouble', '問題が起きて終了');

@@ -26,7 +26,7 @@ export function Drawing({ store, adding, set_adding, open_form }: DrawingProps) 
   const root = store.root.value;
   const run = store.run.value;
   void console.commands.pulse.beat.value;
-  const view: RunView = run ? run_view(run.root, run.entries, run.sent_at, run.entries.size > 0 ? console.now.value : 0) : new Map();
+  const view: RunView = run ? run_view(run.root, run.entries, run.sent_at, run.entries.size > 0 ? console.time() : 0) : new Map();
   const go_to = (id: number) => {
     store.chosen.value = id;
     requestAnimationFrame(() => frame.current?.querySelector<HTMLElement>(`[data-step="${id}"]`)?.focus());
@@ -46,7 +46,7 @@ export function Drawing({ store, adding, set_adding, open_form }: DrawingProps) 
     if (running !== undefined && !frame.current?.contains(document.activeElement)) frame.current?.querySelector(`[data-step="${running}"]`)?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
   }, [running]);
   const first = store.chosen.value !== 0 && found(root, store.chosen.value) ? store.chosen.value : root.steps[0]?.id;
-  const context: LaneContext = { store, view, adding, set_adding, drag, first, go_to };
+  const context: LaneContext = { store, view, adding, set_adding, drag, first, go_to, open_form };
   return (
     <div ref={frame} class={drag.dragged ? 'sequence-drawing sequence-dragging' : 'sequence-drawing'} role="group" aria-label={t.drawing()} onKeyDown={pressed}>
       <div class="sequence-whole">
@@ -67,6 +67,8 @@ export interface LaneContext {
   /** The step that Tab goes to. */
   first: number | undefined;
   go_to: (step: number) => void;
+  /** Goes on to the form of the step that is chosen. */
+  open_form: () => void;
 }
 
 function LaneView({ lane, label, context }: { lane: Lane; label: string; context: LaneContext }) {

@@ -37,7 +37,7 @@ function Progress({ store, run }: { store: SequenceStore; run: Run }) {
   const ended = all.filter(has_ended);
   const failed = entries.find(([, one]) => has_ended(one) && one.state !== 'OK' && one.state !== 'ABORT') ?? entries.find(([, one]) => has_ended(one) && one.state !== 'OK');
   const is_over = ended.length === all.length;
-  const took = duration(is_over ? last_end(all) - run.sent_at : Math.max(0, console.now.value - run.sent_at));
+  const took = duration(is_over ? last_end(all) - run.sent_at : Math.max(0, console.time() - run.sent_at));
   return (
     <>
       {is_over ? <StatusBadge status={failed ? failed[1].state : 'OK'} /> : <Badge tone={store.is_running ? 'busy' : 'warning'}>{store.is_running ? t.running() : t.stopped()}</Badge>}

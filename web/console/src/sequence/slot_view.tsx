@@ -7,23 +7,26 @@ import { new_command, new_parallel, new_wait, type Slot, type Step, with_inserte
 import * as t from './texts';
 
 export function SlotView({ slot, context, is_empty = false }: { slot: Slot; context: LaneContext; is_empty?: boolean }) {
-  const { adding, set_adding, drag, store, go_to } = context;
+  const { adding, set_adding, drag, store, go_to, open_form } = context;
   const is = (one: Slot | undefined) => one?.lane === slot.lane && one.index === slot.index;
   const add = (step: Step) => {
     store.change(with_inserted(store.root.value, slot, step));
     set_adding(undefined);
-    go_to(step.id);
+    store.chosen.value = step.id;
+    if (step.kind === 'parallel') go_to(step.id); // it is filled in the drawing
+    else open_form();
   };
   const name = ['sequence-slot', is(drag.over) && 'sequence-target', is_empty && 'sequence-empty'].filter(Boolean).join(' ');
   return (
     <div class={name} data-slot={`${slot.lane} ${slot.index}`}>
       {is(adding) ? (
         <Choices close={() => set_adding(undefined)}>
-          <Button small icon="components" onClick={() => add(new_command())}>
-            {t.command()}
-          </Button>
           <Button small icon="clock" onClick={() => add(new_wait())}>
             {t.wait()}
+          </Button>
+          {/* In the middle, under the pointer that has opened it. */}
+          <Button small look="primary" icon="components" onClick={() => add(new_command())}>
+            {t.command()}
           </Button>
           <Button small icon="sequence" onClick={() => add(new_parallel())}>
             {t.parallel()}
@@ -39,7 +42,7 @@ export function SlotView({ slot, context, is_empty = false }: { slot: Slot; cont
 // Takes the focus; Escape and leaving it close it.
 function Choices({ close, children }: { close: () => void; children: preact.ComponentChildren }) {
   const box = useRef<HTMLDivElement>(null);
-  useLayoutEffect(() => box.current?.querySelector('button')?.focus(), []);
+  useLayoutEffect(() => box.current?.querySelector<HTMLElement>('.button-primary')?.focus(), []);
   const left = (event: FocusEvent) => {
     if (!box.current?.contains(event.relatedTarget as Node | null)) close();
   };

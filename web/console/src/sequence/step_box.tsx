@@ -104,8 +104,8 @@ function Box({ step, context, kind, children }: Of<Step> & { kind: Step['kind'];
 }
 
 function StateLine({ state: { state, since, took } }: { state: StepState }) {
-  const { now } = useConsole();
-  const time = took ?? (since === undefined ? undefined : Math.max(0, now.value - since));
+  const console = useConsole();
+  const time = took ?? (since === undefined ? undefined : Math.max(0, console.time() - since));
   return (
     <span class="sequence-state">
       <StatusBadge status={state} />

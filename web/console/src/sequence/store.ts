@@ -3,10 +3,9 @@ import { computed, signal } from '@preact/signals';
 import { type CommandUnit, type Parameter, parse_xml, request, RoisError, sequence_xml } from 'rois-client';
 
 import { arguments_in } from '../forms/argument_fields';
-import { asked_by, same } from '../forms/describe';
+import { asked_by, goes_on, same } from '../forms/describe';
 import { type CommandEntry, has_ended } from '../state/commands_state';
 import type { Console } from '../state/console';
-import type { ComponentView } from '../state/profile_state';
 import { placed_commands, units_of } from '../state/sequences';
 import { problems_in_sequence, type Profiles } from './checking';
 import { draft_of, draft_text } from './draft';
@@ -139,6 +138,10 @@ export class SequenceStore {
 
   // --- Running ---
 
+  get is_empty(): boolean {
+    return this.problems.value[0]?.what === 'nothing';
+  }
+
   get is_running(): boolean {
     void this.console.commands.pulse.beat.value;
     return this.open_entries().some((one) => one.state === 'running' || !this.run.value?.is_stopped);
@@ -196,12 +199,6 @@ export class SequenceStore {
     for (const ref of done_with) if (this.console.bindings.mine.value.has(ref)) await this.console.bindings.release(ref);
     if (this.run.value) this.run.value = { ...this.run.value, is_stopped: true };
   }
-}
-
-const lasting = /(Detection|Localization|Identification|Recognition|Streaming)$/i;
-
-function goes_on(view: ComponentView | undefined): boolean {
-  return view !== undefined && [view.type, ...view.includes].some((urn) => lasting.test(urn));
 }
 
 // The engine names a unit by its path.

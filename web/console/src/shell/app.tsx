@@ -6,7 +6,6 @@ import { ConsoleContext, useConsole, useWatch } from './context';
 import { Header } from './header';
 import { Layout } from './layout';
 import { LinkBanner } from './link_status';
-import { NoticeArea } from './notices';
 import * as texts from './texts';
 import { TokenDialog } from './token_dialog';
 
@@ -16,7 +15,7 @@ export function App({ console }: { console: Console }) {
     document.title = texts.title();
   }, [language.value]);
   const { phase } = console.link.view.value;
-  const is_stale = console.link.heard_at > 0 && (phase === 'lost' || phase === 'draining' || phase === 'refused');
+  const is_stale = console.link.heard_at > 0 && /^(lost|draining|refused|closed)$/.test(phase);
   return (
     <ConsoleContext.Provider value={console}>
       <div class="app">
@@ -25,7 +24,6 @@ export function App({ console }: { console: Console }) {
         <main id="panels" class={is_stale ? 'app-main app-stale' : 'app-main'} tabIndex={-1}>
           <Layout />
         </main>
-        <NoticeArea />
         <TokenDialog />
         <Watch />
       </div>

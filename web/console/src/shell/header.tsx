@@ -6,11 +6,13 @@ import { Dialog } from '../ui/dialog';
 import { error_text } from '../ui/error_text';
 import { useConsole } from './context';
 import { LinkMark } from './link_status';
+import { NoticeArea } from './notices';
 import * as t from './texts';
 import { theme, type Theme } from './theme';
 
 export function Header() {
   const console = useConsole();
+  const asks = useSignal(false);
   const name = console.profile.profile.value?.engine.name;
   return (
     <header class="head">
@@ -21,6 +23,7 @@ export function Header() {
         RoIS {name && <span class="head-engine">{name}</span>}
       </h1>
       <LinkMark />
+      <NoticeArea />
       <div class="head-end">
         <Bound />
         <label class="head-choice">
@@ -42,14 +45,34 @@ export function Header() {
           </select>
         </label>
         {console.link.is_open && (
-          <Button small look="quiet" onClick={() => void console.close()}>
+          <Button small look="quiet" onClick={() => (is_at_work() ? (asks.value = true) : void console.close())}>
             {t.disconnect()}
           </Button>
         )}
+        <Dialog
+          title={t.disconnect_title()}
+          open={asks.value}
+          close={() => (asks.value = false)}
+          actions={
+            <>
+              <Button look="danger" onClick={disconnect}>{t.disconnect()}</Button>
+              <Button onClick={() => (asks.value = false)}>{t.cancel()}</Button>
+            </>
+          }
+        >
+          <p>{t.disconnect_hint(console.bindings.mine.value.size, console.commands.open().length)}</p>
+        </Dialog>
       </div>
     </header>
   );
 
+  function is_at_work(): boolean {
+    return console.bindings.mine.value.size > 0 || console.commands.open().length > 0;
+  }
+  function disconnect(): void {
+    asks.value = false;
+    void console.close();
+  }
   function choose_theme(chosen: Theme): void {
     theme.value = chosen;
     console.environment.remember('theme', chosen);

@@ -37,6 +37,11 @@ export function LinkBanner() {
       {text !== '' && (
         <p class={`banner banner-${tone_of(phase)}`}>
           <strong>{t.phase(phase)}.</strong> {text} {reason !== '' && phase !== 'closed' && <code>{reason}</code>}
+          {/^(connecting|lost|draining|refused)$/.test(phase) && (
+            <Button small icon="refresh" onClick={() => console.retry()}>
+              {t.try_now()}
+            </Button>
+          )}
           {phase === 'closed' && (
             <Button small onClick={() => console.connect(console.current_token)}>
               {t.connect()}

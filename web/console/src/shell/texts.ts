@@ -31,6 +31,13 @@ export const missed_session = text(
   '前のセッションは失われました。バインドとコマンドは終了し、購読はやり直しました。その間に起きたことは分かりません。',
 );
 export const seen = text('Seen', '確認');
+export const try_now = text('Try now', '今すぐ試す');
+export const disconnect_title = text('Disconnect?', '切断しますか?');
+export const disconnect_hint = text_of((bound: number, commands: number) => [
+  `The session ends: ${count_text(bound)} bound ${bound === 1 ? 'component is' : 'components are'} released${commands === 0 ? '' : `, and ${count_text(commands)} ${commands === 1 ? 'command that has' : 'commands that have'} not ended ${commands === 1 ? 'is' : 'are'} stopped`}.`,
+  `セッションを終了します。バインドした ${count_text(bound)} 個のコンポーネントを解放${commands === 0 ? 'します' : `し、終わっていないコマンド ${count_text(commands)} 件を止めます`}。`,
+]);
+export const cancel = text('Cancel', '取り消し');
 export const connect = text('Connect', '接続');
 export const disconnect = text('Disconnect', '切断');
 export const empty_engine = text('This engine has no components', 'このエンジンにはコンポーネントがありません');
@@ -46,9 +53,9 @@ export const token_wrong = text('The gateway did not accept this token.', 'こ�
 export const token_label = text('Token', 'トークン');
 export const token_hint = text('Whoever runs the gateway knows it. It is kept until this page is closed.', 'ゲートウェイの管理者に尋ねてください。このページを閉じるまで保持します。');
 export const theme = text('Colours', '配色');
-export const theme_system = text('as the system', 'システムに合わせる');
-export const theme_dark = text('dark', '暗い');
-export const theme_light = text('light', '明るい');
+export const theme_system = text('Colours as the system', '配色: システムに合わせる');
+export const theme_dark = text('Dark colours', '配色: 暗い');
+export const theme_light = text('Light colours', '配色: 明るい');
 export const language = text('Language', '言語');
 export const panels = text('Panels', 'パネル');
 export const notices = text('Notices', 'お知らせ');

@@ -26,6 +26,11 @@ export class Bindings {
     return session === undefined ? { who: 'nobody' } : { who: 'other', session };
   }
 
+  /** How many have borrowed it, unless the user has it for themselves. */
+  lent(ref: string): number {
+    return this.kept.has(ref) ? 0 : (this.borrowed.get(ref) ?? 0);
+  }
+
   /** Binds and keeps it until `release`. */
   async bind(ref: string): Promise<void> {
     if (!this.mine.value.has(ref)) await this.client().bind(ref);

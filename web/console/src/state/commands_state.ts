@@ -21,6 +21,7 @@ export interface CommandEntry {
   sent_at: number; // ms since 1970, as all times
   started_at?: number; // when we have seen that it runs
   ended_at?: number;
+  completed?: number; // of the document that told how it ended
   results?: Results; // fetched when somebody asks (`fetch_results`), and by itself when it has failed
 }
 
@@ -47,6 +48,7 @@ export class CommandsState {
   readonly pulse: Pulse;
   private readonly by_id = new Map<string, CommandEntry>();
   private readonly unended = new Set<CommandEntry>();
+  private readonly working = new Set<string>();
   private readonly early = new Map<string, CompletedStatus>(); // ended before their answer was read
   private next_sequence = 1;
   private stop_looking: Stop | undefined;
@@ -74,20 +76,27 @@ export class CommandsState {
     return this.open().filter((one) => one.component === ref && one.state === 'running');
   }
 
+  /** Whether it was started, and neither stopped nor released since: what detects, localizes or identifies goes on after `start` has completed. */
+  goes_on(ref: string): boolean {
+    return this.working.has(ref);
+  }
+
   /** Learns from the answers, whoever has sent the requests. */
   heard({ name, return_code, text, request }: LoggedDocument): void {
     if (return_code !== 'OK' || request === undefined) return;
+    if (name === 'release_response') this.working.delete(request.component ?? '');
     if (name === 'execute_response') this.accepted(units_of(parse_xml(text)), request);
     if (name === 'set_parameter_response') this.accepted([setting(parse_xml(text).text_of('command_id'), request)], request);
   }
 
-  ended(id: string, status: CompletedStatus): void {
+  ended(id: string, status: CompletedStatus, document?: number): void {
     const entry = this.by_id.get(id);
     if (!entry) {
       this.early.set(id, status);
       if (this.early.size > most_asked) this.early.delete(this.early.keys().next().value!);
       return;
     }
+    if (document !== undefined) entry.completed = document;
     this.end(entry, status);
     this.look();
     if (status !== 'OK') void this.fetch_results(entry);
@@ -97,6 +106,7 @@ export class CommandsState {
   forget_session(): void {
     for (const entry of [...this.unended]) this.end(entry, 'unknown');
     this.by_id.clear();
+    this.working.clear();
   }
 
   async fetch_results(entry: CommandEntry): Promise<Results | undefined> {
@@ -144,6 +154,8 @@ export class CommandsState {
 
   private end(entry: CommandEntry, state: CommandState): void {
     entry.state = state;
+    if (state === 'OK' && /^(start|resume)$/.test(entry.command_type)) this.working.add(entry.component);
+    if (state === 'OK' && /^(stop|suspend)$/.test(entry.command_type)) this.working.delete(entry.component);
     entry.ended_at = this.environment.now();
     this.unended.delete(entry);
     this.pulse.touch();

@@ -58,6 +58,7 @@ export interface Sent {
 }
 
 const forever = 2 ** 31 - 1; // ms; the longest that a timer takes
+const most_delay = 15_000; // ms between two tries: whoever does not want to wait has a button
 
 export class Console {
   /** ms since 1970; changes each second, for ages. */
@@ -96,7 +97,7 @@ export class Console {
     this.documents = new Documents(environment);
     this.status = new StatusState(environment, this.documents, client, components, is_open);
     this.parameters = new ParametersState(environment, this.documents, client, is_open);
-    this.metrics = new MetricsState(environment, token);
+    this.metrics = new MetricsState(environment, token, () => !/^(connecting|lost|closed)$/.test(this.link.view.value.phase)); // else nobody is there
     this.bindings = new Bindings(
       () => this.client,
       () => this.metrics.bound.value,
@@ -132,6 +133,11 @@ export class Console {
     this.documents.listen((document) => this.heard(document));
   }
 
+  /** ms since 1970. Whoever reads it while rendering is drawn again each second; `now` itself may be a second old. */
+  time(): number {
+    return Math.max(this.now.value, this.environment.now());
+  }
+
   // --- The link ---
 
   /** The client that speaks; the operations below are enough for most. */
@@ -149,16 +155,22 @@ export class Console {
   connect(token?: string): void {
     this.leave();
     this.token = token;
-    const client = new Client(this.environment.origin, token === undefined ? {} : { token }, this.environment.open_socket);
+    // What was lent is not for the next session to have; whoever still wants it binds it there.
+    const client = new Client(this.environment.origin, { most_delay, rebind: false, ...(token !== undefined && { token }) }, this.environment.open_socket);
     this.speaker = client;
     this.stops = [
+      this.link.follow(client, token, () => void client.close({ deadline: 0 })), // first: the others ask whether it is open
       client.on('document', ({ direction, text }) => this.documents.note(direction, text)),
       client.on('state', ({ state }) => this.link_changed(state)),
       client.on('gap', (gap) => this.missed(gap)),
       client.on('notification', (notification) => this.notified(notification)),
-      this.link.follow(client, token, () => void client.close({ deadline: 0 })),
     ];
     client.start(forever).catch(() => undefined); // the link's state says it
+  }
+
+  /** Tries at once to open the link that is away. */
+  retry(): void {
+    this.speaker?.retry();
   }
 
   /** Ends the session at once: what this console runs is stopped. */
@@ -176,12 +188,18 @@ export class Console {
 
   private link_changed(state: string): void {
     if (state === 'lost' || state === 'connecting' || state === 'closed') this.documents.forget_waiting();
+    if (state === 'closed') {
+      this.forget_session();
+      this.status.all.value = new Map();
+      this.metrics.latest.value = undefined;
+    }
     if (state !== 'open' && state !== 'resumed') return;
     if (this.session !== '' && this.session !== this.client.session) this.forget_session();
     this.session = this.client.session;
     void this.read_profile();
     void this.map.load();
     this.status.poll.now();
+    this.metrics.poll.now();
   }
 
   private missed(gap: Gap): void {
@@ -196,6 +214,7 @@ export class Console {
     this.commands.forget_session();
     this.subscriptions.forget_session();
     this.entities.forget();
+    this.robots.forget();
     this.hall.forget();
   }
 
@@ -230,7 +249,7 @@ export class Console {
         this.events.error(notification, document);
         break;
       case 'completed':
-        this.commands.ended(notification.command_id, notification.status);
+        this.commands.ended(notification.command_id, notification.status, document);
         break;
       case 'profile_changed':
         void this.read_profile();

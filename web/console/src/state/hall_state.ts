@@ -1,5 +1,5 @@
 // People in the simulated hall who do what they are told, through the component that is the hall itself. An engine without it has real people.
-import { computed, signal } from '@preact/signals';
+import { computed } from '@preact/signals';
 import { type Arguments, type Client, component_ref, type Pose, pose_of, pose_text, RoisError, value } from 'rois-client';
 
 import type { CommandEntry, CommandsState } from './commands_state';
@@ -44,8 +44,11 @@ export interface HallParts {
 export class HallState {
   /** The component; undefined when the engine has none. */
   readonly component = computed(() => this.parts.profile.of_type('Hall')[0]);
-  /** Whether the world stands still but for what is let pass; undefined until the engine was asked. */
-  readonly stands_still = signal<boolean | undefined>(undefined);
+  /** Whether the world stands still but for what is let pass: the engine's profile says it. */
+  readonly stands_still = computed(() => {
+    const speed = this.parts.profile.profile.value?.engine.parameters.find(({ name }) => name === 'sim_speed')?.default_value;
+    return speed !== undefined && Number(speed) === 0;
+  });
   /** By ref, in the order of their coming. They change in place: read `pulse.beat.value`, then this. */
   readonly visitors = new Map<string, Visitor>();
   readonly pulse: Pulse;
@@ -82,19 +85,8 @@ export class HallState {
   /** Lets so many ms of a world pass that stands still; a multiple of 20. */
   async let_pass(ms: number): Promise<Outcome> {
     const outcome = await this.tell('let_pass', { time: Math.max(20, Math.round(ms / 20) * 20) });
-    this.stands_still.value = true;
     this.poll.now();
     return outcome;
-  }
-
-  /** Finds out whether the world stands still. The engine refuses a time of 0 either way, and says why. */
-  async find_out(): Promise<void> {
-    if (this.stands_still.value !== undefined || !this.component.value) return;
-    try {
-      await this.parts.documents.as_own(() => this.tell('let_pass', { time: 0 }));
-    } catch (error) {
-      if (error instanceof RoisError && error.failure === 'refused' && error.return_code === 'BAD_PARAMETER') this.stands_still.value = !/by itself/.test(error.message);
-    }
   }
 
   /** What somebody has been told and has not done yet, the oldest first. */
@@ -105,7 +97,6 @@ export class HallState {
 
   forget(): void {
     this.visitors.clear();
-    this.stands_still.value = undefined;
     this.pulse.touch();
   }
 

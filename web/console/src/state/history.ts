@@ -108,7 +108,7 @@ export class History {
     const goes_on = before !== undefined && (kind === 'link' || at - before.to <= longest_blink);
     if (before && goes_on) {
       before.to = at; // or so: it has changed between two looks
-      if (before.value === value && before.note === note) return;
+      if (before.value === value && (kind === 'link' || before.note === note)) return; // why it was lost, not why it is still away
     }
     if (before) this.past.push(before);
     this.present.set(key, { number: this.next++, kind, ref, value, from: at, to: at, note });

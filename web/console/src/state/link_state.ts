@@ -67,7 +67,7 @@ export class LinkState {
       if (state !== 'connecting' && state !== 'lost') return;
       void this.outlook(token).then((outlook) => {
         if (question !== asked) return;
-        if (outlook === 'unreachable' && this.view.value.phase === 'refused') this.turn(state, reason);
+        if (outlook === 'unreachable' && this.view.value.phase !== state) this.turn(state, reason);
         if (typeof outlook === 'string') return;
         this.turn(outlook.phase, outlook.reason);
         if (outlook.phase !== 'token') return;
@@ -102,7 +102,7 @@ export class LinkState {
 
   private trouble(state: 'connecting' | 'lost', reason: string): void {
     const before = this.view.value;
-    const phase = troubled(before, state, reason, this.environment.now());
+    const phase = troubled(before, state, reason);
     // It was said why; a failed try does not say anything better.
     const was_said = phase === before.phase && phase !== state && !refusals.test(reason) && !going_away.test(reason);
     this.turn(phase, was_said ? before.reason : reason);
@@ -134,11 +134,10 @@ export class LinkState {
 const refusals = /^(too_many|not_allowed|unauthorized):/;
 const going_away = /closed with (1001|1012|1013)\b|^shutting_down:/;
 
-const restarts_within = 60_000; // ms: after that it is just not there
-
-function troubled(before: LinkView, state: 'connecting' | 'lost', reason: string, now: number): Phase {
+// What it said counts until somebody has asked whether it is still there.
+function troubled(before: LinkView, state: 'connecting' | 'lost', reason: string): Phase {
   if (refusals.test(reason)) return 'refused';
   if (going_away.test(reason)) return 'draining';
-  if (before.phase === 'refused' || (before.phase === 'draining' && now - before.since < restarts_within)) return before.phase;
+  if (before.phase === 'refused' || before.phase === 'draining') return before.phase;
   return state;
 }

@@ -51,12 +51,18 @@ export class MetricsState {
   );
   readonly poll: Poll;
 
+  /** Whether what was told last is too old to be relied on. */
+  is_stale(now: number): boolean {
+    return now - (this.latest.value?.at ?? now) > stale_after;
+  }
+
   constructor(
     private readonly environment: Environment,
     private readonly token: () => string | undefined,
+    may_ask: () => boolean,
     period = 1000, // ms
   ) {
-    this.poll = new Poll(environment, period, () => this.read());
+    this.poll = new Poll(environment, period, () => this.read(), may_ask);
   }
 
   private async read(): Promise<void> {
@@ -74,6 +80,8 @@ export class MetricsState {
     }
   }
 }
+
+const stale_after = 5000; // ms
 
 const line = /^([A-Za-z_:][\w:]*)(?:\{(.*)\})?\s+(\S+)(?:\s+\d+)?$/;
 const label = /([A-Za-z_]\w*)="((?:[^"\\]|\\.)*)"/g;

@@ -14,10 +14,12 @@ export interface Notice {
   detail?: string;
   /** What the user may do about it: an undo, say. */
   action?: { label: string; act(): void };
+  /** What it is about: what is told of it later takes its place. */
+  about?: string;
 }
 
 const most_notices = 5;
-const shown_for = 8000; // ms; errors and those with an action stay until they are dismissed
+const shown_for = 8000; // ms; errors stay until they are dismissed
 
 export class Notices {
   readonly list = signal<readonly Notice[]>([]);
@@ -25,10 +27,11 @@ export class Notices {
 
   constructor(private readonly environment: Pick<Environment, 'now' | 'after'>) {}
 
-  tell(severity: Severity, text: string, more: Pick<Notice, 'detail' | 'action'> = {}): number {
+  tell(severity: Severity, text: string, more: Pick<Notice, 'detail' | 'action' | 'about'> = {}): number {
     const notice: Notice = { number: this.next++, at: this.environment.now(), severity, text, ...more };
-    this.list.value = [...this.list.value, notice].slice(-most_notices);
-    if (severity !== 'error' && notice.action === undefined) this.environment.after(shown_for, () => this.dismiss(notice.number));
+    const others = this.list.value.filter((one) => one.about === undefined || one.about !== notice.about);
+    this.list.value = [...others, notice].slice(-most_notices);
+    if (severity !== 'error') this.environment.after(shown_for, () => this.dismiss(notice.number));
     return notice.number;
   }
 

@@ -28,6 +28,12 @@ export class RobotsState {
     this.poll = new Poll(environment, period, () => this.ask(), may_ask);
   }
 
+  /** Those of another session may have been elsewhere meanwhile. */
+  forget(): void {
+    this.all.clear();
+    this.pulse.touch();
+  }
+
   private async ask(): Promise<void> {
     const client = this.client();
     if (!client) return;

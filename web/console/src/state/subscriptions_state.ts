@@ -34,16 +34,19 @@ export class SubscriptionsState {
     return subscription;
   }
 
-  /** Whether the console has it for itself: nobody has asked for it. */
+  /** Whether the console has it for itself: nobody has asked for it. Who asks for the same has the same id. */
   is_own(id: string): boolean {
-    return [...this.held].some(([one, { is_own }]) => is_own && one.subscribe_id === id);
+    const those = this.held_as(id);
+    return those.length > 0 && those.every(([, { is_own }]) => is_own);
   }
 
-  /** Ends it, whoever has made it. */
+  /** Ends it, whoever has made it; the console keeps what it has for itself. */
   async unsubscribe(id: string): Promise<void> {
-    const those = [...this.held.keys()].filter((one) => one.subscribe_id === id);
-    if (those.length > 0) await Promise.all(those.map((one) => one.close()));
-    else await this.client().send(request('unsubscribe', {}, text_element('subscribe_id', id)));
+    const those = this.held_as(id).filter(([, { is_own }]) => !is_own);
+    if (those.length === 0) return void (await this.client().send(request('unsubscribe', {}, text_element('subscribe_id', id))));
+    for (const [one] of those) this.held.delete(one);
+    await Promise.all(those.map(([one]) => one.close()));
+    this.all.value = new Map(this.all.value);
   }
 
   /** Learns from the answers, whoever has sent the requests. */
@@ -70,6 +73,10 @@ export class SubscriptionsState {
 
   forget_session(): void {
     this.all.value = new Map();
+  }
+
+  private held_as(id: string): [Subscription, { is_own: boolean }][] {
+    return [...this.held].filter(([one]) => one.subscribe_id === id);
   }
 
   private remove(id: string): void {

@@ -8,6 +8,8 @@ export interface TrailPoint {
   x: number;
   y: number;
   at: number;
+  /** Nobody knows the way from the point before it. */
+  begins?: true;
 }
 
 export interface Thing {
@@ -39,10 +41,12 @@ export interface Entity extends Thing {
 
 const most_points = 600;
 const trail_step = 50; // mm between two points
+const gap = { ms: 2000, mm: 700 }; // nothing was told for so long, and then from so far away
 
 /** Sets where a thing is, and makes it when it is new. */
 export function placed<T extends Thing>(known: T | undefined, located: Located, told: { codebook: string; component: string; at: number }, make: (thing: Thing) => T): T {
   const [x, y, z] = located.position;
+  const is_gap = known !== undefined && told.at - known.at > gap.ms && Math.hypot(known.x - x, known.y - y) > gap.mm;
   const thing = known ?? make({ ref: located.ref, crs: located.crs, x, y, z, trail: new Ring(most_points), ...told });
   thing.crs = located.crs;
   thing.component = told.component;
@@ -54,7 +58,7 @@ export function placed<T extends Thing>(known: T | undefined, located: Located, 
   set_or_delete(thing, 'covariance', located.covariance);
   set_or_delete(thing, 'reliability', located.reliability);
   const last = thing.trail.at(-1);
-  if (!last || Math.hypot(last.x - x, last.y - y) >= trail_step) thing.trail.push({ x, y, at: told.at });
+  if (!last || Math.hypot(last.x - x, last.y - y) >= trail_step) thing.trail.push({ x, y, at: told.at, ...(is_gap && { begins: true }) });
   return thing;
 }
 

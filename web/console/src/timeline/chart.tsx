@@ -5,7 +5,7 @@ import { useCallback, useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import { useConsole } from '../shell/context';
 import { shown_theme } from '../shell/theme';
 import { useDrawing } from '../ui/drawing';
-import { describe, phase_text, sentence } from './describe';
+import { describe_whole, phase_text, sentence } from './describe';
 import { type Lane, lay_out, type Layout, next_thing, type Placed, thing_at, time_of } from './layout';
 import { axis_height, paint } from './paint';
 import { Pointing } from './pointing';
@@ -21,6 +21,7 @@ export interface ChartProps {
 }
 
 const zoom_step = 1.5;
+const longest_rest = 10_000; // ms that a pointer may rest before the time goes on under it
 
 export function Chart({ view, opened, open }: ChartProps) {
   const console = useConsole();
@@ -35,7 +36,7 @@ export function Chart({ view, opened, open }: ChartProps) {
 
   const place = (width: number): Layout => {
     const { sources } = view;
-    return lay_out(sources, view.range(sources.at), { width, hides_quiet: view.hides_quiet.peek(), with_own: view.with_own.peek() });
+    return lay_out(sources, view.range(sources.at, sources), { width, hides_quiet: view.hides_quiet.peek(), with_own: view.with_own.peek() });
   };
   const drawing = useDrawing((sheet) => {
     const next = place(sheet.width);
@@ -63,7 +64,7 @@ export function Chart({ view, opened, open }: ChartProps) {
   useEffect(
     () =>
       effect(() => {
-        for (const one of [view.stretch, view.hides_quiet, view.with_own, hovered, focused, choice, console.profile.components]) void one.value;
+        for (const one of [view.stretch, view.held, view.hides_quiet, view.with_own, hovered, focused, choice, console.profile.components]) void one.value;
         if (view.is_live) for (const one of [console.commands.pulse, console.events.pulse, console.history.pulse]) void one.beat.value;
         redraw();
       }),
@@ -98,13 +99,32 @@ export function Chart({ view, opened, open }: ChartProps) {
     choose: (range) => (choice.value = range),
     click: (event) => {
       const { placed } = found(event);
-      if (placed) open(placed.thing);
+      if (!placed) return;
+      open(placed.thing);
+      pointer.current = hovered.value = undefined; // its card would lie over the details
     },
   });
   const pointer = useRef<{ clientX: number; clientY: number }>();
+  // What is live waits under a pointer that moves, and goes on when that is gone or has rested.
+  const resting = useRef(0);
+  const release = () => {
+    clearTimeout(resting.current);
+    view.held.value = undefined;
+  };
+  const hold = () => {
+    if (!view.is_live) return;
+    view.held.value ??= layout.current?.range.to;
+    clearTimeout(resting.current);
+    resting.current = window.setTimeout(release, longest_rest);
+  };
+  useEffect(() => release, []);
   const hover = (event: { clientX: number; clientY: number } | undefined) => {
+    if (event && pointer.current?.clientX !== event.clientX) hold();
     pointer.current = event && { clientX: event.clientX, clientY: event.clientY };
-    if (!event) return void (hovered.value = undefined);
+    if (!event) {
+      release();
+      return void (hovered.value = undefined);
+    }
     const { placed, x, y } = found(event);
     const before = hovered.peek();
     if (!placed) hovered.value = undefined;
@@ -188,7 +208,7 @@ export function Chart({ view, opened, open }: ChartProps) {
         </div>
       </div>
       <p id="timeline-help" class="unseen">{t.help()}</p>
-      <p class="unseen" role="status">{told ? sentence(describe(told.thing, view.sources.at)) : ''}</p>
+      <p class="unseen" role="status">{told ? sentence(describe_whole(console, told.thing, view.sources.at)) : ''}</p>
     </div>
   );
 }
@@ -218,12 +238,13 @@ interface TipProps {
 
 // Beside the pointer, or where the thing stands that the keys have chosen.
 function Tip({ view, layout, frame, hovered, focused }: TipProps) {
+  const console = useConsole();
   const at = view.sources.at;
-  if (hovered) return <Tooltip description={describe(hovered.thing, at)} x={hovered.x} y={hovered.y} />;
+  if (hovered) return <Tooltip description={describe_whole(console, hovered.thing, at)} x={hovered.x} y={hovered.y} />;
   const placed = focused && layout.current?.placed.find((one) => one.spot === focused.spot);
   if (!placed) return null;
   const { x, y, width, height } = placed.box;
-  return <Tooltip description={describe(placed.thing, at)} x={Math.max(0, x) + Math.min(width, 40) / 2} y={y + height + axis_height - (frame.current?.scrollTop ?? 0)} />;
+  return <Tooltip description={describe_whole(console, placed.thing, at)} x={Math.max(0, x) + Math.min(width, 40) / 2} y={y + height + axis_height - (frame.current?.scrollTop ?? 0)} />;
 }
 
 function bring_into_sight(frame: HTMLDivElement, { box }: Placed): void {

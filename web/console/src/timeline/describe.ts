@@ -1,10 +1,14 @@
 // Things of the time line in words: for what hovers, for tables, for screen readers.
+import { parse_xml } from 'rois-client';
+
+import { why } from '../forms/why';
 import { clock_time, duration } from '../i18n/i18n';
 import type { CommandEntry } from '../state/commands_state';
 import * as shell from '../shell/texts';
 import type { Span } from '../state/history';
 import type { Phase } from '../state/link_state';
-import { began_at, type Mark, mark_ref, type Thing } from './things';
+import type { Console } from '../state/console';
+import { began_at, has_failed, type Mark, mark_ref, opened_by, type Thing } from './things';
 import * as t from './texts';
 
 export interface Description {
@@ -30,6 +34,15 @@ export function describe(thing: Thing, at: number): Description {
   return thing.marks.length === 1 ? of_mark(thing.marks[0]!) : of_many(thing.marks);
 }
 
+/** With the reason why it failed, as far as that is known. */
+export function describe_whole(console: Console, thing: Thing, at: number): Description {
+  const told = describe(thing, at);
+  const opened = opened_by(thing);
+  if (opened.kind !== 'command' || !has_failed(opened.entry)) return told;
+  const reasons = why(console, opened.entry);
+  return reasons.length === 0 ? told : { ...told, facts: [...told.facts, [t.reason(), reasons.join(' ')]] };
+}
+
 /** In one line. */
 export function sentence({ kind, title, component, state, facts }: Description): string {
   return [kind, title, component === title ? '' : component, state === title ? '' : state, ...facts.map(([name, value]) => `${name} ${value}`)].filter((one) => one !== '').join(', ');
@@ -38,8 +51,8 @@ export function sentence({ kind, title, component, state, facts }: Description):
 function of_span({ kind, ref, value, from, to, note }: Span, at: number): Description {
   const goes_on = at - to < 2000;
   const times: Description['facts'] = [
-    [t.from(), clock_time(from, false)],
-    [t.to(), goes_on ? t.goes_on() : clock_time(to, false)],
+    [t.from(), clock_time(from)],
+    [t.to(), goes_on ? t.goes_on() : clock_time(to)],
     [t.lasted(), duration((goes_on ? at : to) - from)],
   ];
   if (note !== '') times.push([t.reason(), note]);
@@ -57,10 +70,13 @@ function of_command(entry: CommandEntry, at: number): Description {
   ];
   if (entry.started_at !== undefined) facts.push([t.waited(), duration(entry.started_at - entry.sent_at)]);
   if (began !== undefined) facts.push([t.ran(), duration((entry.ended_at ?? at) - began)]);
+  const why = entry.state === 'OK' ? undefined : entry.results?.text('reason');
+  if (why) facts.push([t.reason(), why]);
   return { at: entry.sent_at, kind: t.command(), title: entry.command_type, component: entry.component, state: entry.state, facts };
 }
 
 export function of_mark(mark: Mark): Description {
+  if (mark.kind === 'failed') return of_command(mark.entry.command, mark.entry.at);
   const { at } = mark.entry;
   const facts: Description['facts'] = [[t.when(), clock_time(at)]];
   if (mark.kind === 'gap') {
@@ -68,6 +84,7 @@ export function of_mark(mark: Mark): Description {
     return { at, kind: t.gap(), title: gap.reason === 'session' ? t.gap_session() : t.gap_lost(gap.count), component: '', state: '', facts };
   }
   const component = mark_ref(mark);
+  if (mark.kind === 'refused') return { at, kind: t.refused(), title: mark.entry.request?.name ?? mark.entry.name, component, state: mark.entry.return_code ?? '', facts: [...facts, [t.reason(), reason_in(mark.entry.text)]] };
   if (mark.kind === 'error') return { at, kind: t.error(), title: mark.entry.error.error_type, component, state: '', facts };
   return { at, kind: t.event(), title: mark.entry.event.event_type, component, state: '', facts };
 }
@@ -83,4 +100,8 @@ function of_many(marks: readonly Mark[]): Description {
   const facts: Description['facts'] = [[t.when(), `${clock_time(first)} – ${clock_time(last)}`]];
   for (const [title, n] of [...counts].sort((a, b) => b[1] - a[1]).slice(0, 5)) facts.push([title, `× ${n}`]);
   return { at: first, kind: '', title: t.many(marks.length), component: refs.size === 1 ? [...refs][0]! : '', state: '', facts };
+}
+
+function reason_in(text: string): string {
+  return parse_xml(text).text_of('reason');
 }

@@ -120,7 +120,14 @@ function MarkDetails({ mark }: { mark: Mark }) {
     if (mark.kind === 'event' && !events.is_expired(mark.entry)) void events.fetch_event(mark.entry);
     if (mark.kind === 'error') void events.fetch_error(mark.entry);
   }, [mark_key(mark)]);
-  if (mark.kind === 'gap') return null;
+  if (mark.kind === 'gap' || mark.kind === 'failed') return null;
+  if (mark.kind === 'refused')
+    return (
+      <>
+        {mark.entry.request && <LoggedText title={t.request()} number={mark.entry.request.number} />}
+        <LoggedText title={t.document()} number={mark.entry.number} />
+      </>
+    );
   const is_expired = mark.kind === 'event' && mark.entry.details.state === 'none' && events.is_expired(mark.entry);
   return (
     <>

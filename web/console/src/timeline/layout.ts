@@ -2,7 +2,7 @@
 import type { CommandEntry } from '../state/commands_state';
 import type { Span } from '../state/history';
 import { end_of, first_since, oldest_of, type Rows, type Sources } from './sources';
-import { key_of, type Mark, mark_ref, type Thing } from './things';
+import { has_failed, key_of, type Mark, mark_ref, type Thing } from './things';
 import type { Range } from './view';
 
 /** In CSS pixels: x from the left edge of what is drawn, y from the top of all lanes. */
@@ -101,7 +101,8 @@ export function lay_out(sources: Sources, range: Range, { width, hides_quiet, wi
       if (lane !== undefined) place({ kind: 'marks', marks: one }, lane, { x: middle - wide / 2, y: lanes[lane]!.y + top, width: wide, height });
     }
   };
-  for (const [ref, those] of grouped(marks, mark_ref)) if (ref !== '') put_marks(those, by_ref.get(ref), together.component, 19, 9, 3);
+  // Of a command that has failed its bar tells in the component's lane.
+  for (const [ref, those] of grouped(marks.filter((one) => one.kind !== 'failed'), mark_ref)) if (ref !== '') put_marks(those, by_ref.get(ref), together.component, 19, 9, 3);
   const [events, troubles] = [marks.filter((one) => one.kind === 'event'), marks.filter((one) => one.kind !== 'event')];
   put_marks(events, by_ref.get(' events'), together.events, 6, 16, 12);
   put_marks(troubles, by_ref.get(' events'), together.events, 6, 16, 14);
@@ -137,7 +138,7 @@ function spans_in(sources: Sources, { from, to }: Range): Lasting[] {
   return found;
 }
 
-function marks_in({ events, own_events, errors, gaps }: Sources, { from, to }: Range, with_own: boolean): Mark[] {
+function marks_in({ commands, events, own_events, errors, gaps, refused, at: until }: Sources, { from, to }: Range, with_own: boolean): Mark[] {
   const marks: Mark[] = [];
   const since = <T extends { at: number }>(rows: Rows<T>, mark_of: (entry: T) => Mark) => {
     for (let i = first_since(rows, (one) => one.at, from); i < rows.size; ++i) {
@@ -150,6 +151,11 @@ function marks_in({ events, own_events, errors, gaps }: Sources, { from, to }: R
   if (with_own) since(own_events, (entry) => ({ kind: 'event', entry }));
   since(errors, (entry) => ({ kind: 'error', entry }));
   since(gaps, (entry) => ({ kind: 'gap', entry }));
+  since(refused, (entry) => ({ kind: 'refused', entry }));
+  for (const command of commands) {
+    const at = command.ended_at ?? Infinity;
+    if (at >= from && at <= Math.min(to, until) && has_failed(command)) marks.push({ kind: 'failed', entry: { at, command } });
+  }
   return marks.sort((a, b) => a.entry.at - b.entry.at);
 }
 
@@ -205,15 +211,21 @@ function grouped<T>(list: readonly T[], key_of_one: (one: T) => string): Map<str
   return groups;
 }
 
-/** What is at a point; the topmost counts, and what is small is met from a little farther. */
-export function thing_at({ placed }: Layout, x: number, y: number, reach = 3): Placed | undefined {
-  for (let i = placed.length - 1; i >= 0; --i) {
-    const one = placed[i]!;
-    const { box } = one;
-    const wide = box.width < 8 ? reach : 0;
-    if (x >= box.x - wide && x <= box.x + box.width + wide && y >= box.y && y <= box.y + box.height) return one;
-  }
-  return undefined;
+const least_hit = 12; // px, on both sides together
+
+/** What is at a point; the topmost counts. What is small is met from a little farther, unless something else stands there. */
+export function thing_at({ placed }: Layout, x: number, y: number): Placed | undefined {
+  const hit = (least: number, counts: (one: Placed) => boolean) => {
+    for (let i = placed.length - 1; i >= 0; --i) {
+      const one = placed[i]!;
+      const { box } = one;
+      const [wide, high] = [Math.max(0, least - box.width) / 2, Math.max(0, least - box.height) / 2];
+      if (counts(one) && x >= box.x - wide && x <= box.x + box.width + wide && y >= box.y - high && y <= box.y + box.height + high) return one;
+    }
+    return undefined;
+  };
+  const is_span = ({ thing }: Placed) => thing.kind === 'span';
+  return hit(0, (one) => !is_span(one)) ?? hit(least_hit, (one) => !is_span(one) && one.box.width < least_hit) ?? hit(0, is_span);
 }
 
 /** What an arrow leads to: along its lane, or into the next lane that has something, to what is nearest in time. */

@@ -54,7 +54,7 @@ function rows_of(view: TimeView, at: number): { rows: Row[]; count: number } {
   const { placed } = lay_out(view.sources, view.range(at), { width: 1000, hides_quiet: view.hides_quiet.value, with_own: view.with_own.value });
   const things = new Map<string, Thing>();
   for (const { thing } of placed)
-    for (const one of thing.kind === 'marks' ? thing.marks.map((mark): Thing => ({ kind: 'marks', marks: [mark] })) : [thing]) things.set(key_of(one), one);
+    for (const one of thing.kind === 'marks' ? thing.marks.filter((mark) => mark.kind !== 'failed').map((mark): Thing => ({ kind: 'marks', marks: [mark] })) : [thing]) things.set(key_of(one), one);
   const newest = [...things.values()].sort((a, b) => time_of_thing(b) - time_of_thing(a)).slice(0, most_rows);
   const rows = newest.map((thing): Row => ({ ...describe(thing, at), thing, key: key_of(thing), lasted: lasted(thing, at) }));
   return { rows, count: things.size };

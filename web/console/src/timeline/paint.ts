@@ -4,7 +4,7 @@ import { time_marks } from '../ui/scales';
 import type { Tone } from '../ui/states';
 import { tone_of } from '../ui/states';
 import { type Box, type Layout, type Placed, x_of } from './layout';
-import { began_at, marks_tone, span_tone } from './things';
+import { began_at, has_failed, marks_tone, span_tone } from './things';
 import type { Range } from './view';
 
 /** Of the axis at the top. */
@@ -106,15 +106,17 @@ function paint_command(pen: CanvasRenderingContext2D, { thing, box, lane }: Plac
   const start = began === undefined || began > at ? box.x + box.width : Math.max(box.x, Math.min(box.x + box.width - 2, x_of(began, layout.range, layout.width)));
   const { soft, full } = ink.tones[has_ended ? tone_of(entry.state) : began === undefined ? 'calm' : 'busy'];
   pen.fillStyle = full;
-  pen.fillRect(box.x, box.y + box.height / 2 - 1, Math.max(0, start - box.x), 2);
+  const has_text = layout.lanes[lane]!.kind !== 'component'; // which stands above the line
+  pen.fillRect(box.x, has_text ? box.y + box.height - 3 : box.y + box.height / 2 - 1, Math.max(0, start - box.x), 2);
   pen.fillRect(box.x, box.y + 1, 1, box.height - 2);
   const bar = { ...box, x: start, width: box.x + box.width - start };
-  if (layout.lanes[lane]!.kind === 'component') return fill(pen, bar, full, 2);
+  if (!has_text) return fill(pen, bar, full, 2);
   fill(pen, bar, soft, 3);
   pen.strokeStyle = full;
   if (bar.width > 2) pen.strokeRect(bar.x + 0.5, bar.y + 0.5, bar.width - 1, bar.height - 1);
   const sign = has_ended ? entry.state : '';
-  if (sign !== '' && bar.width > 14) sign_of_end(pen, sign, bar.x + bar.width - 8, bar.y + bar.height / 2, full);
+  // What failed at once has its sign beside it.
+  if (sign !== '' && (bar.width > 14 || has_failed(entry))) sign_of_end(pen, sign, bar.x + bar.width + (bar.width > 14 ? -8 : 6), bar.y + bar.height / 2, full);
   const room = { ...box, width: box.width - (sign === '' ? 0 : 12) };
   text_in(pen, `${entry.component} ${entry.command_type}`, start - box.x > box.width / 2 ? { ...room, y: box.y - 1 } : { ...bar, width: room.x + room.width - bar.x }, full, ink.sans);
 }

@@ -8,7 +8,7 @@ import { useConsole } from '../shell/context';
 import { Chart } from './chart';
 import { DetailsPane } from './details';
 import { Listing } from './listing';
-import type { Thing } from './things';
+import { opened_by, type Thing } from './things';
 import * as texts from './texts';
 import { Toolbar } from './toolbar';
 import { view_of } from './view';
@@ -21,7 +21,7 @@ export default function TimelinePanel() {
   const opener = useRef<HTMLElement | null>(null);
   const open = (thing: Thing) => {
     if (!opened.peek()) opener.current = document.activeElement as HTMLElement | null;
-    opened.value = thing;
+    opened.value = opened_by(thing);
   };
   const close = () => {
     opened.value = undefined;

@@ -1,6 +1,7 @@
 // What there is to draw: as it goes on, or as it was when time was stopped.
 import type { CommandEntry } from '../state/commands_state';
 import type { Console } from '../state/console';
+import type { LoggedDocument } from '../state/documents';
 import type { ErrorEntry, EventEntry, GapEntry } from '../state/events_state';
 import { longest_blink, type Span } from '../state/history';
 import type { Ring } from '../state/ring';
@@ -19,20 +20,21 @@ export interface Sources {
   own_events: Rows<EventEntry>;
   errors: Rows<ErrorEntry>;
   gaps: Rows<GapEntry>;
+  refused: Rows<LoggedDocument>; // answers that say no
   past: Rows<Span>;
   present: readonly Span[];
 }
 
 export function live_sources(console: Console): Sources {
-  const { commands, events, history } = console;
-  const rings = { commands: commands.all, events: events.events, own_events: events.own_events, errors: events.errors, gaps: events.gaps, past: history.past };
+  const { commands, events, history, traffic } = console;
+  const rings = { commands: commands.all, events: events.events, own_events: events.own_events, errors: events.errors, gaps: events.gaps, refused: traffic.refused, past: history.past };
   return { at: console.environment.now(), refs: refs_of(console), ...rings, present: [...history.present.values()] };
 }
 
 /** A copy, which stays as it is; as bounded as what it is a copy of. */
 export function stopped_sources(console: Console): Sources {
-  const { commands, events, own_events, errors, gaps, past, present, ...rest } = live_sources(console);
-  return { ...rest, commands: copy(commands), events: copy(events), own_events: copy(own_events), errors: copy(errors), gaps: copy(gaps), past: copy(past), present: present.map((one) => ({ ...one })) };
+  const { commands, events, own_events, errors, gaps, refused, past, present, ...rest } = live_sources(console);
+  return { ...rest, commands: copy(commands), events: copy(events), own_events: copy(own_events), errors: copy(errors), gaps: copy(gaps), refused: copy(refused), past: copy(past), present: present.map((one) => ({ ...one })) };
 }
 
 function copy<T>(rows: Rows<T>): Rows<T> {

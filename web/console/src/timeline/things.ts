@@ -1,12 +1,24 @@
 // What stands on the time line, each by itself.
 import type { CommandEntry } from '../state/commands_state';
+import type { LoggedDocument } from '../state/documents';
 import type { ErrorEntry, EventEntry, GapEntry } from '../state/events_state';
 import type { Span } from '../state/history';
 import type { Tone } from '../ui/states';
 import { tone_of } from '../ui/states';
 
-/** What happened at one time. */
-export type Mark = { kind: 'event'; entry: EventEntry } | { kind: 'error'; entry: ErrorEntry } | { kind: 'gap'; entry: GapEntry };
+/** A command that has failed, when it did. */
+export interface Failure {
+  at: number;
+  command: CommandEntry;
+}
+
+/** What happened at one time. `refused`: an answer that says no. */
+export type Mark =
+  | { kind: 'event'; entry: EventEntry }
+  | { kind: 'error'; entry: ErrorEntry }
+  | { kind: 'gap'; entry: GapEntry }
+  | { kind: 'refused'; entry: LoggedDocument }
+  | { kind: 'failed'; entry: Failure };
 
 /** What took its time, or happened; several marks when they are too dense to be told apart. */
 export type Thing = { kind: 'span'; span: Span } | { kind: 'command'; entry: CommandEntry } | { kind: 'marks'; marks: Mark[] };
@@ -19,18 +31,35 @@ export function key_of(thing: Thing): string {
 }
 
 export function mark_key(mark: Mark): string {
+  if (mark.kind === 'failed') return `failed ${mark.entry.command.id} ${mark.entry.command.sequence.number}`;
   return mark.kind === 'gap' ? `gap ${mark.entry.at}` : `${mark.kind} ${mark.entry.number}`;
 }
 
 export function mark_ref(mark: Mark): string {
   if (mark.kind === 'event') return mark.entry.event.component_ref.code;
+  if (mark.kind === 'refused') return mark.entry.request?.component ?? '';
+  if (mark.kind === 'failed') return mark.entry.command.component;
   return mark.kind === 'error' ? (mark.entry.error.component_ref?.code ?? '') : '';
 }
 
 /** The worst that there is among them. */
 export function marks_tone(marks: readonly Mark[]): Tone {
-  if (marks.some((one) => one.kind === 'error')) return 'bad';
+  if (marks.some((one) => is_bad(one))) return 'bad';
   return marks.some((one) => one.kind === 'gap') ? 'warning' : 'busy';
+}
+
+function is_bad({ kind }: Mark): boolean {
+  return kind === 'error' || kind === 'refused' || kind === 'failed';
+}
+
+export function has_failed({ state, ended_at }: CommandEntry): boolean {
+  return ended_at !== undefined && tone_of(state) === 'bad';
+}
+
+/** What is opened: of a command that has failed, the command. */
+export function opened_by(thing: Thing): Thing {
+  const [mark] = thing.kind === 'marks' ? thing.marks : [];
+  return thing.kind === 'marks' && thing.marks.length === 1 && mark?.kind === 'failed' ? { kind: 'command', entry: mark.entry.command } : thing;
 }
 
 export function span_tone({ kind, value }: Span): Tone {

@@ -8,12 +8,12 @@ const spans = [10_000, 30_000, 60_000, 5 * 60_000, 15 * 60_000, 3_600_000];
 
 export function Toolbar({ view, as_table, choose_table }: { view: TimeView; as_table: boolean; choose_table: (is_chosen: boolean) => void }) {
   const console = useConsole();
-  const { span } = view.stretch.value;
+  const { span, is_all } = view.stretch.value;
   const { is_live } = view;
   const third = span / 3;
   // Now and then, so that it can be read.
   const { from, to } = view.range(is_live ? console.now.value : view.sources.at);
-  const usual = spans.includes(span);
+  const usual = !is_all && spans.includes(span);
   const choices = spans.map((one) => ({ value: String(one), label: duration(one) }));
   return (
     <div class="timeline-bar" role="toolbar" aria-label={t.title()}>
@@ -23,7 +23,7 @@ export function Toolbar({ view, as_table, choose_table }: { view: TimeView; as_t
         <Button small look="primary" icon="play" onClick={() => view.go_live()}>{t.go_live()}</Button>
       )}
       <span class="timeline-shown">
-        <strong class={is_live ? 'timeline-live' : 'timeline-stopped'}>{is_live ? t.live() : t.stopped()}</strong> {clock_time(from, span < 10_000)} – {clock_time(to, span < 10_000)}
+        <strong class={is_live ? 'timeline-live' : 'timeline-stopped'}>{!is_live ? t.stopped() : view.held.value === undefined ? t.live() : t.held()}</strong> {clock_time(from, span < 10_000)} – {clock_time(to, span < 10_000)}
       </span>
       <span class="timeline-buttons">
         <IconButton small icon="left" label={t.earlier()} onClick={() => view.move(-third)} />
@@ -36,9 +36,9 @@ export function Toolbar({ view, as_table, choose_table }: { view: TimeView; as_t
         <SelectField
           label={t.stretch()}
           hide_label
-          value={usual ? String(span) : 'other'}
+          value={is_all ? 'all' : usual ? String(span) : 'other'}
           change={(value) => (value === 'all' ? view.show_all() : value !== 'other' && view.set_span(Number(value)))}
-          choices={[...(usual ? [] : [{ value: 'other', label: duration(span) }]), ...choices, { value: 'all', label: t.everything() }]}
+          choices={[...(usual || is_all ? [] : [{ value: 'other', label: duration(span) }]), ...choices, { value: 'all', label: t.everything() }]}
         />
       </span>
       <span class="timeline-switches">

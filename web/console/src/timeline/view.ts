@@ -14,6 +14,8 @@ export interface Range {
 export interface Stretch {
   span: number; // ms
   end?: number; // ms since 1970
+  /** From what is known first on, however long that is by now. */
+  is_all?: true;
 }
 
 export const usual_span = 60_000; // ms
@@ -39,6 +41,8 @@ export class TimeView {
   readonly stretch = signal<Stretch>({ span: usual_span });
   readonly hides_quiet = signal(false);
   readonly with_own = signal(false);
+  /** A time at which what is live waits, so that it does not move away under the pointer. */
+  readonly held = signal<number | undefined>(undefined);
   private readonly stopped = signal<Sources | undefined>(undefined);
   private readonly before: Stretch[] = [];
 
@@ -51,13 +55,14 @@ export class TimeView {
   get sources(): Sources {
     return this.stopped.value ?? live_sources(this.console);
   }
-  range(at: number): Range {
-    const { span, end = at } = this.stretch.value;
-    return { from: end - span, to: end };
+  range(at: number, sources?: Sources): Range {
+    const { span, is_all, end = this.held.value ?? at } = this.stretch.value;
+    return { from: end - (is_all ? whole_of(sources ?? this.sources, end) : span), to: end };
   }
 
   go_live(): void {
     this.stopped.value = undefined;
+    this.held.value = undefined;
     this.stretch.value = { span: Math.min(this.stretch.value.span, always_allowed) };
   }
 
@@ -65,13 +70,15 @@ export class TimeView {
   pause(): void {
     if (!this.is_live) return;
     const sources = stopped_sources(this.console);
+    const { from, to } = this.range(sources.at, sources);
     this.stopped.value = sources;
-    this.stretch.value = { ...this.stretch.value, end: sources.at };
+    this.stretch.value = { span: to - from, end: to };
   }
 
   /** `at`: the time that stays in its place. */
   zoom(factor: number, at?: number): void {
-    this.put(zoomed(this.stretch.value, factor, at ?? this.middle), 0.5); // or what is pointed at could not stay in its place
+    const { from, to } = this.range(this.sources.at);
+    this.put(zoomed({ ...this.stretch.value, span: to - from }, factor, at ?? this.middle), 0.5); // or what is pointed at could not stay in its place
   }
   move(ms: number): void {
     this.pause();
@@ -85,10 +92,10 @@ export class TimeView {
   }
   show_all(): void {
     const { sources } = this;
-    const oldest = oldest_of(sources);
-    const span = (sources.at - oldest) * 1.02;
+    const span = whole_of(sources, sources.at);
     this.remember();
-    this.put(this.is_live ? { span } : { span, end: sources.at });
+    if (this.is_live) this.stretch.value = { span, is_all: true };
+    else this.put({ span, end: sources.at });
   }
   go_to_oldest(): void {
     this.pause();
@@ -105,7 +112,8 @@ export class TimeView {
     const before = this.before.pop();
     if (!before) return;
     if (before.end === undefined) this.go_live();
-    this.put(before);
+    if (before.is_all) this.stretch.value = before;
+    else this.put(before);
   }
   get can_undo(): boolean {
     return this.before.length > 0;
@@ -123,6 +131,11 @@ export class TimeView {
     const { sources } = this;
     this.stretch.value = within(stretch, oldest_of(sources), sources.at, ahead);
   }
+}
+
+// ms; a little more than is known.
+function whole_of(sources: Sources, end: number): number {
+  return Math.max(least_span, (end - oldest_of(sources)) * 1.02);
 }
 
 const kept = new WeakMap<Console, TimeView>();

@@ -35,12 +35,12 @@ export function Dialog({ title, open, close, closable = true, actions, wide = fa
     <dialog ref={element} class={wide ? 'dialog dialog-wide' : 'dialog'} aria-labelledby={id} onCancel={cancelled} onClose={() => open && closable && close()}>
       {open && (
         <>
-          <header class="dialog-head">
+          <div class="dialog-head">
             <h2 id={id}>{title}</h2>
             {closable && <IconButton icon="close" label={texts.close()} onClick={close} />}
-          </header>
+          </div>
           <div class="dialog-body">{children}</div>
-          {actions && <footer class="dialog-actions">{actions}</footer>}
+          {actions && <div class="dialog-actions">{actions}</div>}
         </>
       )}
     </dialog>

@@ -34,7 +34,7 @@ export function SmallFloor({ svg, bounds, map, children, ...more }: SmallFloorPr
 }
 
 /** Where a pointer is on the floor. */
-export function floor_point(svg: SVGSVGElement, { clientX, clientY }: PointerEvent): Point {
+export function floor_point(svg: SVGSVGElement, { clientX, clientY }: MouseEvent): Point {
   const { x, y } = new DOMPoint(clientX, clientY).matrixTransform(svg.getScreenCTM()!.inverse());
   return { x, y: -y };
 }

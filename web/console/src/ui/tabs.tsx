@@ -1,6 +1,6 @@
 // Tabs as the ARIA practices have them: arrows move and choose, Home and End go to the ends.
 import type { ComponentChildren } from 'preact';
-import { useId, useRef } from 'preact/hooks';
+import { useEffect, useId, useRef } from 'preact/hooks';
 
 import { Icon, type IconName } from './icon';
 
@@ -31,6 +31,7 @@ export function Tabs<Id extends string>({ label, tabs, chosen, choose, end, chil
     choose(tab.id);
     row.current?.querySelectorAll<HTMLElement>('[role=tab]')[tabs.indexOf(tab)]?.focus();
   };
+  useEffect(() => row.current?.querySelector('[aria-selected=true]')?.scrollIntoView({ block: 'nearest', inline: 'nearest' }), [chosen]);
   const pressed = (event: KeyboardEvent) => {
     const at = tabs.findIndex((one) => one.id === chosen);
     const to = { ArrowRight: at + 1, ArrowLeft: at - 1, Home: 0, End: tabs.length - 1 }[event.key];

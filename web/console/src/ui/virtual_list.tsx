@@ -35,7 +35,8 @@ export function VirtualList<Row>({ label, rows, row_height, key_of, render, chos
   }, [rows, last_key, follow]);
 
   const scrolled = () => {
-    const element = frame.current!;
+    const element = frame.current;
+    if (!element) return; // it goes, and its last scrolling is told all the same
     at_end.current = element.scrollTop + element.clientHeight >= element.scrollHeight - row_height;
     set_top(element.scrollTop);
   };

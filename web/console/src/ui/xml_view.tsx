@@ -16,7 +16,7 @@ export interface XmlViewProps {
 export function XmlView({ text, label, raw = false, marked_line }: XmlViewProps) {
   const lines = useMemo(() => (raw ? text : laid_out(text)).split('\n'), [text, raw]);
   return (
-    <div class="xml">
+    <div class={raw ? 'xml xml-raw' : 'xml'}>
       <pre tabIndex={0} role="region" aria-label={label ?? texts.xml()}>
         {lines.map((line, i) => (
           <code key={i} class={i + 1 === marked_line ? 'xml-line xml-marked' : 'xml-line'}>

@@ -55,6 +55,11 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
     aim.value = undefined;
     if (now.has_moved) send(now);
   };
+  // On the floor: whoever is chosen walks there.
+  const clicked = (event: MouseEvent) => {
+    const chosen = hall.visitors.get(steering.chosen.value);
+    if (chosen?.steered && !(event.target as Element).closest('[data-visitor]')) send({ ref: chosen.ref, has_moved: true, ...nearest_of(bounds, floor_point(svg.current!, event)) });
+  };
   const typed = (event: KeyboardEvent, { ref, x, y, steered }: Visitor) => {
     const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
     const now = aim.value?.ref === ref ? aim.value : undefined;
@@ -74,7 +79,7 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
   const aimed = aim.value;
   return (
     <div class="visitors-floor">
-      <SmallFloor svg={svg} bounds={bounds} map={map} role="group" aria-label={`${w.map()} ${w.map_hint()}`}>
+      <SmallFloor svg={svg} bounds={bounds} map={map} onClick={clicked} role="group" aria-label={`${w.map()} ${w.map_hint()}`}>
         {[...robots.all.values()].map((robot) => {
           const at = on_map(map, robot.crs, robot);
           const radius = map?.robots.find((one) => one.name === robot.ref)?.radius ?? person_radius;
@@ -104,7 +109,7 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
           </g>
         ))}
       </SmallFloor>
-      <p class="visitors-aim" aria-live="polite">{aimed?.has_moved ? w.sends(aimed.ref, metres(aimed)) : ''}</p>
+      <p class="visitors-aim" aria-live="polite">{aimed?.has_moved ? w.sends(aimed.ref, metres(aimed)) : hall.visitors.get(steering.chosen.value)?.steered ? w.click_hint(steering.chosen.value) : ''}</p>
     </div>
   );
 

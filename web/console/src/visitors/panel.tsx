@@ -1,8 +1,6 @@
 // People in the simulated hall: let in, sent about, given words and gestures; and time, in a world that stands still.
 import './visitors.css';
 
-import { useEffect } from 'preact/hooks';
-
 import { useConsole, useWatch } from '../shell/context';
 import { gestures, type Visitor } from '../state/hall_state';
 import { Badge, Button, Checkbox, EmptyState, Loading, SelectField, TextField } from '../ui';
@@ -12,14 +10,9 @@ import * as w from './texts';
 
 export default function VisitorsPanel() {
   const console = useConsole();
-  const { hall, profile, link } = console;
+  const { hall, profile } = console;
   useWatch(hall.poll);
   const component = hall.component.value;
-  const is_open = link.is_open;
-  const stands_still = hall.stands_still.value;
-  useEffect(() => {
-    if (component && is_open && stands_still === undefined) void hall.find_out();
-  }, [component?.ref, is_open, stands_still]);
   void hall.pulse.beat.value;
   const view = console.map.view.value;
   if (!profile.profile.value) return <Loading />;
@@ -33,7 +26,7 @@ export default function VisitorsPanel() {
   const chosen = hall.visitors.get(steering.chosen.value);
   return (
     <div class="visitors-panel">
-      {stands_still === true && <Time steering={steering} />}
+      {hall.stands_still.value && <Time steering={steering} />}
       <Floor map={view.state === 'there' ? view.map : undefined} />
       <div class="visitors-people">
         <Entering steering={steering} />

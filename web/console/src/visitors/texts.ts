@@ -33,6 +33,7 @@ export const map_hint = text(
 );
 export const visitor = text_of((ref: string, at: string) => [`${ref}, at ${at}`, `${ref}、位置 ${at}`]);
 export const robot = text_of((ref: string) => [`Robot ${ref}`, `ロボット ${ref}`]);
+export const click_hint = text_of((ref: string) => [`Drag ${ref}, or click where to go`, `${ref} をドラッグするか、行き先をクリック`]);
 export const sends = text_of((ref: string, at: string) => [`${ref} goes to ${at}`, `${ref} は ${at} へ行きます`]);
 export const metres = text_of((x: string, y: string) => `${x} m, ${y} m`);
 

@@ -3,14 +3,21 @@ import type { Page } from 'playwright-core';
 import { connect } from 'rois-client';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
-import { picture, root, Stage, violations } from './harness';
+import { Hall, more_profiles, still_hall } from './hall';
+import { looks, picture, sizes, Stage, violations } from './harness';
 
 let stage: Stage;
+let hall: Hall;
 
 beforeAll(async () => {
-  stage = await Stage.set('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '20', '--seed', '7', '--profiles', `${root}/components/simulation/profiles`);
+  stage = await Stage.set(...still_hall, ...more_profiles);
+  hall = await Hall.of(stage);
+  await hall.pass(1000);
 });
-afterAll(() => stage.strike());
+afterAll(async () => {
+  await hall.close();
+  await stage.strike();
+});
 
 const item = (page: Page, ref: string) => page.getByRole('treeitem', { name: new RegExp(`^${ref} `) });
 
@@ -19,11 +26,13 @@ async function open(page: Page, ref: string): Promise<void> {
   await page.getByRole('heading', { name: ref, exact: true }).waitFor();
 }
 const answer = (page: Page) => page.locator('.exchange-came');
+const is_told = (page: Page, text: string) => hall.pass_until(page, answer(page).getByText(text), 200);
 
 describe('components', () => {
   test('a command is sent as the form has it, with its XML and its answer, and ends', () =>
     stage.page(async (page) => {
       await open(page, 'speech_synthesis');
+      await page.getByText(/Type string\. Default en\./).waitFor();
       await page.getByLabel('speech_text', { exact: true }).fill('Good morning.');
       await page.getByLabel('volume', { exact: true }).fill('loud');
       await page.getByText('This has to be a whole number.').waitFor();
@@ -33,7 +42,8 @@ describe('components', () => {
       const request = page.getByRole('region', { name: 'Request: speech_synthesis start' });
       expect(await request.textContent()).toMatch(/<rois:value>Good morning\.<\/rois:value>[^]*<rois:value>70<\/rois:value>/);
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await answer(page).getByText('It is done.').waitFor();
+      await is_told(page, 'It is done.');
+      expect(await item(page, 'speech_synthesis').getByText('running').count()).toBe(0);
       expect(await page.getByRole('region', { name: 'Answer: speech_synthesis start' }).textContent()).toContain('execute_response');
       await page.getByText('bound by me').first().waitFor();
       await picture(page, 'components-command');
@@ -51,7 +61,7 @@ describe('components', () => {
       await answer(page).getByText(/nowhere' is neither "x, y" nor .* one of the places/).first().waitFor();
       await target.fill('100000, 2000');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await answer(page).getByText('The component could not do it.').waitFor();
+      await is_told(page, 'The component could not do it.');
       expect(await violations(page)).toBe('');
 
       await target.fill('exit');
@@ -70,7 +80,7 @@ describe('components', () => {
       // What was typed is still there.
       await open(page, 'navigation');
       expect(await page.getByLabel('target_position, item 2').inputValue()).toBe('desk');
-      await answer(page).getByText(/It is (running|done)\./).waitFor();
+      await answer(page).getByText('It is running.').waitFor();
       await page.getByRole('button', { name: 'Release navigation' }).click();
       await item(page, 'navigation').getByText('bound by me').waitFor({ state: 'detached' });
     }));
@@ -83,13 +93,14 @@ describe('components', () => {
       await page.getByLabel('Release it when the command has ended').check();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
       await answer(page).getByText('It is running.').waitFor();
+      await item(page, 'follow').getByText('running').waitFor();
       // It is seen from another form, too.
       await page.getByRole('button', { name: 'resume', exact: true }).click();
       await page.locator('.panel-components').getByText('The answer will stand here.').waitFor();
       await page.getByRole('button', { name: 'Stop follow start' }).click();
       await page.getByRole('button', { name: 'Stop follow start' }).waitFor({ state: 'detached' });
       await page.getByRole('button', { name: 'start', exact: true }).click();
-      await answer(page).getByText('It is done.').waitFor();
+      await is_told(page, 'It is done.');
       await item(page, 'follow').getByText('bound by me').waitFor({ state: 'detached' });
     }));
 
@@ -101,11 +112,14 @@ describe('components', () => {
       await now.getByText('available_reactions').waitFor();
       await page.getByRole('button', { name: 'Set', exact: true }).click();
       await page.getByText('Nothing has been typed yet.').waitFor();
-      expect(await page.getByLabel('reaction_ref').evaluate((one: HTMLInputElement) => one.list?.options.length)).toBe(50);
-      await page.getByLabel('reaction_ref').fill('28');
+      expect(await page.getByLabel('reaction_ref', { exact: true }).evaluate((one: HTMLInputElement) => one.list?.options.length)).toBe(50);
+      await page.getByLabel('reaction_ref', { exact: true }).fill('28');
       expect(await page.getByRole('region', { name: 'Request: reaction set_parameter' }).textContent()).toContain('rois:codebook_ref="urn:x-rois:def:codebook:simulation::reaction"');
       await page.getByRole('button', { name: 'Set', exact: true }).click();
-      await now.locator('tr', { hasText: 'reaction_ref' }).getByText('28').waitFor();
+      await now.locator('tr', { hasText: 'reaction_ref' }).getByText('28 – wave the hand').waitFor();
+      await page.getByLabel('Choose from a list').selectOption({ label: '9 – bow the head' });
+      expect(await page.getByLabel('reaction_ref', { exact: true }).inputValue()).toBe('9');
+      await page.getByText('“bow the head”.').waitFor();
       await picture(page, 'components-parameters');
       expect(await violations(page)).toBe('');
     }));
@@ -132,9 +146,9 @@ describe('components', () => {
       await answer(page).getByText('OK', { exact: true }).waitFor();
       await page.getByRole('tab', { name: /^Commands/ }).click();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await answer(page).getByText('It is done.').waitFor();
+      await is_told(page, 'It is done.');
       await page.getByRole('tab', { name: /^Events(?! and)/ }).click();
-      await page.locator('.component-list').getByText('number: 0').waitFor();
+      await hall.pass_until(page, page.locator('.component-list').getByText('number: 0'), 200);
       await page.getByText('1 event', { exact: false }).first().waitFor();
       await picture(page, 'components-events');
       expect(await violations(page)).toBe('');
@@ -150,7 +164,7 @@ describe('components', () => {
       await page.getByText('This is needed.').waitFor();
       await page.getByLabel('status').selectOption('true');
       await page.getByRole('button', { name: 'brake', exact: true }).last().click();
-      await answer(page).getByText('It is done.').waitFor();
+      await is_told(page, 'It is done.');
       await page.getByRole('button', { name: 'Copy as curl' }).click();
       await page.getByRole('button', { name: 'Copied' }).waitFor();
       expect(await page.evaluate(() => navigator.clipboard.readText())).toMatch(/^curl -s -H 'Content-Type: application\/xml' -H 'RoIS-Session: [^']+' -d '<execute [^]*http:\/\/127\.0\.0\.1:\d+\/rois$/);
@@ -173,20 +187,21 @@ describe('components', () => {
   });
 
   test('whom to follow is chosen from who is there', async () => {
-    const visited = await Stage.set('--scenario', `${root}/tests/server/data/one_visitor.xml`, '--sim-speed', '20', '--seed', '7');
-    await visited.page(async (page) => {
+    await hall.visit('tanaka', '9000, 4500, 180', { known: true });
+    await stage.page(async (page) => {
       await open(page, 'person_localization');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await answer(page).getByText('It is done.').waitFor();
+      await is_told(page, 'It is done.');
       await open(page, 'follow');
-      await page.locator('datalist option[value="person-1"]').waitFor({ state: 'attached' });
+      await hall.pass_until(page, page.locator('datalist option[value="person-1"]'));
       await page.getByLabel('target_object_ref').fill('person-1');
       expect(await page.getByRole('region', { name: 'Request: follow start' }).textContent()).toContain('rois:codebook_ref="urn:x-rois:def:codebook:simulation::track"');
       await page.getByLabel('distance').fill('800');
+      await page.locator('.field', { has: page.getByLabel('distance') }).getByText('mm', { exact: true }).waitFor();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
       await answer(page).getByText('It is running.').waitFor();
     });
-    await visited.strike();
+    await hall.leave('tanaka');
   });
 
   test('the tree is walked with the keyboard, and says who has what', () =>
@@ -212,22 +227,15 @@ describe('components', () => {
       await item(page, 'wheelchair_robot').getByText('bound by me').waitFor();
     }));
 
-  test.each([
-    ['wide', 'light', 1600, 1000],
-    ['wide', 'dark', 1600, 1000],
-    ['tablet', 'dark', 1024, 768],
-    ['tablet', 'light', 1024, 768],
-    ['upright', 'dark', 820, 1180],
-    ['upright', 'light', 820, 1180],
-  ] as const)('looks well and is accessible: %s %s', (size, look, width, height) =>
+  test.each(looks)('looks well and is accessible: %s, %s, %s', (size, look, language) =>
     stage.page(
       async (page) => {
         await open(page, 'navigation');
         await item(page, 'navigation').getByText('READY').waitFor();
         expect(await violations(page)).toBe('');
-        await picture(page, `components-${size}-${look}`);
+        await picture(page, `components-${size}-${look}-${language}`);
       },
-      { width, height, look, touch: size !== 'wide', language: size === 'upright' ? 'ja' : 'en' },
+      { ...sizes[size], look, language, touch: size !== 'wide' },
       '/#components',
     ),
   );

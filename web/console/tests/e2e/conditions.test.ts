@@ -2,34 +2,28 @@
 import type { Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
-import { picture, root, Stage, violations } from './harness';
+import { drag_area } from './floor';
+import { Hall, more_profiles, still_hall } from './hall';
+import { looks, picture, sizes, Stage, violations } from './harness';
 
 let stage: Stage;
+let hall: Hall;
 const path = '/#conditions';
 const panel = (page: Page) => page.locator('.panel-conditions');
 
 beforeAll(async () => {
-  stage = await Stage.set('--scenario', `${root}/tests/server/data/four_visitors.xml`, '--sim-speed', '10', '--seed', '7', '--profiles', `${root}/components/simulation/profiles`);
+  stage = await Stage.set(...still_hall, ...more_profiles);
+  hall = await Hall.of(stage);
+  await hall.visit('tanaka', '9000, 4500, 180', { known: true });
+  await hall.visit('guest', '11000, 7000, 180');
 });
-afterAll(() => stage.strike());
+afterAll(async () => {
+  await hall.close();
+  await stage.strike();
+});
 
 const request = (page: Page, operation: string) => panel(page).getByRole('region', { name: `Request: ${operation}` });
 const count = (page: Page, text: string | RegExp) => panel(page).locator('.conditions-count').filter({ hasText: text }).waitFor();
-
-/** Drags on the map from one point to another, in mm. */
-async function drag(page: Page, from: [number, number], to: [number, number]): Promise<void> {
-  const svg = panel(page).locator('.conditions-picker svg');
-  await svg.scrollIntoViewIfNeeded();
-  const at = ([x, y]: [number, number]) =>
-    svg.evaluate((one: SVGSVGElement, [mm_x, mm_y]) => {
-      const { x: left, y: top } = new DOMPoint(mm_x, -mm_y!).matrixTransform(one.getScreenCTM()!);
-      return [left, top] as const;
-    }, [x, y]);
-  await page.mouse.move(...(await at(from)));
-  await page.mouse.down();
-  await page.mouse.move(...(await at(to)), { steps: 4 });
-  await page.mouse.up();
-}
 
 describe('conditions', () => {
   test('subscribes to persons within a box that is picked on the map', () =>
@@ -39,13 +33,13 @@ describe('conditions', () => {
         expect(await panel(page).getByLabel('Event', { exact: true }).inputValue()).toBe('person_localized');
         await panel(page).getByRole('button', { name: 'position_data within a box' }).click();
         await count(page, '1 component can send it');
-        await drag(page, [500, 11_500], [19_500, 500]);
+        await drag_area(page, { x: 500, y: 11_500 }, { x: 19_500, y: 500 });
         expect(Number(await panel(page).getByLabel('Corner 1, x').inputValue())).toBeLessThan(1000);
         expect(await request(page, 'subscribe').textContent()).toMatch(/<fes:Within>[^]*position_data[^]*<gml:lowerCorner>/);
         await panel(page).getByRole('button', { name: 'Subscribe', exact: true }).click();
         await panel(page).getByText('Nothing has come yet.').waitFor();
         await panel(page).getByRole('button', { name: 'Start person_localization' }).click();
-        await panel(page).locator('.conditions-subscription').getByText(/^[1-9]\d* events?$/).waitFor();
+        await hall.pass_until(page, panel(page).locator('.conditions-subscription').getByText(/^[1-9]\d* events?$/), 200);
         await picture(page, 'conditions-box');
         expect(await violations(page)).toBe('');
         await panel(page).getByRole('button', { name: 'Unsubscribe' }).click();
@@ -120,8 +114,9 @@ describe('conditions', () => {
       async (page) => {
         await panel(page).getByRole('button', { name: 'Condition', exact: true }).click();
         await panel(page).getByText('One thing is missing').or(panel(page).getByText('2 things are missing')).waitFor();
-        await panel(page).getByRole('button', { name: 'Search', exact: true }).click();
-        await panel(page).locator('.field-error').getByText('Choose what it is about').waitFor();
+        await panel(page).getByText('Choose what it is about').first().waitFor();
+        expect(await panel(page).getByRole('button', { name: 'Search', exact: true }).isDisabled()).toBe(true);
+        await panel(page).getByText('Something is still missing above.').waitFor();
         await panel(page).getByLabel('What', { exact: true }).selectOption('location');
         await panel(page).getByLabel('How', { exact: true }).selectOption('is within a place');
         await panel(page).getByLabel('Place', { exact: true }).fill('nowhere');
@@ -154,11 +149,7 @@ describe('conditions', () => {
       path,
     ));
 
-  test.each([
-    ['light', 'ja', 1024, 768],
-    ['dark', 'ja', 820, 1180],
-    ['light', 'en', 1600, 1000],
-  ] as const)('is accessible: %s, %s, %i', (look, language, width, height) =>
+  test.each(looks)('is accessible: %s, %s, %s', (size, look, language) =>
     stage.page(
       async (page) => {
         await panel(page).locator('.conditions-radio').nth(2).click();
@@ -167,9 +158,9 @@ describe('conditions', () => {
         await panel(page).locator('.conditions-tools button').first().click();
         await panel(page).locator('.conditions-found li').first().waitFor();
         expect(await violations(page)).toBe('');
-        await picture(page, `conditions-${look}-${language}-${width}`);
+        await picture(page, `conditions-${size}-${look}-${language}`);
       },
-      { look, language, width, height, touch: width < 1100 },
+      { ...sizes[size], look, language, touch: size !== 'wide' },
       path,
     ),
   );

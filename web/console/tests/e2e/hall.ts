@@ -1,12 +1,19 @@
 // The simulated hall in the hands of a test: visitors who do what they are told, in a world that stands still but for the time that is let pass.
-import { type Client, command, connect, type CompletedStatus, value } from 'rois-client';
+import type { Locator, Page } from 'playwright-core';
+import { type Arguments, type Client, command, connect, type CompletedStatus, value } from 'rois-client';
 
+import type { Console } from '../../src/state/console';
 import { root, Stage } from './harness';
 
 const component = 'simulated_hall';
 
+/** Pictures for docs/ are taken (docs/console.md): then the world goes as fast as the clock, so that the time line shows what took how long. */
+export const takes_pictures = process.env['ROIS_PICTURES'] === 'docs';
+
 /** Flags of a gateway whose hall is empty and stands still. */
-export const still_hall = ['--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '0', '--steering', 'on', '--seed', '7'];
+export const still_hall = ['--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '0', '--seed', '7'];
+/** The robots of Annex C beside the usual one. */
+export const more_profiles = ['--profiles', `${root}/components/simulation/profiles`];
 
 export class Hall {
   private constructor(private readonly client: Client) {}
@@ -21,16 +28,50 @@ export class Hall {
   async pass(ms: number): Promise<void> {
     const status = await (await this.client.execute([command(component, 'let_pass', { time: value.int(ms) })])).status();
     if (status !== 'OK') throw new Error(`let_pass: ${status}`);
+    if (takes_pictures) await new Promise((passed) => setTimeout(passed, ms));
+  }
+
+  /** Lets the world go on, so many ms at a time, until the page has something. */
+  async pass_until(page: Page, shown: Locator, step = 500, most = 240 * step): Promise<void> {
+    for (let passed = 0; passed < most; passed += step) {
+      if ((await shown.count()) > 0) return;
+      await this.pass(step);
+      await page.evaluate(heard);
+    }
+    await shown.first().waitFor({ state: 'attached', timeout: 1 });
+  }
+
+  /** Lets the world go on until something else has come about. */
+  async pass_while<T>(pending: Promise<T>, step = 500): Promise<T> {
+    let is_pending = true;
+    const over = () => (is_pending = false);
+    pending.then(over, over);
+    while (is_pending) await this.pass(step);
+    return pending;
+  }
+
+  /** The page's console runs a command, and the world goes on until it has ended: how. */
+  run(page: Page, ref: string, command_type: string, named: Arguments = {}): Promise<string> {
+    return this.pass_while(page.evaluate(run_there, [ref, command_type, named] as const));
   }
 
   /** A visitor comes in and walks there, `x, y, th` or a place, within so many ms of the world. */
   async visit(visitor_ref: string, target_position: string, { known = false, within = 40_000 } = {}): Promise<void> {
-    await this.done('enter', { visitor_ref, known: value.bool(known) }, within);
+    await this.enter(visitor_ref, { known, within });
     await this.walk(visitor_ref, target_position, within);
+  }
+
+  async enter(visitor_ref: string, { known = false, within = 40_000 } = {}): Promise<void> {
+    await this.done('enter', { visitor_ref, known: value.bool(known) }, within);
   }
 
   async walk(visitor_ref: string, target_position: string, within = 40_000): Promise<void> {
     await this.done('walk', { visitor_ref, target_position: value.strings([target_position]) }, within);
+  }
+
+  /** Begins to walk; goes on while time passes. */
+  async sets_out(visitor_ref: string, target_position: string): Promise<void> {
+    await this.client.execute([command(component, 'walk', { visitor_ref, target_position: value.strings([target_position]) })]);
   }
 
   async say(visitor_ref: string, text: string): Promise<void> {
@@ -53,4 +94,17 @@ export class Hall {
     for (let passed = 0; status === undefined && passed < within; passed += 500) await this.pass(500);
     if (status !== 'OK') throw new Error(`${what}: ${status ?? `not done within ${within} ms of the world`}`);
   }
+}
+
+// Runs in the page: notifications come in order, so an answer comes after all that was told before. What came has been drawn then.
+async function heard(): Promise<void> {
+  const { rois } = window as unknown as { rois: Console };
+  await rois.documents.as_own(() => rois.search());
+  await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
+}
+
+async function run_there([ref, command_type, named]: readonly [string, string, Arguments]): Promise<string> {
+  const { rois } = window as unknown as { rois: Console };
+  const [status = 'unknown'] = await (await rois.run(ref, command_type, named)).ends;
+  return status;
 }

@@ -29,6 +29,8 @@ export class Front {
   is_cut = false;
   /** Demanded of everybody while it is set, as a proxy before a gateway may. */
   token: string | undefined;
+  /** Who asks in vain is told that the gateway is shutting down, while this is set: of a real one that takes but a moment. */
+  is_draining = false;
 
   private constructor(
     private readonly server: Server,
@@ -92,7 +94,11 @@ export class Front {
       answer.writeHead(came.statusCode ?? 500, came.headers);
       came.pipe(answer);
     });
-    far.on('error', () => asked.socket.destroy());
+    far.on('error', () => {
+      if (!this.is_draining) return void asked.socket.destroy();
+      answer.writeHead(503, { 'Content-Type': 'application/xml' });
+      answer.end('<fault xmlns="urn:x-rois:psm:xml:message:1" code="shutting_down"><reason>the gateway is shutting down</reason></fault>');
+    });
     asked.pipe(far);
   }
 }
@@ -124,7 +130,31 @@ export interface PageOptions {
 
 export const sizes = { wide: { width: 1600, height: 900 }, tablet: { width: 1024, height: 768 }, small: { width: 768, height: 1024 } } as const;
 
-/** One gateway, one front, one browser. */
+/** In which each panel is judged, beside the wide, dark and English one of all other tests; not wide is touched by fingers. */
+export const looks = [
+  ['wide', 'light', 'en'],
+  ['tablet', 'dark', 'ja'],
+] as const;
+
+/** What a page may complain of while a test breaks the link. */
+export const broken_link = /WebSocket|Failed to load resource|ERR_/;
+
+// One browser serves all stages that stand at the same time.
+let browser: Promise<Browser> | undefined;
+let standing = 0;
+
+async function launched(): Promise<Browser> {
+  if (!existsSync(program)) throw new Error(`${program} is not there: install chromium, or say in CHROMIUM where one is`);
+  standing += 1;
+  return (browser ??= chromium.launch({ executablePath: program, args: ['--disable-dev-shm-usage'] }));
+}
+async function left(): Promise<void> {
+  if (--standing > 0) return;
+  await (await browser)?.close();
+  browser = undefined;
+}
+
+/** One gateway, one front, and the browser. */
 export class Stage {
   /** Where a page begins that does not say. */
   path = '/';
@@ -137,15 +167,14 @@ export class Stage {
 
   /** `flags` are the gateway's. For histories that are always the same: `--sim-speed 0` and steps, or a scenario and a seed. */
   static async set(...flags: string[]): Promise<Stage> {
-    if (!existsSync(program)) throw new Error(`${program} is not there: install chromium, or say in CHROMIUM where one is`);
+    const browser = await launched();
     const gateway = await Gateway.start(...flags);
     const front = await Front.before(gateway.url);
-    const browser = await chromium.launch({ executablePath: program, args: ['--disable-dev-shm-usage'] });
     return new Stage(gateway, front, browser);
   }
 
   async strike(): Promise<void> {
-    await this.browser.close();
+    await left();
     await this.front.stop();
     await this.gateway.stop();
   }

@@ -1,11 +1,12 @@
 // The floor map: what is drawn, sending and stopping the robot, following, observing; by mouse, fingers and keys.
-import type { Page } from 'playwright-core';
+import type { Locator, Page } from 'playwright-core';
 import { connect } from 'rois-client';
 import { afterAll, beforeAll, beforeEach, describe, expect, test } from 'vitest';
 
-import { fitted, margin_of, type Point, to_screen } from '../../src/map/view';
+import type { Console } from '../../src/state/console';
+import { click_map, on_map } from './floor';
 import { Hall, still_hall } from './hall';
-import { picture, sizes, Stage, violations } from './harness';
+import { broken_link, picture, sizes, Stage, violations } from './harness';
 
 let stage: Stage;
 let hall: Hall;
@@ -20,18 +21,6 @@ afterAll(async () => {
   await stage.strike();
 });
 
-const bounds = { x: 0, y: 0, width: 20_000, depth: 12_000 };
-
-/** Where a point of the floor is on the page, while all of it is shown. */
-async function on_page(page: Page, at: Point): Promise<Point> {
-  const box = (await page.locator('.map-canvas').boundingBox())!;
-  const point = to_screen(fitted(bounds, box, margin_of(box)), box, at);
-  return { x: box.x + point.x, y: box.y + point.y };
-}
-async function click(page: Page, at: Point): Promise<void> {
-  const point = await on_page(page, at);
-  await page.mouse.click(point.x, point.y);
-}
 /** The row of a thing in the table that screen readers find. */
 const row = (page: Page, name: string | RegExp) => page.locator('.map table tbody tr').filter({ has: page.getByRole('rowheader', { name }) });
 const scale = (page: Page) => page.locator('.map-scale').getAttribute('aria-label');
@@ -42,21 +31,12 @@ async function observe(page: Page): Promise<void> {
   await page.getByText('5 components look').waitFor();
   await page.locator('.map-switch[aria-busy="false"]').waitFor();
 }
-/** Lets the world go on until the page shows something. */
-async function pass_until(page: Page, shown: ReturnType<Page['locator']>, step = 500): Promise<void> {
-  for (let i = 0; i < 240; ++i) {
-    if ((await shown.count()) > 0) return;
-    await hall.pass(step);
-    await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
-  }
-  await shown.first().waitFor({ timeout: 1 });
-}
+const pass_until = (page: Page, shown: Locator, step?: number) => hall.pass_until(page, shown, step);
 
 describe('the map', () => {
   test.each([
     ['wide', 'dark', 'en'],
     ['tablet', 'light', 'ja'],
-    ['small', 'light', 'en'],
   ] as const)('shows the hall and its robot, with frame and scale: %s, %s, %s', (size, look, language) =>
     stage.page(
       async (page) => {
@@ -95,14 +75,14 @@ describe('the map', () => {
         await ready(page);
         await page.getByText(/^Not live/).waitFor({ state: 'detached' });
       },
-      { may_complain: /WebSocket|Failed to load resource|ERR_/ },
+      { may_complain: broken_link },
     ));
 
   test('is zoomed by wheel and buttons, panned by dragging, and fitted again', () =>
     stage.page(async (page) => {
       await ready(page);
       const whole = await scale(page);
-      const desk = await on_page(page, { x: 9500, y: 9300 });
+      const desk = await on_map(page, { x: 9500, y: 9300 });
       await page.mouse.move(desk.x, desk.y);
       await page.mouse.wheel(0, -900);
       await page.waitForFunction((before) => document.querySelector('.map-scale')!.getAttribute('aria-label') !== before, whole);
@@ -118,12 +98,12 @@ describe('the map', () => {
       await page.waitForFunction((before) => document.querySelector('.map-scale')!.getAttribute('aria-label') !== before, whole);
     }));
 
-  test('is zoomed by two fingers, and a tap is a click', () =>
+  test('is zoomed by two fingers and panned by one, and a tap is a click', () =>
     stage.page(
       async (page) => {
         await ready(page);
         const whole = await scale(page);
-        const at = await on_page(page, { x: 9000, y: 5000 });
+        const at = await on_map(page, { x: 9000, y: 5000 });
         const touches = await page.context().newCDPSession(page);
         const touch = (type: 'touchStart' | 'touchMove' | 'touchEnd', ...points: number[]) =>
           touches.send('Input.dispatchTouchEvent', { type, touchPoints: points.map((x, id) => ({ x: at.x + x, y: at.y, id })) });
@@ -133,8 +113,13 @@ describe('the map', () => {
         await touch('touchEnd');
         await page.waitForFunction((before) => document.querySelector('.map-scale')!.getAttribute('aria-label') !== before, whole);
         expect(await page.getByRole('heading', { name: 'Send robot1' }).count()).toBe(0);
-        await page.touchscreen.tap(at.x, at.y);
+        await page.getByRole('button', { name: 'Show all of the floor' }).click();
+        await touch('touchStart', 0);
+        for (const moved of [20, 40, 60]) await touch('touchMove', moved);
+        await touch('touchEnd');
+        await page.touchscreen.tap(at.x + 60, at.y); // the floor has gone with the finger
         await page.getByRole('heading', { name: 'Send robot1' }).waitFor();
+        expect(await page.locator('.map-fact code').textContent()).toMatch(/^(89[5-9]\d|90[0-4]\d|9000), (49[5-9]\d|50[0-4]\d|5000)$/);
         expect(await violations(page)).toBe('');
         await picture(page, 'map-touch');
       },
@@ -146,9 +131,9 @@ describe('the robot', () => {
   test('is sent to a point with a direction, which is shown before, and arrives', () =>
     stage.page(async (page) => {
       await ready(page);
-      await click(page, { x: 4000, y: 4000 });
+      await click_map(page, { x: 4000, y: 4000 });
       await page.getByText(/^\d\.\d m away/).waitFor();
-      const from = await on_page(page, { x: 4000, y: 4000 });
+      const from = await on_map(page, { x: 4000, y: 4000 });
       await page.mouse.move(from.x, from.y);
       await page.mouse.down();
       await page.mouse.move(from.x, from.y - 80, { steps: 4 });
@@ -156,6 +141,15 @@ describe('the robot', () => {
       await page.locator('.map-fact code', { hasText: /, 90$/ }).waitFor();
       await picture(page, 'map-preview');
       expect(await violations(page)).toBe('');
+      await page.getByRole('button', { name: 'Cancel', exact: true }).click();
+      // Both in one go.
+      await page.keyboard.down('Shift');
+      await page.mouse.move(from.x, from.y);
+      await page.mouse.down();
+      await page.mouse.move(from.x, from.y - 80, { steps: 4 });
+      await page.mouse.up();
+      await page.keyboard.up('Shift');
+      await page.locator('.map-fact code', { hasText: /^(39|40)\d\d, (39|40)\d\d, 90$/ }).waitFor();
       await page.getByRole('button', { name: 'Send here' }).click();
       await page.getByText(/^robot1 is going to x [34]\.\d\d m/).waitFor();
       await page.getByRole('button', { name: 'Stop robot1' }).waitFor();
@@ -179,6 +173,24 @@ describe('the robot', () => {
       await page.getByText('0 bound').waitFor();
     }));
 
+  test('says a sentence from its card, and leads to what else it can do', () =>
+    stage.page(async (page) => {
+      await ready(page);
+      await page.getByRole('button', { name: 'Table' }).click();
+      await page.getByRole('button', { name: 'Choose: robot1' }).click();
+      const card = page.getByRole('region', { name: 'Robot robot1' });
+      await card.getByRole('textbox', { name: 'Speak' }).fill('Welcome.');
+      await page.keyboard.press('Enter');
+      await page.getByText('1 bound').waitFor();
+      await pass_until(page, page.getByText('0 bound'), 200);
+      expect(await page.evaluate(() => (window as unknown as { rois: Console }).rois.commands.all.list().map((one) => `${one.component} ${one.state}`))).toEqual(['speech_synthesis OK']);
+      await card.getByText('All that it can do').click();
+      await card.getByRole('button', { name: 'reaction', exact: true }).click();
+      await page.getByRole('heading', { name: 'reaction', exact: true }).waitFor();
+      expect(await violations(page)).toBe('');
+      await page.getByRole('button', { name: 'Table' }).click();
+    }));
+
   test('is sent to a place by its name', () =>
     stage.page(async (page) => {
       await ready(page);
@@ -193,12 +205,15 @@ describe('the robot', () => {
   test('is not sent to where it cannot be without a word; what the engine says is shown', () =>
     stage.page(async (page) => {
       await ready(page);
-      await click(page, { x: 9000, y: 10_600 });
+      await click_map(page, { x: 9000, y: 10_600 });
       await page.getByText('Furniture is in the way here.').waitFor();
       await page.getByRole('button', { name: 'Send here' }).click();
       await pass_until(page, page.getByText(/^Not reached:/));
-      await page.getByRole('alert').filter({ hasText: 'ERROR' }).waitFor();
+      const notice = page.getByRole('alert').filter({ hasText: /is outside of the hall, in a wall or in furniture/ });
+      await notice.waitFor();
       expect(await violations(page)).toBe('');
+      await notice.getByRole('button', { name: /^Why/ }).click();
+      await page.locator('.panel-messages').getByRole('option', { selected: true }).getByText('completed').waitFor();
     }));
 
   test('is sent with keys alone', () =>
@@ -239,6 +254,8 @@ describe('people', () => {
       await hall.walk('tanaka', '8000, 6000, 180');
       await pass_until(page, row(page, /tanaka/), 200);
       await row(page, /tanaka person-\d/).getByText(/x (7\.9|8\.[01])\d m, y (5\.9|6\.0)/).waitFor();
+      const trails = await page.evaluate(() => [...(window as unknown as { rois: Console }).rois.entities.all.values()].filter((one) => one.kind === 'person').map((one) => one.trail.size));
+      expect(trails.every((points) => points > 1), `trails of ${trails.join(', ')} points`).toBe(true);
       await hall.say('tanaka', 'Good morning, is anybody there? I have come for the meeting at ten.');
       await pass_until(page, row(page, /^sound-/), 200);
       await page.getByRole('button', { name: 'Table' }).click();
@@ -265,6 +282,9 @@ describe('people', () => {
         await page.getByLabel('How near it comes').fill('1.5');
         await person.getByRole('button', { name: 'Follow' }).click();
         await page.locator('.map-motion', { hasText: /robot1 follows/ }).waitFor();
+        await person.waitFor({ state: 'detached' }); // it hides nothing any more
+        await page.getByRole('application', { name: /^Floor map/ }).focus();
+        await page.keyboard.press('n');
         await pass_until(page, person.getByText(/robot1 1\.[3-7] m away/));
         await picture(page, 'map-follow');
         expect(await violations(page)).toBe('');

@@ -2,16 +2,23 @@
 import type { Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
-import { picture, root, Stage, violations } from './harness';
+import { Hall, more_profiles, still_hall } from './hall';
+import { looks, picture, sizes, Stage, violations } from './harness';
 
 let stage: Stage;
+let hall: Hall;
 const path = '/#sequence';
 const panel = (page: Page) => page.locator('.panel-sequence');
 
 beforeAll(async () => {
-  stage = await Stage.set('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '4', '--seed', '7', '--profiles', `${root}/components/simulation/profiles`);
+  stage = await Stage.set(...still_hall, ...more_profiles);
+  hall = await Hall.of(stage);
+  await hall.pass(1000);
 });
-afterAll(() => stage.strike());
+afterAll(async () => {
+  await hall.close();
+  await stage.strike();
+});
 
 const box = (page: Page, text: string) => panel(page).locator('.sequence-box', { hasText: text });
 const component = (page: Page) => panel(page).getByLabel('Component', { exact: true });
@@ -19,6 +26,7 @@ const open_library = (page: Page) => panel(page).getByRole('button', { name: 'Op
 
 /** Two branches: speech, and a way. */
 async function greeting(page: Page, target = 'desk'): Promise<void> {
+  expect(await panel(page).getByRole('button', { name: 'Run', exact: true }).isDisabled()).toBe(true);
   await panel(page).getByRole('button', { name: 'Two at the same time' }).click();
   await component(page).selectOption('speech_synthesis');
   await panel(page).getByLabel('speech_text', { exact: true }).fill('This way, please.');
@@ -36,6 +44,7 @@ describe('sequences', () => {
         await panel(page).locator('.sequence-whole > .sequence-lane > .sequence-last').hover();
         await panel(page).locator('.sequence-whole > .sequence-lane > .sequence-last').getByRole('button', { name: 'Add a step here' }).click();
         await panel(page).getByRole('button', { name: 'Wait', exact: true }).click();
+        await expect.poll(() => panel(page).getByLabel('How long').evaluate((one) => one === document.activeElement)).toBe(true);
         await panel(page).getByLabel('How long').fill('300');
         await panel(page).getByRole('button', { name: 'Add a step', exact: true }).click();
         await panel(page).getByRole('button', { name: 'Command', exact: true }).click();
@@ -50,7 +59,7 @@ describe('sequences', () => {
         await box(page, 'navigation').getByText('running').waitFor();
         await box(page, 'branches at once').getByText('running').waitFor();
         await picture(page, 'sequence-running');
-        await panel(page).getByText(/^All is done, after/).waitFor();
+        await hall.pass_until(page, panel(page).getByText(/^All is done, after/));
         await box(page, 'reaction').getByText('OK').waitFor();
         await page.getByText('0 bound').waitFor();
         expect(await violations(page)).toBe('');
@@ -95,7 +104,6 @@ describe('sequences', () => {
         await page.keyboard.press('Insert');
         await page.waitForFunction(() => document.activeElement?.closest('.sequence-choices'));
         await page.keyboard.press('Tab');
-        await page.keyboard.press('Tab');
         await page.keyboard.press('Enter'); // branches
         const parallel = box(page, 'branches at once');
         await parallel.waitFor();
@@ -115,7 +123,7 @@ describe('sequences', () => {
         await page.keyboard.press('Enter');
         await page.waitForFunction(() => document.activeElement?.tagName === 'SELECT');
         await panel(page).getByRole('button', { name: 'Run', exact: true }).press('Enter');
-        await panel(page).getByText(/^All is done, after/).waitFor();
+        await hall.pass_until(page, panel(page).getByText(/^All is done, after/));
         expect(await violations(page)).toBe('');
       },
       {},
@@ -138,8 +146,8 @@ describe('sequences', () => {
         await panel(page).locator('.sequence-form').getByText(/neither "x, y" nor/).waitFor();
         await panel(page).getByLabel('target_position, item 1').fill('100000, 2000');
         await panel(page).getByRole('button', { name: 'Run', exact: true }).click();
-        await box(page, 'navigation').getByText('ERROR').waitFor();
-        await box(page, 'speech_synthesis').getByText('OK').waitFor();
+        await hall.pass_until(page, box(page, 'navigation').getByText('ERROR'), 200);
+        await hall.pass_until(page, box(page, 'speech_synthesis').getByText('OK'), 200);
         await panel(page).getByText('navigation start ended with ERROR.').waitFor();
         await panel(page).getByRole('button', { name: 'Show the step' }).click();
         await panel(page).getByText('The component could not do it.').waitFor();
@@ -162,12 +170,13 @@ describe('sequences', () => {
         await panel(page).getByRole('button', { name: 'Run', exact: true }).click();
         await box(page, 'follow').getByText('running').waitFor();
         await panel(page).getByRole('button', { name: 'Stop', exact: true }).click();
-        await box(page, 'follow').getByText('OK').waitFor(); // that is how it ends
+        await hall.pass_until(page, box(page, 'follow').getByText('OK'), 200); // that is how it ends
         await panel(page).getByText('Released: speech_synthesis.').waitFor();
         await page.getByText('0 bound').waitFor();
         const run = panel(page).getByRole('button', { name: 'Run', exact: true });
         expect(await run.isEnabled()).toBe(false); // what waits would run, too
         await page.getByRole('button', { name: 'Disconnect' }).click();
+        await page.getByRole('dialog', { name: 'Disconnect?' }).getByRole('button', { name: 'Disconnect' }).click();
         await page.getByRole('button', { name: 'Connect', exact: true }).click();
         await box(page, 'speech_synthesis').getByText(/^(ABORT|unknown)$/).waitFor();
         await page.waitForFunction(() => !(document.querySelector('.sequence-toolbar button') as HTMLButtonElement).disabled);
@@ -209,11 +218,7 @@ describe('sequences', () => {
       path,
     ));
 
-  test.each([
-    ['light', 'ja', 1024, 768],
-    ['dark', 'ja', 820, 1180],
-    ['light', 'en', 1600, 1000],
-  ] as const)('is accessible: %s, %s, %i', (look, language, width, height) =>
+  test.each(looks)('is accessible: %s, %s, %s', (size, look, language) =>
     stage.page(
       async (page) => {
         await panel(page).locator('.sequence-beginning button').nth(1).click();
@@ -225,9 +230,9 @@ describe('sequences', () => {
         await panel(page).locator('.sequence-branch').nth(2).locator('.sequence-add').click();
         await panel(page).locator('.sequence-choices').waitFor();
         expect(await violations(page)).toBe('');
-        await picture(page, `sequence-${look}-${language}-${width}`);
+        await picture(page, `sequence-${size}-${look}-${language}`);
       },
-      { look, language, width, height, touch: width < 1100 },
+      { ...sizes[size], look, language, touch: size !== 'wide' },
       path,
     ),
   );

@@ -1,13 +1,13 @@
 // The page as a whole: what stands where, how the link is told, themes, languages, keyboard, screen readers.
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
-import { picture, root, sizes, Stage, violations } from './harness';
+import { still_hall } from './hall';
+import { broken_link, picture, sizes, Stage, violations } from './harness';
 
 let stage: Stage;
-const lost_link = /WebSocket|Failed to load resource|ERR_/;
 
 beforeAll(async () => {
-  stage = await Stage.set('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '1', '--seed', '7');
+  stage = await Stage.set(...still_hall);
 });
 afterAll(() => stage.strike());
 
@@ -23,7 +23,6 @@ describe('the page', () => {
 
   test.each([
     ['wide', 'dark', 'en'],
-    ['wide', 'light', 'ja'],
     ['tablet', 'light', 'en'],
     ['small', 'dark', 'ja'],
   ] as const)('is accessible: %s, %s, %s', (size, look, language) =>
@@ -33,6 +32,8 @@ describe('the page', () => {
         await page.locator('.engine-component', { hasText: 'navigation' }).getByText('READY').waitFor();
         expect(await violations(page)).toBe('');
         expect(await page.evaluate(() => document.documentElement.lang)).toBe(language);
+        const tabs = await page.locator('.app-main .tabs-row').first().getByRole('tab').evaluateAll((all) => all.map((one) => one.getBoundingClientRect().right));
+        expect(Math.max(...tabs), 'all tabs are seen').toBeLessThanOrEqual(sizes[size].width);
         await picture(page, `shell-${size}-${look}-${language}`);
       },
       { ...sizes[size], look, language, touch: size !== 'wide' },
@@ -52,7 +53,20 @@ describe('the page', () => {
         stage.front.mend();
         await page.getByText('Connected again', { exact: true }).waitFor();
       },
-      { may_complain: lost_link },
+      { may_complain: broken_link },
+    ));
+
+  test('moves nothing by itself for who does not want that', () =>
+    stage.page(
+      async (page) => {
+        const moving = () => page.evaluate(() => [...document.querySelectorAll('*')].filter((one) => /[1-9]/.test(getComputedStyle(one).transitionDuration + getComputedStyle(one).animationDuration)).length);
+        await page.getByText('Connected', { exact: true }).waitFor();
+        expect(await moving()).toBeGreaterThan(0);
+        await page.emulateMedia({ reducedMotion: 'reduce' });
+        expect(await moving()).toBe(0);
+        expect(await page.evaluate(() => document.getAnimations().length)).toBe(0);
+      },
+      { motion: 'no-preference' },
     ));
 
   test('remembers colours and language', () =>
@@ -68,8 +82,17 @@ describe('the page', () => {
 
   test('ends its session when the user says so, and begins a new one', () =>
     stage.page(async (page) => {
+      await page.getByRole('treeitem', { name: /^person_detection / }).click();
+      await page.getByRole('button', { name: 'Bind person_detection' }).click();
+      await page.getByText('1 bound').waitFor();
       await page.getByRole('button', { name: 'Disconnect' }).click();
+      const question = page.getByRole('dialog', { name: 'Disconnect?' });
+      await question.getByText('The session ends: 1 bound component is released.').waitFor();
+      expect(await violations(page)).toBe('');
+      await question.getByRole('button', { name: 'Disconnect' }).click();
       await page.getByText('Disconnected', { exact: true }).waitFor();
+      await page.getByText('0 bound').waitFor();
+      expect(await page.getByRole('treeitem').getByText('READY').count()).toBe(0); // nobody knows
       await page.getByRole('button', { name: 'Connect', exact: true }).click();
       await page.getByText('Connected', { exact: true }).waitFor();
     }));

@@ -1,19 +1,25 @@
 // The time line: what stands on it, what points at it and the keys say, going back in time, and how it looks.
 import type { Page } from 'playwright-core';
-import { connect } from 'rois-client';
+import { command, connect, value } from 'rois-client';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
 import type { Console } from '../../src/state/console';
-import { picture, root, Stage, violations } from './harness';
+import { Hall, still_hall } from './hall';
+import { broken_link, looks, picture, sizes, Stage, violations } from './harness';
 
 let stage: Stage;
+let hall: Hall;
 const wide = { width: 1600, height: 1000 };
-const lost_link = /WebSocket|Failed to load resource|ERR_/;
 
 beforeAll(async () => {
-  stage = await Stage.set('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '20', '--seed', '7');
+  stage = await Stage.set(...still_hall);
+  hall = await Hall.of(stage);
+  await hall.pass(1000);
 });
-afterAll(() => stage.strike());
+afterAll(async () => {
+  await hall.close();
+  await stage.strike();
+});
 
 type Page_ = Window & { rois: Console };
 const lane = (page: Page, name: string) => page.locator('.timeline-name', { hasText: new RegExp(`^${name}$`) });
@@ -23,21 +29,16 @@ const details = (page: Page) => page.getByRole('region', { name: 'Details', exac
 /** Two commands on the way to the desk, one that fails; somebody else has bound `follow`. */
 async function day(page: Page): Promise<void> {
   await lane(page, 'navigation').waitFor();
-  await page.evaluate(async () => {
-    const { rois } = window as unknown as Page_;
-    await rois.subscribe('person_detected', { inline_results: true });
-    for (const run of [
-      () => rois.run('person_detection', 'start'),
-      () => rois.run('speech_synthesis', 'start', { speech_text: 'Welcome.' }),
-      () => rois.run('navigation', 'start', { target_position: ['desk'] }),
-      () => rois.run('navigation', 'start', { target_position: ['100000, 4'] }),
-    ])
-      await (await run()).ends;
-  });
+  await page.evaluate(() => (window as unknown as Page_).rois.subscribe('person_detected', { inline_results: true }).then(() => undefined));
+  await hall.run(page, 'person_detection', 'start');
+  await hall.run(page, 'speech_synthesis', 'start', { speech_text: 'Welcome.' });
+  await hall.run(page, 'navigation', 'start', { target_position: ['desk'] });
+  await hall.run(page, 'navigation', 'start', { target_position: ['100000, 4'] });
 }
 
 /** Where a time is in a lane; time has been stopped. */
 async function point(page: Page, name: string, at: number, below = 0.8): Promise<{ x: number; y: number }> {
+  await lane(page, name).scrollIntoViewIfNeeded();
   const label = (await lane(page, name).boundingBox())!;
   const canvas = page.locator('.timeline-canvas');
   const box = (await canvas.boundingBox())!;
@@ -50,6 +51,22 @@ const middle_of = (page: Page, index: number) =>
     const { sent_at: from, ended_at: to } = (window as unknown as Page_).rois.commands.all.at(i)!;
     return (from + to!) / 2;
   }, index);
+const ended_at = (page: Page, index: number) => page.evaluate((i) => (window as unknown as Page_).rois.commands.all.at(i)!.ended_at!, index);
+async function stop_time(page: Page): Promise<void> {
+  await page.getByRole('button', { name: 'Stop time' }).click();
+  await page.getByText('Stopped', { exact: true }).waitFor();
+  await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+}
+/** Drags over a stretch of time, which is shown alone then. */
+async function zoom(page: Page, from: number, to: number): Promise<void> {
+  const [begin, end] = [await point(page, 'navigation', from), await point(page, 'navigation', to)];
+  await page.mouse.move(begin.x, begin.y);
+  await page.mouse.down();
+  await page.mouse.move((begin.x + end.x) / 2, begin.y);
+  await page.mouse.move(end.x, end.y);
+  await page.mouse.up();
+  await expect.poll(async () => Math.abs((await span(page)) - (to - from))).toBeLessThan(300);
+}
 const span = (page: Page) => page.locator('.timeline-canvas').evaluate(({ dataset }) => Number(dataset['to']) - Number(dataset['from']));
 
 describe('the time line', () => {
@@ -69,12 +86,38 @@ describe('the time line', () => {
         await rows(page, /Command startnavigationOK/).waitFor();
         await rows(page, /Command startnavigationERROR/).waitFor();
         await rows(page, /Event person_detectedperson_detection/).first().waitFor();
+        await page.evaluate(() => (window as unknown as Page_).rois.run('speech_synthesis', 'start', { speech_text: 'Hello.', volume: 500 }).catch(() => undefined));
+        await rows(page, /Refused executespeech_synthesisBAD_PARAMETER/).waitFor();
         expect(await violations(page)).toBe('');
         await picture(page, 'timeline-table');
+        // One that runs, and one that waits for it.
+        const units = [command('navigation', 'start', { target_position: value.strings(['exit']) }), command('speech_synthesis', 'start', { speech_text: 'Here we are.' })];
+        await page.evaluate((those) => (window as unknown as Page_).rois.execute(those).then(() => undefined), units);
+        await rows(page, /Command startnavigationrunning/).waitFor();
+        await rows(page, /Command startspeech_synthesiswaiting/).waitFor();
         await page.getByRole('button', { name: 'Stop time' }).click();
         await rows(page, /Command startnavigationERROR/).getByRole('button').click();
         await details(page).getByText('The component could not do it.').waitFor();
         await other.close();
+      },
+      wide,
+      '/#timeline',
+    ));
+
+  test('keeps what the console listens for by itself apart, until somebody wants to see it', () =>
+    stage.page(
+      async (page) => {
+        await page.getByLabel('As a table').check();
+        await rows(page, /Status READYnavigation/).first().waitFor();
+        await hall.run(page, 'person_detection', 'stop');
+        await hall.run(page, 'person_detection', 'start');
+        await hall.pass(1000);
+        await rows(page, /Command startperson_detectionOK/).waitFor();
+        expect(await rows(page, /Event person_detected/).count()).toBe(0);
+        await page.getByLabel('Console’s own events').check();
+        await rows(page, /Event person_detectedperson_detection/).first().waitFor();
+        await page.getByLabel('Hide quiet components').check();
+        await rows(page, /Status READYnavigation/).first().waitFor({ state: 'detached' });
       },
       wide,
       '/#timeline',
@@ -85,14 +128,19 @@ describe('the time line', () => {
       async (page) => {
         await day(page);
         await page.getByLabel('Stretch of time').selectOption('10 s');
-        await page.getByRole('button', { name: 'Stop time' }).click();
         await expect.poll(() => span(page)).toBe(10_000);
+        await page.getByLabel('Stretch of time').selectOption('1 min');
+        await stop_time(page);
+        await zoom(page, (await sent_at(page, -2)) - 1500, (await ended_at(page, -1)) + 100); // the time was stopped later than that
         const walk = await point(page, 'navigation', await middle_of(page, -2));
         await page.mouse.move(walk.x, walk.y);
         const tip = page.locator('.timeline-tip');
         await tip.getByText('navigation').waitFor();
         expect(await tip.innerText()).toMatch(/Command start[^]*OK[^]*Sent[^]*Ran/);
+        await zoom(page, (await sent_at(page, -1)) - 100, (await ended_at(page, -1)) + 50); // it has failed at once
         const failed = await point(page, 'navigation', await middle_of(page, -1));
+        await page.mouse.move(failed.x, failed.y);
+        await tip.getByText(/100000, 4 is outside of the map/).waitFor();
         await page.mouse.click(failed.x, failed.y);
         await details(page).getByText('The component could not do it.').waitFor();
         await details(page).getByRole('region', { name: 'Arguments' }).getByText('100000, 4').waitFor();
@@ -143,15 +191,9 @@ describe('the time line', () => {
     stage.page(
       async (page) => {
         await day(page);
-        await page.getByRole('button', { name: 'Stop time' }).click();
+        await stop_time(page);
         const at = await sent_at(page, 0);
-        const [from, to] = [await point(page, 'navigation', at - 2000), await point(page, 'navigation', at)];
-        await page.mouse.move(from.x, from.y);
-        await page.mouse.down();
-        await page.mouse.move((from.x + to.x) / 2, from.y);
-        await page.mouse.move(to.x, to.y);
-        await page.mouse.up();
-        await expect.poll(async () => Math.abs((await span(page)) - 2000)).toBeLessThan(300);
+        await zoom(page, at - 2000, at);
         await picture(page, 'timeline-zoomed');
         const chosen = await span(page);
         const middle = await point(page, 'navigation', at - 1000);
@@ -166,7 +208,7 @@ describe('the time line', () => {
         await page.getByText('Stopped', { exact: true }).waitFor();
         // What happens meanwhile is not lost, and does not move what is looked at.
         const still = await page.locator('.timeline-canvas').getAttribute('data-to');
-        await page.evaluate(async () => (await (window as unknown as Page_).rois.run('speech_synthesis', 'start', { speech_text: 'Good bye.' })).ends);
+        await hall.run(page, 'speech_synthesis', 'start', { speech_text: 'Good bye.' });
         expect(await page.locator('.timeline-canvas').getAttribute('data-to')).toBe(still);
         await page.getByRole('button', { name: 'Go on live' }).click();
         await page.getByLabel('As a table').check();
@@ -189,27 +231,22 @@ describe('the time line', () => {
         await rows(page, /Link Connection lost/).waitFor();
         await expect.poll(() => rows(page, /Status READYnavigation/).count()).toBe(2);
       },
-      { ...wide, may_complain: lost_link },
+      { ...wide, may_complain: broken_link },
       '/#timeline',
     ));
 
-  test.each([
-    ['wide', 'dark', 1600, 1000],
-    ['wide', 'light', 1600, 1000],
-    ['tablet', 'dark', 1024, 768],
-    ['upright', 'light', 820, 1180],
-  ] as const)('looks well and is accessible: %s %s', (size, look, width, height) =>
+  test.each(looks)('looks well and is accessible: %s, %s, %s', (size, look, language) =>
     stage.page(
       async (page) => {
         await day(page);
         expect(await violations(page)).toBe('');
-        await page.getByRole('application', { name: /^Time line/ }).focus();
+        await page.locator('.timeline-place').focus();
         await page.keyboard.press('ArrowDown');
         await page.keyboard.press('ArrowDown');
         await page.locator('.timeline-tip').waitFor();
-        await picture(page, `timeline-${size}-${look}`);
+        await picture(page, `timeline-${size}-${look}-${language}`);
       },
-      { width, height, look, touch: size !== 'wide', language: size === 'upright' ? 'ja' : 'en' },
+      { ...sizes[size], look, language, touch: size !== 'wide' },
       '/#timeline',
     ),
   );

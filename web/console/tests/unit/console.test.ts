@@ -1,6 +1,6 @@
 // What the state knows and does, with an engine that answers as the test says.
 import { command, type XmlElement } from 'rois-client';
-import { beforeEach, describe, expect, test } from 'vitest';
+import { beforeEach, describe, expect, test, vi } from 'vitest';
 
 import type { Console } from '../../src/state/console';
 import { profile_xml, settled, World } from './world';
@@ -70,15 +70,47 @@ describe('the link', () => {
     expect(console.link.view.value.phase).toBe('draining');
   });
 
-  test('a gateway that goes away is waited for, and then is just not there', async () => {
+  test('a gateway that goes away is lost as soon as nobody is there', async () => {
+    world.pages.set('/rois', { status: 503, text: '<fault code="shutting_down"><reason>so it is</reason></fault>' });
     world.breaks('the WebSocket was closed with 1001, shutting down');
+    await settled();
+    expect(console.link.view.value.phase).toBe('draining');
     await world.tries_again();
     world.breaks();
-    expect(console.link.view.value).toMatchObject({ phase: 'draining', reason: 'the WebSocket was closed with 1001, shutting down' });
-    await world.passes(60_000);
+    await settled();
+    expect(console.link.view.value).toMatchObject({ phase: 'draining', reason: 'so it is' });
+    world.pages.clear();
     await world.tries_again();
     world.breaks();
+    await settled();
     expect(console.link.view.value.phase).toBe('lost');
+  });
+
+  test('that is away is tried at once when the user says so, and nothing else is asked meanwhile', async () => {
+    const stop = console.metrics.poll.watch();
+    world.breaks();
+    await settled();
+    const fetched = vi.spyOn(world, 'fetch');
+    await world.passes(10_000);
+    expect(fetched).not.toHaveBeenCalled();
+    const tried = world.tries_again();
+    console.retry();
+    await tried;
+    await world.opens();
+    expect(console.link.view.value.phase).toBe('resumed');
+    expect(fetched.mock.calls.map(([path]) => path)).toContain('/metrics');
+    console.retry(); // nothing to do
+    expect(console.link.view.value.phase).toBe('resumed');
+    stop();
+  });
+
+  test('nothing is left of a session that the user has ended', async () => {
+    await console.bindings.bind('navigation');
+    await world.notifies('receive_event', localized(['a', 1, 2]));
+    await console.close();
+    expect(console.link.view.value.phase).toBe('closed');
+    expect([console.bindings.mine.value.size, console.entities.all.size, console.robots.all.size, console.status.all.value.size]).toEqual([0, 0, 0, 0]);
+    expect(console.metrics.latest.value).toBeUndefined();
   });
 
   test('a gateway that refused, and then is not there, is lost', async () => {
@@ -249,6 +281,34 @@ describe('people', () => {
     expect([await is_own('s-3'), await is_own('s-4')]).toEqual([true, false]);
     await console.subscriptions.unsubscribe('s-4');
     expect([...console.subscriptions.all.value.keys()]).toEqual(['s-3']);
+  });
+
+  test('of whom somebody asks as the console does come for them, too: the engine has one name for both', async () => {
+    world.answers.set('subscribe', () => '<subscribe_id>s-1</subscribe_id>');
+    console.entities.watch();
+    await settled();
+    const is_own = async () => {
+      await world.notifies('receive_event', localized(['person-1', 0, 0]));
+      return console.documents.ring.last!.is_own;
+    };
+    expect(await is_own()).toBe(true);
+    await console.subscribe('person_localized');
+    expect(await is_own()).toBe(false);
+    await console.subscriptions.unsubscribe('s-1');
+    expect(await is_own()).toBe(true);
+    expect(world.names()).not.toContain('unsubscribe');
+  });
+
+  test('have a trail that begins anew where nobody knows the way', async () => {
+    for (const [x, ms] of [[1000, 100], [1500, 9000], [2000, 100], [5000, 3000], [5500, 0]] as const) {
+      await world.notifies('receive_event', localized(['a', x, 0]));
+      await world.passes(ms);
+    }
+    const trail = console.entities.all.get('person a')!.trail.list();
+    expect(trail.map(({ x, begins }) => [x, begins])).toEqual([[1000, undefined], [1500, undefined], [2000, undefined], [5000, undefined], [5500, undefined]]);
+    await world.passes(3000);
+    await world.notifies('receive_event', localized(['a', 9000, 0]));
+    expect(console.entities.all.get('person a')!.trail.at(-1)).toMatchObject({ x: 9000, begins: true });
   });
 
   test('have a place, a trail and a certainty, and go out of sight', async () => {

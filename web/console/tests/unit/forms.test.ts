@@ -2,6 +2,7 @@
 import { type ParameterProfile, Results, value } from 'rois-client';
 import { describe, expect, test } from 'vitest';
 
+import { with_name } from '../../src/forms/codebooks';
 import { data_type, type Kind, problem_of } from '../../src/forms/data_type';
 import { type Asked, asked_by, choices_of, command_types, fixed_length, is_position, need_of, shown_description, units_of } from '../../src/forms/describe';
 import { inputs_of, parameters_from, problems_of, with_input } from '../../src/forms/inputs';
@@ -83,6 +84,8 @@ describe('descriptions', () => {
     expect(need_of(told('What. Either this or SSML_text is mandatory.'))).toEqual({ kind: 'either', other: 'SSML_text' });
     expect(need_of(told('How loud. Optional.'))).toEqual({ kind: 'optional' });
     expect(shown_description('What the route saves: `time` or `distance`. Optional.')).toBe('What the route saves: time or distance.');
+    expect(shown_description('Speaks (table 44).')).toBe('Speaks.');
+    expect(shown_description('Follows (7.6.15), at 2 (or 3) m.')).toBe('Follows, at 2 (or 3) m.');
     expect(is_position(asked('target_position', 'string[]'))).toBe(true);
     expect(is_position(asked('time_limit', 'int', { description: 'in "x, y"' }))).toBe(false);
     expect(fixed_length(asked('line', 'int[]', { description: 'Distance in millimetre and direction in degree.' }))).toBe(2);
@@ -170,6 +173,14 @@ describe('what can be chosen', () => {
       { name: 'available_reactions', data_type_ref: { code: 'RoISIdentifier[]', codebook_ref: 'urn:reaction' }, values: ['1', '2'] },
     ]),
   } as unknown as Things;
+  test('is named, where the names of a codebook are known', () => {
+    const codebook = 'urn:x-rois:def:codebook:simulation::reaction';
+    const told = new Results([{ name: 'available_reactions', data_type_ref: { code: 'RoISIdentifier[]', codebook_ref: codebook }, values: ['9', '51'] }]);
+    expect(options_for(asked('reaction_ref', 'RoISIdentifier'), { ...things, told }).list).toEqual([{ value: '9', codebook, label: 'bow the head' }, { value: '51', codebook }]);
+    expect(with_name(codebook, '28')).toBe('28 – wave the hand');
+    expect(with_name('urn:other', '28')).toBe('28');
+  });
+
   const chosen = (one: Asked) => options_for(one, things).list.map((option) => option.value);
 
   test('is what there is', () => {

@@ -1,8 +1,9 @@
 // What the health panel makes of what was measured.
+import { command } from 'rois-client';
 import { beforeEach, describe, expect, test } from 'vitest';
 
 import { limits_in, sessions_in, troubles_in } from '../../src/health/counters';
-import { log_of, reason_of } from '../../src/health/log';
+import { log_of, reason_of, refused_component } from '../../src/health/log';
 import { documents_a_second, growth, highest, inside, latencies, point_near } from '../../src/health/series';
 import type { Console } from '../../src/state/console';
 import { read_metrics, Scrape } from '../../src/state/metrics_state';
@@ -119,5 +120,23 @@ describe('the log', () => {
     expect(refused?.kind === 'refused' && reason_of(refused.document)).toBe('so it is');
     expect(error?.kind === 'error' && error.entry.details).toMatchObject({ state: 'there' });
     expect(new Set(log.map((one) => one.key)).size).toBe(4);
+  });
+
+  test('has commands that failed, and says of a refused sequence whom it is about', async () => {
+    const unit = '<rois:command_unit_list xsi:type="rois:CommandMessageType" rois:command_type="start" rois:command_id="c1"><rois:component_ref rois:code="navigation"/></rois:command_unit_list>';
+    world.answers.set('execute', () => `<rois:CommandUnitSequence>${unit}</rois:CommandUnitSequence>`);
+    await console.run('navigation', 'start');
+    await world.notifies('completed', '<command_id>c1</command_id><status>ERROR</status>');
+    const [failed] = log_of(console);
+    expect(failed).toMatchObject({ kind: 'command', command: { component: 'navigation', state: 'ERROR' } });
+    expect(failed?.kind === 'command' && console.documents.ring.numbered(failed.command.completed!)?.name).toBe('completed');
+
+    world.answers.set('execute', () => 'BAD_PARAMETER');
+    const both = [command('navigation', 'start'), command('reaction', 'start')];
+    for (const [reason, ref] of [['command_unit_list[2]: no such reaction', 'reaction'], ['something else', 'navigation, reaction']] as const) {
+      world.reasons.set('execute', reason);
+      await console.client.execute(both).catch(() => undefined);
+      expect(refused_component(console.traffic.refused.at(-1)!)).toBe(ref);
+    }
   });
 });

@@ -54,6 +54,18 @@ describe('history', () => {
     expect(told(console.history, 'link')).toEqual(['open 0-2000', 'lost 2000-7000', 'resumed 7000-8000']);
   });
 
+  test('tells of one loss once, and why it came, however often it is tried to come back', async () => {
+    console.history.record();
+    await world.passes(2000);
+    world.breaks();
+    await world.passes(40);
+    const why = console.link.view.value.reason;
+    console.link.turn('lost', 'the WebSocket could not be opened');
+    await world.passes(1960);
+    expect(told(console.history, 'link')).toEqual(['open 0-2000', 'lost 2000-4000']);
+    expect(console.history.present.get('link ')!.note).toBe(why);
+  });
+
   test('holds who had bound what', async () => {
     const bound = (session: string) => ({ status: 200, text: `rois_component_bound{component_ref="navigation",session="${session}"} 1\n` });
     console.history.record();

@@ -223,6 +223,7 @@ describe('what is on the floor', () => {
   test('people are quiet when they stand, gone when out of sight, when nobody senses, and when the link is lost', () => {
     expect(states({ entities: [person('a')] })).toEqual(['live']);
     expect(states({ entities: [person('a', { at: now - 9000 })] })).toEqual(['quiet']);
+    expect(states({ entities: [person('a', { at: now - 31_000 })] })).toEqual(['old']); // whatever is said to sense
     expect(states({ entities: [person('a', { is_seen: false })] })).toEqual(['gone']);
     expect(states({ entities: [person('a', { at: now - 9000 })], senses: () => false })).toEqual(['gone']);
     expect(states({ entities: [person('a')], senses: () => false })).toEqual(['live']); // told just now, whatever is known of bindings

@@ -1,6 +1,6 @@
 // How much is drawn when: counted, not timed. And what the map does with the engine: sending, following, observing.
 import type { XmlElement } from 'rois-client';
-import { beforeEach, describe, expect, test } from 'vitest';
+import { beforeEach, describe, expect, test, vi } from 'vitest';
 
 import { Drawing, type Sheet } from '../../src/map/drawing';
 import { drivers_of, follow, go, motions_of, stop } from '../../src/map/driving';
@@ -224,7 +224,20 @@ describe('driving', () => {
     await ends(ids()[0]!, 'ABORT');
     expect(said()).toEqual(['robot1 is going to x 0.00 m, y 0.00 m']);
     await ends(ids()[1]!, 'TIMEOUT');
-    expect(console.notices.list.value).toMatchObject([{ severity: 'error', detail: 'TIMEOUT' }]);
+    expect(console.notices.list.value).toMatchObject([{ severity: 'error', text: 'Not reached: x 0.00 m, y 0.00 m', detail: 'TIMEOUT' }]);
+    world.answers.set('get_command_result', () => '<results><result rois:name="reason"><rois:data_type_ref rois:code="string"/><rois:value>a wall is in the way</rois:value></result></results>');
+    await go(console, driver!, { x: 5, y: 6 }, 0); // what was told of the one before is over
+    expect(console.notices.list.value.map((one) => one.severity)).toEqual(['info']);
+    await ends(ids()[2]!, 'ERROR');
+    await settled();
+    expect(console.notices.list.value).toMatchObject([{ severity: 'error', detail: 'a wall is in the way' }]);
+    vi.stubGlobal('history', { replaceState: () => undefined }); // the page's address
+    console.notices.list.value[0]!.action!.act();
+    vi.unstubAllGlobals();
+    expect(console.documents.ring.numbered(console.selection.document.value!)).toMatchObject({ name: 'completed' });
+    await go(console, driver!, { x: 5, y: 6 }, 0);
+    await world.passes(8000);
+    expect(said()).toEqual([]); // the map goes on saying it
   });
 
   test('follows by the permanent name, after stopping what else moves it', async () => {
@@ -320,6 +333,41 @@ describe('observing', () => {
     await on;
     await console.bindings.release_all();
     expect(session.observer.state.value.is_wanted).toBe(false);
+  });
+
+  test('starts again what was stopped for another, and says meanwhile that it does not look', async () => {
+    const on = session.observer.turn_to(true);
+    await settled();
+    await ending();
+    await on;
+    const give_back = await console.bindings.borrow(['person_localization']); // by a scenario, say
+    const stopped = await console.run('person_localization', 'stop', {}, { give_back: true });
+    await ends(stopped.command_ids[0]!, 'OK');
+    await stopped.ends;
+    world.draws();
+    await settled();
+    expect(session.observer.state.value).toMatchObject({ is_wanted: true, on: ['sound_localization'] });
+    expect(executed().slice(2)).toEqual(['person_localization stop']);
+    await give_back();
+    await world.passes(1000);
+    await ending();
+    expect(executed().slice(3)).toEqual(['person_localization start']);
+    expect(session.observer.state.value).toMatchObject({ is_wanted: true, on: ['person_localization', 'sound_localization'], refused: [] });
+    await session.observer.turn_to(false);
+    expect(console.bindings.mine.value.size).toBe(0);
+  });
+
+  test('leaves alone what the user has stopped by hand, and says that it does not look', async () => {
+    const on = session.observer.turn_to(true);
+    await settled();
+    await ending();
+    await on;
+    const stopped = await console.run('person_localization', 'stop');
+    await ends(stopped.command_ids[0]!, 'OK');
+    world.draws();
+    await world.passes(2000);
+    expect(executed().slice(2)).toEqual(['person_localization stop']);
+    expect(session.observer.state.value.on).toEqual(['sound_localization']);
   });
 
   test('begins again in a new session', async () => {

@@ -131,6 +131,17 @@ describe('a run', () => {
     expect(sequences()).toEqual([['move.start()'], ['move.stop()']]);
   });
 
+  test('leaves alone what others of the page have a use for', async () => {
+    const give_back = await console.bindings.borrow(['move']);
+    await runs(`<state name="a"><command component="move" type="start"/><after seconds="100" to="z"/></state>${end}`);
+    desk.stop();
+    await goes_on();
+    expect(sequences()).toEqual([['move.start()']]);
+    expect([...console.bindings.mine.value]).toEqual(['move']);
+    await give_back();
+    expect([...console.bindings.mine.value]).toEqual([]);
+  });
+
   test('that ends in a state marked failed has failed', async () => {
     await runs('<state name="a"><at_once to="b"/></state><end name="b" failed="true"/>');
     expect(desk.run!.outcome).toEqual({ how: 'failed', state: 'b' });

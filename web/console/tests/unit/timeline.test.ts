@@ -10,7 +10,7 @@ import { Ring } from '../../src/state/ring';
 import { describe as describe_thing, sentence } from '../../src/timeline/describe';
 import { clusters, lay_out, type Layout, next_thing, type Placed, rows_of, thing_at } from '../../src/timeline/layout';
 import { end_of, first_since, oldest_of, type Sources, stopped_sources } from '../../src/timeline/sources';
-import type { Mark } from '../../src/timeline/things';
+import { type Mark, opened_by } from '../../src/timeline/things';
 import { TimeView, within, zoomed } from '../../src/timeline/view';
 import { time_marks, value_marks } from '../../src/ui/scales';
 import { profile_xml, settled, World } from './world';
@@ -37,7 +37,7 @@ function span(kind: Span['kind'], ref: string, value: string, from: number, to: 
   return { number: next++, kind, ref, value, from, to, note: '' };
 }
 function sources(some: Partial<Sources> = {}): Sources {
-  return { at: 100_000, refs: ['follow', 'navigation', 'person_detection'], commands: ring(), events: ring(), own_events: ring(), errors: ring(), gaps: ring(), past: ring(), present: [], ...some };
+  return { at: 100_000, refs: ['follow', 'navigation', 'person_detection'], commands: ring(), events: ring(), own_events: ring(), errors: ring(), gaps: ring(), refused: ring(), past: ring(), present: [], ...some };
 }
 const range = { from: 40_000, to: 100_000 };
 const wide = { width: 600, hides_quiet: false, with_own: false }; // 100 ms a pixel
@@ -112,6 +112,27 @@ describe('events', () => {
   test('are found by time', () => {
     const rows = ring(...[10, 20, 20, 30].map((at) => ({ at })));
     expect([5, 10, 15, 20, 25, 31].map((at) => first_since(rows, (one) => one.at, at))).toEqual([0, 0, 1, 1, 3, 4]);
+  });
+});
+
+describe('what went wrong', () => {
+  const failed = command('navigation', 50_000, 50_000, 50_020, 'ERROR');
+  const answer = { number: 7, at: 70_000, direction: 'in', kind: 'answer', name: 'execute_response', text: '<a><reason>too loud</reason></a>', return_code: 'BAD_PARAMETER', is_own: false } as const;
+  const refused = { ...answer, request: { ...answer, name: 'execute', component: 'speech_synthesis' } };
+  const it = sources({ commands: ring(failed, command('follow', 60_000, 60_000, 61_000)), refused: ring(refused) });
+  const layout = lay_out(it, range, wide);
+  const marks = layout.placed.filter((one) => one.thing.kind === 'marks' && layout.lanes[one.lane]!.kind === 'events');
+
+  test('stands among events and errors: commands that failed, and refusals', () => {
+    expect(marks.map(({ thing }) => thing.kind === 'marks' && thing.marks.map((one) => one.kind))).toEqual([['failed'], ['refused']]);
+    expect(sentence(describe_thing(marks[1]!.thing, 100_000))).toMatch(/^Refused, execute, speech_synthesis, BAD_PARAMETER, Time .* Reason too loud$/);
+    expect(opened_by(marks[0]!.thing)).toEqual({ kind: 'command', entry: failed });
+    expect(opened_by(marks[1]!.thing)).toBe(marks[1]!.thing);
+  });
+
+  test('is met within 12 px, however short it was', () => {
+    const y = layout.lanes.find((one) => one.ref === 'navigation')!.y + 23;
+    expect([94, 95.6, 101.5, 107.4, 108.5].map((x) => thing_at(layout, x, y)?.thing.kind)).toEqual([undefined, 'command', 'command', 'command', undefined]);
   });
 });
 
@@ -216,6 +237,33 @@ describe('a view', () => {
     view.undo();
     expect(view.is_live).toBe(true);
     expect(view.can_undo).toBe(false);
+  });
+
+  test('everything goes on to be everything', async () => {
+    await happens();
+    const { from } = view.range(view.sources.at);
+    view.show_all();
+    const first = oldest_of(view.sources);
+    await world.passes(1_200_000);
+    const all = view.range(view.sources.at);
+    expect(all.from).toBeLessThanOrEqual(first);
+    expect(all.to).toBe(view.sources.at);
+    expect(all.from).not.toBe(from);
+    view.pause();
+    expect(view.range(view.sources.at)).toEqual(all);
+  });
+
+  test('what is live waits while it is pointed at, and is stopped there', async () => {
+    await happens();
+    const before = view.range(view.sources.at);
+    view.held.value = before.to;
+    await world.passes(5000);
+    expect(view.range(view.sources.at)).toEqual(before);
+    expect(view.is_live).toBe(true);
+    view.pause();
+    expect(view.range(view.sources.at)).toEqual(before);
+    view.go_live();
+    expect(view.range(view.sources.at).to).toBe(view.sources.at);
   });
 
   test('moving stops it', async () => {

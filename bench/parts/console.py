@@ -1,0 +1,22 @@
+"""What the console costs whoever looks at it, in Chromium: its first view, and the floor map with many people."""
+
+import json
+import os
+import subprocess
+
+from processes import BIN, ROOT, BenchError
+
+VIEW = "console, first view"
+PEOPLE = "console, 20 people at 20 Hz"
+
+
+def round(keep, settings):
+    console = ROOT / "web" / "console"
+    command = ["npx", "vite-node", "tests/measure/console.ts", str(settings.seconds * 10)]
+    environment = os.environ | {"ROIS_BINARY_DIR": str(BIN.parent)}
+    done = subprocess.run(command, cwd=console, env=environment, capture_output=True, text=True, timeout=300)
+    if done.returncode != 0:
+        raise BenchError(f"console: {done.stderr.strip()}")
+    for line in done.stdout.splitlines():
+        told = json.loads(line)
+        keep(f"console, {told.pop('row')}", told)

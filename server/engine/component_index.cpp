@@ -1,0 +1,70 @@
+#include "engine/component_index.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/registry.hpp"
+
+namespace rois {
+
+namespace {
+
+using Components = std::vector<RegisteredComponent*>;
+
+std::string const& ref_of(RegisteredComponent const* component) { return component->ref().code; }
+
+void add_to(Components& components, RegisteredComponent& component) {
+    auto const place = std::ranges::lower_bound(components, ref_of(&component), {}, ref_of);
+    if (place == components.end() || *place != &component) components.insert(place, &component);
+}
+
+void remove_from(Components& components, RegisteredComponent const& component) {
+    auto const place = std::ranges::lower_bound(components, ref_of(&component), {}, ref_of);
+    if (place != components.end() && *place == &component) components.erase(place);
+}
+
+}  // namespace
+
+ComponentsInOrder::ComponentsInOrder(std::vector<RegisteredComponent*> own, std::vector<List> others)
+    : own_{std::move(own)}, first_{own_}, others_{std::move(others)} {}
+
+RegisteredComponent* ComponentsInOrder::next() {
+    auto* lowest = first_.empty() ? nullptr : first_.front();
+    for (auto const& list : others_)
+        if (!list.empty() && (lowest == nullptr || ref_of(list.front()) < ref_of(lowest))) lowest = list.front();
+    auto const pass = [&](List& list) {
+        if (!list.empty() && list.front() == lowest) list = list.subspan(1);
+    };
+    pass(first_);
+    for (auto& list : others_) pass(list);
+    return lowest;
+}
+
+void ComponentIndex::add(RegisteredComponent& component) {
+    add_to(all_, component);
+    add_to(by_type_[component.type_key()], component);
+}
+
+void ComponentIndex::remove(RegisteredComponent const& component) {
+    remove_from(all_, component);
+    auto const alike = by_type_.find(component.type_key());
+    if (alike == by_type_.end()) return;
+    remove_from(alike->second, component);
+    if (alike->second.empty()) by_type_.erase(alike);
+}
+
+ComponentsInOrder ComponentIndex::possible(std::optional<Demand> const& demand) const {
+    if (!demand) return ComponentsInOrder{all_};
+    Components named;
+    named.reserve(demand->refs.size());
+    for (auto const ref : demand->refs) {
+        auto const place = std::ranges::lower_bound(all_, ref, {}, ref_of);
+        if (place != all_.end() && ref_of(*place) == ref) named.push_back(*place);
+    }
+    std::vector<ComponentsInOrder::List> of_types;
+    for (auto const type : demand->types)
+        if (auto const alike = by_type_.find(type); alike != by_type_.end()) of_types.emplace_back(alike->second);
+    return {std::move(named), std::move(of_types)};
+}
+
+}  // namespace rois

@@ -1,0 +1,107 @@
+"""docs/examples/rois.py against the real gateway, and the receptions without one."""
+import os
+import pathlib
+import re
+import socket
+import subprocess
+import sys
+import threading
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "docs" / "examples"
+sys.path.insert(0, str(EXAMPLES))
+import rois  # noqa: E402
+
+PLACES = ["string[]", "4000, 5000", "4100, 5000", "4200, 5000"]
+
+
+def nobody():
+    """The URL of a port where nobody listens."""
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        return f"http://127.0.0.1:{taken.getsockname()[1]}"
+
+
+def answer_once(server):
+    """Opens a session for whoever comes first."""
+    body = b'<connect_response xmlns="urn:x-rois:psm:xml:message:1" return_code="OK"><session>s</session></connect_response>'
+    came, _ = server.accept()
+    with came:
+        came.recv(4096)
+        came.sendall(b"HTTP/1.1 200 OK\r\nContent-Length: %d\r\nConnection: close\r\n\r\n%s" % (len(body), body))
+
+
+class WithAGateway(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        program = pathlib.Path(os.environ["ROIS_BINARY_DIR"]) / "bin" / "rois-gateway"
+        hall = ROOT / "tests" / "server" / "data" / "empty_hall.xml"
+        cls.gateway = subprocess.Popen([program, "--listen", "127.0.0.1:0", "--scenario", hall, "--sim-speed", "100"],
+                                       stderr=subprocess.PIPE, text=True)
+        cls.url = next(found[1] for line in cls.gateway.stderr if (found := re.search(r"listening on (\S+)", line)))
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.gateway.terminate()
+        cls.gateway.communicate()
+
+    def setUp(self):
+        self.engine = rois.Engine(self.url)
+        self.addCleanup(self.engine.request, "disconnect")
+        self.engine.bind("navigation")
+        self.engine.subscribe("reached_target")
+
+    def reached(self):
+        """Where the robot came, of what was heard already."""
+        return (self.engine.event("reached_target", 0) or {}).get("target", [None])[0]
+
+    def test_events_that_come_before_a_command_has_completed_are_kept(self):
+        self.assertEqual(self.engine.run("navigation", target_position=PLACES), "OK")
+        self.assertEqual([self.reached() for _ in range(4)], PLACES[1:] + [None])
+
+    def test_what_an_event_was_not_wanted_for_is_kept(self):
+        self.engine.run("navigation", target_position=PLACES)
+        second = self.engine.event("reached_target", 0, lambda results: results["target"] == [PLACES[2]])
+        self.assertEqual(second["target"], [PLACES[2]])
+        self.assertEqual([self.reached() for _ in range(3)], [PLACES[1], PLACES[3], None])
+
+    def test_what_was_heard_can_be_skipped(self):
+        self.engine.run("navigation", target_position=PLACES)
+        self.assertEqual(self.engine.skip().run("navigation", target_position=["string[]", "4300, 5000"]), "OK")
+        self.assertEqual([self.reached() for _ in range(2)], ["4300, 5000", None])
+        self.assertEqual(self.engine.dropped, 0, "that was meant")
+
+    def test_the_oldest_make_room_and_are_counted(self):
+        self.engine.most_kept = 2
+        self.engine.run("navigation", target_position=PLACES)
+        self.assertEqual([self.reached() for _ in range(3)], [PLACES[2], PLACES[3], None])
+        self.assertEqual(self.engine.dropped, 1)
+
+
+class WithoutAGateway(unittest.TestCase):
+    def test_a_call_ends_at_its_deadline(self):
+        with self.assertRaisesRegex(rois.NoAnswer, "refused"):
+            rois.Engine(nobody(), deadline=0)
+
+    def test_so_does_one_for_news(self):
+        with socket.create_server(("127.0.0.1", 0)) as server:
+            opening = threading.Thread(target=answer_once, args=(server,))
+            opening.start()
+            engine = rois.Engine(f"http://127.0.0.1:{server.getsockname()[1]}", deadline=0)
+            opening.join()
+        with self.assertRaises(rois.NoAnswer):
+            engine.next(lambda one: True, 1_000_000)
+
+    def test_the_receptions_say_so(self):
+        environment = os.environ | {"ROIS_URL": nobody()}
+        ends = [subprocess.Popen([*program, EXAMPLES / name], env=environment, stderr=subprocess.PIPE, text=True)
+                for *program, name in (("python3", "-B", "reception.py"), ("sh", "reception.sh"))]
+        for end in ends:
+            said = end.communicate()[1].splitlines()
+            self.assertEqual(end.returncode, 1, said)
+            self.assertIn(environment["ROIS_URL"], said[-1])
+            self.assertNotIn("Traceback", "".join(said))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,131 @@
+// What the console costs, from the real gateway, in Chromium; a line of JSON for each of its rows in `./dev bench console`:
+//   first view: when something is painted and when the map stands (ms after the page was asked for), what came over the wire (KiB),
+//     and what all files of the console are together;
+//   20 people at 20 Hz: pictures a second, the longest time between two (ms), the share of a core that the page's thread works.
+// cd web/console && npm run build && ROIS_BINARY_DIR=../../build/release npx vite-node tests/measure/console.ts [SECONDS]
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
+import { gzipSync } from 'node:zlib';
+
+import { type Browser, chromium } from 'playwright-core';
+import { command, connect, value } from 'rois-client';
+
+import { Gateway, root } from '../../../client/tests/gateway.js';
+
+const people = 20;
+const seconds = Number(process.argv[2] ?? 8);
+const here = `${root}/web/console/tests/measure`;
+const size = { width: 1600, height: 900 };
+const things = '.map table tbody tr'; // what is on the map, in words
+
+const gateway = await Gateway.start('--floor-plan', `${here}/crowd_hall.xml`, '--scenario', `${here}/crowd.xml`, '--sim-speed', '0', '--steering', 'on', '--seed', '7');
+const browser = await chromium.launch({ executablePath: process.env['CHROMIUM'] ?? '/usr/bin/chromium', args: ['--disable-dev-shm-usage'] });
+try {
+  await view(browser, 'about:blank'); // the browser's own first steps
+  console.log(JSON.stringify({ row: 'first view', ...(await view(browser, gateway.url)), all_kib: kib(weight(`${root}/web/console/dist`)) }));
+  console.log(JSON.stringify({ row: `${people} people at 20 Hz`, ...(await crowd(browser)) }));
+} finally {
+  await browser.close();
+  await gateway.stop();
+}
+
+/** Of a browser that has nothing of it in store. */
+async function view(browser: Browser, url: string) {
+  const context = await browser.newContext({ viewport: size });
+  try {
+    const page = await context.newPage();
+    await page.addInitScript((things) => {
+      const look = () => {
+        if (document.querySelector(things)) performance.mark('stands');
+        else requestAnimationFrame(look);
+      };
+      look();
+    }, things);
+    await page.goto(url);
+    if (url === 'about:blank') return undefined;
+    await page.locator(things).first().waitFor({ state: 'attached' });
+    const [painted, stands, bytes] = await page.evaluate(() => [
+      performance.getEntriesByName('first-contentful-paint')[0]!.startTime,
+      performance.getEntriesByName('stands')[0]!.startTime,
+      [...performance.getEntriesByType('navigation'), ...performance.getEntriesByType('resource')].reduce((sum, one) => sum + (one as PerformanceResourceTiming).transferSize, 0),
+    ] as const);
+    return { painted_ms: Math.round(painted), stands_ms: Math.round(stands), fetched_kib: kib(bytes) };
+  } finally {
+    await context.close();
+  }
+}
+
+/** Everybody strolls about, and is told of 20 times a second. */
+async function crowd(browser: Browser) {
+  const hall = await connect(gateway.url);
+  await hall.bind('simulated_hall');
+  const pass = async (ms: number) => (await hall.execute([command('simulated_hall', 'let_pass', { time: value.int(ms) })])).status();
+  await pass(120_000);
+  await hall.bind('person_localization');
+  await (await hall.execute([command('person_localization', 'start', { detection_threshold: value.int(0), minimum_interval: value.int(50) })])).status();
+  const context = await browser.newContext({ viewport: size, reducedMotion: 'no-preference' });
+  try {
+    const page = await context.newPage();
+    let events = 0;
+    page.on('websocket', (socket) => socket.on('framereceived', ({ payload }) => (events += Number(/<receive_event\b[^]*person_localized/.test(String(payload))))));
+    await page.goto(gateway.url);
+    await page.locator(things).first().waitFor({ state: 'attached' });
+
+    // The world's clock: 60 ms, after which there is something to tell of again, in 50 ms of ours.
+    let is_over = false;
+    const clock = (async () => {
+      const began = Date.now();
+      for (let told = 60; !is_over; told += 60) {
+        await pass(60);
+        await new Promise((passed) => setTimeout(passed, Math.max(0, (told * 50) / 60 - (Date.now() - began))));
+      }
+    })();
+    await page.locator(things).nth(people).waitFor({ state: 'attached' });
+    const inside = await page.context().newCDPSession(page);
+    await inside.send('Performance.enable', { timeDomain: 'threadTicks' }); // work, not waiting for others' work
+    const busy = async () => (await inside.send('Performance.getMetrics')).metrics.find(({ name }) => name === 'TaskDuration')!.value;
+    const [busy_before, events_before, began] = [await busy(), events, Date.now()];
+    const frames = await page.evaluate(
+      (ms) =>
+        new Promise<{ a_second: number; longest: number }>((done) => {
+          let [first, last, count, longest] = [0, 0, 0, 0];
+          const frame = (at: number) => {
+            if (first === 0) first = at;
+            else {
+              count += 1;
+              longest = Math.max(longest, at - last);
+            }
+            last = at;
+            if (at - first < ms) requestAnimationFrame(frame);
+            else done({ a_second: (count * 1000) / (at - first), longest });
+          };
+          requestAnimationFrame(frame);
+        }),
+      seconds * 1000,
+    );
+    const took = (Date.now() - began) / 1000;
+    const share = ((await busy()) - busy_before) / took;
+    is_over = true;
+    await clock;
+    return {
+      pictures_per_second: Number(frames.a_second.toFixed(1)),
+      longest_ms: Number(frames.longest.toFixed(1)),
+      page_percent: Math.round(100 * share),
+      events_per_second: Number(((events - events_before) / took).toFixed(1)),
+    };
+  } finally {
+    await context.close();
+    await hall.close();
+  }
+}
+
+function weight(folder: string): number {
+  if (!existsSync(folder)) throw new Error('the console is not built: npm run build in web/console');
+  return readdirSync(folder, { withFileTypes: true }).reduce((sum, one) => {
+    const path = `${folder}/${one.name}`;
+    return sum + (one.isDirectory() ? weight(path) : gzipSync(readFileSync(path), { level: 9 }).length);
+  }, 0);
+}
+
+function kib(bytes: number): number {
+  return Number((bytes / 1024).toFixed(1));
+}
