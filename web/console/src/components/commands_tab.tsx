@@ -6,7 +6,7 @@ import { arguments_in, ArgumentFields, asked_by, CommandProgress, Exchange, type
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
-import { Checkbox } from '../ui';
+import { Checkbox, Form } from '../ui';
 import { Pick } from './pick';
 import * as t from './texts';
 
@@ -47,7 +47,7 @@ function CommandForm({ view, name }: { view: ComponentView; name: string }) {
   const title = `${view.ref} ${name}`;
   const timeout = view.commands.find((one) => one.name === name)?.timeout;
   return (
-    <form class="component-form" onSubmit={(event) => event.preventDefault()}>
+    <Form class="component-form">
       {asked.length > 0 && <ArgumentFields view={view} asked={asked} inputs={inputs} change={change} problems={shown} />}
       {misplaced(console, unit).map((text) => <p key={text} class="exchange-why">{text}</p>)}
       {timeout !== undefined && <p class="soft">{t.start_within(duration(timeout))}</p>}
@@ -66,7 +66,7 @@ function CommandForm({ view, name }: { view: ComponentView; name: string }) {
         <Checkbox label={t.given_back()} checked={give_back} change={set_give_back} />
       </Exchange>
       <Others view={view} title={title} />
-    </form>
+    </Form>
   );
 }
 

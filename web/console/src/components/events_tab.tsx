@@ -5,7 +5,8 @@ import { Exchange, signature, useDraft } from '../forms';
 import { clock_time } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import type { ComponentView, Offered } from '../state/profile_state';
-import { Button, Checkbox, error_text, TextArea } from '../ui';
+import { reason_of } from '../state/reason_of';
+import { Button, Checkbox, error_text, Form, TextArea } from '../ui';
 import { Pick } from './pick';
 import * as t from './texts';
 
@@ -40,7 +41,7 @@ function SubscribeForm({ view, event }: { view: ComponentView; event: Offered })
   const condition = joined(only_mine ? component_ref(view.ref) : undefined, bad === '' ? further.trim() : '');
   const results = event.results.map((one) => `${one.name} (${one.data_type_ref.code})`).join(', ');
   return (
-    <form class="component-form" onSubmit={(submitted) => submitted.preventDefault()}>
+    <Form class="component-form">
       <p class="soft">{results !== '' && t.brings(results)} {t.not_started()}</p>
       <div class="component-line">
         <Checkbox label={t.only_mine(view.ref)} checked={only_mine} change={set_only_mine} />
@@ -56,7 +57,7 @@ function SubscribeForm({ view, event }: { view: ComponentView; event: Offered })
         may_send={() => bad === ''}
         act={() => console.subscribe(event.name, { inline_results, ...(condition && { condition }) })}
       />
-    </form>
+    </Form>
   );
 }
 
@@ -73,7 +74,7 @@ function what_is_wrong(xml: string): string {
     parse_xml(`<c xmlns:fes="f" xmlns:gml="g" xmlns:unr="u" xmlns:rois="r" xmlns:xsi="x">${xml}</c>`);
     return '';
   } catch (error) {
-    return error instanceof Error ? error.message : String(error);
+    return reason_of(error);
   }
 }
 

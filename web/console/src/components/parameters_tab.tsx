@@ -5,6 +5,7 @@ import { component_ref_xml, element, parameter_xml, request } from 'rois-client'
 import { arguments_in, ArgumentFields, asked_by, Exchange, type Inputs, problems_in, ResultsTable, useDraft } from '../forms';
 import { useConsole, useWatch } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
+import { Form } from '../ui';
 import { written } from './commands_tab';
 import * as t from './texts';
 
@@ -33,7 +34,7 @@ function SetForm({ view }: { view: ComponentView }) {
     console.parameters.poll(view.ref).now();
   };
   return (
-    <form class="component-form" onSubmit={(event) => event.preventDefault()}>
+    <Form class="component-form">
       <h3>{t.set_title()}</h3>
       <ArgumentFields view={view} asked={asked} inputs={inputs} change={change} problems={problems} />
       {was_tried && given.length === 0 && <p class="field-error" role="alert">{t.set_nothing()}</p>}
@@ -50,6 +51,6 @@ function SetForm({ view }: { view: ComponentView }) {
         }}
         act={set}
       />
-    </form>
+    </Form>
   );
 }

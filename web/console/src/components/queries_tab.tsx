@@ -4,6 +4,7 @@ import { component_ref, condition_xml, request, text_element } from 'rois-client
 import { Exchange, signature, useDraft } from '../forms';
 import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
+import { Form } from '../ui';
 import { Pick } from './pick';
 import * as t from './texts';
 
@@ -27,7 +28,7 @@ export function QueriesTab({ view }: { view: ComponentView }) {
   return (
     <>
       <Pick label={t.choose_query()} names={names} chosen={name} choose={choose} tell={tell} />
-      <form key={name} class="component-form" onSubmit={(event) => event.preventDefault()}>
+      <Form key={name} class="component-form">
         {results !== '' && <p class="soft">{t.answers(results)}</p>}
         <Exchange
           by_enter
@@ -38,7 +39,7 @@ export function QueriesTab({ view }: { view: ComponentView }) {
           request={request('query', {}, text_element('query_type', name) + condition_xml(mine))}
           act={() => console.query(name, mine)}
         />
-      </form>
+      </Form>
     </>
   );
 }

@@ -4,7 +4,7 @@ import './conditions.css';
 import { useState } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
-import { Button, EmptyState, SelectField } from '../ui';
+import { Button, EmptyState, Form, SelectField } from '../ui';
 import { Beginnings } from './beginnings';
 import { GroupView } from './group_view';
 import { MatchesView } from './matches_view';
@@ -26,7 +26,7 @@ export default function ConditionsPanel() {
   const is_empty = root.members.length === 0 && order.length === 0;
   return (
     <div class="conditions">
-      <form class="conditions-frame" noValidate onSubmit={(event) => event.preventDefault()}>
+      <Form class="conditions-frame">
         <div class="conditions-build">
           <PurposeView store={store} />
           <section class="conditions-part" aria-label={t.conditions()}>
@@ -51,7 +51,7 @@ export default function ConditionsPanel() {
           <Subscriptions store={store} />
           <UseView store={store} />
         </div>
-      </form>
+      </Form>
       <PasteDialog store={store} open={pasting} close={() => set_pasting(false)} />
     </div>
   );

@@ -1,6 +1,7 @@
 // Takes over a condition that was written elsewhere.
 import { useState } from 'preact/hooks';
 
+import { reason_of } from '../state/reason_of';
 import { Button, Dialog, TextArea } from '../ui';
 import { draft_read } from './reading';
 import type { ConditionStore } from './store';
@@ -18,7 +19,7 @@ export function PasteDialog({ store, open, close }: { store: ConditionStore; ope
       set_error(undefined);
       close();
     } catch (caught) {
-      const why = caught instanceof Error ? caught.message : String(caught);
+      const why = reason_of(caught);
       set_error(why === 'no Filter' || why === 'SearchCondition' ? t.paste_no_condition() : t.paste_failed(why));
     }
   };

@@ -1,7 +1,7 @@
 // A field for one parameter of a profile.
 import { useId } from 'preact/hooks';
 
-import { Field, IconButton } from '../ui';
+import { Field, IconButton, joined } from '../ui';
 import { type DataType, data_type, type Problem } from './data_type';
 import { type Asked, fixed_length, is_position, shown_description, units_of } from './describe';
 import type { Input } from './inputs';
@@ -22,7 +22,7 @@ export function ParameterField(props: ParameterFieldProps) {
   const { asked, problem } = props;
   const type = data_type(asked.data_type_ref.code);
   const called = props.options.list.find((one) => one.value === props.input?.texts[0]?.trim())?.label; // what was chosen
-  const hint = [!props.options.is_closed && called && `“${called}”.`, shown_description(asked.description), t.of_type(asked.data_type_ref.code), asked.default_value && t.preset(asked.default_value)].filter(Boolean).join(' ');
+  const hint = joined(!props.options.is_closed && called && `“${called}”.`, shown_description(asked.description), t.of_type(asked.data_type_ref.code), asked.default_value && t.preset(asked.default_value));
   const shared = { label: asked.name, hint, error: problem && t.problem(problem), required: asked.need.kind === 'needed' };
   if (type.is_list) return <ListField {...props} type={type} {...shared} />;
   const unit = units_of(asked.description);

@@ -4,6 +4,7 @@ import { useEffect, useMemo, useRef } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
 import { shown_theme } from '../shell/theme';
+import { watch_size } from '../ui';
 import { Drawing } from './drawing';
 import { is_map_key } from './interaction';
 import { read_palette } from './palette';
@@ -107,9 +108,7 @@ export function Board({ begun, pointed, send }: BoardProps) {
 
 function follow_size(canvas: HTMLCanvasElement, drawing: Drawing): () => void {
   const measure = () => drawing.resize({ width: canvas.clientWidth, height: canvas.clientHeight }, devicePixelRatio);
-  const observer = new ResizeObserver(measure);
-  observer.observe(canvas);
-  return () => observer.disconnect();
+  return watch_size(canvas, measure);
 }
 
 function follow_query(query: string, told: (is_so: boolean) => void): () => void {

@@ -5,7 +5,7 @@ import { value } from 'rois-client';
 
 import { useConsole } from '../shell/context';
 import { show_component } from '../shell/layout';
-import { Button, error_text, IconButton, SelectField, TextField } from '../ui';
+import { Button, error_text, Fact, Form, IconButton, SelectField, TextField } from '../ui';
 import { type Driver, follow, go, motions_of, stop, target_text } from './driving';
 import { distance, obstacle_at, turned } from '../state/floor';
 import type { Target } from './interaction';
@@ -106,13 +106,7 @@ export function TargetCard({ target, sending }: { target: Target; sending: Sendi
     );
   return (
     <Card title={t.send_title(driver.name)} close={() => put(undefined)}>
-      <form
-        class="map-form"
-        onSubmit={(event) => {
-          event.preventDefault();
-          sending.send?.();
-        }}
-      >
+      <Form class="map-form" submit={sending.send}>
         <DriverChoice />
         {places.length > 1 && <SelectField label={t.place()} value={target.place ?? ''} choices={places} change={choose} />}
         <div class="map-pose">
@@ -134,7 +128,7 @@ export function TargetCard({ target, sending }: { target: Target; sending: Sendi
           </Button>
           <Button onClick={() => put(undefined)}>{t.cancel()}</Button>
         </div>
-      </form>
+      </Form>
     </Card>
   );
 }
@@ -189,15 +183,6 @@ export function ThingCard({ thing, close }: { thing: Shown; close: () => void })
   );
 }
 
-function Fact({ name, children }: { name: string; children: ComponentChildren }) {
-  return (
-    <div>
-      <dt>{name}</dt>
-      <dd>{children}</dd>
-    </div>
-  );
-}
-
 // Leads to the component.
 function ComponentLink({ component }: { component: string }) {
   const console = useConsole();
@@ -247,19 +232,13 @@ function Speaking({ voice }: { voice: string }) {
     throw new Error((entry && (await console.commands.fetch_results(entry))?.text('reason')) || status);
   };
   return (
-    <form
-      class="map-form"
-      onSubmit={(event) => {
-        event.preventDefault();
-        if (words.value.trim() !== '') deed.run(say);
-      }}
-    >
+    <Form class="map-form" submit={() => words.value.trim() !== '' && deed.run(say)}>
       <TextField label={t.speak()} value={words.value} change={(to) => (words.value = to)} input={{ enterkeyhint: 'send', placeholder: t.speak_hint() }} />
       {deed.trouble}
       <div class="map-actions">
         <Button type="submit" look="primary" icon="messages" busy={deed.is_busy} disabled={!console.link.is_open || words.value.trim() === ''}>{t.speak()}</Button>
       </div>
-    </form>
+    </Form>
   );
 }
 
@@ -270,14 +249,9 @@ function Pursuit({ driver, thing, close }: { driver: Driver; thing: Shown; close
   const gap = Number(session.gap.value);
   const is_number = session.gap.value.trim() !== '' && Number.isFinite(gap) && gap > 0;
   const go_there = () => (session.interaction.value = { ...session.interaction.value, chosen: undefined, target: { x: Math.round(thing.x), y: Math.round(thing.y) } });
+  const pursue = () => is_number && driver.follow && deed.run(() => follow(console, driver, thing, Math.round(gap * 1000)).then(close)); // the map says it, and has a button to stop it
   return (
-    <form
-      class="map-form"
-      onSubmit={(event) => {
-        event.preventDefault();
-        if (is_number && driver.follow) deed.run(() => follow(console, driver, thing, Math.round(gap * 1000)).then(close)); // the map says it, and has a button to stop it
-      }}
-    >
+    <Form class="map-form" submit={pursue}>
       <DriverChoice />
       {driver.follow ? (
         <TextField label={t.gap()} unit="m" value={session.gap.value} change={(to) => (session.gap.value = to)} error={is_number ? undefined : t.no_number()} input={{ inputMode: 'decimal' }} />
@@ -294,6 +268,6 @@ function Pursuit({ driver, thing, close }: { driver: Driver; thing: Shown; close
         {driver.navigation && <Button icon="send" onClick={go_there}>{t.go_there()}</Button>}
         {driver.navigation && driver.follow && <p class="field-hint">{t.follow_or_go()}</p>}
       </div>
-    </form>
+    </Form>
   );
 }

@@ -1,5 +1,5 @@
 // How the map is worked with, and what its signs mean.
-import { Dialog } from '../ui';
+import { Dialog, Fact } from '../ui';
 import * as t from './texts';
 
 export function Help({ open, close }: { open: boolean; close: () => void }) {
@@ -30,14 +30,7 @@ export function Help({ open, close }: { open: boolean; close: () => void }) {
         <h3>{t.keys()}</h3>
         <dl class="map-keys">
           {keys.map(([those, what]) => (
-            <div key={what}>
-              <dt>
-                {those.map((key) => (
-                  <kbd key={key}>{key}</kbd>
-                ))}
-              </dt>
-              <dd>{what}</dd>
-            </div>
+            <Fact key={what} name={those.map((key) => <kbd key={key}>{key}</kbd>)}>{what}</Fact>
           ))}
         </dl>
         <h3>{t.signs()}</h3>

@@ -2,10 +2,10 @@
 import { useRef } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
+import { reason_of } from '../state/reason_of';
 import { read_recording, recording_of } from '../state/recording';
-import { Button, Checkbox, SelectField, TextField } from '../ui';
+import { Button, Checkbox, save_file, SelectField, TextField } from '../ui';
 import { categories, type Category, type Feed, type Filter, type Row } from './feed';
-import { save } from './save';
 import { chosen_of_recording, filter, paused, recording } from './shown';
 import * as t from './texts';
 
@@ -63,7 +63,7 @@ function Recordings() {
   const write = () => {
     const { ring } = console.documents;
     const { size } = ring;
-    save(`rois-${new Date(console.environment.now()).toISOString().slice(0, 19).replaceAll(':', '')}.jsonl`, recording_of(ring, console.environment.origin));
+    save_file(`rois-${new Date(console.environment.now()).toISOString().slice(0, 19).replaceAll(':', '')}.jsonl`, recording_of(ring, console.environment.origin));
     console.notices.tell('good', t.exported(size), { detail: t.session_inside() });
   };
   const read = async (file: File | undefined) => {
@@ -74,7 +74,7 @@ function Recordings() {
       chosen_of_recording.value = undefined;
       console.selection.document.value = undefined;
     } catch (error) {
-      console.notices.tell('error', t.import_failed(file.name), { detail: error instanceof Error ? error.message : String(error) });
+      console.notices.tell('error', t.import_failed(file.name), { detail: reason_of(error) });
     }
     chooser.current!.value = ''; // so that the same file can be opened again
   };

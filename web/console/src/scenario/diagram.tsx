@@ -2,7 +2,7 @@
 import { useSignal } from '@preact/signals';
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 
-import { Button } from '../ui';
+import { Button, joined, watch_size } from '../ui';
 import type { Desk, Run } from './desk';
 import { label_of, label_of_edge } from './graph';
 import { type Box, type DrawnEdge, path_of } from './layout';
@@ -23,9 +23,7 @@ export function Diagram({ desk, scenario, edit }: { desk: Desk; scenario: Scenar
 
   useLayoutEffect(() => {
     const element = frame.current!;
-    const observer = new ResizeObserver(([box]) => (size.value = { width: box!.contentRect.width, height: box!.contentRect.height }));
-    observer.observe(element);
-    return () => observer.disconnect();
+    return watch_size(element, () => (size.value = { width: element.clientWidth, height: element.clientHeight }));
   }, []);
   const fit = Math.min(1, (size.value.width - 2) / layout.width);
   const scale = is_whole.value ? Math.min(fit, (size.value.height - 4) / layout.height) : Math.max(smallest, fit);
@@ -99,7 +97,7 @@ function EdgePicture({ drawn, run, choose }: { drawn: DrawnEdge; run: Run | unde
   const leads_on = run !== undefined && run.ended_at === undefined && run.state === edge.from && !run.is_leaving;
   const path = path_of(drawn.points);
   return (
-    <g class={['scenario-edge', is_last && 'scenario-edge-last', leads_on && 'scenario-edge-open'].filter(Boolean).join(' ')} aria-hidden="true">
+    <g class={joined('scenario-edge', is_last && 'scenario-edge-last', leads_on && 'scenario-edge-open')} aria-hidden="true">
       <path class="scenario-line" d={path} />
       {is_last && <path key={run.taken} class="scenario-flash" d={path} />}
       <path class="scenario-head" d={arrow_head(drawn)} />
@@ -131,10 +129,10 @@ function StatePicture({ state, box, run, is_start, is_chosen, is_reachable, choo
   const [x, y] = [box.x - box.width / 2, box.y - box.height / 2];
   const marks = [is_start && w.starts_here(), is_end && (failed ? w.is_failed() : w.is_end()), is_left ? w.is_left() : is_current && w.is_current(), visits > 0 && w.visits(visits)].filter(Boolean);
   const leads = state.triggers.map((one) => w.leads_to(shown_name(one.to), label_of(one))).join(', ');
-  const classes = ['scenario-state', is_end && 'scenario-end', failed && 'scenario-failed', is_current && 'scenario-current', is_current && run.ended_at === undefined && 'scenario-live', is_left && 'scenario-left', is_chosen && 'scenario-chosen'];
+  const classes = joined('scenario-state', is_end && 'scenario-end', failed && 'scenario-failed', is_current && 'scenario-current', is_current && run.ended_at === undefined && 'scenario-live', is_left && 'scenario-left', is_chosen && 'scenario-chosen');
   return (
     <g
-      class={classes.filter(Boolean).join(' ')}
+      class={classes}
       role="button"
       tabindex={is_reachable ? 0 : -1}
       data-state={name}

@@ -2,16 +2,14 @@
 import './scenario.css';
 
 import { useSignal } from '@preact/signals';
-import { useLayoutEffect, useRef } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
 import type { Notices } from '../state/notices';
-import { Button, EmptyState, Icon, SplitPane, Tabs, TextArea } from '../ui';
+import { Button, chosen_file, EmptyState, Icon, save_file, SplitPane, Tabs, TextArea, useIsWide } from '../ui';
 import { against_engine } from './against_engine';
 import { type Desk, desk_of } from './desk';
 import { Diagram } from './diagram';
 import { EditView } from './edit_view';
-import { chosen_file, save_file } from './files';
 import type { Problem } from './read';
 import { RunState, RunView, state_of } from './run_view';
 import type { Node } from './source';
@@ -25,14 +23,7 @@ export default function ScenarioPanel() {
   const console = useConsole();
   const desk = desk_of(console);
   const part = useSignal<Part>('run');
-  const frame = useRef<HTMLDivElement>(null);
-  const is_wide = useSignal(true);
-  useLayoutEffect(() => {
-    const element = frame.current!;
-    const observer = new ResizeObserver(() => (is_wide.value = element.clientWidth >= beside_from));
-    observer.observe(element);
-    return () => observer.disconnect();
-  }, []);
+  const [frame, is_wide] = useIsWide(beside_from);
   const scenario = desk.drawn.value;
   const edit = (state: string) => {
     desk.chosen.value = state;
@@ -49,10 +40,10 @@ export default function ScenarioPanel() {
       <Problems desk={desk} choose={edit} />
       <div class="scenario-body">
         <SplitPane
-          key={is_wide.value ? 'beside' : 'below'}
-          id={is_wide.value ? 'scenario' : 'scenario-below'}
-          direction={is_wide.value ? 'row' : 'column'}
-          share={is_wide.value ? 0.56 : 0.5}
+          key={is_wide ? 'beside' : 'below'}
+          id={is_wide ? 'scenario' : 'scenario-below'}
+          direction={is_wide ? 'row' : 'column'}
+          share={is_wide ? 0.56 : 0.5}
           first={scenario ? <Diagram desk={desk} scenario={scenario} edit={edit} /> : <EmptyState icon="scenario" title={w.cannot_draw()} />}
           second={
             <Tabs label={w.tabs()} tabs={tabs} chosen={part.value} choose={(id) => (part.value = id)}>
@@ -97,7 +88,7 @@ function Bar({ desk, started }: { desk: Desk; started: () => void }) {
         <Button small look="quiet" icon="undo" disabled={is_running || !desk.can_undo.value} onClick={() => desk.undo()}>{w.undo()}</Button>
         <Button small look="quiet" icon="refresh" title={w.shipped_hint()} disabled={is_running || desk.is_as_shipped} onClick={() => desk.open_shipped()}>{w.shipped()}</Button>
         <Button small look="quiet" icon="upload" disabled={is_running} onClick={() => void open()}>{w.open()}</Button>
-        <Button small look="quiet" icon="download" onClick={() => save_file(desk.file_name.value, desk.text.value)}>{w.save()}</Button>
+        <Button small look="quiet" icon="download" onClick={() => save_file(desk.file_name.value, [desk.text.value])}>{w.save()}</Button>
       </div>
     </header>
   );

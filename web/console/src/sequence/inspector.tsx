@@ -4,7 +4,7 @@ import { CommandProgress } from '../forms/command_progress';
 import { asked_by, command_types, same } from '../forms/describe';
 import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
-import { Button, EmptyState, error_text, SelectField, TextField } from '../ui';
+import { Button, EmptyState, error_text, Form, SelectField, TextField } from '../ui';
 import { is_unfinished, type Problem } from './checking';
 import { type CommandStep, found, type ParallelStep, type Step, with_branch, with_changed, without_branch } from './model';
 import type { SequenceStore } from './store';
@@ -17,7 +17,7 @@ export function Inspector({ store }: { store: SequenceStore }) {
   const change = (to: Partial<Step>) => store.change(with_changed(store.root.value, step.id, (one) => ({ ...one, ...to }) as Step));
   const shown = problem && (store.is_strict.value || !is_unfinished(problem)) ? problem : undefined;
   return (
-    <form key={step.id} class="sequence-form" noValidate onSubmit={(event) => event.preventDefault()}>
+    <Form key={step.id} class="sequence-form">
       <Outcome store={store} step={step} />
       {step.kind === 'command' && <CommandForm step={step} problem={shown} all={problem} change={change} />}
       {step.kind === 'wait' && (
@@ -26,7 +26,7 @@ export function Inspector({ store }: { store: SequenceStore }) {
         </div>
       )}
       {step.kind === 'parallel' && <BranchesForm store={store} step={step} problem={shown} change={change} />}
-    </form>
+    </Form>
   );
 }
 

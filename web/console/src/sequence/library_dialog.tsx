@@ -1,7 +1,8 @@
 // Keeps sequences in this browser, and takes them in and out as XML.
 import { useRef, useState } from 'preact/hooks';
 
-import { Button, CopyButton, Dialog, Field, IconButton, TextArea, TextField } from '../ui';
+import { reason_of } from '../state/reason_of';
+import { Button, CopyButton, Dialog, Field, IconButton, save_file, TextArea, TextField } from '../ui';
 import { commands_in, new_lane } from './model';
 import type { SequenceStore } from './store';
 import * as t from './texts';
@@ -17,7 +18,7 @@ export function LibraryDialog({ store, open, close }: { store: SequenceStore; op
       set_error(undefined);
       close();
     } catch (caught) {
-      const reason = caught instanceof Error ? caught.message : String(caught);
+      const reason = reason_of(caught);
       set_error(reason === 'no CommandUnitSequence' ? t.no_sequence() : t.unreadable(reason));
     }
   };
@@ -41,7 +42,7 @@ export function LibraryDialog({ store, open, close }: { store: SequenceStore; op
             <Button look="primary" disabled={is_empty || store.name.value.trim() === ''} onClick={() => store.keep()}>
               {t.keep()}
             </Button>
-            <Button icon="download" disabled={is_empty} onClick={() => download(store.document, store.name.value || 'sequence')}>
+            <Button icon="download" disabled={is_empty} onClick={() => save_file(`${(store.name.value || 'sequence').replace(/[^\w.-]+/g, '_')}.xml`, [store.document])}>
               {t.export_it()}
             </Button>
             <CopyButton small={false} look="quiet" disabled={is_empty} text={() => store.document} label={t.copy_xml()} />
@@ -83,13 +84,4 @@ export function LibraryDialog({ store, open, close }: { store: SequenceStore; op
       </div>
     </Dialog>
   );
-}
-
-function download(text: string, name: string): void {
-  const url = URL.createObjectURL(new Blob([text], { type: 'application/xml' }));
-  const link = document.createElement('a');
-  link.href = url;
-  link.download = `${name.replace(/[^\w.-]+/g, '_')}.xml`;
-  link.click();
-  URL.revokeObjectURL(url);
 }

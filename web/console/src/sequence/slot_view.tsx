@@ -1,7 +1,7 @@
 // The way from one step to the next, where steps can be added and dropped.
 import { useLayoutEffect, useRef } from 'preact/hooks';
 
-import { Button, IconButton } from '../ui';
+import { Button, IconButton, joined } from '../ui';
 import type { LaneContext } from './drawing';
 import { new_command, new_parallel, new_wait, type Slot, type Step, with_inserted } from './model';
 import * as t from './texts';
@@ -16,7 +16,7 @@ export function SlotView({ slot, context, is_empty = false }: { slot: Slot; cont
     if (step.kind === 'parallel') go_to(step.id); // it is filled in the drawing
     else open_form();
   };
-  const name = ['sequence-slot', is(drag.over) && 'sequence-target', is_empty && 'sequence-empty'].filter(Boolean).join(' ');
+  const name = joined('sequence-slot', is(drag.over) && 'sequence-target', is_empty && 'sequence-empty');
   return (
     <div class={name} data-slot={`${slot.lane} ${slot.index}`}>
       {is(adding) ? (

@@ -1,7 +1,7 @@
 // One step in the drawing, with how far it is.
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
-import { Icon, StatusBadge } from '../ui';
+import { Icon, joined, StatusBadge } from '../ui';
 import { is_unfinished } from './checking';
 import type { LaneContext } from './drawing';
 import type { CommandStep, ParallelStep, Step, WaitStep } from './model';
@@ -73,18 +73,18 @@ function Box({ step, context, kind, children }: Of<Step> & { kind: Step['kind'];
   const problem = store.problems.value.find((one) => one.step === step.id);
   const is_refused = store.run.value?.refused_step === step.id;
   const is_bad = is_refused || (problem !== undefined && (store.is_strict.value || !is_unfinished(problem)));
-  const name = [
+  const name = joined(
     'sequence-box',
     `sequence-${kind}`,
     state && `sequence-is-${state.state}`,
     problem && !is_bad && 'sequence-unfinished',
     is_bad && 'sequence-bad',
     drag.dragged === step.id && 'sequence-dragged',
-  ];
+  );
   return (
     <button
       type="button"
-      class={name.filter(Boolean).join(' ')}
+      class={name}
       data-step={step.id}
       tabIndex={step.id === first ? 0 : -1}
       aria-pressed={store.chosen.value === step.id}

@@ -1,6 +1,7 @@
 // A panel that fails takes no other with it.
 import { Component, type ComponentChildren } from 'preact';
 
+import { reason_of } from '../state/reason_of';
 import { Button } from '../ui/button';
 import { Icon } from '../ui/icon';
 import * as texts from '../ui/texts';
@@ -28,7 +29,7 @@ export class Boundary extends Component<{ children: ComponentChildren }, State> 
         <Icon name="warning" size={24} />
         <p class="state-title">{texts.panel_failed()}</p>
         <p class="state-more">
-          {texts.panel_failed_hint()} <code>{error instanceof Error ? error.message : String(error)}</code>
+          {texts.panel_failed_hint()} <code>{reason_of(error)}</code>
         </p>
         <Button icon="refresh" onClick={() => this.setState({ error: undefined } as State, () => delete this.state.error)}>
           {texts.retry()}

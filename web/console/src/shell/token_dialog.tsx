@@ -4,6 +4,7 @@ import { useSignal } from '@preact/signals';
 import { Button } from '../ui/button';
 import { Dialog } from '../ui/dialog';
 import { TextField } from '../ui/field';
+import { Form } from '../ui/form';
 import { useConsole } from './context';
 import * as t from './texts';
 
@@ -26,12 +27,7 @@ export function TokenDialog() {
         </Button>
       }
     >
-      <form
-        onSubmit={(event) => {
-          event.preventDefault();
-          connect();
-        }}
-      >
+      <Form submit={connect}>
         <TextField
           label={t.token_label()}
           hint={t.token_hint()}
@@ -40,7 +36,7 @@ export function TokenDialog() {
           change={(value) => (token.value = value)}
           input={{ type: 'password', autofocus: true }}
         />
-      </form>
+      </Form>
     </Dialog>
   );
 }

@@ -5,6 +5,7 @@ import { useCallback, useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import { useConsole } from '../shell/context';
 import { shown_theme } from '../shell/theme';
 import { useDrawing } from '../ui/drawing';
+import { watch_size } from '../ui/use_width';
 import { describe_whole, phase_text, sentence } from './describe';
 import { type Lane, lay_out, type Layout, next_thing, type Placed, thing_at, time_of } from './layout';
 import { axis_height, paint } from './paint';
@@ -143,11 +144,7 @@ export function Chart({ view, opened, open }: ChartProps) {
     canvas.current!.addEventListener('wheel', wheel, { passive: false });
   }, []);
   // The canvas is as high as what is seen of the lanes, and stays there while they scroll.
-  useLayoutEffect(() => {
-    const observer = new ResizeObserver(() => (canvas.current!.style.height = `${frame.current!.clientHeight}px`));
-    observer.observe(frame.current!);
-    return () => observer.disconnect();
-  }, []);
+  useLayoutEffect(() => watch_size(frame.current!, () => (canvas.current!.style.height = `${frame.current!.clientHeight}px`)), []);
 
   const go = (key: 'ArrowLeft' | 'ArrowRight' | 'ArrowUp' | 'ArrowDown') => {
     view.pause();

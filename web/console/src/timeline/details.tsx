@@ -7,7 +7,7 @@ import { CommandProgress, DetailsOf, LoggedXml, ResultsTable } from '../forms';
 import { useConsole } from '../shell/context';
 import { show_component } from '../shell/layout';
 import type { CommandEntry } from '../state/commands_state';
-import { Button, IconButton, StatusBadge } from '../ui';
+import { Button, Fact, IconButton, StatusBadge } from '../ui';
 import { describe, of_mark } from './describe';
 import { key_of, type Mark, mark_key, type Thing } from './things';
 import * as t from './texts';
@@ -47,21 +47,15 @@ export function DetailsPane({ view, thing, open, close }: DetailsProps) {
       <div class="timeline-details-body" tabIndex={0} role="region" aria-label={title}>
         <dl class="timeline-facts">
           {component !== '' && (
-            <div>
-              <dt>{t.component()}</dt>
-              <dd>
-                <button type="button" class="timeline-link" onClick={() => show_component(console, component)}>{component}</button>
-              </dd>
-            </div>
+            <Fact name={t.component()}>
+              <button type="button" class="timeline-link" onClick={() => show_component(console, component)}>{component}</button>
+            </Fact>
           )}
           {state !== '' && thing.kind !== 'command' && (
-            <div>
-              <dt>{t.state()}</dt>
-              <dd><StatusBadge status={state} /></dd>
-            </div>
+            <Fact name={t.state()}><StatusBadge status={state} /></Fact>
           )}
-          {facts.map(([name, value]) => <Fact key={name} name={name} value={value} />)}
-          {thing.kind === 'command' && thing.entry.sequence.commands.length > 1 && <Fact name={t.place()} value={thing.entry.path} />}
+          {facts.map(([name, value]) => <Fact key={name} name={name}>{value}</Fact>)}
+          {thing.kind === 'command' && thing.entry.sequence.commands.length > 1 && <Fact name={t.place()}>{thing.entry.path}</Fact>}
           {single(thing)?.kind === 'event' && <Expiry mark={single(thing)!} />}
         </dl>
         {thing.kind === 'command' && <CommandDetails entry={thing.entry} />}
@@ -76,17 +70,8 @@ function single(thing: Thing): Mark | undefined {
   return thing.kind === 'marks' && thing.marks.length === 1 ? thing.marks[0] : undefined;
 }
 
-function Fact({ name, value }: { name: string; value: string }) {
-  return (
-    <div>
-      <dt>{name}</dt>
-      <dd>{value}</dd>
-    </div>
-  );
-}
-
 function Expiry({ mark }: { mark: Mark }) {
-  return mark.kind === 'event' ? <Fact name={t.expires()} value={clock_time(mark.entry.event.expire.getTime(), false)} /> : null;
+  return mark.kind === 'event' ? <Fact name={t.expires()}>{clock_time(mark.entry.event.expire.getTime(), false)}</Fact> : null;
 }
 
 function CommandDetails({ entry }: { entry: CommandEntry }) {

@@ -1,10 +1,11 @@
 import { RoisError } from 'rois-client';
 
+import { reason_of } from '../state/reason_of';
 import * as t from './texts';
 
 /** What went wrong with a call, in the user's language; the engine's own reason, which is English, comes after it. */
 export function error_text(error: unknown): string {
-  if (!(error instanceof RoisError)) return error instanceof Error ? error.message : String(error);
+  if (!(error instanceof RoisError)) return reason_of(error);
   switch (error.failure) {
     case 'refused':
       if (error.return_code === 'OUT_OF_RESOURCES') return `${t.out_of_resources()} (${error.message})`;

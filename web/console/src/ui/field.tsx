@@ -2,6 +2,7 @@
 import type { ComponentChildren, JSX } from 'preact';
 import { useId } from 'preact/hooks';
 
+import { joined } from './joined';
 import * as texts from './texts';
 
 export interface FieldProps {
@@ -25,7 +26,7 @@ export interface ControlProps {
 
 export function Field({ label, hint, error, unit, required = false, hide_label = false, control }: FieldProps & { control: (props: ControlProps) => ComponentChildren }) {
   const id = useId();
-  const described = [hint && `${id}-hint`, error && `${id}-error`].filter(Boolean).join(' ');
+  const described = joined(hint && `${id}-hint`, error && `${id}-error`);
   const props: ControlProps = { id, 'aria-describedby': described || undefined, 'aria-invalid': Boolean(error), 'aria-required': required };
   return (
     <div class="field">

@@ -6,6 +6,7 @@ import { useConsole, useWatch } from '../shell/context';
 import { bounds_around, type FloorPose, nearest_of, on_map, type Point } from '../state/floor';
 import type { FloorMap } from '../state/floor_map';
 import type { Visitor } from '../state/hall_state';
+import { joined } from '../ui';
 import { floor_point, SmallFloor } from '../ui/small_floor';
 import { steering_of } from './steering';
 import * as w from './texts';
@@ -90,7 +91,7 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
         {[...hall.visitors.values()].map((one) => (
           <g
             key={one.ref}
-            class={['visitors-person', one.steered && 'visitors-steered', one.ref === steering.chosen.value && 'visitors-chosen'].filter(Boolean).join(' ')}
+            class={joined('visitors-person', one.steered && 'visitors-steered', one.ref === steering.chosen.value && 'visitors-chosen')}
             role="button"
             tabindex={0}
             data-visitor={one.ref}

@@ -3,7 +3,7 @@ import './visitors.css';
 
 import { useConsole, useWatch } from '../shell/context';
 import { gestures, type Visitor } from '../state/hall_state';
-import { Badge, Button, Checkbox, EmptyState, Loading, SelectField, TextField } from '../ui';
+import { Badge, Button, Checkbox, EmptyState, Form, Loading, SelectField, TextField } from '../ui';
 import { Floor } from './floor';
 import { languages, type Steering, steering_of } from './steering';
 import * as w from './texts';
@@ -43,18 +43,12 @@ function Entering({ steering }: { steering: Steering }) {
   const name = steering.name.value.trim();
   const wrong = hall.visitors.has(name) ? w.name_taken() : /[\s.:]/.test(name) ? w.name_wrong() : undefined;
   return (
-    <form
-      class="visitors-entering"
-      onSubmit={(event) => {
-        event.preventDefault();
-        if (wrong === undefined) steering.enter();
-      }}
-    >
+    <Form class="visitors-entering" submit={() => wrong === undefined && steering.enter()}>
       <TextField label={w.name()} value={steering.name.value} change={(to) => (steering.name.value = to)} error={wrong} input={{ placeholder: steering.next_name(), maxLength: 64 }} />
       <SelectField label={w.language()} value={steering.language.value} change={(to) => (steering.language.value = to)} choices={languages.map((one) => ({ value: one, label: one }))} />
       <Checkbox label={w.known()} checked={steering.is_known.value} change={(to) => (steering.is_known.value = to)} />
       <Button look="primary" icon="plus" type="submit" disabled={wrong !== undefined}>{w.let_in()}</Button>
-    </form>
+    </Form>
   );
 }
 
@@ -102,24 +96,12 @@ function Orders({ steering, visitor: { ref } }: { steering: Steering; visitor: V
     <section class="visitors-orders" aria-label={ref}>
       <h2>{ref}</h2>
       {places.length > 0 && (
-        <form
-          class="visitors-row"
-          onSubmit={(event) => {
-            event.preventDefault();
-            void steering.order(ref, 'walk', hall.walk(ref, place));
-          }}
-        >
+        <Form class="visitors-row" submit={() => void steering.order(ref, 'walk', hall.walk(ref, place))}>
           <SelectField label={w.walk_to()} value={place} change={(to) => (steering.place.value = to)} choices={places.map((one) => ({ value: one, label: one.replaceAll('_', ' ') }))} />
           <Button type="submit" icon="right">{w.go()}</Button>
-        </form>
+        </Form>
       )}
-      <form
-        class="visitors-row visitors-saying"
-        onSubmit={(event) => {
-          event.preventDefault();
-          say();
-        }}
-      >
+      <Form class="visitors-row visitors-saying" submit={say}>
         <TextField label={w.say()} value={steering.words.value} change={(to) => (steering.words.value = to)} input={{ placeholder: w.say_hint(), enterkeyhint: 'send' }} />
         <SelectField
           label={w.language()}
@@ -128,7 +110,7 @@ function Orders({ steering, visitor: { ref } }: { steering: Steering; visitor: V
           choices={[{ value: '', label: w.own_language() }, ...languages.map((one) => ({ value: one as string, label: one }))]}
         />
         <Button type="submit" icon="messages" disabled={steering.words.value.trim() === ''}>{w.speak()}</Button>
-      </form>
+      </Form>
       <div class="visitors-gestures" role="group" aria-label={w.gestures()}>
         {gestures.map((one) => (
           <Button key={one} small onClick={() => void steering.order(ref, 'gesture', hall.gesture(ref, one))}>{w.gesture(one)}</Button>
