@@ -35,7 +35,7 @@ export const choose_command = text('Command', 'コマンド');
 export const choose_query = text('Query', '問い合わせ');
 export const choose_event = text('Event', 'イベント');
 export const start_within = text_of((time: string) => [`It has to start within ${time}.`, `${time}以内に開始しなければなりません。`]);
-export const given_back = text('Release it when the command has ended', 'コマンドが終わったら解放する');
+export const given_back = text('Release the component when the command has ended: others can have it then', 'コマンドが終わったら解放し、ほかが使えるようにする');
 export const values_now = text('As they are now', '現在の値');
 export const set = text('Set', '設定');
 export const set_title = text('Change them', '値を変える');

@@ -3,12 +3,14 @@ import type { Subscription } from 'rois-client';
 
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
+import { show_events } from '../shell/layout';
 import { Badge, Button, error_text, Icon } from '../ui';
 import type { ConditionStore } from './store';
 import * as t from './texts';
 
 export function Subscriptions({ store }: { store: ConditionStore }) {
-  const { subscriptions, events, now } = useConsole();
+  const console = useConsole();
+  const { subscriptions, events, now } = console;
   void events.pulse.beat.value;
   const all = subscriptions.all.value;
   const mine = store.subscribed.value.filter((one) => all.has(one.subscribe_id));
@@ -24,7 +26,7 @@ export function Subscriptions({ store }: { store: ConditionStore }) {
               <div class="row-spread">
                 <span class="row">
                   <strong>{entry.event_type}</strong>
-                  <Badge tone={entry.count > 0 ? 'good' : 'calm'}>{t.events(entry.count)}</Badge>
+                  {entry.count === 0 ? <Badge>{t.events(0)}</Badge> : <Button small onClick={() => show_events(console, one.subscribe_id)}>{t.events(entry.count)}</Button>}
                   {entry.last_at !== undefined && <span class="field-hint">{t.last(duration(now.value - entry.last_at))}</span>}
                 </span>
                 <Button small onClick={() => void store.unsubscribe(one)}>

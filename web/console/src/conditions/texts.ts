@@ -79,8 +79,8 @@ export const clear = text('Clear', '消す');
 export const paste = text('Paste XML', 'XML を貼り付け');
 export const paste_title = text('A condition as XML', 'XML で書かれた条件');
 export const paste_hint = text(
-  'A Filter, a predicate, a condition, or a whole search, bind_any, subscribe or query. The prefixes fes and gml need no declaration.',
-  'Filter、述語、condition、または search・bind_any・subscribe・query の全体。接頭辞 fes と gml の宣言は不要です。',
+  'A Filter, predicate, condition, search, bind_any, subscribe or query. The prefixes fes and gml need no declaration.',
+  'Filter、述語、condition、search、bind_any、subscribe、query。接頭辞 fes と gml の宣言は不要です。',
 );
 export const paste_take = text('Take over', '取り込む');
 export const paste_failed = text_of((why: string) => [`This cannot be read: ${why}`, `読めません: ${why}`]);

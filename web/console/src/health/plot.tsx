@@ -100,7 +100,7 @@ export function Plot({ title, lines, now, text, short, cursor }: PlotProps) {
 
 function Swatch({ ink }: { ink: Ink }) {
   return (
-    <svg class={`health-swatch health-${ink}`} width="18" height="8" aria-hidden="true">
+    <svg class={`health-swatch health-ink-${ink}`} width="18" height="8" aria-hidden="true">
       <path d="M0 4h18" stroke-dasharray={dashes[ink].join(' ') || 'none'} />
     </svg>
   );

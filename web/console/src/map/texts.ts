@@ -31,8 +31,8 @@ export const canvas = text(
 // Above the map
 export const observe = text('Observe', '観察');
 export const observe_hint = text(
-  'Has the engine look for people, faces and sounds, and binds what it takes: other applications cannot have these components meanwhile',
-  '人・顔・音の検出をエンジンに始めさせます。必要なコンポーネントをバインドするため、その間ほかのアプリケーションは使えません',
+  'Has the engine look for people, faces and sounds. Other applications cannot have the components for that meanwhile.',
+  'エンジンが人・顔・音を探します。その間、ほかのアプリケーションはそのコンポーネントを使えません。',
 );
 export const observing = text_of((on: number, of: number) => [
   on === of ? `${on} components look` : `${on} of ${of} components look`,

@@ -7,7 +7,7 @@ import { useConsole } from '../shell/context';
 import type { Console } from '../state/console';
 import type { LoggedDocument } from '../state/documents';
 import { Button, EmptyState, SplitPane, useIsWide, VirtualList } from '../ui';
-import { Feed, is_gap, no_filter, type Row, type Source } from './feed';
+import { categories, Feed, is_gap, no_filter, type Row, type Source } from './feed';
 import { Reader } from './reader';
 import { RowView } from './row';
 import { chosen_of_recording, filter, paused, recording, type ShownRecording } from './shown';
@@ -44,6 +44,13 @@ export default function MessagesPanel() {
   useEffect(() => {
     if (recording.value && picked.value !== undefined) recording.value = undefined;
   }, [picked.value]);
+  const { subscription } = console.selection;
+  useEffect(() => {
+    if (subscription.value === '') return;
+    filter.value = { ...no_filter, hidden: new Set(categories.slice(1)), text: `subscribe_id>${subscription.value}<` };
+    recording.value = paused.value = undefined;
+    subscription.value = '';
+  }, [subscription.value]);
   const document = chosen === undefined ? undefined : tape ? tape.documents[chosen] : (console.documents.ring.numbered(chosen) ?? held?.rows.find((one): one is LoggedDocument => !is_gap(one) && one.number === chosen));
   const all = whole.rows.length;
 

@@ -22,7 +22,7 @@ export function RowView({ row, is_live }: { row: Row; is_live: boolean }) {
   return (
     <>
       <span class="messages-time">{clock_time(row.at)}</span>
-      <span class={`messages-way messages-${row.direction}`}>
+      <span class={`messages-way messages-way-${row.direction}`}>
         <Icon name={row.direction === 'out' ? 'up' : 'down'} size={12} />
         <span class="unseen">{row.direction === 'out' ? t.outward() : t.inward()}</span>
       </span>

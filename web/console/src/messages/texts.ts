@@ -23,8 +23,8 @@ export const go_on = text('Go on', '再開');
 export const waiting = text_of((n: number) => [`${count_text(n)} new`, `新着 ${count_text(n)} 件`]);
 export const shown = text_of((n: number, all: number) => [`${count_text(n)} of ${count_text(all)}`, `${count_text(all)} 件中 ${count_text(n)} 件`]);
 export const shown_hint = text(
-  'How many pass the filter, of all that the console still has. What it asks by itself counts only where it is shown.',
-  'コンソールに残る文書のうち、条件に合う件数。コンソール自身の問い合わせは、表示するときだけ数えます。',
+  'How many pass the filter, of all that the console still has',
+  'コンソールに残る文書のうち、条件に合う件数',
 );
 export const export_it = text('Export all', 'すべて書き出す');
 export const import_it = text('Open a recording', '記録を開く');

@@ -75,7 +75,8 @@ function Box({ step, context, kind, children }: Of<Step> & { kind: Step['kind'];
   const is_bad = is_refused || (problem !== undefined && (store.is_strict.value || !is_unfinished(problem)));
   const name = joined(
     'sequence-box',
-    `sequence-${kind}`,
+    kind === 'wait' && 'sequence-wait',
+    kind === 'parallel' && 'sequence-parallel',
     state && `sequence-is-${state.state}`,
     problem && !is_bad && 'sequence-unfinished',
     is_bad && 'sequence-bad',

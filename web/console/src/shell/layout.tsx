@@ -38,6 +38,12 @@ export function show_document({ selection }: Console, number: number): void {
   show_panel('messages');
 }
 
+/** Shows the events of a subscription, and nothing else. */
+export function show_events({ selection }: Console, subscribe_id: string): void {
+  selection.subscription.value = subscribe_id;
+  show_panel('messages');
+}
+
 /** Begins with these panels, those in front that are recalled, and follows the width of the window and the address. */
 export function begin_layout(all: readonly Panel[], recalled: string | undefined): void {
   panels = all;

@@ -103,7 +103,7 @@ export class Console {
       () => this.client,
       () => this.metrics.bound.value,
     );
-    this.commands = new CommandsState(environment, this.documents, client);
+    this.commands = new CommandsState(environment, this.documents, client, (ref) => this.profile.lasts(ref));
     this.events = new EventsState(environment, this.documents, client);
     this.subscriptions = new SubscriptionsState(
       environment,

@@ -3,8 +3,8 @@ import { count_text, text, text_of } from '../i18n/i18n';
 export const title = text('Time line', 'タイムライン');
 export const label = text('Time line of the link, commands, events and components', '接続・コマンド・イベント・コンポーネントのタイムライン');
 export const help = text(
-  'Arrow keys go from one thing to the next and stop the time; Enter opens it. Plus and minus zoom, Page Up and Page Down move in time, Home goes to the beginning, End to now. Space stops and goes on. Dragging chooses a stretch of time, the wheel zooms, Backspace goes back.',
-  '矢印キーで項目を移動し、時間を止めます。Enter で開きます。+ と - で拡大・縮小、Page Up と Page Down で時間を移動、Home で最初へ、End で現在へ移動します。Space で停止・再開します。ドラッグで範囲を選び、ホイールで拡大・縮小し、Backspace で戻ります。',
+  'Arrow keys go from thing to thing and stop the time, Enter opens one. Plus, minus and the wheel zoom, Page Up and Page Down move in time, Home goes to the beginning, End to now, Space stops and goes on. Dragging chooses a stretch of time, Backspace goes back.',
+  '矢印キーで項目へ移動して時間を止め、Enter で開きます。+・-・ホイールで拡大・縮小、Page Up・Page Down で時間を移動、Home で最初、End で現在、Space で停止・再開。ドラッグで範囲を選び、Backspace で戻ります。',
 );
 export const live = text('Live', 'ライブ');
 export const go_live = text('Go on live', 'ライブに戻る');

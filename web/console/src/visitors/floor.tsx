@@ -124,7 +124,7 @@ function Body({ at, radius, kind, name }: { at: FloorPose; radius: number; kind:
   const turn = ((at.th ?? 0) * Math.PI) / 180;
   const nose = { x: at.x + Math.cos(turn) * radius * 1.7, y: at.y + Math.sin(turn) * radius * 1.7 };
   return (
-    <g class={`visitors-body visitors-${kind}`}>
+    <g class={`visitors-body visitors-is-${kind}`}>
       {name !== '' && <title>{name}</title>}
       {at.th !== undefined && <line x1={at.x} y1={-at.y} x2={nose.x} y2={-nose.y} />}
       <circle cx={at.x} cy={-at.y} r={radius} />
