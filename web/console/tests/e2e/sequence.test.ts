@@ -110,11 +110,11 @@ describe('sequences', () => {
         await page.waitForFunction(() => document.activeElement?.textContent?.includes('branches'));
         await page.keyboard.press('ArrowLeft');
         await page.keyboard.press('Alt+ArrowDown');
-        expect(await panel(page).locator('.sequence-branch').first().locator('.sequence-box').textContent()).toContain('speech_synthesis');
+        await panel(page).locator('.sequence-branch').first().locator('.sequence-box', { hasText: 'speech_synthesis' }).waitFor();
         await page.keyboard.press('Alt+ArrowDown');
-        expect(await panel(page).locator('.sequence-branch').nth(1).locator('.sequence-box').textContent()).toContain('speech_synthesis');
+        await panel(page).locator('.sequence-branch').nth(1).locator('.sequence-box', { hasText: 'speech_synthesis' }).waitFor();
         await page.keyboard.press('Alt+ArrowRight');
-        expect(await panel(page).locator('.sequence-branch .sequence-box').count()).toBe(0);
+        await panel(page).locator('.sequence-branch .sequence-box').waitFor({ state: 'detached' });
         await page.waitForFunction(() => document.activeElement?.textContent?.includes('speech_synthesis'));
         await page.keyboard.press('ArrowLeft');
         await page.keyboard.press('Delete');
