@@ -1,6 +1,9 @@
 // Boost.Asio with the concrete executor of one thread's io_context, for the servers that the gateway is compared with.
 #pragma once
 
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+
 #include <boost/asio/basic_socket_acceptor.hpp>
 #include <boost/asio/basic_stream_socket.hpp>
 #include <boost/asio/io_context.hpp>
@@ -26,6 +29,7 @@ void accept_for_ever(Acceptor& acceptor, Shared&... shared) {
             error_code ignored;
             socket.set_option(Tcp::no_delay{true}, ignored);
             socket.non_blocking(true, ignored);
+            ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_CONGESTION, "reno", 4);  // as the gateway does on one machine
             std::make_shared<Session>(std::move(socket), shared...)->run();
         }
         accept_for_ever<Session>(acceptor, shared...);

@@ -13,11 +13,11 @@ MESSAGES = {
     "suzuki": "Ms. Suzuki, your taxi is waiting at the entrance.",
     "somebody": "Welcome. How can I help you?",
 }
-visitors = int(sys.argv[1]) if len(sys.argv) > 1 else 1
 try:
+    visitors = int(sys.argv[1]) if len(sys.argv) > 1 else 1
     engine = Engine(os.environ.get("ROIS_URL", "http://127.0.0.1:8080"))
-except NoAnswer as nobody:
-    sys.exit(str(nobody))
+except (NoAnswer, ValueError) as wrong:
+    sys.exit(f"reception.py: {wrong}")
 
 
 def near(a, b, millimetres):

@@ -1,5 +1,6 @@
 #include "net/wire.hpp"
 
+#include <netinet/tcp.h>
 #include <spdlog/spdlog.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <boost/asio/post.hpp>
 #include <cerrno>
+#include <string_view>
 #include <utility>
 
 namespace rois::net {
@@ -18,6 +20,21 @@ constexpr std::size_t largest_kept = 4 * 1024;  // while nothing is there
 constexpr std::size_t largest_read = 64 * 1024;
 constexpr std::size_t most_promised = 16 * 1024;  // memory for what a peer says it will send
 
+bool is_on_this_machine(Socket const& socket) {
+    boost::system::error_code error;
+    auto const peer = socket.remote_endpoint(error).address();
+    if (peer.is_v6() && peer.to_v6().is_v4_mapped()) {
+        return asio::ip::make_address_v4(asio::ip::v4_mapped, peer.to_v6()).is_loopback();
+    }
+    return peer.is_loopback();
+}
+
+// No path to share with others: whatever the system does against congestion (with BBR, a clock for each send) is for nothing.
+void send_without_pacing(Socket& socket) {
+    constexpr std::string_view simplest = "reno";  // every Linux has it, and lets everybody take it
+    ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_CONGESTION, simplest.data(), simplest.size());
+}
+
 }  // namespace
 
 Wire::Wire(Socket socket, Poller& poller, std::chrono::milliseconds write_timeout, Telemetry& telemetry)
@@ -25,6 +42,7 @@ Wire::Wire(Socket socket, Poller& poller, std::chrono::milliseconds write_timeou
     boost::system::error_code ignored;
     socket.non_blocking(true, ignored);
     socket.set_option(asio::ip::tcp::no_delay{true}, ignored);
+    if (is_on_this_machine(socket)) send_without_pacing(socket);
     socket_ = socket.release(ignored);
     if (socket_ >= 0 && !poller_.add(socket_, *this)) cut();
 }
