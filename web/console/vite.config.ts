@@ -1,15 +1,12 @@
 import { defineConfig } from 'vitest/config';
 
+import { scripts, styles } from './lighter';
+
 // Where `npm run dev` finds a gateway.
 const gateway = process.env['ROIS_URL'] ?? 'http://127.0.0.1:8080';
 
-// Texts among texts are smaller with gzip than texts among code. Beneath both is what texts need.
-function chunk(id: string): string {
-  if (/node_modules|i18n\.ts$/.test(id)) return 'base';
-  return /texts\.ts$|words\.ts$|\.xml\?raw$/.test(id) ? 'texts' : 'console';
-}
-
 export default defineConfig({
+  plugins: [scripts, styles],
   // All that it writes is in dist/ and build/; nothing is inlined, since the page's policy forbids it.
   cacheDir: 'build/vite',
   build: {
@@ -17,10 +14,8 @@ export default defineConfig({
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
     reportCompressedSize: false,
-    // What is below is so for the weight of the page with gzip; docs/console.md says what each brings.
-    minify: 'terser',
-    terserOptions: { module: true, ecma: 2020, compress: { passes: 2, inline: 1, lhs_constants: false } as object },
-    rollupOptions: { output: { manualChunks: chunk } },
+    minify: false, // scripts are, by `scripts`
+    cssMinify: true,
   },
   esbuild: { jsx: 'transform', jsxFactory: 'h', jsxFragment: 'Fragment', jsxInject: "import { Fragment, h } from 'preact'" },
   // The shipped scenario is read where it stands, in client-cpp/.

@@ -3,9 +3,10 @@ import './ui/base.css';
 import './ui/widgets.css';
 import './shell/shell.css';
 
+import './order';
 import { render } from 'preact';
 
-import { Console } from './state/console'; // first: what is like each other stands together, which is smaller with gzip
+import { Console } from './state/console';
 import { type Language, language, wished_language } from './i18n/i18n';
 import { panels } from './panels';
 import { App } from './shell/app';

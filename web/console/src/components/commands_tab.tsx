@@ -6,22 +6,21 @@ import { arguments_in, ArgumentFields, asked_by, CommandProgress, Exchange, type
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
-import { Checkbox } from '../ui';
+import { Checkbox, Form } from '../ui';
 import { Pick } from './pick';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function CommandsTab({ view }: { view: ComponentView }) {
-  const t = texts();
   const names = in_order(view.commands.map((one) => one.name));
   const [name, choose] = useDraft(`${view.ref} command`, names[0] ?? '');
-  if (!names.includes(name)) return <p>{t.no_commands}</p>;
+  if (!names.includes(name)) return <p>{t.no_commands()}</p>;
   const tell = (one: string) => {
     const offered = view.commands.find((each) => each.name === one);
     return offered && signature(offered);
   };
   return (
     <>
-      <Pick label={t.choose_command} names={names} chosen={name} choose={choose} tell={tell} />
+      <Pick label={t.choose_command()} names={names} chosen={name} choose={choose} tell={tell} />
       <CommandForm key={name} view={view} name={name} />
     </>
   );
@@ -37,7 +36,6 @@ function in_order(names: string[]): string[] {
 
 function CommandForm({ view, name }: { view: ComponentView; name: string }) {
   const console = useConsole();
-  const t = texts();
   const [inputs, change] = useDraft<Inputs>(`${view.ref} ${name}`, {});
   const [give_back, set_give_back] = useDraft(`${view.ref} ${name} give back`, false);
   const [was_tried, set_tried] = useState(false);
@@ -49,7 +47,7 @@ function CommandForm({ view, name }: { view: ComponentView; name: string }) {
   const title = `${view.ref} ${name}`;
   const timeout = view.commands.find((one) => one.name === name)?.timeout;
   return (
-    <form class="component-form" onSubmit={(event) => event.preventDefault()}>
+    <Form class="component-form">
       {asked.length > 0 && <ArgumentFields view={view} asked={asked} inputs={inputs} change={change} problems={shown} />}
       {misplaced(console, unit).map((text) => <p key={text} class="exchange-why">{text}</p>)}
       {timeout !== undefined && <p class="soft">{t.start_within(duration(timeout))}</p>}
@@ -65,10 +63,10 @@ function CommandForm({ view, name }: { view: ComponentView; name: string }) {
         }}
         act={() => console.execute([unit], { give_back })}
       >
-        <Checkbox label={t.given_back} checked={give_back} change={set_give_back} />
+        <Checkbox label={t.given_back()} checked={give_back} change={set_give_back} />
       </Exchange>
       <Others view={view} title={title} />
-    </form>
+    </Form>
   );
 }
 

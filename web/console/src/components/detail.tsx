@@ -8,21 +8,20 @@ import { EventsTab } from './events_tab';
 import { holder_text } from './holder';
 import { ParametersTab } from './parameters_tab';
 import { QueriesTab, query_names } from './queries_tab';
-import { texts } from './texts';
+import * as t from './texts';
 import { Work } from './work';
 
 type Part = 'commands' | 'parameters' | 'queries' | 'events';
 
 export function Detail({ view }: { view: ComponentView }) {
-  const t = texts();
   const console = useConsole();
   const [part, set_part] = useDraft<Part>('part', 'commands');
   const count = (n: number) => (n === 0 ? undefined : String(n));
   const tabs = [
-    { id: 'commands' as const, title: t.commands, badge: count(view.commands.length) },
-    { id: 'parameters' as const, title: t.parameters, badge: count(console.parameters.of(view.ref)?.parameters.length ?? view.parameters.length) },
-    { id: 'queries' as const, title: t.queries, badge: count(query_names(view).length) },
-    { id: 'events' as const, title: t.events, badge: count(view.events.length) },
+    { id: 'commands' as const, title: t.commands(), badge: count(view.commands.length) },
+    { id: 'parameters' as const, title: t.parameters(), badge: count(console.parameters.of(view.ref)?.parameters.length ?? view.parameters.length) },
+    { id: 'queries' as const, title: t.queries(), badge: count(query_names(view).length) },
+    { id: 'events' as const, title: t.events(), badge: count(view.events.length) },
   ];
   return (
     <section class="component-detail" aria-label={view.ref}>
@@ -44,7 +43,6 @@ export function Detail({ view }: { view: ComponentView }) {
 function Head({ view }: { view: ComponentView }) {
   const console = useConsole();
   const { status, bindings, notices, now, link } = console;
-  const t = texts();
   const entry = status.of(view.ref);
   const told = (done: Promise<unknown>) => void done.catch((error: unknown) => notices.tell('error', error_text(error)));
   return (
@@ -54,14 +52,14 @@ function Head({ view }: { view: ComponentView }) {
         {entry && <StatusBadge status={entry.status} title={entry.trouble} />}
         <Work component={view.ref} />
         {entry && <span class="soft">{t.since(Math.max(0, now.value - entry.since))}</span>}
-        <span class="component-holder">{holder_text(console, view.ref) || t.nobody}</span>
+        <span class="component-holder">{holder_text(console, view.ref) || t.nobody()}</span>
         {bindings.mine.value.has(view.ref) ? (
           <Button small disabled={!link.is_open} aria-label={t.release_it(view.ref)} onClick={() => told(bindings.release(view.ref))}>
-            {t.release}
+            {t.release()}
           </Button>
         ) : (
           <Button small disabled={!link.is_open} aria-label={t.bind_it(view.ref)} onClick={() => told(bindings.bind(view.ref))}>
-            {t.bind}
+            {t.bind()}
           </Button>
         )}
       </div>

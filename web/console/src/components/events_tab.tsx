@@ -5,25 +5,25 @@ import { Exchange, signature, useDraft } from '../forms';
 import { clock_time } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import type { ComponentView, Offered } from '../state/profile_state';
-import { Button, Checkbox, error_text, TextArea } from '../ui';
+import { reason_of } from '../state/reason_of';
+import { Button, Checkbox, error_text, Form, TextArea } from '../ui';
 import { Pick } from './pick';
-import { texts } from './texts';
+import * as t from './texts';
 
 const most_shown = 8;
 
 export function EventsTab({ view }: { view: ComponentView }) {
-  const t = texts();
   const names = view.events.map((one) => one.name);
   const [name, choose] = useDraft(`${view.ref} event`, names[0] ?? '');
   const event = view.events.find((one) => one.name === name);
-  if (!event) return <p>{t.no_events}</p>;
+  if (!event) return <p>{t.no_events()}</p>;
   const tell = (one: string) => {
     const offered = view.events.find((each) => each.name === one);
     return offered && signature(offered);
   };
   return (
     <>
-      <Pick label={t.choose_event} names={names} chosen={name} choose={choose} tell={tell} />
+      <Pick label={t.choose_event()} names={names} chosen={name} choose={choose} tell={tell} />
       <SubscribeForm key={name} view={view} event={event} />
       <Subscriptions event_type={name} />
       <LastEvents view={view} event_type={name} />
@@ -33,7 +33,6 @@ export function EventsTab({ view }: { view: ComponentView }) {
 
 function SubscribeForm({ view, event }: { view: ComponentView; event: Offered }) {
   const console = useConsole();
-  const t = texts();
   const key = `${view.ref} ${event.name}`;
   const [only_mine, set_only_mine] = useDraft(`${key} only`, true);
   const [inline_results, set_inline] = useDraft(`${key} inline`, true);
@@ -42,23 +41,23 @@ function SubscribeForm({ view, event }: { view: ComponentView; event: Offered })
   const condition = joined(only_mine ? component_ref(view.ref) : undefined, bad === '' ? further.trim() : '');
   const results = event.results.map((one) => `${one.name} (${one.data_type_ref.code})`).join(', ');
   return (
-    <form class="component-form" onSubmit={(submitted) => submitted.preventDefault()}>
-      <p class="soft">{results !== '' && t.brings(results)} {t.not_started}</p>
+    <Form class="component-form">
+      <p class="soft">{results !== '' && t.brings(results)} {t.not_started()}</p>
       <div class="component-line">
         <Checkbox label={t.only_mine(view.ref)} checked={only_mine} change={set_only_mine} />
-        <Checkbox label={t.inline} checked={inline_results} change={set_inline} />
+        <Checkbox label={t.inline()} checked={inline_results} change={set_inline} />
       </div>
-      <TextArea label={t.condition} value={further} change={set_further} rows={2} error={bad === '' ? '' : t.condition_bad(bad)} />
+      <TextArea label={t.condition()} value={further} change={set_further} rows={2} error={bad === '' ? '' : t.condition_bad(bad)} />
       <Exchange
         title={`${view.ref} ${event.name}`}
         operation="subscribe"
-        label={t.subscribe}
+        label={t.subscribe()}
         icon="plus"
         request={request('subscribe', { inline_results }, text_element('event_type', event.name) + condition_xml(condition))}
         may_send={() => bad === ''}
         act={() => console.subscribe(event.name, { inline_results, ...(condition && { condition }) })}
       />
-    </form>
+    </Form>
   );
 }
 
@@ -75,20 +74,19 @@ function what_is_wrong(xml: string): string {
     parse_xml(`<c xmlns:fes="f" xmlns:gml="g" xmlns:unr="u" xmlns:rois="r" xmlns:xsi="x">${xml}</c>`);
     return '';
   } catch (error) {
-    return error instanceof Error ? error.message : String(error);
+    return reason_of(error);
   }
 }
 
 function Subscriptions({ event_type }: { event_type: string }) {
   const { subscriptions, notices, events } = useConsole();
-  const t = texts();
   void events.pulse.beat.value; // counts change in place
   const those = [...subscriptions.all.value.values()].filter((one) => one.event_type === event_type && !subscriptions.is_own(one.id));
   if (those.length === 0) return null;
   const leave = (id: string) => void subscriptions.unsubscribe(id).catch((error: unknown) => notices.tell('error', error_text(error)));
   return (
     <>
-      <h3>{t.subscriptions}</h3>
+      <h3>{t.subscriptions()}</h3>
       <ul class="component-list">
         {those.map((one) => (
           <li key={one.id} class="row-spread">
@@ -96,7 +94,7 @@ function Subscriptions({ event_type }: { event_type: string }) {
               <code>{one.id}</code> <span class="soft">{clock_time(one.since, false)} · {t.counted(one.count)}</span>
             </span>
             <Button small aria-label={t.unsubscribe_it(one.id)} onClick={() => leave(one.id)}>
-              {t.unsubscribe}
+              {t.unsubscribe()}
             </Button>
           </li>
         ))}
@@ -116,7 +114,7 @@ function LastEvents({ view, event_type }: { view: ComponentView; event_type: str
   if (last.length === 0) return null;
   return (
     <>
-      <h3>{texts().last_events}</h3>
+      <h3>{t.last_events()}</h3>
       <ul class="component-list">
         {last.map((one) => (
           <li key={one.number}>

@@ -5,26 +5,25 @@ import { component_ref_xml, element, parameter_xml, request } from 'rois-client'
 import { arguments_in, ArgumentFields, asked_by, Exchange, type Inputs, problems_in, ResultsTable, useDraft } from '../forms';
 import { useConsole, useWatch } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
+import { Form } from '../ui';
 import { written } from './commands_tab';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function ParametersTab({ view }: { view: ComponentView }) {
   const { parameters } = useConsole();
-  const t = texts();
   useWatch(parameters.poll(view.ref));
   const told = parameters.of(view.ref);
   return (
     <>
-      <h3>{t.values_now}</h3>
-      {told && told.parameters.length > 0 ? <ResultsTable label={t.values_now} results={told} /> : <p class="soft">{t.not_told}</p>}
-      {view.parameters.length > 0 ? <SetForm view={view} /> : <p class="soft">{t.no_parameters}</p>}
+      <h3>{t.values_now()}</h3>
+      {told && told.parameters.length > 0 ? <ResultsTable label={t.values_now()} results={told} /> : <p class="soft">{t.not_told()}</p>}
+      {view.parameters.length > 0 ? <SetForm view={view} /> : <p class="soft">{t.no_parameters()}</p>}
     </>
   );
 }
 
 function SetForm({ view }: { view: ComponentView }) {
   const console = useConsole();
-  const t = texts();
   const [inputs, change] = useDraft<Inputs>(`${view.ref} set_parameter`, {});
   const [was_tried, set_tried] = useState(false);
   const asked = asked_by(view, 'set_parameter');
@@ -35,15 +34,15 @@ function SetForm({ view }: { view: ComponentView }) {
     console.parameters.poll(view.ref).now();
   };
   return (
-    <form class="component-form" onSubmit={(event) => event.preventDefault()}>
-      <h3>{t.set_title}</h3>
+    <Form class="component-form">
+      <h3>{t.set_title()}</h3>
       <ArgumentFields view={view} asked={asked} inputs={inputs} change={change} problems={problems} />
-      {was_tried && given.length === 0 && <p class="field-error" role="alert">{t.set_nothing}</p>}
+      {was_tried && given.length === 0 && <p class="field-error" role="alert">{t.set_nothing()}</p>}
       <Exchange
         by_enter
         title={`${view.ref} set_parameter`}
         operation="set_parameter"
-        label={t.set}
+        label={t.set()}
         icon="check"
         request={written(() => request('set_parameter', {}, component_ref_xml(view.ref) + element('parameters', {}, ...given.map((one) => parameter_xml(one)))))}
         may_send={() => {
@@ -52,6 +51,6 @@ function SetForm({ view }: { view: ComponentView }) {
         }}
         act={set}
       />
-    </form>
+    </Form>
   );
 }

@@ -4,8 +4,9 @@ import { component_ref, condition_xml, request, text_element } from 'rois-client
 import { Exchange, signature, useDraft } from '../forms';
 import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
+import { Form } from '../ui';
 import { Pick } from './pick';
-import { texts } from './texts';
+import * as t from './texts';
 
 /** What can be asked, as it is listed. */
 export function query_names(view: ComponentView): string[] {
@@ -14,10 +15,9 @@ export function query_names(view: ComponentView): string[] {
 
 export function QueriesTab({ view }: { view: ComponentView }) {
   const console = useConsole();
-  const t = texts();
   const names = query_names(view);
   const [name, choose] = useDraft(`${view.ref} query`, names[0] ?? '');
-  if (!names.includes(name)) return <p>{t.no_queries}</p>;
+  if (!names.includes(name)) return <p>{t.no_queries()}</p>;
   const query = view.queries.find((one) => one.name === name);
   const results = query?.results.map((one) => `${one.name} (${one.data_type_ref.code})`).join(', ') ?? '';
   const mine = component_ref(view.ref);
@@ -27,8 +27,8 @@ export function QueriesTab({ view }: { view: ComponentView }) {
   };
   return (
     <>
-      <Pick label={t.choose_query} names={names} chosen={name} choose={choose} tell={tell} />
-      <form key={name} class="component-form" onSubmit={(event) => event.preventDefault()}>
+      <Pick label={t.choose_query()} names={names} chosen={name} choose={choose} tell={tell} />
+      <Form key={name} class="component-form">
         {results !== '' && <p class="soft">{t.answers(results)}</p>}
         <Exchange
           by_enter
@@ -39,7 +39,7 @@ export function QueriesTab({ view }: { view: ComponentView }) {
           request={request('query', {}, text_element('query_type', name) + condition_xml(mine))}
           act={() => console.query(name, mine)}
         />
-      </form>
+      </Form>
     </>
   );
 }

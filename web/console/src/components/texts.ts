@@ -1,58 +1,57 @@
-import { duration, in_both } from '../i18n/i18n';
+import { duration, text, text_of } from '../i18n/i18n';
 
-export const texts = in_both({
-  title: ['Components', 'コンポーネント'],
-  tree: ['Engines and components', 'エンジンとコンポーネント'],
-  none: ['Nothing is known of the engine yet', 'エンジンについてまだ何も分かっていません'],
-  pick: ['Choose a component', 'コンポーネントを選んでください'],
-  empty: ['This engine has no components', 'このエンジンにはコンポーネントがありません'],
-  gone: (ref: string) => [`There is no component ${ref} now`, `コンポーネント ${ref} は今ありません`],
-  mine: ['bound by me', '自分がバインド'],
-  other: (session: string) => [
-    session === '' ? 'bound by another session' : `bound by session ${session}`,
-    session === '' ? '別のセッションがバインド' : `セッション ${session} がバインド`,
-  ],
-  nobody: ['not bound', 'バインドなし'],
-  running: ['running', '実行中'],
-  runs: (name: string) => [`The command ${name} is running.`, `コマンド ${name} を実行中です。`],
-  goes_on: ['It has been started, and works until it is stopped or released.', '開始済みです。停止または解放するまで動作します。'],
-  unasked: ['has no status', '状態なし'],
-  bind: ['Bind', 'バインド'],
-  release: ['Release', '解放'],
-  bind_it: (ref: string) => [`Bind ${ref}`, `${ref} をバインド`],
-  release_it: (ref: string) => [`Release ${ref}`, `${ref} を解放`],
-  since: (ms: number) => [`for ${duration(ms)}`, `${duration(ms)}間`],
-  unresolved: (urns: string) => [`Nobody has told of the profiles that it includes: ${urns}`, `含まれるプロファイルが不明です: ${urns}`],
-  of_component: (ref: string) => [`What ${ref} can do`, `${ref} にできること`],
-  commands: ['Commands', 'コマンド'],
-  parameters: ['Parameters', 'パラメータ'],
-  queries: ['Queries', '問い合わせ'],
-  events: ['Events', 'イベント'],
-  no_commands: ['It takes no commands.', 'コマンドはありません。'],
-  no_parameters: ['It has no parameters.', 'パラメータはありません。'],
-  no_queries: ['It answers no queries.', '問い合わせはありません。'],
-  no_events: ['It tells no events.', 'イベントはありません。'],
-  choose_command: ['Command', 'コマンド'],
-  choose_query: ['Query', '問い合わせ'],
-  choose_event: ['Event', 'イベント'],
-  start_within: (time: string) => [`It has to start within ${time}.`, `${time}以内に開始しなければなりません。`],
-  given_back: ['Release it when the command has ended', 'コマンドが終わったら解放する'],
-  values_now: ['As they are now', '現在の値'],
-  set: ['Set', '設定'],
-  set_title: ['Change them', '値を変える'],
-  set_nothing: ['Nothing has been typed yet.', 'まだ何も入力されていません。'],
-  not_told: ['It tells no parameters.', 'パラメータを返しません。'],
-  answers: (names: string) => [`It answers ${names}.`, `応答: ${names}`],
-  brings: (names: string) => [`It brings ${names}.`, `内容: ${names}`],
-  subscribe: ['Subscribe', '購読'],
-  only_mine: (ref: string) => [`Only what ${ref} tells`, `${ref} からのものだけ`],
-  inline: ['Bring the values along', '値も受け取る'],
-  condition: ['Further condition (Filter Encoding, optional)', '追加の条件 (Filter Encoding、省略可)'],
-  condition_bad: (why: string) => [`This is no XML: ${why}`, `XML ではありません: ${why}`],
-  subscriptions: ['Subscriptions to it', '購読中'],
-  unsubscribe: ['Unsubscribe', '購読をやめる'],
-  unsubscribe_it: (id: string) => [`Unsubscribe ${id}`, `${id} の購読をやめる`],
-  counted: (n: number) => [n === 1 ? '1 event' : `${n} events`, `イベント ${n} 件`],
-  last_events: ['The last ones', '最近のイベント'],
-  not_started: ['Events come only while it has been started.', 'イベントは start の後にだけ届きます。'],
-});
+export const title = text('Components', 'コンポーネント');
+export const tree = text('Engines and components', 'エンジンとコンポーネント');
+export const none = text('Nothing is known of the engine yet', 'エンジンについてまだ何も分かっていません');
+export const pick = text('Choose a component', 'コンポーネントを選んでください');
+export const empty = text('This engine has no components', 'このエンジンにはコンポーネントがありません');
+export const gone = text_of((ref: string) => [`There is no component ${ref} now`, `コンポーネント ${ref} は今ありません`]);
+export const mine = text('bound by me', '自分がバインド');
+export const other = text_of((session: string) => [
+  session === '' ? 'bound by another session' : `bound by session ${session}`,
+  session === '' ? '別のセッションがバインド' : `セッション ${session} がバインド`,
+]);
+export const nobody = text('not bound', 'バインドなし');
+export const running = text('running', '実行中');
+export const runs = text_of((name: string) => [`The command ${name} is running.`, `コマンド ${name} を実行中です。`]);
+export const goes_on = text('It has been started, and works until it is stopped or released.', '開始済みです。停止または解放するまで動作します。');
+export const unasked = text('has no status', '状態なし');
+export const bind = text('Bind', 'バインド');
+export const release = text('Release', '解放');
+export const bind_it = text_of((ref: string) => [`Bind ${ref}`, `${ref} をバインド`]);
+export const release_it = text_of((ref: string) => [`Release ${ref}`, `${ref} を解放`]);
+export const since = text_of((ms: number) => [`for ${duration(ms)}`, `${duration(ms)}間`]);
+export const unresolved = text_of((urns: string) => [`Nobody has told of the profiles that it includes: ${urns}`, `含まれるプロファイルが不明です: ${urns}`]);
+export const of_component = text_of((ref: string) => [`What ${ref} can do`, `${ref} にできること`]);
+export const commands = text('Commands', 'コマンド');
+export const parameters = text('Parameters', 'パラメータ');
+export const queries = text('Queries', '問い合わせ');
+export const events = text('Events', 'イベント');
+export const no_commands = text('It takes no commands.', 'コマンドはありません。');
+export const no_parameters = text('It has no parameters.', 'パラメータはありません。');
+export const no_queries = text('It answers no queries.', '問い合わせはありません。');
+export const no_events = text('It tells no events.', 'イベントはありません。');
+export const choose_command = text('Command', 'コマンド');
+export const choose_query = text('Query', '問い合わせ');
+export const choose_event = text('Event', 'イベント');
+export const start_within = text_of((time: string) => [`It has to start within ${time}.`, `${time}以内に開始しなければなりません。`]);
+export const given_back = text('Release the component when the command has ended: others can have it then', 'コマンドが終わったら解放し、ほかが使えるようにする');
+export const values_now = text('As they are now', '現在の値');
+export const set = text('Set', '設定');
+export const set_title = text('Change them', '値を変える');
+export const set_nothing = text('Nothing has been typed yet.', 'まだ何も入力されていません。');
+export const not_told = text('It tells no parameters.', 'パラメータを返しません。');
+export const answers = text_of((names: string) => [`It answers ${names}.`, `応答: ${names}`]);
+export const brings = text_of((names: string) => [`It brings ${names}.`, `内容: ${names}`]);
+export const subscribe = text('Subscribe', '購読');
+export const only_mine = text_of((ref: string) => [`Only what ${ref} tells`, `${ref} からのものだけ`]);
+export const inline = text('Bring the values along', '値も受け取る');
+export const condition = text('Further condition (Filter Encoding, optional)', '追加の条件 (Filter Encoding、省略可)');
+export const condition_bad = text_of((why: string) => [`This is no XML: ${why}`, `XML ではありません: ${why}`]);
+export const subscriptions = text('Subscriptions to it', '購読中');
+export const unsubscribe = text('Unsubscribe', '購読をやめる');
+export const unsubscribe_it = text_of((id: string) => [`Unsubscribe ${id}`, `${id} の購読をやめる`]);
+export const counted = text_of((n: number) => [n === 1 ? '1 event' : `${n} events`, `イベント ${n} 件`]);
+export const last_events = text('The last ones', '最近のイベント');
+export const not_started = text('Events come only while it has been started.', 'イベントは start の後にだけ届きます。');
+

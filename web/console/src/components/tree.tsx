@@ -6,7 +6,7 @@ import { useConsole } from '../shell/context';
 import type { ComponentView, EngineView } from '../state/profile_state';
 import { Icon, StatusBadge } from '../ui';
 import { holder_text } from './holder';
-import { texts } from './texts';
+import * as texts from './texts';
 import { Work } from './work';
 
 export function Tree({ engine }: { engine: EngineView }) {
@@ -47,7 +47,7 @@ export function Tree({ engine }: { engine: EngineView }) {
 
   return (
     <div class="engine-frame">
-      <ul class="engine-tree" role="tree" aria-label={texts().tree} ref={root} onKeyDown={pressed} onFocusIn={focus}>
+      <ul class="engine-tree" role="tree" aria-label={texts.tree()} ref={root} onKeyDown={pressed} onFocusIn={focus}>
         <Engine engine={engine} at={at} closed={closed} toggle={toggle} />
       </ul>
     </div>
@@ -100,7 +100,7 @@ function Row({ component, is_stop }: { component: ComponentView; is_stop: boolea
       <span class="engine-type">{component.type_name}</span>
       <Work component={component.ref} />
       {holder !== '' && <span class="engine-holder">{holder}</span>}
-      {entry ? <StatusBadge status={entry.status} title={entry.trouble} /> : <span class="engine-holder">{texts().unasked}</span>}
+      {entry ? <StatusBadge status={entry.status} title={entry.trouble} /> : <span class="engine-holder">{texts.unasked()}</span>}
     </li>
   );
 }

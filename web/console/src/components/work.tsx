@@ -1,18 +1,16 @@
 // That a component is at work for this console. Its status does not say so: RoIS has READY for what can be used.
-import { goes_on } from '../forms';
 import { useConsole } from '../shell/context';
 import { Badge } from '../ui';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function Work({ component }: { component: string }) {
-  const { commands, profile } = useConsole();
-  const t = texts();
+  const { commands } = useConsole();
   void commands.pulse.beat.value;
   const running = commands.running_on(component).at(-1);
-  if (!running && !(commands.goes_on(component) && goes_on(profile.component(component)))) return null;
+  if (!running && !commands.goes_on(component)) return null;
   return (
-    <Badge tone="busy" title={running ? t.runs(running.command_type) : t.goes_on}>
-      {t.running}
+    <Badge tone="busy" title={running ? t.runs(running.command_type) : t.goes_on()}>
+      {t.running()}
     </Badge>
   );
 }

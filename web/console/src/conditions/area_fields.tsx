@@ -3,7 +3,7 @@ import { SelectField, TextField } from '../ui';
 import { useConsole } from '../shell/context';
 import { AreaPicker } from './area_picker';
 import type { Area } from './model';
-import { texts } from './texts';
+import * as t from './texts';
 import type { Known } from './vocabulary';
 
 export interface AreaFieldsProps {
@@ -18,7 +18,6 @@ export interface AreaFieldsProps {
 }
 
 export function AreaFields({ area, change, error, hint, known, distance, change_distance, distance_complaint }: AreaFieldsProps) {
-  const t = texts();
   const set = (name: keyof Area) => (value: string) => change({ ...area, [name]: value });
   const number = (name: 'x' | 'y' | 'x2' | 'y2', label: string) => (
     <TextField label={label} unit="mm" value={area[name]} change={set(name)} input={{ inputMode: 'numeric' }} />
@@ -27,7 +26,7 @@ export function AreaFields({ area, change, error, hint, known, distance, change_
   return (
     <div class="conditions-area">
       <div class="conditions-numbers">
-        {area.kind === 'place' && <TextField label={t.place} value={area.place} change={set('place')} options={known.places} error={error} hint={hint} />}
+        {area.kind === 'place' && <TextField label={t.place()} value={area.place} change={set('place')} options={known.places} error={error} hint={hint} />}
         {area.kind === 'box' && (
           <>
             {number('x', t.corner(1, 'x'))}
@@ -42,7 +41,7 @@ export function AreaFields({ area, change, error, hint, known, distance, change_
             {number('y', t.at('y'))}
           </>
         )}
-        {change_distance && <TextField label={t.distance} unit="mm" value={distance ?? ''} change={change_distance} {...distance_complaint} input={{ inputMode: 'numeric' }} />}
+        {change_distance && <TextField label={t.distance()} unit="mm" value={distance ?? ''} change={change_distance} {...distance_complaint} input={{ inputMode: 'numeric' }} />}
         {area.kind !== 'place' && <FrameField crs={area.crs} change={set('crs')} />}
       </div>
       <AreaPicker area={area} change={change} radius={radius} />
@@ -52,10 +51,9 @@ export function AreaFields({ area, change, error, hint, known, distance, change_
 
 // Only where there is more than one frame to choose from.
 function FrameField({ crs, change }: { crs: string; change: (crs: string) => void }) {
-  const t = texts();
   const view = useConsole().map.view.value;
   const frames = view.state === 'there' ? view.map.robots.flatMap((one) => (one.frame ? [one.frame.crs] : [])) : [];
   const all = [...new Set([...frames, ...(crs === '' ? [] : [crs])])];
   if (all.length === 0) return null;
-  return <SelectField label={t.frame} value={crs} change={change} choices={[{ value: '', label: t.frame_engine }, ...all.map((one) => ({ value: one, label: one }))]} />;
+  return <SelectField label={t.frame()} value={crs} change={change} choices={[{ value: '', label: t.frame_engine() }, ...all.map((one) => ({ value: one, label: one }))]} />;
 }

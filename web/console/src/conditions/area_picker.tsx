@@ -7,13 +7,12 @@ import type { Bounds, FloorMap } from '../state/floor_map';
 import { floor_point, rect, SmallFloor } from '../ui/small_floor';
 import { is_number } from './checking';
 import type { Area } from './model';
-import { texts } from './texts';
+import * as t from './texts';
 
 const step = 50; // mm
 const least_box = 100; // mm: less is a click
 
 export function AreaPicker({ area, change, radius }: { area: Area; change: (area: Area) => void; radius?: number | undefined }) {
-  const t = texts();
   const console = useConsole();
   const svg = useRef<SVGSVGElement>(null);
   const [drag, set_drag] = useState<{ from: Point; to: Point } | undefined>();
@@ -48,7 +47,7 @@ export function AreaPicker({ area, change, radius }: { area: Area; change: (area
   };
   const box = drag && area.kind === 'box' ? box_between(drag.from, drag.to) : chosen_box(area, map);
   const point = drag && area.kind === 'point' ? drag.to : chosen_point(area);
-  const hint = { box: t.pick_box, point: t.pick_point, place: t.pick_place }[area.kind];
+  const hint = { box: t.pick_box(), point: t.pick_point(), place: t.pick_place() }[area.kind];
   if (area.kind === 'place' && !map) return null;
   return (
     <figure class="conditions-picker">
@@ -57,7 +56,7 @@ export function AreaPicker({ area, change, radius }: { area: Area; change: (area
         bounds={bounds}
         map={map}
         role="img"
-        aria-label={t.picker}
+        aria-label={t.picker()}
         onPointerDown={pressed}
         onPointerMove={(event) => drag && set_drag({ ...drag, to: at(event) })}
         onPointerUp={released}

@@ -1,12 +1,11 @@
 // A group of conditions: how they are joined, its members, and what can be added.
 import { Button, IconButton } from '../ui';
-import { type Group, new_group, new_predicate, type Node, with_added, with_changed, without, with_wrapped } from './model';
+import { type Group, type Joining, new_group, new_predicate, type Node, with_added, with_changed, without, with_wrapped } from './model';
 import { PredicateView } from './predicate_view';
 import type { ConditionStore } from './store';
-import { texts } from './texts';
+import * as t from './texts';
 import { WrittenView } from './written_view';
 
-type Joining = 'all_of' | 'any_of' | 'none_of' | 'not_all_of';
 const joinings: readonly Joining[] = ['all_of', 'any_of', 'none_of', 'not_all_of'];
 
 function joining_of({ joined, is_not }: Group): Joining {
@@ -15,7 +14,6 @@ function joining_of({ joined, is_not }: Group): Joining {
 }
 
 export function GroupView({ store, group, depth = 0 }: { store: ConditionStore; group: Group; depth?: number }) {
-  const t = texts();
   const change = (to: Partial<Group>) => store.change_root((root) => with_changed(root, group.id, (one) => ({ ...one, ...to }) as Node));
   const join = (to: Joining) => change({ joined: to === 'all_of' || to === 'not_all_of' ? 'And' : 'Or', is_not: to === 'none_of' || to === 'not_all_of' });
   const add = (node: Node) => store.change_root((root) => with_added(root, group.id, node));
@@ -23,17 +21,17 @@ export function GroupView({ store, group, depth = 0 }: { store: ConditionStore; 
   const shows_join = !is_root || group.members.length > 1 || group.is_not;
   return (
     <fieldset class={is_root ? 'conditions-group conditions-root' : 'conditions-group'}>
-      <legend class="unseen">{t[joining_of(group)]}</legend>
+      <legend class="unseen">{t.joining_named(joining_of(group))}</legend>
       {shows_join && (
         <div class="conditions-join">
-          <select aria-label={t.join} value={joining_of(group)} onChange={(event) => join(event.currentTarget.value as Joining)}>
+          <select aria-label={t.join()} value={joining_of(group)} onChange={(event) => join(event.currentTarget.value as Joining)}>
             {joinings.map((one) => (
               <option key={one} value={one}>
-                {t[one]}
+                {t.joining_named(one)}
               </option>
             ))}
           </select>
-          {!is_root && <IconButton small icon="close" label={t.remove_group} onClick={() => store.change_root((root) => without(root, group.id))} />}
+          {!is_root && <IconButton small icon="close" label={t.remove_group()} onClick={() => store.change_root((root) => without(root, group.id))} />}
         </div>
       )}
       {group.members.length > 0 && (
@@ -47,10 +45,10 @@ export function GroupView({ store, group, depth = 0 }: { store: ConditionStore; 
       )}
       <div class="conditions-add">
         <Button small icon="plus" onClick={() => add(new_predicate())}>
-          {t.add_condition}
+          {t.add_condition()}
         </Button>
         <Button small look="quiet" icon="plus" onClick={() => add(new_group([new_predicate()], 'Or'))}>
-          {t.add_group}
+          {t.add_group()}
         </Button>
       </div>
     </fieldset>

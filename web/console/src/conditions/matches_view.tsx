@@ -8,10 +8,9 @@ import { problems_of } from './checking';
 import { component_part, waits_for_results } from './matches';
 import type { Draft } from './model';
 import type { ConditionStore } from './store';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function MatchesView({ store }: { store: ConditionStore }) {
-  const t = texts();
   const console = useConsole();
   const { profile, status, link } = console;
   const draft = store.draft.value;
@@ -24,21 +23,21 @@ export function MatchesView({ store }: { store: ConditionStore }) {
   const found = store.matches.found.value;
   const shown = found?.refs.filter(eligible(draft, profile.components.value)) ?? [];
   return (
-    <section class="conditions-part" aria-label={t.matches}>
-      <h3>{t.matches}</h3>
+    <section class="conditions-part" aria-label={t.matches()}>
+      <h3>{t.matches()}</h3>
       <p class={found?.is_old ? 'conditions-count conditions-old' : 'conditions-count'} role="status">
-        {found && !found.trouble ? counted(draft, shown.length, profile.components.value.length) : link.is_open && !found ? t.looking : ''}
+        {found && !found.trouble ? counted(draft, shown.length, profile.components.value.length) : link.is_open && !found ? t.looking() : ''}
       </p>
       {found?.trouble !== undefined && <p class="field-error">{error_text(found.trouble)}</p>}
       {missing > 0 && <p class="field-hint">{t.incomplete(missing)}</p>}
-      {waits_for_results(draft, references) && <p class="field-hint">{t.on_results}</p>}
-      <ol class="conditions-found" aria-label={t.found}>
+      {waits_for_results(draft, references) && <p class="field-hint">{t.on_results()}</p>}
+      <ol class="conditions-found" aria-label={t.found()}>
         {shown.map((ref, i) => {
           const entry = status.of(ref);
           return (
             <li key={ref}>
               {draft.order.length > 0 && <span class="conditions-type">{i + 1}</span>}
-              <button type="button" class="conditions-ref" title={t.open_component} onClick={() => show_component(console, ref)}>
+              <button type="button" class="conditions-ref" title={t.open_component()} onClick={() => show_component(console, ref)}>
                 {ref}
               </button>
               <span class="conditions-type conditions-fill">{profile.component(ref)?.type_name}</span>
@@ -52,7 +51,6 @@ export function MatchesView({ store }: { store: ConditionStore }) {
 }
 
 function counted({ purpose }: Draft, found: number, all: number): string {
-  const t = texts();
   if (purpose === 'subscribe') return t.can_match(found);
   return purpose === 'query' ? t.can_answer(found) : t.matching(found, all);
 }

@@ -4,6 +4,9 @@
 export type Purpose = 'search' | 'bind_any' | 'subscribe' | 'query';
 export const purposes: readonly Purpose[] = ['search', 'bind_any', 'subscribe', 'query'];
 
+/** How the members of a group are joined, as the form says it. */
+export type Joining = 'all_of' | 'any_of' | 'none_of' | 'not_all_of';
+
 export type Operator =
   | 'EqualTo' | 'NotEqualTo' | 'LessThan' | 'GreaterThan' | 'LessThanOrEqualTo' | 'GreaterThanOrEqualTo'
   | 'Between' | 'Like' | 'Null'

@@ -4,7 +4,7 @@ import './conditions.css';
 import { useState } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
-import { Button, EmptyState, SelectField } from '../ui';
+import { Button, EmptyState, Form, SelectField } from '../ui';
 import { Beginnings } from './beginnings';
 import { GroupView } from './group_view';
 import { MatchesView } from './matches_view';
@@ -13,32 +13,31 @@ import { PasteDialog } from './paste_dialog';
 import { SortView } from './sort_view';
 import { type ConditionStore, store_of } from './store';
 import { Subscriptions } from './subscriptions';
-import { texts } from './texts';
+import * as t from './texts';
 import { UseView } from './use_view';
 
 export default function ConditionsPanel() {
   const console = useConsole();
   const store = store_of(console);
-  const t = texts();
   const [pasting, set_pasting] = useState(false);
-  if (!console.profile.profile.value) return <EmptyState icon="conditions" title={t.looking} />;
+  if (!console.profile.profile.value) return <EmptyState icon="conditions" title={t.looking()} />;
   const { root, order, purpose } = store.draft.value;
   const clear = () => store.change({ root: new_group(), order: [] });
   const is_empty = root.members.length === 0 && order.length === 0;
   return (
     <div class="conditions">
-      <form class="conditions-frame" noValidate onSubmit={(event) => event.preventDefault()}>
+      <Form class="conditions-frame">
         <div class="conditions-build">
           <PurposeView store={store} />
-          <section class="conditions-part" aria-label={t.conditions}>
+          <section class="conditions-part" aria-label={t.conditions()}>
             <div class="row-spread">
-              <h2>{t.heading}</h2>
+              <h2>{t.heading()}</h2>
               <div class="row">
                 <Button small look="quiet" icon="upload" onClick={() => set_pasting(true)}>
-                  {t.paste}
+                  {t.paste()}
                 </Button>
                 <Button small look="quiet" icon="close" disabled={is_empty} onClick={() => clear()}>
-                  {t.clear}
+                  {t.clear()}
                 </Button>
               </div>
             </div>
@@ -52,14 +51,13 @@ export default function ConditionsPanel() {
           <Subscriptions store={store} />
           <UseView store={store} />
         </div>
-      </form>
+      </Form>
       <PasteDialog store={store} open={pasting} close={() => set_pasting(false)} />
     </div>
   );
 }
 
 function PurposeView({ store }: { store: ConditionStore }) {
-  const t = texts();
   const { profile } = useConsole();
   const draft = store.draft.value;
   const names = (kind: 'events' | 'queries') => [...new Set(profile.components.value.flatMap((one) => one[kind].map(({ name }) => name)))].sort();
@@ -68,23 +66,23 @@ function PurposeView({ store }: { store: ConditionStore }) {
     const query_type = purpose === 'query' && draft.query_type === '' ? usual(names('queries'), 'component_status') : draft.query_type;
     store.change({ purpose, event_type, query_type });
   };
-  const choices = (all: string[], chosen: string) => [...(all.includes(chosen) ? [] : [chosen]), ...all].map((value) => ({ value, label: value === '' ? t.choose : value }));
+  const choices = (all: string[], chosen: string) => [...(all.includes(chosen) ? [] : [chosen]), ...all].map((value) => ({ value, label: value === '' ? t.choose() : value }));
   return (
-    <section class="conditions-part conditions-purpose" aria-label={t.purpose}>
+    <section class="conditions-part conditions-purpose" aria-label={t.purpose()}>
       <fieldset class="conditions-purposes">
-        <legend class="unseen">{t.purpose}</legend>
+        <legend class="unseen">{t.purpose()}</legend>
         {purposes.map((one) => (
           <label key={one} class="conditions-radio">
             <input type="radio" name="conditions-purpose" checked={draft.purpose === one} onChange={() => choose(one)} />
-            <span>{t[`purpose_${one}`]}</span>
+            <span>{t.purpose_named(one)}</span>
           </label>
         ))}
       </fieldset>
       {draft.purpose === 'subscribe' && (
-        <SelectField label={t.event} value={draft.event_type} change={(event_type) => store.change({ event_type })} choices={choices(names('events'), draft.event_type)} />
+        <SelectField label={t.event()} value={draft.event_type} change={(event_type) => store.change({ event_type })} choices={choices(names('events'), draft.event_type)} />
       )}
       {draft.purpose === 'query' && (
-        <SelectField label={t.query} value={draft.query_type} change={(query_type) => store.change({ query_type })} choices={choices(names('queries'), draft.query_type)} />
+        <SelectField label={t.query()} value={draft.query_type} change={(query_type) => store.change({ query_type })} choices={choices(names('queries'), draft.query_type)} />
       )}
     </section>
   );

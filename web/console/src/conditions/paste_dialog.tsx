@@ -1,13 +1,13 @@
 // Takes over a condition that was written elsewhere.
 import { useState } from 'preact/hooks';
 
+import { reason_of } from '../state/reason_of';
 import { Button, Dialog, TextArea } from '../ui';
 import { draft_read } from './reading';
 import type { ConditionStore } from './store';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function PasteDialog({ store, open, close }: { store: ConditionStore; open: boolean; close: () => void }) {
-  const t = texts();
   const [text, set_text] = useState('');
   const [error, set_error] = useState<string>();
   const take = () => {
@@ -19,13 +19,13 @@ export function PasteDialog({ store, open, close }: { store: ConditionStore; ope
       set_error(undefined);
       close();
     } catch (caught) {
-      const why = caught instanceof Error ? caught.message : String(caught);
-      set_error(why === 'no Filter' || why === 'SearchCondition' ? t.paste_no_condition : t.paste_failed(why));
+      const why = reason_of(caught);
+      set_error(why === 'no Filter' || why === 'SearchCondition' ? t.paste_no_condition() : t.paste_failed(why));
     }
   };
   return (
-    <Dialog title={t.paste_title} open={open} close={close} wide actions={<Button look="primary" disabled={text.trim() === ''} onClick={take}>{t.paste_take}</Button>}>
-      <TextArea label={t.as_xml} hint={t.paste_hint} value={text} change={set_text} error={error} rows={14} />
+    <Dialog title={t.paste_title()} open={open} close={close} wide actions={<Button look="primary" disabled={text.trim() === ''} onClick={take}>{t.paste_take()}</Button>}>
+      <TextArea label={t.as_xml()} hint={t.paste_hint()} value={text} change={set_text} error={error} rows={14} />
     </Dialog>
   );
 }

@@ -6,12 +6,11 @@ import { AreaFields } from './area_fields';
 import { type Found, type ProblemField, problems_of } from './checking';
 import { type AreaKind, type Node, type Operator, type Predicate, with_changed } from './model';
 import type { ConditionStore } from './store';
-import { texts } from './texts';
+import * as t from './texts';
 import { ValueFields } from './value_fields';
 import { is_spatial, operators_for, type Reference, resolved } from './vocabulary';
 
 export function PredicateView({ store, predicate, remove, wrap }: { store: ConditionStore; predicate: Predicate; remove: () => void; wrap: () => void }) {
-  const t = texts();
   const references = store.references.value;
   const reference = resolved(predicate.reference, references);
   const is_usual = !predicate.is_not && predicate.match_case && predicate.matching === 'Any';
@@ -21,15 +20,15 @@ export function PredicateView({ store, predicate, remove, wrap }: { store: Condi
   return (
     <div class="conditions-predicate">
       <div class="conditions-line">
-        {predicate.is_not && <Badge tone="warning">{t.negated}</Badge>}
+        {predicate.is_not && <Badge tone="warning">{t.negated()}</Badge>}
         <ReferenceField value={predicate.reference} references={references} {...complaint_of(found, 'reference')} change={(path) => change(about(predicate, path, references))} />
         <OperatorField predicate={predicate} reference={reference} change={change} />
         {!is_spatial(predicate.operator) && <ValueFields predicate={predicate} reference={reference} found={found} change={change} />}
       </div>
       <div class="conditions-tools">
-        <IconButton small icon="more" label={t.more} aria-expanded={more || !is_usual} onClick={() => set_more(!more)} />
-        <IconButton small icon="components" label={t.wrap} onClick={wrap} />
-        <IconButton small icon="close" label={t.remove} onClick={remove} />
+        <IconButton small icon="more" label={t.more()} aria-expanded={more || !is_usual} onClick={() => set_more(!more)} />
+        <IconButton small icon="components" label={t.wrap()} onClick={wrap} />
+        <IconButton small icon="close" label={t.remove()} onClick={remove} />
       </div>
       {is_spatial(predicate.operator) && (
         <AreaFields
@@ -42,14 +41,14 @@ export function PredicateView({ store, predicate, remove, wrap }: { store: Condi
       )}
       {(more || !is_usual) && (
         <div class="conditions-more">
-          <Checkbox label={t.negate} checked={predicate.is_not} change={(is_not) => change({ is_not })} />
-          {has_case(predicate, reference) && <Checkbox label={t.ignore_case} checked={!predicate.match_case} change={(ignore) => change({ match_case: !ignore })} />}
+          <Checkbox label={t.negate()} checked={predicate.is_not} change={(is_not) => change({ is_not })} />
+          {has_case(predicate, reference) && <Checkbox label={t.ignore_case()} checked={!predicate.match_case} change={(ignore) => change({ match_case: !ignore })} />}
           {has_matching(predicate, reference) && (
             <SelectField
-              label={t.of_list}
+              label={t.of_list()}
               value={predicate.matching}
               change={(matching) => change({ matching })}
-              choices={[{ value: 'Any', label: t.of_any }, { value: 'All', label: t.of_all }, { value: 'One', label: t.of_one }]}
+              choices={[{ value: 'Any', label: t.of_any() }, { value: 'All', label: t.of_all() }, { value: 'One', label: t.of_one() }]}
             />
           )}
         </div>
@@ -62,7 +61,7 @@ export function PredicateView({ store, predicate, remove, wrap }: { store: Condi
 export function complaint_of(found: readonly Found[], field: ProblemField): { error?: string; hint?: string } {
   const one = found.find((each) => each.field === field);
   if (!one) return {};
-  const text = texts()[one.problem];
+  const text = t.problem_named(one.problem);
   return one.is_missing ? { hint: text } : { error: text };
 }
 
@@ -101,19 +100,18 @@ export interface ReferenceFieldProps {
 }
 
 export function ReferenceField({ value, references, error, hint, change }: ReferenceFieldProps) {
-  const t = texts();
   const chosen = resolved(value, references);
-  const groups = [['result', t.results], ['component', t.component], ['parameter', t.parameters]] as const;
+  const groups = [['result', t.results()], ['component', t.component()], ['parameter', t.parameters()]] as const;
   const is_listed = references.some((one) => one.path === value);
   return (
     <div class="conditions-reference">
       <Field
-        label={t.reference}
+        label={t.reference()}
         error={error}
-        hint={value !== '' && !chosen ? t.unknown_reference : hint}
+        hint={value !== '' && !chosen ? t.unknown_reference() : hint}
         control={(props) => (
           <select {...props} value={value} title={chosen?.description} onChange={(event) => change(event.currentTarget.value)}>
-            {value === '' && <option value="">{t.choose}</option>}
+            {value === '' && <option value="">{t.choose()}</option>}
             {value !== '' && !is_listed && <option value={value}>{value}</option>}
             {groups.map(([of, name]) => {
               const those = references.filter((one) => one.of === of);
@@ -138,7 +136,6 @@ export function ReferenceField({ value, references, error, hint, change }: Refer
 
 // Operators of space stand there once for each kind of area.
 function OperatorField({ predicate, reference, change }: { predicate: Predicate; reference: Reference | undefined; change: (to: Partial<Predicate>) => void }) {
-  const t = texts();
   const usual = operators_for(reference?.type ?? 'text');
   const operators = usual.includes(predicate.operator) ? usual : [...usual, predicate.operator];
   const kinds = (operator: Operator): AreaKind[] => {
@@ -153,7 +150,7 @@ function OperatorField({ predicate, reference, change }: { predicate: Predicate;
   };
   return (
     <div class="conditions-operator">
-      <SelectField label={t.operator} value={chosen} change={choose} choices={choices.map((one) => ({ value: one, label: (t as unknown as Record<string, string>)[one] ?? one }))} />
+      <SelectField label={t.operator()} value={chosen} change={choose} choices={choices.map((one) => ({ value: one, label: t.operator_named(one) }))} />
     </div>
   );
 }

@@ -5,17 +5,16 @@ import { area_problem } from './checking';
 import { new_area, new_sort_key, type SortKey } from './model';
 import { ReferenceField } from './predicate_view';
 import type { ConditionStore } from './store';
-import { texts } from './texts';
+import * as t from './texts';
 import { resolved } from './vocabulary';
 
 export function SortView({ store }: { store: ConditionStore }) {
-  const t = texts();
   const { order } = store.draft.value;
   const change = (id: number, to: Partial<SortKey>) => store.change({ order: order.map((one) => (one.id === id ? { ...one, ...to } : one)) });
   return (
-    <section class="conditions-part" aria-label={t.sort}>
-      <h3>{t.sort}</h3>
-      {order.length > 0 && <p class="field-hint">{t.sort_hint}</p>}
+    <section class="conditions-part" aria-label={t.sort()}>
+      <h3>{t.sort()}</h3>
+      {order.length > 0 && <p class="field-hint">{t.sort_hint()}</p>}
       <ol class="conditions-members">
         {order.map((one) => (
           <li key={one.id}>
@@ -25,7 +24,7 @@ export function SortView({ store }: { store: ConditionStore }) {
       </ol>
       <div class="conditions-add">
         <Button small icon="plus" onClick={() => store.change({ order: [...order, new_sort_key()] })}>
-          {t.add_sort}
+          {t.add_sort()}
         </Button>
       </div>
     </section>
@@ -33,7 +32,6 @@ export function SortView({ store }: { store: ConditionStore }) {
 }
 
 function Key({ store, sort_key: key, change, remove }: { store: ConditionStore; sort_key: SortKey; change: (to: Partial<SortKey>) => void; remove: () => void }) {
-  const t = texts();
   const references = store.references.value;
   const positions = references.filter((one) => one.type === 'position');
   const choose_by = (by: SortKey['by']) => change({ by, area: new_area('place'), ...(by === 'distance' && resolved(key.reference, positions) === undefined && { reference: 'location' }) });
@@ -41,14 +39,14 @@ function Key({ store, sort_key: key, change, remove }: { store: ConditionStore; 
   return (
     <div class="conditions-predicate">
       <div class="conditions-line">
-        <SelectField label={t.sort_by} value={key.by} change={choose_by} choices={[{ value: 'value', label: t.sort_value }, { value: 'distance', label: t.sort_distance }]} />
+        <SelectField label={t.sort_by()} value={key.by} change={choose_by} choices={[{ value: 'value', label: t.sort_value() }, { value: 'distance', label: t.sort_distance() }]} />
         <ReferenceField value={key.reference} references={key.by === 'distance' ? positions : references} change={(reference) => change({ reference })} />
-        <SelectField label={t.sort} value={key.order} change={(order) => change({ order })} choices={[{ value: 'ASC', label: t.ascending }, { value: 'DESC', label: t.descending }]} />
+        <SelectField label={t.sort()} value={key.order} change={(order) => change({ order })} choices={[{ value: 'ASC', label: t.ascending() }, { value: 'DESC', label: t.descending() }]} />
       </div>
       <div class="conditions-tools">
-        <IconButton small icon="close" label={t.remove_sort} onClick={remove} />
+        <IconButton small icon="close" label={t.remove_sort()} onClick={remove} />
       </div>
-      {key.by === 'distance' && <AreaFields area={key.area} change={(area) => change({ area })} {...(problem && { hint: t[problem] })} known={store.known.value} />}
+      {key.by === 'distance' && <AreaFields area={key.area} change={(area) => change({ area })} {...(problem && { hint: t.problem_named(problem) })} known={store.known.value} />}
     </div>
   );
 }

@@ -3,20 +3,21 @@ import type { Subscription } from 'rois-client';
 
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
+import { show_events } from '../shell/layout';
 import { Badge, Button, error_text, Icon } from '../ui';
 import type { ConditionStore } from './store';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function Subscriptions({ store }: { store: ConditionStore }) {
-  const t = texts();
-  const { subscriptions, events, now } = useConsole();
+  const console = useConsole();
+  const { subscriptions, events, now } = console;
   void events.pulse.beat.value;
   const all = subscriptions.all.value;
   const mine = store.subscribed.value.filter((one) => all.has(one.subscribe_id));
   if (mine.length === 0) return null;
   return (
     <div class="conditions-subscriptions">
-      <h3>{t.subscriptions}</h3>
+      <h3>{t.subscriptions()}</h3>
       <ul class="plain-list">
         {mine.map((one) => {
           const entry = all.get(one.subscribe_id)!;
@@ -25,14 +26,14 @@ export function Subscriptions({ store }: { store: ConditionStore }) {
               <div class="row-spread">
                 <span class="row">
                   <strong>{entry.event_type}</strong>
-                  <Badge tone={entry.count > 0 ? 'good' : 'calm'}>{t.events(entry.count)}</Badge>
+                  {entry.count === 0 ? <Badge>{t.events(0)}</Badge> : <Button small onClick={() => show_events(console, one.subscribe_id)}>{t.events(entry.count)}</Button>}
                   {entry.last_at !== undefined && <span class="field-hint">{t.last(duration(now.value - entry.last_at))}</span>}
                 </span>
                 <Button small onClick={() => void store.unsubscribe(one)}>
-                  {t.unsubscribe}
+                  {t.unsubscribe()}
                 </Button>
               </div>
-              <p class="conditions-said">{said_by(entry.condition) || t.no_condition}</p>
+              <p class="conditions-said">{said_by(entry.condition) || t.no_condition()}</p>
               {entry.count === 0 && <StartHint subscription={one} />}
             </li>
           );
@@ -44,7 +45,6 @@ export function Subscriptions({ store }: { store: ConditionStore }) {
 
 // Nothing comes of a component that nobody has started.
 function StartHint({ subscription }: { subscription: Subscription }) {
-  const t = texts();
   const console = useConsole();
   void console.commands.pulse.beat.value;
   const those = console.profile.with_event(subscription.wanted.event_type).filter((one) => one.commands.some(({ name }) => name === 'start'));
@@ -60,7 +60,7 @@ function StartHint({ subscription }: { subscription: Subscription }) {
   return (
     <div class="conditions-start">
       <p>
-        <Icon name="info" /> {t.start_first}
+        <Icon name="info" /> {t.start_first()}
       </p>
       <div class="conditions-chips">
         {those.map(({ ref }) =>

@@ -1,66 +1,27 @@
-import { in_both } from '../i18n/i18n';
+import { type Both, text, text_of } from '../i18n/i18n';
+import type { Problem } from './checking';
+import type { Joining, Purpose } from './model';
 
-export const texts = in_both({
-  title: ['Conditions', '条件'],
-  heading: ['Condition', '条件'],
-  purpose: ['What for', '用途'],
-  purpose_search: ['Find components', 'コンポーネントを探す'],
-  purpose_bind_any: ['Bind any', 'どれかをバインド'],
-  purpose_subscribe: ['Subscribe', '購読'],
-  purpose_query: ['Query', 'クエリ'],
-  event: ['Event', 'イベント'],
+const purposes: Record<Purpose, Both> = {
+  search: ['Find components', 'コンポーネントを探す'],
+  bind_any: ['Bind any', 'どれかをバインド'],
+  subscribe: ['Subscribe', '購読'],
   query: ['Query', 'クエリ'],
-  choose: ['choose …', '選んでください…'],
-  clear: ['Clear', '消す'],
-  paste: ['Paste XML', 'XML を貼り付け'],
-  paste_title: ['A condition as XML', 'XML で書かれた条件'],
-  paste_hint: [
-    'A Filter, a predicate, a condition, or a whole search, bind_any, subscribe or query. The prefixes fes and gml need no declaration.',
-    'Filter、述語、condition、または search・bind_any・subscribe・query の全体。接頭辞 fes と gml の宣言は不要です。',
-  ],
-  paste_take: ['Take over', '取り込む'],
-  paste_failed: (why: string) => [`This cannot be read: ${why}`, `読めません: ${why}`],
-  paste_no_condition: ['There is no Filter and no SortBy in it that can be edited here', 'ここで編集できる Filter も SortBy もありません'],
-  conditions: ['Conditions', '条件'],
-  nothing_yet: ['No condition: all of them are meant. Begin with', '条件なし: すべてが対象です。始めるには'],
-  begin_type: ['a type of component', 'コンポーネントの種類'],
-  begin_ready: ['ready and free', '準備完了で空いている'],
-  begin_nearest: ['nearest first', '近い順'],
-  begin_box: (what: string) => [`${what} within a box`, `${what} が範囲の中`],
-  begin_place: (what: string) => [`${what} within a place`, `${what} が場所の中`],
-  begin_near: (what: string) => [`${what} near a point`, `${what} が点の近く`],
-  begin_ref: ['one component', '一つのコンポーネント'],
+};
+const actions: Record<Purpose, Both> = {
+  search: ['Search', '検索'],
+  bind_any: ['Bind any', 'どれかをバインド'],
+  subscribe: ['Subscribe', '購読'],
+  query: ['Ask', '尋ねる'],
+};
+const joinings: Record<Joining, Both> = {
   all_of: ['all of', 'すべて成り立つ'],
   any_of: ['any of', 'どれか成り立つ'],
   none_of: ['none of', 'どれも成り立たない'],
   not_all_of: ['not all of', 'すべては成り立たない'],
-  join: ['Which of these must hold', 'どれが成り立つべきか'],
-  add_condition: ['Condition', '条件'],
-  add_group: ['Group', 'グループ'],
-  remove_group: ['Remove the group', 'グループを削除'],
-  remove: ['Remove the condition', '条件を削除'],
-  wrap: ['Put it into a group', 'グループに入れる'],
-  more: ['More: not, case of letters, lists', 'その他: 否定、大文字小文字、リスト'],
-  negated: ['not', '否定'],
-  negate: ['It must not hold', '成り立たないこと'],
-  ignore_case: ['The case of letters does not count', '大文字と小文字を区別しない'],
-  of_list: ['Of several values', '複数の値のうち'],
-  of_any: ['any', 'どれか'],
-  of_all: ['all', 'すべて'],
-  of_one: ['exactly one', 'ちょうど一つ'],
-  reference: ['What', '対象'],
-  operator: ['How', '比べ方'],
-  value: ['Value', '値'],
-  lower: ['from', 'から'],
-  upper: ['to', 'まで'],
-  pattern_hint: ['* any text, ? one character', '* は任意の文字列、? は一文字'],
-  is_true: 'true',
-  is_false: 'false',
-  results: ['What the event or answer tells', 'イベントや応答の内容'],
-  component: ['The component', 'コンポーネント'],
-  parameters: ['Its parameters', 'パラメータ'],
-  unknown_reference: ['Not known here; the engine decides', 'ここでは未知です。エンジンが判断します'],
-  as_xml: ['As XML', 'XML のまま'],
+};
+// With what they are about, when that is a place, a box or a point.
+const operators: Record<string, Both> = {
   EqualTo: ['is', 'が等しい'],
   NotEqualTo: ['is not', 'が等しくない'],
   LessThan: ['is less than', 'がより小さい'],
@@ -88,25 +49,8 @@ export const texts = in_both({
   Beyond_place: ['is far from a place', 'が場所から遠い'],
   Beyond_box: ['is far from a box', 'が範囲から遠い'],
   Beyond_point: ['is far from a point', 'が点から遠い'],
-  place: ['Place', '場所'],
-  distance: ['Distance', '距離'],
-  corner: (n: number, axis: string) => [`Corner ${n}, ${axis}`, `角 ${n} の ${axis}`],
-  at: (axis: string) => [`Point, ${axis}`, `点の ${axis}`],
-  frame: ['Frame', '座標系'],
-  frame_engine: ['of the engine', 'エンジンのもの'],
-  pick_box: ['Drag on the map to pick the box, or type its corners.', '地図の上をドラッグして範囲を選ぶか、角を入力してください。'],
-  pick_point: ['Click on the map to pick the point, or type it.', '地図をクリックして点を選ぶか、入力してください。'],
-  pick_place: ['Click on a place of the map, or choose it by its name.', '地図の場所をクリックするか、名前で選びます。'],
-  picker: ['Map to pick from', '選ぶための地図'],
-  sort: ['Order', '順序'],
-  sort_hint: ['What comes first; among equals the next one counts.', '先に来るもの。等しいものの中では次の行で決まります。'],
-  sort_by: ['By', '基準'],
-  sort_value: ['value', '値'],
-  sort_distance: ['distance from', 'からの距離'],
-  add_sort: ['Order by', '並べる'],
-  remove_sort: ['Remove from the order', '順序から外す'],
-  ascending: ['ascending', '昇順'],
-  descending: ['descending', '降順'],
+};
+const problems: Record<Problem, Both> = {
   no_reference: ['Choose what it is about', '対象を選んでください'],
   no_value: ['A value is missing', '値がありません'],
   no_number: ['This is no number', '数ではありません'],
@@ -118,31 +62,105 @@ export const texts = in_both({
   reversed: ['The second one comes before the first', '後のものが先のものより前です'],
   no_xml: ['This is no single XML element', '一つの XML 要素ではありません'],
   unwritable: ['XML cannot hold one of these characters', 'XML に書けない文字があります'],
-  matches: ['Matches now', '今の一致'],
-  matching: (found: number, all: number) => [`${found} of ${all} ${all === 1 ? 'component' : 'components'}`, `${all} 個中 ${found} 個のコンポーネント`],
-  can_match: (n: number) => [n === 1 ? '1 component can send it' : `${n} components can send it`, `送れるコンポーネント ${n} 個`],
-  can_answer: (n: number) => [n === 1 ? '1 component can answer' : `${n} components can answer`, `答えられるコンポーネント ${n} 個`],
-  on_results: ['What the event or the answer tells is tested when it comes.', 'イベントや応答の内容は、届いたときに調べられます。'],
-  incomplete_request: ['Something is still missing above.', '上にまだ未記入の項目があります。'],
-  incomplete: (n: number) => [
-    n === 1 ? 'One thing is missing; it is left out here.' : `${n} things are missing; they are left out here.`,
-    `${n} か所が未記入です。ここでは省かれています。`,
-  ],
-  looking: ['looking …', '検索中…'],
-  found: ['Components that match', '一致するコンポーネント'],
-  open_component: ['Open it among the components', 'コンポーネントで開く'],
-  request: ['Request', '要求'],
-  details: ['Events bring their results along', 'イベントに結果を含める'],
-  do_search: ['Search', '検索'],
-  do_bind_any: ['Bind any', 'どれかをバインド'],
-  do_subscribe: ['Subscribe', '購読'],
-  do_query: ['Ask', '尋ねる'],
-  subscriptions: ['Subscriptions', '購読'],
-  no_condition: ['without a condition', '条件なし'],
-  events: (n: number) => [n === 1 ? '1 event' : `${n} events`, `イベント ${n} 件`],
-  last: (ago: string) => [`the last ${ago} ago`, `最後は ${ago}前`],
-  unsubscribe: ['Unsubscribe', '購読をやめる'],
-  start_first: ['Nothing has come yet. A component tells events only while it runs:', 'まだ何も届いていません。コンポーネントは動いている間だけイベントを送ります:'],
-  start: (ref: string) => [`Start ${ref}`, `${ref} を開始`],
-  started: (ref: string) => [`${ref} runs`, `${ref} が動いています`],
-});
+};
+
+export const title = text('Conditions', '条件');
+export const purpose_named = text_of((purpose: Purpose) => purposes[purpose]);
+export const action_named = text_of((purpose: Purpose) => actions[purpose]);
+export const joining_named = text_of((joining: Joining) => joinings[joining]);
+export const operator_named = text_of((operator: string) => operators[operator] ?? operator);
+export const problem_named = text_of((problem: Problem) => problems[problem]);
+export const heading = text('Condition', '条件');
+export const purpose = text('What for', '用途');
+export const event = text('Event', 'イベント');
+export const query = text('Query', 'クエリ');
+export const choose = text('choose …', '選んでください…');
+export const clear = text('Clear', '消す');
+export const paste = text('Paste XML', 'XML を貼り付け');
+export const paste_title = text('A condition as XML', 'XML で書かれた条件');
+export const paste_hint = text(
+  'A Filter, predicate, condition, search, bind_any, subscribe or query. The prefixes fes and gml need no declaration.',
+  'Filter、述語、condition、search、bind_any、subscribe、query。接頭辞 fes と gml の宣言は不要です。',
+);
+export const paste_take = text('Take over', '取り込む');
+export const paste_failed = text_of((why: string) => [`This cannot be read: ${why}`, `読めません: ${why}`]);
+export const paste_no_condition = text('There is no Filter and no SortBy in it that can be edited here', 'ここで編集できる Filter も SortBy もありません');
+export const conditions = text('Conditions', '条件');
+export const nothing_yet = text('No condition: all of them are meant. Begin with', '条件なし: すべてが対象です。始めるには');
+export const begin_type = text('a type of component', 'コンポーネントの種類');
+export const begin_ready = text('ready and free', '準備完了で空いている');
+export const begin_nearest = text('nearest first', '近い順');
+export const begin_box = text_of((what: string) => [`${what} within a box`, `${what} が範囲の中`]);
+export const begin_place = text_of((what: string) => [`${what} within a place`, `${what} が場所の中`]);
+export const begin_near = text_of((what: string) => [`${what} near a point`, `${what} が点の近く`]);
+export const begin_ref = text('one component', '一つのコンポーネント');
+export const join = text('Which of these must hold', 'どれが成り立つべきか');
+export const add_condition = text('Condition', '条件');
+export const add_group = text('Group', 'グループ');
+export const remove_group = text('Remove the group', 'グループを削除');
+export const remove = text('Remove the condition', '条件を削除');
+export const wrap = text('Put it into a group', 'グループに入れる');
+export const more = text('More: not, case of letters, lists', 'その他: 否定、大文字小文字、リスト');
+export const negated = text('not', '否定');
+export const negate = text('It must not hold', '成り立たないこと');
+export const ignore_case = text('The case of letters does not count', '大文字と小文字を区別しない');
+export const of_list = text('Of several values', '複数の値のうち');
+export const of_any = text('any', 'どれか');
+export const of_all = text('all', 'すべて');
+export const of_one = text('exactly one', 'ちょうど一つ');
+export const reference = text('What', '対象');
+export const operator = text('How', '比べ方');
+export const value = text('Value', '値');
+export const lower = text('from', 'から');
+export const upper = text('to', 'まで');
+export const pattern_hint = text('* any text, ? one character', '* は任意の文字列、? は一文字');
+export const is_true = text('true');
+export const is_false = text('false');
+export const results = text('What the event or answer tells', 'イベントや応答の内容');
+export const component = text('The component', 'コンポーネント');
+export const parameters = text('Its parameters', 'パラメータ');
+export const unknown_reference = text('Not known here; the engine decides', 'ここでは未知です。エンジンが判断します');
+export const as_xml = text('As XML', 'XML のまま');
+export const place = text('Place', '場所');
+export const distance = text('Distance', '距離');
+export const corner = text_of((n: number, axis: string) => [`Corner ${n}, ${axis}`, `角 ${n} の ${axis}`]);
+export const at = text_of((axis: string) => [`Point, ${axis}`, `点の ${axis}`]);
+export const frame = text('Frame', '座標系');
+export const frame_engine = text('of the engine', 'エンジンのもの');
+export const pick_box = text('Drag on the map to pick the box, or type its corners.', '地図の上をドラッグして範囲を選ぶか、角を入力してください。');
+export const pick_point = text('Click on the map to pick the point, or type it.', '地図をクリックして点を選ぶか、入力してください。');
+export const pick_place = text('Click on a place of the map, or choose it by its name.', '地図の場所をクリックするか、名前で選びます。');
+export const picker = text('Map to pick from', '選ぶための地図');
+export const sort = text('Order', '順序');
+export const sort_hint = text('What comes first; among equals the next one counts.', '先に来るもの。等しいものの中では次の行で決まります。');
+export const sort_by = text('By', '基準');
+export const sort_value = text('value', '値');
+export const sort_distance = text('distance from', 'からの距離');
+export const add_sort = text('Order by', '並べる');
+export const remove_sort = text('Remove from the order', '順序から外す');
+export const ascending = text('ascending', '昇順');
+export const descending = text('descending', '降順');
+export const matches = text('Matches now', '今の一致');
+export const matching = text_of((found: number, all: number) => [`${found} of ${all} ${all === 1 ? 'component' : 'components'}`, `${all} 個中 ${found} 個のコンポーネント`]);
+export const can_match = text_of((n: number) => [n === 1 ? '1 component can send it' : `${n} components can send it`, `送れるコンポーネント ${n} 個`]);
+export const can_answer = text_of((n: number) => [n === 1 ? '1 component can answer' : `${n} components can answer`, `答えられるコンポーネント ${n} 個`]);
+export const on_results = text('What the event or the answer tells is tested when it comes.', 'イベントや応答の内容は、届いたときに調べられます。');
+export const incomplete_request = text('Something is still missing above.', '上にまだ未記入の項目があります。');
+export const incomplete = text_of((n: number) => [
+  n === 1 ? 'One thing is missing; it is left out here.' : `${n} things are missing; they are left out here.`,
+  `${n} か所が未記入です。ここでは省かれています。`,
+]);
+export const looking = text('looking …', '検索中…');
+export const found = text('Components that match', '一致するコンポーネント');
+export const open_component = text('Open it among the components', 'コンポーネントで開く');
+export const request = text('Request', '要求');
+export const details = text('Events bring their results along', 'イベントに結果を含める');
+export const subscriptions = text('Subscriptions', '購読');
+export const no_condition = text('without a condition', '条件なし');
+export const events = text_of((n: number) => [n === 1 ? '1 event' : `${n} events`, `イベント ${n} 件`]);
+export const last = text_of((ago: string) => [`the last ${ago} ago`, `最後は ${ago}前`]);
+export const unsubscribe = text('Unsubscribe', '購読をやめる');
+export const start_first = text('Nothing has come yet. A component tells events only while it runs:', 'まだ何も届いていません。コンポーネントは動いている間だけイベントを送ります:');
+export const start = text_of((ref: string) => [`Start ${ref}`, `${ref} を開始`]);
+export const started = text_of((ref: string) => [`${ref} runs`, `${ref} が動いています`]);
+

@@ -7,13 +7,12 @@ import { Checkbox, type IconName } from '../ui';
 import { is_complete } from './checking';
 import type { Purpose } from './model';
 import type { ConditionStore } from './store';
-import { texts } from './texts';
+import * as t from './texts';
 import { condition_of, request_of } from './writing';
 
 const icons: Record<Purpose, IconName> = { search: 'search', bind_any: 'link', subscribe: 'messages', query: 'info' };
 
 export function UseView({ store }: { store: ConditionStore }) {
-  const t = texts();
   const console = useConsole();
   const draft = store.draft.value;
   const references = store.references.value;
@@ -33,10 +32,10 @@ export function UseView({ store }: { store: ConditionStore }) {
   };
   const complete = is_complete(draft, references);
   return (
-    <section class="conditions-part" aria-label={t.request}>
-      <h3>{t.request}</h3>
-      {draft.purpose === 'subscribe' && <Checkbox label={t.details} checked={draft.inline_results} change={(inline_results) => store.change({ inline_results })} />}
-      {!complete && <p class="field-hint">{t.incomplete_request}</p>}
+    <section class="conditions-part" aria-label={t.request()}>
+      <h3>{t.request()}</h3>
+      {draft.purpose === 'subscribe' && <Checkbox label={t.details()} checked={draft.inline_results} change={(inline_results) => store.change({ inline_results })} />}
+      {!complete && <p class="field-hint">{t.incomplete_request()}</p>}
       <Exchange
         key={draft.purpose}
         title={draft.purpose}
@@ -44,7 +43,7 @@ export function UseView({ store }: { store: ConditionStore }) {
         request={request_of(draft, condition)}
         act={act}
         can_send={complete}
-        label={t[`do_${draft.purpose}`]}
+        label={t.action_named(draft.purpose)}
         icon={icons[draft.purpose]}
       />
     </section>

@@ -3,7 +3,7 @@ import { Field, SelectField, TextField } from '../ui';
 import type { Found } from './checking';
 import type { Predicate } from './model';
 import { complaint_of } from './predicate_view';
-import { texts } from './texts';
+import * as t from './texts';
 import { has_two_values, is_temporal, type Reference } from './vocabulary';
 
 interface Props {
@@ -14,13 +14,12 @@ interface Props {
 }
 
 export function ValueFields({ predicate, reference, found, change }: Props) {
-  const t = texts();
   if (predicate.operator === 'Null') return null;
   const two = has_two_values(predicate.operator);
   return (
     <div class="conditions-values">
-      <ValueField label={two ? t.lower : t.value} value={predicate.value} change={(value) => change({ value })} {...complaint_of(found, 'value')} predicate={predicate} reference={reference} />
-      {two && <ValueField label={t.upper} value={predicate.upper} change={(upper) => change({ upper })} {...complaint_of(found, 'upper')} predicate={predicate} reference={reference} />}
+      <ValueField label={two ? t.lower() : t.value()} value={predicate.value} change={(value) => change({ value })} {...complaint_of(found, 'value')} predicate={predicate} reference={reference} />
+      {two && <ValueField label={t.upper()} value={predicate.upper} change={(upper) => change({ upper })} {...complaint_of(found, 'upper')} predicate={predicate} reference={reference} />}
     </div>
   );
 }
@@ -36,24 +35,23 @@ interface FieldProps {
 }
 
 function ValueField({ predicate: { operator }, reference, ...field }: FieldProps) {
-  const t = texts();
   if (is_temporal(operator)) return <TimeField {...field} />;
-  if (operator === 'Like') return <TextField {...field} hint={field.hint ?? t.pattern_hint} />;
+  if (operator === 'Like') return <TextField {...field} hint={field.hint ?? t.pattern_hint()} />;
   const { options = [], is_closed = false, type = 'text', unit = '' } = reference ?? {};
   if (type === 'bool' || (is_closed && options.length > 0)) {
     const { value } = field;
     const listed = type === 'bool' ? ['true', 'false'] : options;
     const all = value === '' || listed.includes(value) ? listed : [value, ...listed];
-    const choices = all.map((one) => ({ value: one, label: shown(one, t) }));
-    return <SelectField {...field} choices={value === '' ? [{ value: '', label: t.choose }, ...choices] : choices} />;
+    const choices = all.map((one) => ({ value: one, label: shown(one) }));
+    return <SelectField {...field} choices={value === '' ? [{ value: '', label: t.choose() }, ...choices] : choices} />;
   }
   return <TextField {...field} unit={unit || undefined} options={options} input={type === 'number' ? { inputMode: 'decimal' } : {}} />;
 }
 
 // Of a URN the last part tells what it is.
-function shown(option: string, t: ReturnType<typeof texts>): string {
-  if (option === 'true') return t.is_true;
-  if (option === 'false') return t.is_false;
+function shown(option: string): string {
+  if (option === 'true') return t.is_true();
+  if (option === 'false') return t.is_false();
   return option.startsWith('urn:') ? `${option.slice(option.lastIndexOf(':') + 1)} (${option})` : option;
 }
 

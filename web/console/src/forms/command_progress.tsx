@@ -7,12 +7,11 @@ import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import { type CommandEntry, has_ended } from '../state/commands_state';
 import { Button, error_text, StatusBadge } from '../ui';
-import { exchange_texts } from './exchange_texts';
+import * as t from './exchange_texts';
 import { why } from './why';
 
 export function CommandProgress({ entry }: { entry: CommandEntry }) {
   const console = useConsole();
-  const t = exchange_texts();
   void console.commands.pulse.beat.value;
   const ended = has_ended(entry);
   const now = ended ? entry.ended_at! : console.time();
@@ -31,7 +30,7 @@ export function CommandProgress({ entry }: { entry: CommandEntry }) {
         <span class="exchange-took">{(ended ? t.lasted : t.lasts)(duration(Math.max(0, now - (entry.started_at ?? entry.sent_at))))}</span>
         {can_stop && (
           <Button small look="danger" icon="stop" aria-label={t.stop_it(title)} onClick={stop}>
-            {t.stop}
+            {t.stop()}
           </Button>
         )}
       </p>

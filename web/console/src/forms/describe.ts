@@ -78,10 +78,3 @@ export function signature({ name, arguments: given, results }: MessageProfile): 
   const list = given.length > 0 ? given : results;
   return `${name}(${list.map((one) => one.name).join(', ')})`;
 }
-
-const lasting = /(Detection|Localization|Identification|Recognition|Streaming)$/i;
-
-/** Whether its work goes on when `start` has completed. */
-export function goes_on(view: ComponentView | undefined): boolean {
-  return view !== undefined && [view.type, ...view.includes].some((urn) => lasting.test(urn));
-}

@@ -13,7 +13,7 @@ import { Button, CurlButton, error_text, type IconName, StatusBadge, XmlView } f
 import { CommandProgress } from './command_progress';
 import { ResultsTable } from './results_table';
 import { draft, useDraft } from './drafts';
-import { exchange_texts } from './exchange_texts';
+import * as t from './exchange_texts';
 
 export interface ExchangeProps {
   /** What it is called, for buttons and regions: `navigation start`. */
@@ -43,7 +43,6 @@ export interface Outcome {
 
 export function Exchange({ title, operation, request, act, may_send, can_send = true, by_enter = false, label, icon, children }: ExchangeProps) {
   const console = useConsole();
-  const t = exchange_texts();
   const [outcome, set_outcome] = useDraft<Outcome | undefined>(key_of(title), undefined);
   const [is_busy, set_busy] = useState(false);
   const whole = useRef<HTMLDivElement>(null);
@@ -64,13 +63,13 @@ export function Exchange({ title, operation, request, act, may_send, can_send = 
       <div class="exchange-parts">
         <div class="exchange-buttons">
           <Button type={by_enter ? 'submit' : 'button'} look="primary" icon={icon ?? 'play'} busy={is_busy} disabled={!can_send || !console.link.is_open} onClick={() => void send()}>
-            {label ?? t.send}
+            {label ?? t.send()}
           </Button>
           {children}
           <CurlButton request={request} disabled={request === ''} class="exchange-curl" />
         </div>
         <div class="exchange-came" aria-live="polite" ref={came}>
-          {outcome ? <Came title={title} {...outcome} /> : <p class="exchange-none">{t.none}</p>}
+          {outcome ? <Came title={title} {...outcome} /> : <p class="exchange-none">{t.none()}</p>}
         </div>
         {request !== '' && <div class="exchange-request"><XmlView text={request} label={t.request(title)} /></div>}
       </div>
@@ -104,7 +103,6 @@ export async function watched(console: Console, operation: Operation, act: () =>
 
 function Came({ title, answer, error }: Outcome & { title: string }) {
   const { commands } = useConsole();
-  const t = exchange_texts();
   void commands.pulse.beat.value;
   const made = answer ? commands.all.list().filter((one) => one.sequence.document === answer.request?.number) : [];
   const results = answer && answer.return_code === 'OK' ? results_in(answer) : new Results();

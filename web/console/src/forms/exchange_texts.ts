@@ -1,4 +1,4 @@
-import { type Both, in_both } from '../i18n/i18n';
+import { type Both, text, text_of } from '../i18n/i18n';
 import type { CommandState } from '../state/commands_state';
 
 const ends: Record<CommandState, Both> = {
@@ -12,30 +12,29 @@ const ends: Record<CommandState, Both> = {
   unknown: ['The session was lost before it ended.', '終わる前にセッションが失われました。'],
 };
 
-export const exchange_texts = in_both({
-  send: ['Send', '送信'],
-  none: ['The answer will stand here.', 'ここに応答が表示されます。'],
-  took: (time: string) => [`after ${time}`, `${time}後`],
-  request: (title: string) => [`Request: ${title}`, `要求: ${title}`],
-  answer: (title: string) => [`Answer: ${title}`, `応答: ${title}`],
-  results: (title: string) => [`Results: ${title}`, `結果: ${title}`],
-  name: ['Name', '名前'],
-  value: ['Value', '値'],
-  type: ['Type', '型'],
-  ended: (state: CommandState) => ends[state],
-  lasts: (time: string) => [`for ${time}`, `${time}間`],
-  lasted: (time: string) => [`(${time})`, `(${time})`],
-  outside: (text: string, x: string, y: string) => [
-    `${text} is outside of the map, which goes from ${x} and from ${y} (mm).`,
-    `${text} は地図の外です。地図の範囲は ${x}、${y} (mm) です。`,
-  ],
-  in_furniture: (text: string) => [`${text} is where furniture stands.`, `${text} には家具があります。`],
-  in_use: (components: string) => [`Running on the same robot: ${components}.`, `同じロボットで実行中: ${components}。`],
-  told_error: (type: string) => [`The engine told of an error meanwhile: ${type}.`, `その間にエンジンがエラーを通知しました: ${type}。`],
-  document_gone: ['The document is no longer remembered.', '文書は残っていません。'],
-  in_messages: ['Show in messages', 'メッセージで見る'],
-  fetching: ['Fetching …', '取得中…'],
-  gone: (why: string) => [`The details cannot be had: ${why}`, `詳細を取得できません: ${why}`],
-  stop: ['Stop', '停止'],
-  stop_it: (title: string) => [`Stop ${title}`, `${title} を停止`],
-});
+export const send = text('Send', '送信');
+export const none = text('The answer will stand here.', 'ここに応答が表示されます。');
+export const took = text_of((time: string) => [`after ${time}`, `${time}後`]);
+export const request = text_of((title: string) => [`Request: ${title}`, `要求: ${title}`]);
+export const answer = text_of((title: string) => [`Answer: ${title}`, `応答: ${title}`]);
+export const results = text_of((title: string) => [`Results: ${title}`, `結果: ${title}`]);
+export const name = text('Name', '名前');
+export const value = text('Value', '値');
+export const type = text('Type', '型');
+export const ended = text_of((state: CommandState) => ends[state]);
+export const lasts = text_of((time: string) => [`for ${time}`, `${time}間`]);
+export const lasted = text_of((time: string) => [`(${time})`, `(${time})`]);
+export const outside = text_of((text: string, x: string, y: string) => [
+  `${text} is outside of the map, which goes from ${x} and from ${y} (mm).`,
+  `${text} は地図の外です。地図の範囲は ${x}、${y} (mm) です。`,
+]);
+export const in_furniture = text_of((text: string) => [`${text} is where furniture stands.`, `${text} には家具があります。`]);
+export const in_use = text_of((components: string) => [`Running on the same robot: ${components}.`, `同じロボットで実行中: ${components}。`]);
+export const told_error = text_of((type: string) => [`The engine told of an error meanwhile: ${type}.`, `その間にエンジンがエラーを通知しました: ${type}。`]);
+export const document_gone = text('The document is no longer remembered.', '文書は残っていません。');
+export const in_messages = text('Show in messages', 'メッセージで見る');
+export const fetching = text('Fetching …', '取得中…');
+export const gone = text_of((why: string) => [`The details cannot be had: ${why}`, `詳細を取得できません: ${why}`]);
+export const stop = text('Stop', '停止');
+export const stop_it = text_of((title: string) => [`Stop ${title}`, `${title} を停止`]);
+

@@ -10,6 +10,6 @@ export * from './logged';
 export * from './options';
 export * from './parameter_field';
 export * from './results_table';
-export { texts as form_texts } from './texts';
-export { exchange_texts } from './exchange_texts';
+export * as form_texts from './texts';
+export * as exchange_texts from './exchange_texts';
 export * from './why';

@@ -4,27 +4,25 @@ import { show_document } from '../shell/layout';
 import type { LoggedDocument } from '../state/documents';
 import type { Details } from '../state/events_state';
 import { Button, XmlView } from '../ui';
-import { exchange_texts } from './exchange_texts';
+import * as t from './exchange_texts';
 import { ResultsTable } from './results_table';
 
 /** The document, or the one of this number as long as it is remembered. */
 export function LoggedXml({ label, document }: { label: string; document: LoggedDocument | number }) {
   const console = useConsole();
-  const t = exchange_texts();
   const logged = typeof document === 'number' ? console.documents.ring.numbered(document) : document;
-  if (!logged) return <p>{t.document_gone}</p>;
+  if (!logged) return <p>{t.document_gone()}</p>;
   return (
     <>
       <XmlView text={logged.text} label={label} />
-      <Button small look="quiet" icon="messages" onClick={() => show_document(console, logged.number)}>{t.in_messages}</Button>
+      <Button small look="quiet" icon="messages" onClick={() => show_document(console, logged.number)}>{t.in_messages()}</Button>
     </>
   );
 }
 
 /** `none` is said when there are no details. */
 export function DetailsOf({ label, details, none }: { label: string; details: Details; none: string }) {
-  const t = exchange_texts();
   if (details.state === 'gone') return <p>{t.gone(details.reason)}</p>;
-  if (details.state !== 'there') return <p role="status">{t.fetching}</p>;
+  if (details.state !== 'there') return <p role="status">{t.fetching()}</p>;
   return details.results.parameters.length === 0 ? <p>{none}</p> : <ResultsTable label={label} results={details.results} />;
 }

@@ -1,12 +1,12 @@
 // A field for one parameter of a profile.
 import { useId } from 'preact/hooks';
 
-import { Field, IconButton } from '../ui';
+import { Field, IconButton, joined } from '../ui';
 import { type DataType, data_type, type Problem } from './data_type';
 import { type Asked, fixed_length, is_position, shown_description, units_of } from './describe';
 import type { Input } from './inputs';
 import type { Options } from './options';
-import { texts } from './texts';
+import * as t from './texts';
 
 export interface ParameterFieldProps {
   asked: Asked;
@@ -20,10 +20,9 @@ export interface ParameterFieldProps {
 
 export function ParameterField(props: ParameterFieldProps) {
   const { asked, problem } = props;
-  const t = texts();
   const type = data_type(asked.data_type_ref.code);
   const called = props.options.list.find((one) => one.value === props.input?.texts[0]?.trim())?.label; // what was chosen
-  const hint = [!props.options.is_closed && called && `“${called}”.`, shown_description(asked.description), t.of_type(asked.data_type_ref.code), asked.default_value && t.preset(asked.default_value)].filter(Boolean).join(' ');
+  const hint = joined(!props.options.is_closed && called && `“${called}”.`, shown_description(asked.description), t.of_type(asked.data_type_ref.code), asked.default_value && t.preset(asked.default_value));
   const shared = { label: asked.name, hint, error: problem && t.problem(problem), required: asked.need.kind === 'needed' };
   if (type.is_list) return <ListField {...props} type={type} {...shared} />;
   const unit = units_of(asked.description);
@@ -45,7 +44,6 @@ type Shared = { label: string; hint: string; error: string | undefined; required
 
 function ListField({ type, label, hint, error, required, ...props }: ParameterFieldProps & Shared & { type: DataType }) {
   const { asked, input, change } = props;
-  const t = texts();
   const id = useId();
   const fixed = fixed_length(asked);
   const units = fixed > 0 ? units_of(asked.description) : [];
@@ -84,17 +82,16 @@ interface ItemProps extends Pick<ParameterFieldProps, 'asked' | 'input' | 'optio
 const long = /ssml|grammar|xml|document/i;
 
 function Item({ asked, input, options, now, type, own, text, put }: ItemProps) {
-  const t = texts();
   const list = useId();
-  const preset = now !== undefined ? t.now(now) : (asked.default_value ?? (is_position(asked) ? t.position : ''));
+  const preset = now !== undefined ? t.now(now) : (asked.default_value ?? (is_position(asked) ? t.position() : ''));
   if (options.is_closed)
     return (
       <select {...own} value={text} onChange={(event) => put(event.currentTarget.value)}>
-        <option value="">{preset === '' ? t.left_out : `${t.left_out} (${preset})`}</option>
+        <option value="">{preset === '' ? t.left_out() : `${t.left_out()} (${preset})`}</option>
         {options.list.map((one) => <option key={one.value} value={one.value}>{one.label ?? one.value}</option>)}
       </select>
     );
-  const said = input?.is_empty ? t.is_empty : preset;
+  const said = input?.is_empty ? t.is_empty() : preset;
   if (type.kind === 'text' && !type.is_list && long.test(asked.name))
     return <textarea {...own} rows={3} spellcheck={false} placeholder={said} value={text} onInput={(event) => put(event.currentTarget.value)} />;
   const mode = type.kind === 'integer' ? 'numeric' : type.kind === 'number' ? 'decimal' : undefined;
@@ -116,7 +113,7 @@ function Item({ asked, input, options, now, type, own, text, put }: ItemProps) {
           <datalist id={list}>
             {options.list.map((one) => <option key={one.value} value={one.value} label={one.label} />)}
           </datalist>
-          <select class="form-choose" aria-label={t.choose} title={t.choose} value="" onChange={(event) => put(event.currentTarget.value)}>
+          <select class="form-choose" aria-label={t.choose()} title={t.choose()} value="" onChange={(event) => put(event.currentTarget.value)}>
             <option value="" disabled hidden />
             {options.list.map(({ value, label = value }) => <option key={value} value={value}>{label.includes(value) ? label : `${value} – ${label}`}</option>)}
           </select>
@@ -135,7 +132,7 @@ function EmptyToggle({ asked, input, change }: ParameterFieldProps) {
       icon="empty"
       class="form-empty"
       aria-pressed={is_empty}
-      label={texts().send_empty(asked.name)}
+      label={t.send_empty(asked.name)}
       disabled={(input?.texts ?? []).some((text) => text !== '')}
       onClick={() => change(is_empty ? undefined : { texts: [], is_empty: true })}
     />

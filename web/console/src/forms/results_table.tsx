@@ -2,20 +2,19 @@ import type { Parameter, Results } from 'rois-client';
 
 import { Table } from '../ui';
 import { with_name } from './codebooks';
-import { exchange_texts } from './exchange_texts';
+import * as t from './exchange_texts';
 
 /** Results, or the parameters of a component: name, value, type. */
 export function ResultsTable({ label, results }: { label: string; results: Results }) {
-  const t = exchange_texts();
   return (
     <Table<Parameter>
       label={label}
       rows={results.parameters}
       key_of={(one) => one.name}
       columns={[
-        { id: 'name', title: t.name, cell: (one) => one.name },
-        { id: 'value', title: t.value, cell: (one) => <Values texts={results.texts(one.name).map((text) => with_name(one.data_type_ref.codebook_ref, text))} /> },
-        { id: 'type', title: t.type, cell: (one) => <span class="results-type" title={one.data_type_ref.codebook_ref}>{one.data_type_ref.code}</span> },
+        { id: 'name', title: t.name(), cell: (one) => one.name },
+        { id: 'value', title: t.value(), cell: (one) => <Values texts={results.texts(one.name).map((text) => with_name(one.data_type_ref.codebook_ref, text))} /> },
+        { id: 'type', title: t.type(), cell: (one) => <span class="results-type" title={one.data_type_ref.codebook_ref}>{one.data_type_ref.code}</span> },
       ]}
     />
   );

@@ -1,4 +1,4 @@
-import { in_both } from '../i18n/i18n';
+import { text, text_of } from '../i18n/i18n';
 import type { Kind, Problem } from './data_type';
 
 const kinds: Record<Kind, readonly [en: string, ja: string]> = {
@@ -14,25 +14,24 @@ const kinds: Record<Kind, readonly [en: string, ja: string]> = {
   stream_status: ['a status of streams', 'ストリームの状態'],
 };
 
-export const texts = in_both({
-  problem: (problem: Problem) => {
-    switch (problem.what) {
-      case 'missing': return ['This is needed.', '入力が必要です。'];
-      case 'either': return [`Either this or ${problem.other} is needed.`, `これか ${problem.other} のどちらかが必要です。`];
-      case 'not_of_kind': return [`This has to be ${kinds[problem.kind][0]}.`, `${kinds[problem.kind][1]}を入力してください。`];
-      case 'out_of_range': return [`This has to be between ${problem.least} and ${problem.most}.`, `${problem.least} から ${problem.most} までの値を入力してください。`];
-      case 'unwritable': return ['There is a character in it that XML cannot hold.', 'XML に書けない文字が含まれています。'];
-    }
-  },
-  of_type: (type: string) => [`Type ${type}.`, `型 ${type}。`],
-  preset: (value: string) => [`Default ${value}.`, `既定値 ${value}。`],
-  left_out: ['leave it out', '省略'],
-  now: (value: string) => [`now ${value}`, `現在 ${value}`],
-  position: ['x, y, th or a place', 'x, y, th または場所'],
-  item: (name: string, n: number) => [`${name}, item ${n}`, `${name} の ${n} 番目`],
-  choose: ['Choose from a list', '一覧から選ぶ'],
-  add: (name: string) => [`Add to ${name}`, `${name} に追加`],
-  remove: (name: string, n: number) => [`Remove item ${n} of ${name}`, `${name} の ${n} 番目を削除`],
-  send_empty: (name: string) => [`Send ${name} as empty`, `${name} を空で送る`],
-  is_empty: ['empty', '空'],
+export const problem = text_of((problem: Problem) => {
+  switch (problem.what) {
+    case 'missing': return ['This is needed.', '入力が必要です。'];
+    case 'either': return [`Either this or ${problem.other} is needed.`, `これか ${problem.other} のどちらかが必要です。`];
+    case 'not_of_kind': return [`This has to be ${kinds[problem.kind][0]}.`, `${kinds[problem.kind][1]}を入力してください。`];
+    case 'out_of_range': return [`This has to be between ${problem.least} and ${problem.most}.`, `${problem.least} から ${problem.most} までの値を入力してください。`];
+    case 'unwritable': return ['There is a character in it that XML cannot hold.', 'XML に書けない文字が含まれています。'];
+  }
 });
+export const of_type = text_of((type: string) => [`Type ${type}.`, `型 ${type}。`]);
+export const preset = text_of((value: string) => [`Default ${value}.`, `既定値 ${value}。`]);
+export const left_out = text('leave it out', '省略');
+export const now = text_of((value: string) => [`now ${value}`, `現在 ${value}`]);
+export const position = text('x, y, th or a place', 'x, y, th または場所');
+export const item = text_of((name: string, n: number) => [`${name}, item ${n}`, `${name} の ${n} 番目`]);
+export const choose = text('Choose from a list', '一覧から選ぶ');
+export const add = text_of((name: string) => [`Add to ${name}`, `${name} に追加`]);
+export const remove = text_of((name: string, n: number) => [`Remove item ${n} of ${name}`, `${name} の ${n} 番目を削除`]);
+export const send_empty = text_of((name: string) => [`Send ${name} as empty`, `${name} を空で送る`]);
+export const is_empty = text('empty', '空');
+

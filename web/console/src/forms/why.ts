@@ -4,13 +4,12 @@ import { pose_of } from 'rois-client';
 import type { CommandEntry } from '../state/commands_state';
 import type { Console } from '../state/console';
 import type { Bounds, FloorMap } from '../state/floor_map';
-import { exchange_texts } from './exchange_texts';
+import * as t from './exchange_texts';
 
 const most_errors = 3;
 
 /** Sentences, the most certain first: what the engine says, then what the console has found. */
 export function why(console: Console, entry: CommandEntry): string[] {
-  const t = exchange_texts();
   const said = entry.results?.parameters.filter((one) => one.name !== 'status').map((one) => `${one.name}: ${one.values.join('; ')}`) ?? [];
   if (entry.state === 'OK' || entry.state === 'waiting' || entry.state === 'running') return said;
   const errors = console.events.errors
@@ -30,7 +29,6 @@ export function misplaced({ map }: Console, entry: Pick<CommandEntry, 'arguments
 }
 
 function misplaced_text({ bounds, furniture }: FloorMap, text: string): string[] {
-  const t = exchange_texts();
   const pose = pose_of(text);
   if (!pose) return [];
   if (!is_inside(bounds, pose)) return [t.outside(text, `x ${bounds.x} … ${bounds.x + bounds.width}`, `y ${bounds.y} … ${bounds.y + bounds.depth}`)];
@@ -48,5 +46,5 @@ function in_use({ commands, profile }: Console, entry: CommandEntry): string[] {
     .filter((one) => one.component !== entry.component && profile.component(one.component)?.engine === engine)
     .filter((one) => one.sent_at <= (entry.ended_at ?? 0) && (one.ended_at ?? Infinity) >= (entry.ended_at ?? 0) && one.state !== 'waiting');
   const names = [...new Set(others.map((one) => `${one.component} ${one.command_type}`))];
-  return names.length === 0 ? [] : [exchange_texts().in_use(names.join(', '))];
+  return names.length === 0 ? [] : [t.in_use(names.join(', '))];
 }

@@ -1,53 +1,41 @@
 // The numbers that one looks at first.
-import type { ComponentChildren } from 'preact';
-
 import { bytes_text, count_text, duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
-import { texts as shell } from '../shell/texts';
-import { Badge, tone_of } from '../ui';
+import * as shell from '../shell/texts';
+import { Badge, Fact, tone_of } from '../ui';
 import { fresh_for, growth, latencies, type Series } from './series';
-import { texts } from './texts';
+import * as t from './texts';
 import { ms_text } from './plots';
 
 export function Figures() {
   const { link, metrics, traffic, now } = useConsole();
-  const t = texts();
   const { phase, since, reason } = link.view.value;
   const scrape = metrics.latest.value;
   const from = now.value - fresh_for;
   const number = (name: string) => {
     const value = scrape?.value(name);
-    return value === undefined ? t.none : count_text(value);
+    return value === undefined ? t.none() : count_text(value);
   };
-  const last = (series: Series, text: (value: number) => string) => (series.length === 0 ? t.none : text(series.at(-1)!.value));
+  const last = (series: Series, text: (value: number) => string) => (series.length === 0 ? t.none() : text(series.at(-1)!.value));
   const memory = scrape?.value('process_resident_memory_bytes');
   return (
     <>
       {metrics.trouble.value === '' && metrics.is_stale(now.value) && <p class="health-trouble">{t.stale(duration(now.value - scrape!.at))}</p>}
       {metrics.trouble.value !== '' && <p class="health-trouble">{t.metrics_trouble(metrics.trouble.value)}</p>}
       <dl class="health-figures">
-        <Figure name={t.link}>
-          <Badge tone={tone_of(phase)} title={reason}>{shell().phase(phase)}</Badge>
+        <Fact name={t.link()}>
+          <Badge tone={tone_of(phase)} title={reason}>{shell.phase(phase)}</Badge>
           <small>{t.since(Math.max(0, now.value - since))}</small>
-        </Figure>
-        <Figure name={t.latency}>{last(latencies(traffic.seconds, from).middle, ms_text)}</Figure>
-        <Figure name={t.requests}>{last(growth(metrics.history, from, (one) => one.value('rois_requests_total')), (n) => t.a_second(Math.round(n)))}</Figure>
-        <Figure name={t.sessions}>{number('rois_sessions')}</Figure>
-        <Figure name={t.connections}>{number('rois_connections')}</Figure>
-        <Figure name={t.components}>{number('rois_components')}</Figure>
-        <Figure name={t.memory}>{memory === undefined ? t.none : bytes_text(memory)}</Figure>
-        <Figure name={t.processor}>{last(growth(metrics.history, from, (one) => one.value('process_cpu_seconds_total')), (n) => t.share(Math.round(n * 100)))}</Figure>
-        <Figure name={t.files}>{number('process_open_fds')}</Figure>
+        </Fact>
+        <Fact name={t.latency()}>{last(latencies(traffic.seconds, from).middle, ms_text)}</Fact>
+        <Fact name={t.requests()}>{last(growth(metrics.history, from, (one) => one.value('rois_requests_total')), (n) => t.a_second(Math.round(n)))}</Fact>
+        <Fact name={t.sessions()}>{number('rois_sessions')}</Fact>
+        <Fact name={t.connections()}>{number('rois_connections')}</Fact>
+        <Fact name={t.components()}>{number('rois_components')}</Fact>
+        <Fact name={t.memory()}>{memory === undefined ? t.none() : bytes_text(memory)}</Fact>
+        <Fact name={t.processor()}>{last(growth(metrics.history, from, (one) => one.value('process_cpu_seconds_total')), (n) => t.share(Math.round(n * 100)))}</Fact>
+        <Fact name={t.files()}>{number('process_open_fds')}</Fact>
       </dl>
     </>
-  );
-}
-
-function Figure({ name, children }: { name: string; children: ComponentChildren }) {
-  return (
-    <div>
-      <dt>{name}</dt>
-      <dd>{children}</dd>
-    </div>
   );
 }

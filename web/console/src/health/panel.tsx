@@ -6,16 +6,15 @@ import { Figures } from './figures';
 import { ErrorLog } from './error_log';
 import { Plots } from './plots';
 import { Limits, Sessions, Troubles } from './tables';
-import { texts } from './texts';
+import * as t from './texts';
 
 export default function HealthPanel() {
   const { metrics, traffic, now } = useConsole();
-  const t = texts();
   useWatch(metrics.poll);
   useWatch(traffic.ping);
   return (
-    <div class={metrics.is_stale(now.value) ? 'health health-stale' : 'health'} role="region" aria-label={t.all} tabIndex={0}>
-      <h2 class="unseen">{t.title}</h2>
+    <div class={metrics.is_stale(now.value) ? 'health health-stale' : 'health'} role="region" aria-label={t.all()} tabIndex={0}>
+      <h2 class="unseen">{t.title()}</h2>
       <Figures />
       <Plots />
       <div class="health-tables">

@@ -8,7 +8,7 @@ import { Table } from '../ui';
 import { type Sheet, useDrawing } from '../ui/drawing';
 import { time_marks, value_marks } from '../ui/scales';
 import { fresh_for, highest, longest_gap, point_near, type Series, shown_for } from './series';
-import { texts } from './texts';
+import * as t from './texts';
 
 /** Lines differ in colour and in their dashes. */
 export type Ink = 'first' | 'second' | 'third';
@@ -36,7 +36,6 @@ const dashes: Record<Ink, number[]> = { first: [], second: [5, 3], third: [1.5, 
 const edge = { right: 8, top: 8, bottom: 18 };
 
 export function Plot({ title, lines, now, text, short, cursor }: PlotProps) {
-  const t = texts();
   void shown_theme.value;
   const from = now - shown_for;
   const pointed = cursor.value !== undefined && cursor.value >= from ? cursor.value : undefined;
@@ -58,7 +57,7 @@ export function Plot({ title, lines, now, text, short, cursor }: PlotProps) {
   const value_at = (line: Line) => {
     const last = line.series.at(-1);
     const point = pointed !== undefined ? point_near(line.series, pointed) : last && now - last.at <= fresh_for ? last : undefined;
-    return point === undefined ? t.none : text(point.value);
+    return point === undefined ? t.none() : text(point.value);
   };
   const told = lines.map((line) => `${line.name} ${value_at(line)}`).join(', ');
   return (
@@ -79,7 +78,7 @@ export function Plot({ title, lines, now, text, short, cursor }: PlotProps) {
         class="health-canvas"
         role="slider"
         tabIndex={0}
-        aria-label={`${title}: ${lines.map((line) => t.summary(line.name, line.series.length === 0 ? t.none : text(highest(line.series)!))).join('; ')}`}
+        aria-label={`${title}: ${lines.map((line) => t.summary(line.name, line.series.length === 0 ? t.none() : text(highest(line.series)!))).join('; ')}`}
         aria-orientation="horizontal"
         aria-valuemin={-shown_for / 1000}
         aria-valuemax={0}
@@ -92,7 +91,7 @@ export function Plot({ title, lines, now, text, short, cursor }: PlotProps) {
         {pointed !== undefined && <span class="health-time" aria-hidden="true">{clock_time(pointed, false)}</span>}
       </div>
       <details>
-        <summary>{t.as_table}</summary>
+        <summary>{t.as_table()}</summary>
         <Values title={title} lines={lines} now={now} text={text} />
       </details>
     </figure>
@@ -101,7 +100,7 @@ export function Plot({ title, lines, now, text, short, cursor }: PlotProps) {
 
 function Swatch({ ink }: { ink: Ink }) {
   return (
-    <svg class={`health-swatch health-${ink}`} width="18" height="8" aria-hidden="true">
+    <svg class={`health-swatch health-ink-${ink}`} width="18" height="8" aria-hidden="true">
       <path d="M0 4h18" stroke-dasharray={dashes[ink].join(' ') || 'none'} />
     </svg>
   );
@@ -109,7 +108,6 @@ function Swatch({ ink }: { ink: Ink }) {
 
 // Every five seconds, the newest first.
 function Values({ title, lines, now, text }: Pick<PlotProps, 'title' | 'lines' | 'now' | 'text'>) {
-  const t = texts();
   const times = Array.from({ length: 13 }, (_, i) => now - i * 5000);
   return (
     <Table
@@ -117,14 +115,14 @@ function Values({ title, lines, now, text }: Pick<PlotProps, 'title' | 'lines' |
       rows={times}
       key_of={(at) => Math.round((now - at) / 1000)}
       columns={[
-        { id: 'at', title: t.time, cell: (at) => clock_time(at, false) },
+        { id: 'at', title: t.time(), cell: (at) => clock_time(at, false) },
         ...lines.map((line) => ({
           id: line.name,
           title: line.name,
           numeric: true,
           cell: (at: number) => {
             const point = point_near(line.series, at);
-            return point ? text(point.value) : t.none;
+            return point ? text(point.value) : t.none();
           },
         })),
       ]}

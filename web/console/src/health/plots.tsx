@@ -7,11 +7,11 @@ import type { Scrape } from '../state/metrics_state';
 import type { Second } from '../state/traffic';
 import { Plot } from './plot';
 import { documents_a_second, growth, inside, latencies, shown_for } from './series';
-import { texts } from './texts';
+import * as t from './texts';
 
 /** With as many digits as say something. */
 export function ms_text(ms: number): string {
-  return texts().ms(Number(digits(ms)));
+  return t.ms(Number(digits(ms)));
 }
 
 function digits(value: number): string {
@@ -20,7 +20,6 @@ function digits(value: number): string {
 
 export function Plots() {
   const { traffic, metrics, now: clock } = useConsole();
-  const t = texts();
   const cursor = useSignal<number | undefined>(undefined);
   void language.value;
   void metrics.latest.value;
@@ -32,43 +31,43 @@ export function Plots() {
   const rate = { text: (n: number) => t.a_second(Number(digits(n))), short: count_text };
   const worst = worst_of([...traffic.seconds].filter((one) => one.at >= from));
   return (
-    <section class="health-plots" aria-label={t.plots}>
-      <h3>{t.plots}</h3>
+    <section class="health-plots" aria-label={t.plots()}>
+      <h3>{t.plots()}</h3>
       <div class="health-grid">
         <div>
           <Plot
-            title={t.latency_plot}
+            title={t.latency_plot()}
             now={now}
             cursor={cursor}
             text={ms_text}
             short={digits}
             lines={[
-              { name: t.middle, ink: 'first', series: middle },
-              { name: t.slowest, ink: 'second', series: slowest },
-              { name: t.inside, ink: 'third', series: inside(metrics.history, from) },
+              { name: t.middle(), ink: 'first', series: middle },
+              { name: t.slowest(), ink: 'second', series: slowest },
+              { name: t.inside(), ink: 'third', series: inside(metrics.history, from) },
             ]}
           />
           {worst && <p class="health-note">{t.slowest_was(asked(worst), ms_text(worst.took ?? 0))}</p>}
         </div>
         <Plot
-          title={t.gateway_plot}
+          title={t.gateway_plot()}
           now={now}
           cursor={cursor}
           {...rate}
           lines={[
-            { name: t.requests, ink: 'first', series: counted('rois_requests_total') },
-            { name: t.notifications, ink: 'second', series: counted('rois_notifications_delivered_total') },
-            { name: t.fired, ink: 'third', series: counted('rois_events_total') },
+            { name: t.requests(), ink: 'first', series: counted('rois_requests_total') },
+            { name: t.notifications(), ink: 'second', series: counted('rois_notifications_delivered_total') },
+            { name: t.fired(), ink: 'third', series: counted('rois_events_total') },
           ]}
         />
         <Plot
-          title={t.own_plot}
+          title={t.own_plot()}
           now={now}
           cursor={cursor}
           {...rate}
           lines={[
-            { name: t.sent, ink: 'first', series: own((one) => one.sent) },
-            { name: t.received, ink: 'second', series: own((one) => one.received) },
+            { name: t.sent(), ink: 'first', series: own((one) => one.sent) },
+            { name: t.received(), ink: 'second', series: own((one) => one.received) },
           ]}
         />
       </div>

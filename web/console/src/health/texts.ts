@@ -1,13 +1,13 @@
-import { type Both, count_text, duration, in_both } from '../i18n/i18n';
+import { type Both, count_text, duration, text, text_of } from '../i18n/i18n';
 
-const limits: Record<string, Both> = {
+const limit_names: Record<string, Both> = {
   sessions: ['Sessions', 'セッション'],
   connections: ['Connections', '接続'],
   commands: ['Commands of a session', 'セッションのコマンド'],
   subscribed_predicates: ['Predicates of a session', 'セッションの述語'],
   waiting_notifications: ['Waiting notifications of a session', 'セッションの未読通知'],
 };
-const troubles: Record<string, Both> = {
+const trouble_names: Record<string, Both> = {
   rois_faults_total: ['Messages that could not be taken', '受け付けられなかったメッセージ'],
   rois_commands_completed_total: ['Commands that ended otherwise than OK', 'OK 以外で終わったコマンド'],
   rois_requests_total: ['Operations that were refused', '拒否された操作'],
@@ -17,85 +17,84 @@ const troubles: Record<string, Both> = {
   rois_stray_component_answers_total: ['Late or stray answers of components', '遅れた、または宛先のないコンポーネントの応答'],
 };
 
-export const texts = in_both({
-  title: ['Health', '状態監視'],
-  all: ['Health of the link, the gateway and the session', '接続・ゲートウェイ・セッションの状態'],
-  none: '–',
-  link: ['Link', '接続'],
-  since: (ms: number) => [`for ${duration(ms)}`, `${duration(ms)}間`],
-  latency: ['Round trip', '往復時間'],
-  requests: ['Requests', '要求'],
-  sessions: ['Sessions', 'セッション'],
-  connections: ['Connections', '接続数'],
-  components: ['Components', 'コンポーネント'],
-  memory: ['Memory', 'メモリー'],
-  processor: ['Processor', 'プロセッサー'],
-  files: ['Open files', '開いたファイル'],
-  a_second: (n: number) => [`${count_text(n)} /s`, `毎秒 ${count_text(n)}`],
-  ms: (n: number) => [`${n} ms`, `${n} ミリ秒`],
-  share: (n: number) => `${n} %`,
-  metrics_trouble: (why: string) => [
-    `The gateway's numbers cannot be had: ${why}. What follows is as old as the last ones.`,
-    `ゲートウェイの数値を取得できません: ${why}。以下は最後に得た数値です。`,
-  ],
-  stale: (age: string) => [`The gateway's numbers are ${age} old.`, `ゲートウェイの数値は${age}前のものです。`],
-  no_metrics: ['The gateway has not told its numbers yet.', 'ゲートウェイの数値はまだありません。'],
-  plots: ['The last minute', '直近 1 分'],
-  latency_plot: ['How long answers take, ms', '応答にかかる時間（ミリ秒）'],
-  middle: ['Round trip', '往復時間'],
-  slowest: ['Slowest', '最も遅い応答'],
-  inside: ['In the gateway', 'ゲートウェイ内'],
-  slowest_was: (what: string, ms: string) => [`Slowest in the last minute: ${what}, ${ms}.`, `直近 1 分で最も遅い応答: ${what}、${ms}。`],
-  gateway_plot: ['The gateway, a second', 'ゲートウェイ（毎秒）'],
-  notifications: ['Notifications', '通知'],
-  fired: ['Events', 'イベント'],
-  own_plot: ['This console, a second', 'このコンソール（毎秒）'],
-  sent: ['Sent', '送信'],
-  received: ['Received', '受信'],
-  summary: (line: string, most: string) => [`${line} at most ${most}`, `${line} 最大 ${most}`],
-  as_table: ['As a table', '表で見る'],
-  values_of: (plot: string) => [`${plot}: values`, `${plot}: 値`],
-  time: ['Time', '時刻'],
-  session: ['Session', 'セッション'],
-  mine: ['this console', 'このコンソール'],
-  age: ['Age', '経過'],
-  bound: ['Has bound', 'バインド中'],
-  commands: ['Commands', 'コマンド'],
-  subscriptions: ['Subscriptions', '購読'],
-  waiting: ['Unread', '未読'],
-  nothing_bound: ['nothing', 'なし'],
-  sessions_untold: (n: string) => [
-    `The gateway has ${n} sessions and does not tell more of them. This console has bound:`,
-    `ゲートウェイのセッションは ${n} 件で、詳しい情報はありません。このコンソールのバインド:`,
-  ],
-  limits: ['Limits', '上限'],
-  limit: ['Limit', '上限の種類'],
-  limit_name: (name: string) => limits[name] ?? name,
-  now: ['Now', '現在'],
-  most: ['At most', '上限値'],
-  reached: ['Reached', '到達'],
-  never: ['never', 'なし'],
-  times: (n: number) => [`${count_text(n)} ${n === 1 ? 'time' : 'times'}`, `${count_text(n)} 回`],
-  lately: (n: number) => [`${count_text(n)} lately`, `最近 ${count_text(n)}`],
-  limits_untold: ['This gateway does not tell its limits.', 'このゲートウェイは上限を知らせません。'],
-  troubles: ['What went wrong since the gateway began', 'ゲートウェイ開始以降の問題'],
-  trouble_name: (name: string) => troubles[name] ?? name,
-  what: ['What', '内容'],
-  detail: ['Which', '種類'],
-  count: ['Count', '件数'],
-  in_minutes: ['Last two minutes', '直近 2 分'],
-  no_troubles: ['Nothing.', 'ありません。'],
-  log: ['Log of errors', 'エラーの記録'],
-  no_log: ['This session was told of no error.', 'このセッションにエラーの通知はありません。'],
-  error: ['Error', 'エラー'],
-  missed: ['Missed', '受信漏れ'],
-  refused: ['Refused', '拒否'],
-  command: ['Command', 'コマンド'],
-  gap_lost: (n: number) => [`${count_text(n)} notifications were lost`, `通知 ${count_text(n)} 件を失いました`],
-  gap_session: ['The session was lost', 'セッションを失いました'],
-  older: (n: number) => [`Show ${count_text(n)} older`, `さらに古い ${count_text(n)} 件を表示`],
-  details: ['Details', '詳細'],
-  no_details: ['The engine says no more.', 'エンジンからの詳しい情報はありません。'],
-  request: ['The request', '要求'],
-  document: ['The document', '文書'],
-});
+export const title = text('Health', '状態監視');
+export const all = text('Health of the link, the gateway and the session', '接続・ゲートウェイ・セッションの状態');
+export const none = text('–');
+export const link = text('Link', '接続');
+export const since = text_of((ms: number) => [`for ${duration(ms)}`, `${duration(ms)}間`]);
+export const latency = text('Round trip', '往復時間');
+export const requests = text('Requests', '要求');
+export const sessions = text('Sessions', 'セッション');
+export const connections = text('Connections', '接続数');
+export const components = text('Components', 'コンポーネント');
+export const memory = text('Memory', 'メモリー');
+export const processor = text('Processor', 'プロセッサー');
+export const files = text('Open files', '開いたファイル');
+export const a_second = text_of((n: number) => [`${count_text(n)} /s`, `毎秒 ${count_text(n)}`]);
+export const ms = text_of((n: number) => [`${n} ms`, `${n} ミリ秒`]);
+export const share = text_of((n: number) => `${n} %`);
+export const metrics_trouble = text_of((why: string) => [
+  `The gateway's numbers cannot be had: ${why}. What follows is as old as the last ones.`,
+  `ゲートウェイの数値を取得できません: ${why}。以下は最後に得た数値です。`,
+]);
+export const stale = text_of((age: string) => [`The gateway's numbers are ${age} old.`, `ゲートウェイの数値は${age}前のものです。`]);
+export const no_metrics = text('The gateway has not told its numbers yet.', 'ゲートウェイの数値はまだありません。');
+export const plots = text('The last minute', '直近 1 分');
+export const latency_plot = text('How long answers take, ms', '応答にかかる時間（ミリ秒）');
+export const middle = text('Round trip', '往復時間');
+export const slowest = text('Slowest', '最も遅い応答');
+export const inside = text('In the gateway', 'ゲートウェイ内');
+export const slowest_was = text_of((what: string, ms: string) => [`Slowest in the last minute: ${what}, ${ms}.`, `直近 1 分で最も遅い応答: ${what}、${ms}。`]);
+export const gateway_plot = text('The gateway, a second', 'ゲートウェイ（毎秒）');
+export const notifications = text('Notifications', '通知');
+export const fired = text('Events', 'イベント');
+export const own_plot = text('This console, a second', 'このコンソール（毎秒）');
+export const sent = text('Sent', '送信');
+export const received = text('Received', '受信');
+export const summary = text_of((line: string, most: string) => [`${line} at most ${most}`, `${line} 最大 ${most}`]);
+export const as_table = text('As a table', '表で見る');
+export const values_of = text_of((plot: string) => [`${plot}: values`, `${plot}: 値`]);
+export const time = text('Time', '時刻');
+export const session = text('Session', 'セッション');
+export const mine = text('this console', 'このコンソール');
+export const age = text('Age', '経過');
+export const bound = text('Has bound', 'バインド中');
+export const commands = text('Commands', 'コマンド');
+export const subscriptions = text('Subscriptions', '購読');
+export const waiting = text('Unread', '未読');
+export const nothing_bound = text('nothing', 'なし');
+export const sessions_untold = text_of((n: string) => [
+  `The gateway has ${n} sessions and does not tell more of them. This console has bound:`,
+  `ゲートウェイのセッションは ${n} 件で、詳しい情報はありません。このコンソールのバインド:`,
+]);
+export const limits = text('Limits', '上限');
+export const limit = text('Limit', '上限の種類');
+export const limit_name = text_of((name: string) => limit_names[name] ?? name);
+export const now = text('Now', '現在');
+export const most = text('At most', '上限値');
+export const reached = text('Reached', '到達');
+export const never = text('never', 'なし');
+export const times = text_of((n: number) => [`${count_text(n)} ${n === 1 ? 'time' : 'times'}`, `${count_text(n)} 回`]);
+export const lately = text_of((n: number) => [`${count_text(n)} lately`, `最近 ${count_text(n)}`]);
+export const limits_untold = text('This gateway does not tell its limits.', 'このゲートウェイは上限を知らせません。');
+export const troubles = text('What went wrong since the gateway began', 'ゲートウェイ開始以降の問題');
+export const trouble_name = text_of((name: string) => trouble_names[name] ?? name);
+export const what = text('What', '内容');
+export const detail = text('Which', '種類');
+export const count = text('Count', '件数');
+export const in_minutes = text('Last two minutes', '直近 2 分');
+export const no_troubles = text('Nothing.', 'ありません。');
+export const log = text('Log of errors', 'エラーの記録');
+export const no_log = text('This session was told of no error.', 'このセッションにエラーの通知はありません。');
+export const error = text('Error', 'エラー');
+export const missed = text('Missed', '受信漏れ');
+export const refused = text('Refused', '拒否');
+export const command = text('Command', 'コマンド');
+export const gap_lost = text_of((n: number) => [`${count_text(n)} notifications were lost`, `通知 ${count_text(n)} 件を失いました`]);
+export const gap_session = text('The session was lost', 'セッションを失いました');
+export const older = text_of((n: number) => [`Show ${count_text(n)} older`, `さらに古い ${count_text(n)} 件を表示`]);
+export const details = text('Details', '詳細');
+export const no_details = text('The engine says no more.', 'エンジンからの詳しい情報はありません。');
+export const request = text('The request', '要求');
+export const document = text('The document', '文書');
+

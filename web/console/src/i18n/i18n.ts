@@ -12,22 +12,22 @@ export const language = signal<Language>('en');
 
 /** A text in English and in Japanese, or the one text that is right in both. */
 export type Both = readonly [en: string, ja: string] | string;
-type Entry = Both | ((...given: never[]) => Both);
-type Said<T> = { [Key in keyof T]: T[Key] extends (...given: infer Given) => Both ? (...given: Given) => string : string };
 
 /**
- * The texts of a part: `export const texts = in_both({ title: ['Health', '状態監視'], ... })`. A component calls `texts()` while it renders,
- * and is rendered again when the language changes. What depends on numbers or names is a function.
+ * Texts of the page are exported by the `texts.ts` of a part: `export const title = text('Health', '状態監視')`. A component calls them while
+ * it renders, `t.title()`, and is rendered again when the language changes.
  */
-export function in_both<T extends Record<string, Entry>>(all: T): () => Said<T> {
-  const [en, ja] = [said(all, 0), said(all, 1)];
-  return () => (language.value === 'ja' ? ja : en);
+export function text(en: string, ja = en): () => string {
+  return () => said([en, ja]);
 }
 
-function said<T extends Record<string, Entry>>(all: T, nth: 0 | 1): Said<T> {
-  const pick = (text: Both) => (typeof text === 'string' ? text : text[nth]);
-  const entries = Object.entries(all as Record<string, Entry>);
-  return Object.fromEntries(entries.map(([key, text]) => [key, typeof text === 'function' ? (...given: never[]) => pick(text(...given)) : pick(text)])) as Said<T>;
+/** A text that depends on numbers or names: `text_of((n: number) => [`${n} a second`, `毎秒 ${n}`])`. */
+export function text_of<Given extends unknown[]>(made: (...given: Given) => Both): (...given: Given) => string {
+  return (...given) => said(made(...given));
+}
+
+function said(both: Both): string {
+  return typeof both === 'string' ? both : both[language.value === 'ja' ? 1 : 0];
 }
 
 /** The language that the browser wishes for, among those that there are. */

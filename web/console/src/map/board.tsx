@@ -4,12 +4,13 @@ import { useEffect, useMemo, useRef } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
 import { shown_theme } from '../shell/theme';
+import { watch_size } from '../ui';
 import { Drawing } from './drawing';
 import { is_map_key } from './interaction';
 import { read_palette } from './palette';
 import { age, metres, position } from './says';
 import { session_of } from './session';
-import { texts } from './texts';
+import * as texts from './texts';
 import type { Point } from './view';
 
 export interface BoardProps {
@@ -91,13 +92,13 @@ export function Board({ begun, pointed, send }: BoardProps) {
   function spoken(): string {
     const { cursor } = session.interaction.value;
     if (!cursor) return '';
-    const near = drawing.current!.near(cursor).slice(0, 3).map((one) => texts().near(one.name, metres(Math.hypot(one.x - cursor.x, one.y - cursor.y), 1)));
+    const near = drawing.current!.near(cursor).slice(0, 3).map((one) => texts.near(one.name, metres(Math.hypot(one.x - cursor.x, one.y - cursor.y), 1)));
     return [position(cursor), ...near].join('; ');
   }
 
   return (
     <>
-      <canvas ref={element} class="map-canvas" tabIndex={0} role="application" aria-label={texts().canvas} onKeyDown={pressed} {...pointers} />
+      <canvas ref={element} class="map-canvas" tabIndex={0} role="application" aria-label={texts.canvas()} onKeyDown={pressed} {...pointers} />
       <p class="unseen" role="status">
         {said.value}
       </p>
@@ -107,9 +108,7 @@ export function Board({ begun, pointed, send }: BoardProps) {
 
 function follow_size(canvas: HTMLCanvasElement, drawing: Drawing): () => void {
   const measure = () => drawing.resize({ width: canvas.clientWidth, height: canvas.clientHeight }, devicePixelRatio);
-  const observer = new ResizeObserver(measure);
-  observer.observe(canvas);
-  return () => observer.disconnect();
+  return watch_size(canvas, measure);
 }
 
 function follow_query(query: string, told: (is_so: boolean) => void): () => void {

@@ -5,14 +5,14 @@ import { value } from 'rois-client';
 
 import { useConsole } from '../shell/context';
 import { show_component } from '../shell/layout';
-import { Button, error_text, IconButton, SelectField, TextField } from '../ui';
+import { Button, error_text, Fact, Form, IconButton, SelectField, TextField } from '../ui';
 import { type Driver, follow, go, motions_of, stop, target_text } from './driving';
 import { distance, obstacle_at, turned } from '../state/floor';
 import type { Target } from './interaction';
 import { age, certainty, degrees, metres, position } from './says';
 import type { Shown } from './scene';
 import { session_of } from './session';
-import { texts } from './texts';
+import * as t from './texts';
 
 const no_radius = 250; // mm
 
@@ -38,7 +38,7 @@ function Card({ title, close, children }: { title: string; close: () => void; ch
     <section class="map-card" aria-label={title}>
       <header class="map-card-head">
         <h3>{title}</h3>
-        <IconButton small icon="close" label={texts().close} onClick={close} />
+        <IconButton small icon="close" label={t.close()} onClick={close} />
       </header>
       {children}
     </section>
@@ -51,7 +51,7 @@ function DriverChoice() {
   const all = session.drivers();
   if (all.length < 2) return null;
   const choices = all.map((one) => ({ value: one.engine, label: one.name }));
-  return <SelectField label={texts().robot} value={session.driver()?.engine ?? ''} choices={choices} change={(engine) => (session.engine.value = engine)} />;
+  return <SelectField label={t.robot()} value={session.driver()?.engine ?? ''} choices={choices} change={(engine) => (session.engine.value = engine)} />;
 }
 
 export interface Sending {
@@ -86,7 +86,6 @@ function seconds_of(text: string): number | undefined {
 export function TargetCard({ target, sending }: { target: Target; sending: Sending }) {
   const console = useConsole();
   const session = session_of(console);
-  const t = texts();
   const driver = session.driver();
   const map = session.map;
   const put = (to: Target | undefined) => (session.interaction.value = { ...session.interaction.value, target: to });
@@ -94,7 +93,7 @@ export function TargetCard({ target, sending }: { target: Target; sending: Sendi
   const robot = session.scene().shown.find((one) => one.key === `robot ${driver?.robot?.ref}`);
   const blocked = target.place === undefined ? obstacle_at(map, target, radius) : undefined;
   const limit = seconds_of(session.time_limit.value);
-  const places = [{ value: '', label: t.point }, ...(map?.places ?? []).map(({ name }) => ({ value: name, label: name }))];
+  const places = [{ value: '', label: t.point() }, ...(map?.places ?? []).map(({ name }) => ({ value: name, label: name }))];
   const choose = (name: string) => {
     const place = map?.places.find((one) => one.name === name);
     put(place ? { x: place.x, y: place.y, th: place.heading, place: name } : { x: target.x, y: target.y, ...(target.th !== undefined && { th: target.th }) });
@@ -102,40 +101,34 @@ export function TargetCard({ target, sending }: { target: Target; sending: Sendi
   if (!driver?.navigation)
     return (
       <Card title={position(target)} close={() => put(undefined)}>
-        <p>{t.no_navigation}</p>
+        <p>{t.no_navigation()}</p>
       </Card>
     );
   return (
     <Card title={t.send_title(driver.name)} close={() => put(undefined)}>
-      <form
-        class="map-form"
-        onSubmit={(event) => {
-          event.preventDefault();
-          sending.send?.();
-        }}
-      >
+      <Form class="map-form" submit={sending.send}>
         <DriverChoice />
-        {places.length > 1 && <SelectField label={t.place} value={target.place ?? ''} choices={places} change={choose} />}
+        {places.length > 1 && <SelectField label={t.place()} value={target.place ?? ''} choices={places} change={choose} />}
         <div class="map-pose">
           <NumberField label="x" unit="m" text={(target.x / 1000).toFixed(2)} put={(x) => x !== undefined && put(moved(target, { x: Math.round(x * 1000) }))} />
           <NumberField label="y" unit="m" text={(target.y / 1000).toFixed(2)} put={(y) => y !== undefined && put(moved(target, { y: Math.round(y * 1000) }))} />
-          <NumberField label={t.direction} unit="°" text={target.th === undefined ? '' : String(target.th)} hint={target.th === undefined ? t.as_it_arrives : t.turn_hint} put={(th) => put(th === undefined ? { x: target.x, y: target.y } : { x: target.x, y: target.y, th: Math.round(turned(th)) })} />
+          <NumberField label={t.direction()} unit="°" text={target.th === undefined ? '' : String(target.th)} hint={target.th === undefined ? t.as_it_arrives() : t.turn_hint()} put={(th) => put(th === undefined ? { x: target.x, y: target.y } : { x: target.x, y: target.y, th: Math.round(turned(th)) })} />
         </div>
-        {target.th === undefined && <p class="field-hint">{t.turn_hint}</p>}
-        <TextField label={t.give_up} unit="s" value={session.time_limit.value} change={(to) => (session.time_limit.value = to)} error={limit === undefined ? t.no_number : undefined} input={{ inputMode: 'numeric', placeholder: t.never }} />
+        {target.th === undefined && <p class="field-hint">{t.turn_hint()}</p>}
+        <TextField label={t.give_up()} unit="s" value={session.time_limit.value} change={(to) => (session.time_limit.value = to)} error={limit === undefined ? t.no_number() : undefined} input={{ inputMode: 'numeric', placeholder: t.never() }} />
         <p class="map-fact">
-          {robot && t.straight(metres(distance(robot, target), 1))} <span>{t.sent_as} <code>{target_text(target)}</code></span>
+          {robot && t.straight(metres(distance(robot, target), 1))} <span>{t.sent_as()} <code>{target_text(target)}</code></span>
         </p>
         {blocked && <p class="map-warning">{t.blocked(blocked)}</p>}
         {sending.trouble}
-        {!console.link.is_open && <p class="map-warning">{t.unlinked}</p>}
+        {!console.link.is_open && <p class="map-warning">{t.unlinked()}</p>}
         <div class="map-actions">
-          <Button type="submit" look="primary" icon="send" busy={sending.is_busy} disabled={!sending.send} title={t.turn_hint}>
-            {t.send}
+          <Button type="submit" look="primary" icon="send" busy={sending.is_busy} disabled={!sending.send} title={t.turn_hint()}>
+            {t.send()}
           </Button>
-          <Button onClick={() => put(undefined)}>{t.cancel}</Button>
+          <Button onClick={() => put(undefined)}>{t.cancel()}</Button>
         </div>
-      </form>
+      </Form>
     </Card>
   );
 }
@@ -160,7 +153,7 @@ function NumberField({ label, unit, text, hint, put }: { label: string; unit: st
       unit={unit}
       value={draft.value ?? text}
       change={change}
-      error={is_wrong ? texts().no_number : undefined}
+      error={is_wrong ? t.no_number() : undefined}
       input={{ inputMode: 'decimal', placeholder: '–', title: hint ?? '', onBlur: () => (draft.value = undefined) }}
     />
   );
@@ -169,7 +162,6 @@ function NumberField({ label, unit, text, hint, put }: { label: string; unit: st
 export function ThingCard({ thing, close }: { thing: Shown; close: () => void }) {
   const console = useConsole();
   const session = session_of(console);
-  const t = texts();
   const driver = session.driver();
   const own = session.drivers().find((one) => thing.kind === 'robot' && one.robot?.ref === thing.thing.ref);
   const { ellipse, identity, th } = thing;
@@ -177,26 +169,17 @@ export function ThingCard({ thing, close }: { thing: Shown; close: () => void })
   return (
     <Card title={`${t.kind(thing.kind)} ${thing.name}`} close={close}>
       <dl class="map-facts">
-        {thing.kind === 'person' && <Fact name={t.name}>{identity ? t.identified(thing.thing.ref) : t.unidentified}</Fact>}
-        <Fact name={t.state}>{t.freshness(thing.freshness, thing.kind)}{thing.freshness !== 'live' && ` (${t.ago(age(thing.age))})`}</Fact>
-        <Fact name={t.position}>{position(thing)}</Fact>
-        {th !== undefined && <Fact name={t.direction}>{degrees(th)}</Fact>}
-        <Fact name={t.certainty}>{ellipse ? certainty(ellipse) : t.uncertain}</Fact>
-        <Fact name={t.told_by}><ComponentLink component={thing.thing.component} /></Fact>
-        {thing.frame && <Fact name={t.own_frame}><code>{thing.frame.crs}</code></Fact>}
-        {others?.robot && <Fact name={t.distance}>{t.near(others.name, metres(distance(others.robot, thing), 1))}</Fact>}
+        {thing.kind === 'person' && <Fact name={t.name()}>{identity ? t.identified(thing.thing.ref) : t.unidentified()}</Fact>}
+        <Fact name={t.state()}>{t.freshness(thing.freshness, thing.kind)}{thing.freshness !== 'live' && ` (${t.ago(age(thing.age))})`}</Fact>
+        <Fact name={t.position()}>{position(thing)}</Fact>
+        {th !== undefined && <Fact name={t.direction()}>{degrees(th)}</Fact>}
+        <Fact name={t.certainty()}>{ellipse ? certainty(ellipse) : t.uncertain()}</Fact>
+        <Fact name={t.told_by()}><ComponentLink component={thing.thing.component} /></Fact>
+        {thing.frame && <Fact name={t.own_frame()}><code>{thing.frame.crs}</code></Fact>}
+        {others?.robot && <Fact name={t.distance()}>{t.near(others.name, metres(distance(others.robot, thing), 1))}</Fact>}
       </dl>
       {own ? <OwnRobot driver={own} /> : others && thing.kind !== 'sound' && <Pursuit driver={others} thing={thing} close={close} />}
     </Card>
-  );
-}
-
-function Fact({ name, children }: { name: string; children: ComponentChildren }) {
-  return (
-    <div>
-      <dt>{name}</dt>
-      <dd>{children}</dd>
-    </div>
   );
 }
 
@@ -220,14 +203,14 @@ function OwnRobot({ driver }: { driver: Driver }) {
     <>
       {voice !== undefined && <Speaking voice={voice} />}
       <details class="map-commands">
-        <summary>{texts().commands}</summary>
+        <summary>{t.commands()}</summary>
         <ul class="plain-list">{those.map(({ ref }) => <li key={ref}><ComponentLink component={ref} /></li>)}</ul>
       </details>
       {deed.trouble}
       {motions_of(console, driver).length > 0 && (
         <div class="map-actions">
           <Button look="danger" icon="stop" busy={deed.is_busy} onClick={() => deed.run(() => stop(console, driver))}>
-            {texts().stop_robot(driver.name)}
+            {t.stop_robot(driver.name)}
           </Button>
         </div>
       )}
@@ -238,7 +221,6 @@ function OwnRobot({ driver }: { driver: Driver }) {
 // A sentence, said at once.
 function Speaking({ voice }: { voice: string }) {
   const console = useConsole();
-  const t = texts();
   const deed = useDeed();
   const words = useSignal('');
   const say = async () => {
@@ -250,54 +232,42 @@ function Speaking({ voice }: { voice: string }) {
     throw new Error((entry && (await console.commands.fetch_results(entry))?.text('reason')) || status);
   };
   return (
-    <form
-      class="map-form"
-      onSubmit={(event) => {
-        event.preventDefault();
-        if (words.value.trim() !== '') deed.run(say);
-      }}
-    >
-      <TextField label={t.speak} value={words.value} change={(to) => (words.value = to)} input={{ enterkeyhint: 'send', placeholder: t.speak_hint }} />
+    <Form class="map-form" submit={() => words.value.trim() !== '' && deed.run(say)}>
+      <TextField label={t.speak()} value={words.value} change={(to) => (words.value = to)} input={{ enterkeyhint: 'send', placeholder: t.speak_hint() }} />
       {deed.trouble}
       <div class="map-actions">
-        <Button type="submit" look="primary" icon="messages" busy={deed.is_busy} disabled={!console.link.is_open || words.value.trim() === ''}>{t.speak}</Button>
+        <Button type="submit" look="primary" icon="messages" busy={deed.is_busy} disabled={!console.link.is_open || words.value.trim() === ''}>{t.speak()}</Button>
       </div>
-    </form>
+    </Form>
   );
 }
 
 function Pursuit({ driver, thing, close }: { driver: Driver; thing: Shown; close: () => void }) {
   const console = useConsole();
   const session = session_of(console);
-  const t = texts();
   const deed = useDeed();
   const gap = Number(session.gap.value);
   const is_number = session.gap.value.trim() !== '' && Number.isFinite(gap) && gap > 0;
   const go_there = () => (session.interaction.value = { ...session.interaction.value, chosen: undefined, target: { x: Math.round(thing.x), y: Math.round(thing.y) } });
+  const pursue = () => is_number && driver.follow && deed.run(() => follow(console, driver, thing, Math.round(gap * 1000)).then(close)); // the map says it, and has a button to stop it
   return (
-    <form
-      class="map-form"
-      onSubmit={(event) => {
-        event.preventDefault();
-        if (is_number && driver.follow) deed.run(() => follow(console, driver, thing, Math.round(gap * 1000)).then(close)); // the map says it, and has a button to stop it
-      }}
-    >
+    <Form class="map-form" submit={pursue}>
       <DriverChoice />
       {driver.follow ? (
-        <TextField label={t.gap} unit="m" value={session.gap.value} change={(to) => (session.gap.value = to)} error={is_number ? undefined : t.no_number} input={{ inputMode: 'decimal' }} />
+        <TextField label={t.gap()} unit="m" value={session.gap.value} change={(to) => (session.gap.value = to)} error={is_number ? undefined : t.no_number()} input={{ inputMode: 'decimal' }} />
       ) : (
-        <p>{t.no_follow}</p>
+        <p>{t.no_follow()}</p>
       )}
       {deed.trouble}
       <div class="map-actions">
         {driver.follow && (
           <Button type="submit" look="primary" icon="person" busy={deed.is_busy} disabled={!console.link.is_open || !is_number} title={t.follow_whom(thing.name)}>
-            {t.follow}
+            {t.follow()}
           </Button>
         )}
-        {driver.navigation && <Button icon="send" onClick={go_there}>{t.go_there}</Button>}
-        {driver.navigation && driver.follow && <p class="field-hint">{t.follow_or_go}</p>}
+        {driver.navigation && <Button icon="send" onClick={go_there}>{t.go_there()}</Button>}
+        {driver.navigation && driver.follow && <p class="field-hint">{t.follow_or_go()}</p>}
       </div>
-    </form>
+    </Form>
   );
 }

@@ -138,10 +138,10 @@ export class Drawing {
     const around = this.is_coarse ? reach.coarse : reach.fine;
     const { target } = this.session.interaction.value;
     if (target) {
-      const th = ((target.th ?? this.arrival(target)) * Math.PI) / 180;
+      const th = target.th ?? this.arrival(target);
       const size = this.driven_radius() * view.scale;
-      const away = knob_distance(size) / view.scale;
-      const knob = { x: target.x + away * Math.cos(th), y: target.y + away * Math.sin(th) };
+      const away = knob_distance(size, to_screen(view, this.size, target), th, this.size) / view.scale;
+      const knob = { x: target.x + away * Math.cos((th * Math.PI) / 180), y: target.y + away * Math.sin((th * Math.PI) / 180) };
       if (reached(knob, 7 + around) || reached(target, Math.max(12, size))) return { what: 'target' };
     }
     const pen = { length: (mm: number) => mm * view.scale };

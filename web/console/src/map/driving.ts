@@ -9,7 +9,7 @@ import type { Robot } from '../state/things';
 import type { Target } from './interaction';
 import type { Shown } from './scene';
 import { target_words } from './says';
-import { texts } from './texts';
+import * as texts from './texts';
 
 /** A robot, and the components of its engine that share its wheels. */
 export interface Driver {
@@ -49,14 +49,14 @@ export function target_text({ x, y, th, place }: Target): string {
 export async function go(console: Console, driver: Driver, target: Target, time_limit: number): Promise<void> {
   const named = { target_position: value.strings([target_text(target)]), time_limit: value.int(time_limit) };
   const said = target_words(target);
-  await drive(console, driver, driver.navigation!, named, said, texts().going(driver.name, said), texts().arrived(driver.name, said));
+  await drive(console, driver, driver.navigation!, named, said, texts.going(driver.name, said), texts.arrived(driver.name, said));
 }
 
 /** Has it follow somebody, by the permanent name when it is known. */
 export async function follow(console: Console, driver: Driver, { thing, identity, name }: Shown, distance: number): Promise<void> {
   const { ref: code, codebook } = identity ?? thing;
   const whom = value.identifier(codebook === '' ? code : { code, codebook_ref: codebook });
-  await drive(console, driver, driver.follow!, { target_object_ref: whom, distance: value.int(distance) }, name, texts().following(driver.name, name), texts().followed(driver.name, name));
+  await drive(console, driver, driver.follow!, { target_object_ref: whom, distance: value.int(distance) }, name, texts.following(driver.name, name), texts.followed(driver.name, name));
 }
 
 /** Stops what this console has it do. */
@@ -80,7 +80,7 @@ async function drive(console: Console, driver: Driver, ref: string, named: Param
   const halt = () => {
     if (entry && !has_ended(entry)) stop(console, driver).catch((error: unknown) => notices.tell('error', error_text(error)));
   };
-  const notice = notices.tell('info', begun, { about, action: { label: texts().stop, act: halt } });
+  const notice = notices.tell('info', begun, { about, action: { label: texts.stop(), act: halt } });
   ends.then(
     async ([status]) => {
       notices.dismiss(notice);
@@ -91,8 +91,8 @@ async function drive(console: Console, driver: Driver, ref: string, named: Param
           console.selection.document.value = entry?.completed;
           show_panel('messages');
         };
-        notices.tell('error', texts().failed(whither), { about, detail: reason || status!, action: { label: texts().why, act: open } });
-      } else if (motions_of(console, driver).length === 0) notices.tell('info', texts().stopped(driver.name), { about });
+        notices.tell('error', texts.failed(whither), { about, detail: reason || status!, action: { label: texts.why(), act: open } });
+      } else if (motions_of(console, driver).length === 0) notices.tell('info', texts.stopped(driver.name), { about });
     },
     () => notices.dismiss(notice), // the session is gone; the link says so
   );

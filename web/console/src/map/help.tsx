@@ -1,47 +1,39 @@
 // How the map is worked with, and what its signs mean.
-import { Dialog } from '../ui';
-import { texts } from './texts';
+import { Dialog, Fact } from '../ui';
+import * as t from './texts';
 
 export function Help({ open, close }: { open: boolean; close: () => void }) {
-  const t = texts();
   const keys: [string[], string][] = [
-    [['←', '→', '↑', '↓'], t.key_arrows],
-    [['Enter'], t.key_enter],
-    [['Q', 'E'], t.key_turn],
-    [['Ctrl+Enter'], t.key_send],
-    [['N', 'P'], t.key_step],
-    [['+', '−', '0'], t.key_zoom],
-    [['Esc'], t.key_escape],
+    [['←', '→', '↑', '↓'], t.key_arrows()],
+    [['Enter'], t.key_enter()],
+    [['Q', 'E'], t.key_turn()],
+    [['Ctrl+Enter'], t.key_send()],
+    [['N', 'P'], t.key_step()],
+    [['+', '−', '0'], t.key_zoom()],
+    [['Esc'], t.key_escape()],
   ];
   const signs = [
     ['robot', t.kind('robot')],
     ['person', t.kind('person')],
-    ['known', `${t.kind('person')}, ${t.sign_known}`],
+    ['known', `${t.kind('person')}, ${t.sign_known()}`],
     ['face', t.kind('face')],
     ['sound', t.kind('sound')],
-    ['gone', t.sign_gone],
+    ['gone', t.sign_gone()],
   ] as const;
   return (
-    <Dialog title={t.help_title} open={open} close={close}>
+    <Dialog title={t.help_title()} open={open} close={close}>
       <div class="map-help">
-        <h3>{t.pointers}</h3>
-        <p>{t.pointer_click}</p>
-        <p>{t.pointer_aim}</p>
-        <p>{t.pointer_pan}</p>
-        <h3>{t.keys}</h3>
+        <h3>{t.pointers()}</h3>
+        <p>{t.pointer_click()}</p>
+        <p>{t.pointer_aim()}</p>
+        <p>{t.pointer_pan()}</p>
+        <h3>{t.keys()}</h3>
         <dl class="map-keys">
           {keys.map(([those, what]) => (
-            <div key={what}>
-              <dt>
-                {those.map((key) => (
-                  <kbd key={key}>{key}</kbd>
-                ))}
-              </dt>
-              <dd>{what}</dd>
-            </div>
+            <Fact key={what} name={those.map((key) => <kbd key={key}>{key}</kbd>)}>{what}</Fact>
           ))}
         </dl>
-        <h3>{t.signs}</h3>
+        <h3>{t.signs()}</h3>
         <ul class="map-signs">
           {signs.map(([sign, what]) => (
             <li key={sign}>

@@ -5,12 +5,11 @@ import { motions_of, stop } from './driving';
 import { type Goal, goals_of, useGoals } from './goals';
 import { age } from './says';
 import { session_of } from './session';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function Motions() {
   const console = useConsole();
   const session = session_of(console);
-  const t = texts();
   useGoals();
   void console.now.value;
   const goals = goals_of(console, session.scene().shown);
@@ -27,7 +26,7 @@ export function Motions() {
           <span>{words(driver.name, goal)}</span>
           {motion ? (
             <>
-              <span class="map-soft">{motion.state === 'waiting' ? t.waits : age(console.environment.now() - (motion.started_at ?? motion.sent_at))}</span>
+              <span class="map-soft">{motion.state === 'waiting' ? t.waits() : age(console.environment.now() - (motion.started_at ?? motion.sent_at))}</span>
               <Button
                 small
                 look="danger"
@@ -35,11 +34,11 @@ export function Motions() {
                 aria-label={t.stop_robot(driver.name)}
                 onClick={() => void stop(console, driver).catch((error: unknown) => console.notices.tell('error', error_text(error)))}
               >
-                {t.stop}
+                {t.stop()}
               </Button>
             </>
           ) : (
-            <span class="map-soft">{t.by_others}</span>
+            <span class="map-soft">{t.by_others()}</span>
           )}
         </li>
       ))}
@@ -48,6 +47,6 @@ export function Motions() {
 }
 
 function words(robot: string, goal: Goal | undefined): string {
-  if (!goal) return texts().moves(robot);
-  return goal.kind === 'follow' ? texts().follows(robot, goal.text) : texts().moves_to(robot, goal.text);
+  if (!goal) return t.moves(robot);
+  return goal.kind === 'follow' ? t.follows(robot, goal.text) : t.moves_to(robot, goal.text);
 }

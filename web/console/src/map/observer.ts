@@ -17,16 +17,21 @@ export interface Observing {
   refused: readonly { ref: string; error: unknown }[];
 }
 
+const remembered = 'map.observe'; // a page that is loaded again goes on
+
 const off: Observing = { is_wanted: false, is_busy: false, on: [], refused: [] };
 
 /** Goes on when the panel is taken down, and through new sessions, until it is switched off. */
 export class Observer {
-  readonly state = signal<Observing>(off);
+  readonly state;
   private readonly held = new Map<string, { give_back: GiveBack; was_running: boolean }>();
   private session = '';
   private turn: Promise<void> = Promise.resolve();
 
   constructor(private readonly console: Console) {
+    const { environment } = console;
+    this.state = signal<Observing>({ ...off, is_wanted: environment.recall(remembered) === 'on' });
+    effect(() => environment.remember(remembered, this.state.value.is_wanted ? 'on' : ''));
     effect(() => {
       const { link, profile } = console;
       const [session, is_open] = [link.session.value, link.is_open];

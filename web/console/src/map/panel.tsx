@@ -14,7 +14,7 @@ import { key_zoom } from './interaction';
 import { Motions } from './motions';
 import { age, metres, position } from './says';
 import { session_of } from './session';
-import { texts } from './texts';
+import * as t from './texts';
 import { ThingsTable } from './things_table';
 import { Toolbar } from './toolbar';
 import { type Point, round_step } from './view';
@@ -27,7 +27,6 @@ export default function MapPanel() {
   const drawing = useSignal<Drawing | undefined>(undefined);
   const pointer = useSignal<Point | undefined>(undefined);
   const sending = useSending();
-  const t = texts();
   return (
     <div class="map">
       <Toolbar />
@@ -41,9 +40,9 @@ export default function MapPanel() {
       </div>
       <div class="map-foot">
         <div class="map-zoom">
-          <IconButton icon="plus" label={t.zoom_in} onClick={() => drawing.value?.act({ kind: 'zoom', factor: key_zoom })} />
-          <IconButton icon="minus" label={t.zoom_out} onClick={() => drawing.value?.act({ kind: 'zoom', factor: 1 / key_zoom })} />
-          <IconButton icon="fit" label={t.fit} onClick={() => drawing.value?.act({ kind: 'fit' })} />
+          <IconButton icon="plus" label={t.zoom_in()} onClick={() => drawing.value?.act({ kind: 'zoom', factor: key_zoom })} />
+          <IconButton icon="minus" label={t.zoom_out()} onClick={() => drawing.value?.act({ kind: 'zoom', factor: 1 / key_zoom })} />
+          <IconButton icon="fit" label={t.fit()} onClick={() => drawing.value?.act({ kind: 'fit' })} />
         </div>
         {drawing.value && <Scale drawing={drawing.value} />}
         <Frame />
@@ -85,7 +84,7 @@ function Scale({ drawing }: { drawing: Drawing }) {
   const length = round_step(least_bar / scale);
   const text = metres(length, length < 100 ? 2 : length < 1000 ? 1 : 0);
   return (
-    <span class="map-scale" role="img" aria-label={texts().scale(text)}>
+    <span class="map-scale" role="img" aria-label={t.scale(text)}>
       <span class="map-scale-bar" style={{ width: `${length * scale}px` }} />
       <span>{text}</span>
     </span>
@@ -100,8 +99,8 @@ function Frame() {
   const crs = session.map?.crs ?? [...console.robots.all.values()][0]?.crs ?? '';
   if (crs === '') return null;
   return (
-    <span class="map-frame" title={`${texts().frame}: ${crs}`}>
-      {texts().frame}: {short_name(crs)}
+    <span class="map-frame" title={`${t.frame()}: ${crs}`}>
+      {t.frame()}: {short_name(crs)}
     </span>
   );
 }
@@ -110,7 +109,6 @@ function Frame() {
 function Remarks() {
   const console = useConsole();
   const session = session_of(console);
-  const t = texts();
   const { link, map, now } = console;
   const view = map.view.value;
   for (const pulse of [console.robots.pulse, console.entities.pulse]) void pulse.beat.value;
@@ -118,17 +116,17 @@ function Remarks() {
   return (
     <>
       {!link.is_open && link.heard_at > 0 && <p class="map-remark map-stale">{t.not_live(age(now.value - link.heard_at))}</p>}
-      {view.state === 'unknown' && link.is_open && <p class="map-remark">{t.loading_map}</p>}
-      {view.state === 'none' && <p class="map-remark">{t.no_map}</p>}
+      {view.state === 'unknown' && link.is_open && <p class="map-remark">{t.loading_map()}</p>}
+      {view.state === 'none' && <p class="map-remark">{t.no_map()}</p>}
       {view.state === 'trouble' && (
         <p class="map-remark">
           {t.map_trouble(view.reason)}{' '}
           <Button small icon="refresh" onClick={() => void map.load()}>
-            {t.reload}
+            {t.reload()}
           </Button>
         </p>
       )}
-      {link.is_open && console.entities.all.size === 0 && !session.observer.state.value.is_wanted && session.observer.components.length > 0 && <p class="map-remark map-soft">{t.nobody_hint}</p>}
+      {link.is_open && console.entities.all.size === 0 && !session.observer.state.value.is_wanted && session.observer.components.length > 0 && <p class="map-remark map-soft">{t.nobody_hint()}</p>}
       {lost.length > 0 && <p class="map-remark" title={[...new Set(lost.map((one) => one.crs))].join(', ')}>{t.unplaced(lost.length)}</p>}
     </>
   );

@@ -8,7 +8,7 @@ import type { Target } from './interaction';
 import { type Label, Labels, type Place as LabelBox } from './labels';
 import type { Pen } from './pen';
 import type { Shown } from './scene';
-import type { Point } from './view';
+import type { Point, Size } from './view';
 
 /** A robot that would be sent, before it is. */
 export interface Preview {
@@ -36,9 +36,11 @@ export interface Picture {
 }
 
 const order = { face: 0, sound: 1, person: 2, robot: 3 };
-/** How far from a target the knob is by which one turns it, in px. */
-export function knob_distance(radius: number): number {
-  return Math.max(46, radius + 26);
+/** How far from a target the knob is by which one turns it, in px: nearer where the picture ends. */
+export function knob_distance(radius: number, at: Point, th: number, { width, height }: Size): number {
+  const angle = (th * Math.PI) / 180;
+  const room = (before: number, all: number, way: number) => ((way > 0 ? all - before : before) - 9) / Math.max(Math.abs(way), 1e-9);
+  return Math.max(20, Math.min(Math.max(46, radius + 26), room(at.x, width, Math.cos(angle)), room(at.y, height, -Math.sin(angle))));
 }
 
 export function draw_picture(pen: Pen, picture: Picture, labels: Labels): void {
@@ -102,7 +104,6 @@ function draw_preview(pen: Pen, { target, radius, from, text, is_blocked }: Prev
   const style = is_blocked ? palette.warning : palette.accent;
   const at = pen.at(target);
   const size = Math.max(10, pen.length(radius));
-  const knob = knob_distance(pen.length(radius));
   if (from) {
     const start = pen.at(from);
     pen.dashed(4, 4);
@@ -117,6 +118,7 @@ function draw_preview(pen: Pen, { target, radius, from, text, is_blocked }: Prev
   pen.stroke(style, 2);
   pen.dashed();
   const th = target.th ?? (from ? bearing(from, target) : 0);
+  const knob = knob_distance(pen.length(radius), at, th, pen.size);
   pen.turned(at, th, () => {
     pen.line({ x: 0, y: 0 }, { x: knob - 7, y: 0 });
     pen.stroke(style, 2, target.th === undefined ? 0.6 : 1);

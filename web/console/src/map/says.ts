@@ -2,23 +2,23 @@
 import { duration, language } from '../i18n/i18n';
 import { confidence } from './glyphs';
 import type { Target } from './interaction';
-import { texts } from './texts';
+import * as texts from './texts';
 
 /** `4.20 m`; nearer than a metre `0.25 m`. */
 export function metres(mm: number, digits = 2): string {
   const said = (mm / 1000).toFixed(digits);
-  return texts().metres(Number(said) === 0 ? (0).toFixed(digits) : said);
+  return texts.metres(Number(said) === 0 ? (0).toFixed(digits) : said);
 }
 
 /** `x 4.20 m, y 3.00 m` */
 export function position(at: { x: number; y: number }): string {
   const number = (mm: number) => metres(mm).replace(/\s*m$/, '');
-  return texts().at(number(at.x), number(at.y));
+  return texts.at(number(at.x), number(at.y));
 }
 
 /** `90°`: counter-clockwise from the x axis. */
 export function degrees(th: number): string {
-  return texts().degrees(Math.round(th).toFixed(0).replace(/^-0$/, '0'));
+  return texts.degrees(Math.round(th).toFixed(0).replace(/^-0$/, '0'));
 }
 
 const ages = new Map<string, string>();
@@ -38,7 +38,7 @@ export function age(ms: number): string {
 /** `± 0.12 m (95 %)`, of both axes when they differ. */
 export function certainty(ellipse: { a: number; b: number }): string {
   const [a, b] = [metres(ellipse.a * confidence), metres(ellipse.b * confidence)];
-  return texts().certain(a === b ? a : `${a} × ${b}`);
+  return texts.certain(a === b ? a : `${a} × ${b}`);
 }
 
 /** A target as it is told to people: a place by its name. */

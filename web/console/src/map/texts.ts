@@ -1,6 +1,6 @@
-import { type Both, in_both } from '../i18n/i18n';
+import { type Both, text, text_of } from '../i18n/i18n';
 
-const layers: Record<string, Both> = {
+const layer_names: Record<string, Both> = {
   grid: ['Grid', '方眼'],
   places: ['Places', '場所'],
   frames: ['Frames', '座標系'],
@@ -18,130 +18,136 @@ const obstacles: Record<string, Both> = {
 };
 const gone: Record<string, Both> = { robot: ['No news', '通知なし'], sound: ['Silent', '無音'] };
 
-export const texts = in_both({
-  title: ['Floor map', 'フロアマップ'],
-  no_map: ['This engine has no map: a plain grid is shown', 'このエンジンには地図がないため、方眼だけを表示しています'],
-  map_trouble: (reason: string) => [`The map could not be read (${reason})`, `地図を読み込めませんでした(${reason})`],
-  reload: ['Try again', 'もう一度'],
-  loading_map: ['The map is being read …', '地図を読み込んでいます…'],
-  canvas: [
-    'Floor map: move the cursor with the arrow keys, Enter chooses; all keys are listed under Help',
-    'フロアマップ: 矢印キーでカーソルを動かし、Enter で選びます。キーの一覧はヘルプにあります',
-  ],
-  // Above the map
-  observe: ['Observe', '観察'],
-  observe_hint: [
-    'Has the engine look for people, faces and sounds, and binds what it takes: other applications cannot have these components meanwhile',
-    '人・顔・音の検出をエンジンに始めさせます。必要なコンポーネントをバインドするため、その間ほかのアプリケーションは使えません',
-  ],
-  observing: (on: number, of: number) => [
-    on === of ? `${on} components look` : `${on} of ${of} components look`,
-    on === of ? `${on} 個が検出中` : `${of} 個中 ${on} 個が検出中`,
-  ],
-  observe_refused: ['Not everything can be observed', '一部は観察できません'],
-  observe_none: ['This engine has nothing that looks for people', 'このエンジンには人を検出するものがありません'],
-  go_to: ['Go to', '行き先'],
-  go_to_place: ['Place to go to', '行き先の場所'],
-  layers: ['Layers', '表示'],
-  table: ['Table', '表'],
-  help: ['Help', 'ヘルプ'],
-  zoom_in: ['Larger', '拡大'],
-  zoom_out: ['Smaller', '縮小'],
-  fit: ['Show all of the floor', '全体を表示'],
-  layer: (name: string) => layers[name] ?? name,
-  // What is told of
-  kind: (kind: string) => kinds[kind] ?? kind,
-  scale: (length: string) => [`Scale: ${length}`, `縮尺: ${length}`],
-  frame: ['Frame', '座標系'],
-  not_live: (age: string) => [`Not live: as it was ${age} ago`, `現在の様子ではありません: ${age}前`],
-  nothing: ['Nothing to be seen yet', 'まだ何も見えません'],
-  nobody_hint: ['No people are reported. Switch on Observe to have the engine look for people.', '人の情報がありません。「観察」を入れると、エンジンが人を探します。'],
-  unplaced: (n: number) => [`${n} in frames that nobody has placed on the map`, `地図上の位置が分からない座標系に ${n} 件`],
-  metres: (m: string) => `${m} m`,
-  degrees: (degrees: string) => `${degrees}°`,
-  at: (x: string, y: string) => [`x ${x} m, y ${y} m`, `x ${x} m、y ${y} m`],
-  near: (name: string, away: string) => [`${name} ${away} away`, `${name} まで ${away}`],
-  // Sending
-  send_title: (robot: string) => [`Send ${robot}`, `${robot} を送る`],
-  robot: ['Robot', 'ロボット'],
-  place: ['Place', '場所'],
-  point: ['Point on the floor', '床の上の点'],
-  direction: ['Direction', '向き'],
-  as_it_arrives: ['as it arrives', '着いたまま'],
-  straight: (away: string) => [`${away} away`, `直線で ${away}`],
-  sent_as: ['sent as', '送る値'],
-  give_up: ['Give up after', '制限時間'],
-  never: ['never', 'なし'],
-  no_number: ['A number, please', '数値を入れてください'],
-  send: ['Send here', 'ここへ送る'],
-  cancel: ['Cancel', '取り消し'],
-  turn_hint: ['Drag its arrow (or press Q, E) for the final direction', '矢印をドラッグするか Q・E キーで最後の向きを決めます'],
-  blocked: (what: string) => obstacles[what] ?? what,
-  no_navigation: ['This engine has no component that can be sent somewhere.', 'このエンジンには移動できるコンポーネントがありません。'],
-  unlinked: ['The link is not open.', '接続していません。'],
-  going: (robot: string, where: string) => [`${robot} is going to ${where}`, `${robot} が ${where} へ向かっています`],
-  arrived: (robot: string, where: string) => [`${robot} has reached ${where}`, `${robot} が ${where} に着きました`],
-  stopped: (robot: string) => [`${robot} was stopped`, `${robot} を止めました`],
-  failed: (what: string) => [`Not reached: ${what}`, `到達できませんでした: ${what}`],
-  why: ['Why', '理由'],
-  stop: ['Stop', '止める'],
-  stop_robot: (robot: string) => [`Stop ${robot}`, `${robot} を止める`],
-  // What moves
-  moves_to: (robot: string, where: string) => `${robot} → ${where}`,
-  follows: (robot: string, whom: string) => [`${robot} follows ${whom}`, `${robot} が ${whom} を追っています`],
-  moves: (robot: string) => [`${robot} moves`, `${robot} が動いています`],
-  by_others: ['by another application', 'ほかのアプリケーションによる'],
-  waits: ['waits', '待機中'],
-  // One thing
-  identified: (ref: string) => [`Tracked as ${ref}`, `追跡名 ${ref}`],
-  unidentified: ['Not identified', '未識別'],
-  position: ['Position', '位置'],
-  certainty: ['Certainty', '確かさ'],
-  certain: (about: string) => [`± ${about} (95 %)`, `± ${about}(95 %)`],
-  uncertain: ['not told', '不明'],
-  told: ['Told', '通知'],
-  ago: (age: string) => [`${age} ago`, `${age}前`],
-  told_by: ['Told by', '通知元'],
-  freshness: (state: string, kind: string) =>
-    state === 'live' ? ['Seen now', '検出中'] : state === 'quiet' ? ['Still there', '変化なし'] : state === 'old' ? ['No news for long', 'しばらく通知なし'] : gone[kind] ?? ['Out of sight', '見えません'],
-  state: ['State', '状態'],
-  own_frame: ['Own frame', '固有の座標系'],
-  follow: ['Follow', '追う'],
-  follow_whom: (name: string) => [`Follow ${name}`, `${name} を追う`],
-  distance: ['Distance', '距離'],
-  gap: ['How near it comes', '保つ間隔'],
-  go_there: ['Go there', 'そこへ行く'],
-  following: (robot: string, whom: string) => [`${robot} follows ${whom}`, `${robot} が ${whom} を追っています`],
-  followed: (robot: string, whom: string) => [`${robot} no longer follows ${whom}`, `${robot} は ${whom} を追うのをやめました`],
-  follow_or_go: ['Follow keeps near them as they move. Go there sends it once, to where they are now.', '「追う」は動きに合わせて付いて行き、「そこへ行く」は今いる場所へ一度だけ行きます。'],
-  speak: ['Speak', '話す'],
-  speak_hint: ['A sentence', '文を入力'],
-  commands: ['All that it can do', 'できること一覧'],
-  no_follow: ['This engine has no component that follows.', 'このエンジンには追従できるコンポーネントがありません。'],
-  close: ['Close', '閉じる'],
-  choose: ['Choose', '選ぶ'],
-  // The table
-  table_label: ['What is on the floor', '床の上にあるもの'],
-  kind_column: ['Kind', '種類'],
-  name: ['Name', '名前'],
-  // Help
-  help_title: ['The floor map', 'フロアマップ'],
-  keys: ['Keys, while the map has the focus', '地図にフォーカスがあるときのキー'],
-  key_arrows: ['move the cursor by 0.25 m; with Shift by 1 m; with Ctrl they move the map', 'カーソルを 0.25 m 動かす。Shift で 1 m、Ctrl で地図を動かす'],
-  key_enter: ['chooses what is under the cursor, or sets the target there', 'カーソルの下のものを選ぶ、または行き先にする'],
-  key_turn: ['turn the target by 15°', '行き先の向きを 15° 回す'],
-  key_send: ['sends the robot to the target', 'ロボットを行き先へ送る'],
-  key_step: ['next and previous person or robot', '次・前の人やロボット'],
-  key_zoom: ['larger, smaller, all of the floor', '拡大・縮小・全体'],
-  key_escape: ['drops target, choice, cursor', '行き先・選択・カーソルを消す'],
-  pointers: ['Mouse and fingers', 'マウスと指'],
-  pointer_click: [
-    'Click the floor for a target, drag its arrow to turn it. Nothing moves until you press Send here.',
-    '床をクリックすると行き先になり、矢印をドラッグすると向きが変わります。「ここへ送る」を押すまで何も動きません。',
-  ],
-  pointer_aim: ['Shift and drag: target and direction in one go.', 'Shift を押しながらドラッグ: 行き先と向きを一度に決めます。'],
-  pointer_pan: ['Drag the floor to move the map; wheel or two fingers to zoom.', '床をドラッグすると地図が動き、ホイールか二本指で拡大・縮小します。'],
-  signs: ['Signs', '記号'],
-  sign_known: ['full: identified', '塗りつぶし: 識別済み'],
-  sign_gone: ['dashed: out of sight, or not told of any more, with its age', '破線: 見えない、または古い(経過時間つき)'],
-});
+export const title = text('Floor map', 'フロアマップ');
+export const no_map = text('This engine has no map: a plain grid is shown', 'このエンジンには地図がないため、方眼だけを表示しています');
+export const map_trouble = text_of((reason: string) => [`The map could not be read (${reason})`, `地図を読み込めませんでした(${reason})`]);
+export const reload = text('Try again', 'もう一度');
+export const loading_map = text('The map is being read …', '地図を読み込んでいます…');
+export const canvas = text(
+  'Floor map: move the cursor with the arrow keys, Enter chooses; all keys are listed under Help',
+  'フロアマップ: 矢印キーでカーソルを動かし、Enter で選びます。キーの一覧はヘルプにあります',
+);
+
+// Above the map
+export const observe = text('Observe', '観察');
+export const observe_hint = text(
+  'Has the engine look for people, faces and sounds. Other applications cannot have the components for that meanwhile.',
+  'エンジンが人・顔・音を探します。その間、ほかのアプリケーションはそのコンポーネントを使えません。',
+);
+export const observing = text_of((on: number, of: number) => [
+  on === of ? `${on} components look` : `${on} of ${of} components look`,
+  on === of ? `${on} 個が検出中` : `${of} 個中 ${on} 個が検出中`,
+]);
+export const observe_refused = text('Not everything can be observed', '一部は観察できません');
+export const observe_none = text('This engine has nothing that looks for people', 'このエンジンには人を検出するものがありません');
+export const go_to = text('Go to', '行き先');
+export const go_to_place = text('Place to go to', '行き先の場所');
+export const layers = text('Layers', '表示');
+export const table = text('Table', '表');
+export const help = text('Help', 'ヘルプ');
+export const zoom_in = text('Larger', '拡大');
+export const zoom_out = text('Smaller', '縮小');
+export const fit = text('Show all of the floor', '全体を表示');
+export const layer = text_of((name: string) => layer_names[name] ?? name);
+
+// What is told of
+export const kind = text_of((kind: string) => kinds[kind] ?? kind);
+export const scale = text_of((length: string) => [`Scale: ${length}`, `縮尺: ${length}`]);
+export const frame = text('Frame', '座標系');
+export const not_live = text_of((age: string) => [`Not live: as it was ${age} ago`, `現在の様子ではありません: ${age}前`]);
+export const nothing = text('Nothing to be seen yet', 'まだ何も見えません');
+export const nobody_hint = text('No people are reported. Switch on Observe to have the engine look for people.', '人の情報がありません。「観察」を入れると、エンジンが人を探します。');
+export const unplaced = text_of((n: number) => [`${n} in frames that nobody has placed on the map`, `地図上の位置が分からない座標系に ${n} 件`]);
+export const metres = text_of((m: string) => `${m} m`);
+export const degrees = text_of((degrees: string) => `${degrees}°`);
+export const at = text_of((x: string, y: string) => [`x ${x} m, y ${y} m`, `x ${x} m、y ${y} m`]);
+export const near = text_of((name: string, away: string) => [`${name} ${away} away`, `${name} まで ${away}`]);
+
+// Sending
+export const send_title = text_of((robot: string) => [`Send ${robot}`, `${robot} を送る`]);
+export const robot = text('Robot', 'ロボット');
+export const place = text('Place', '場所');
+export const point = text('Point on the floor', '床の上の点');
+export const direction = text('Direction', '向き');
+export const as_it_arrives = text('as it arrives', '着いたまま');
+export const straight = text_of((away: string) => [`${away} away`, `直線で ${away}`]);
+export const sent_as = text('sent as', '送る値');
+export const give_up = text('Give up after', '制限時間');
+export const never = text('never', 'なし');
+export const no_number = text('A number, please', '数値を入れてください');
+export const send = text('Send here', 'ここへ送る');
+export const cancel = text('Cancel', '取り消し');
+export const turn_hint = text('Drag its arrow (or press Q, E) for the final direction', '矢印をドラッグするか Q・E キーで最後の向きを決めます');
+export const blocked = text_of((what: string) => obstacles[what] ?? what);
+export const no_navigation = text('This engine has no component that can be sent somewhere.', 'このエンジンには移動できるコンポーネントがありません。');
+export const unlinked = text('The link is not open.', '接続していません。');
+export const going = text_of((robot: string, where: string) => [`${robot} is going to ${where}`, `${robot} が ${where} へ向かっています`]);
+export const arrived = text_of((robot: string, where: string) => [`${robot} has reached ${where}`, `${robot} が ${where} に着きました`]);
+export const stopped = text_of((robot: string) => [`${robot} was stopped`, `${robot} を止めました`]);
+export const failed = text_of((what: string) => [`Not reached: ${what}`, `到達できませんでした: ${what}`]);
+export const why = text('Why', '理由');
+export const stop = text('Stop', '止める');
+export const stop_robot = text_of((robot: string) => [`Stop ${robot}`, `${robot} を止める`]);
+
+// What moves
+export const moves_to = text_of((robot: string, where: string) => `${robot} → ${where}`);
+export const follows = text_of((robot: string, whom: string) => [`${robot} follows ${whom}`, `${robot} が ${whom} を追っています`]);
+export const moves = text_of((robot: string) => [`${robot} moves`, `${robot} が動いています`]);
+export const by_others = text('by another application', 'ほかのアプリケーションによる');
+export const waits = text('waits', '待機中');
+
+// One thing
+export const identified = text_of((ref: string) => [`Tracked as ${ref}`, `追跡名 ${ref}`]);
+export const unidentified = text('Not identified', '未識別');
+export const position = text('Position', '位置');
+export const certainty = text('Certainty', '確かさ');
+export const certain = text_of((about: string) => [`± ${about} (95 %)`, `± ${about}(95 %)`]);
+export const uncertain = text('not told', '不明');
+export const told = text('Told', '通知');
+export const ago = text_of((age: string) => [`${age} ago`, `${age}前`]);
+export const told_by = text('Told by', '通知元');
+export const freshness = text_of((state: string, kind: string) =>
+  state === 'live' ? ['Seen now', '検出中'] : state === 'quiet' ? ['Still there', '変化なし'] : state === 'old' ? ['No news for long', 'しばらく通知なし'] : gone[kind] ?? ['Out of sight', '見えません']);
+export const state = text('State', '状態');
+export const own_frame = text('Own frame', '固有の座標系');
+export const follow = text('Follow', '追う');
+export const follow_whom = text_of((name: string) => [`Follow ${name}`, `${name} を追う`]);
+export const distance = text('Distance', '距離');
+export const gap = text('How near it comes', '保つ間隔');
+export const go_there = text('Go there', 'そこへ行く');
+export const following = text_of((robot: string, whom: string) => [`${robot} follows ${whom}`, `${robot} が ${whom} を追っています`]);
+export const followed = text_of((robot: string, whom: string) => [`${robot} no longer follows ${whom}`, `${robot} は ${whom} を追うのをやめました`]);
+export const follow_or_go = text('Follow keeps near them as they move. Go there sends it once, to where they are now.', '「追う」は動きに合わせて付いて行き、「そこへ行く」は今いる場所へ一度だけ行きます。');
+export const speak = text('Speak', '話す');
+export const speak_hint = text('A sentence', '文を入力');
+export const commands = text('All that it can do', 'できること一覧');
+export const no_follow = text('This engine has no component that follows.', 'このエンジンには追従できるコンポーネントがありません。');
+export const close = text('Close', '閉じる');
+export const choose = text('Choose', '選ぶ');
+
+// The table
+export const table_label = text('What is on the floor', '床の上にあるもの');
+export const kind_column = text('Kind', '種類');
+export const name = text('Name', '名前');
+
+// Help
+export const help_title = text('The floor map', 'フロアマップ');
+export const keys = text('Keys, while the map has the focus', '地図にフォーカスがあるときのキー');
+export const key_arrows = text('move the cursor by 0.25 m; with Shift by 1 m; with Ctrl they move the map', 'カーソルを 0.25 m 動かす。Shift で 1 m、Ctrl で地図を動かす');
+export const key_enter = text('chooses what is under the cursor, or sets the target there', 'カーソルの下のものを選ぶ、または行き先にする');
+export const key_turn = text('turn the target by 15°', '行き先の向きを 15° 回す');
+export const key_send = text('sends the robot to the target', 'ロボットを行き先へ送る');
+export const key_step = text('next and previous person or robot', '次・前の人やロボット');
+export const key_zoom = text('larger, smaller, all of the floor', '拡大・縮小・全体');
+export const key_escape = text('drops target, choice, cursor', '行き先・選択・カーソルを消す');
+export const pointers = text('Mouse and fingers', 'マウスと指');
+export const pointer_click = text(
+  'Click the floor for a target, drag its arrow to turn it. Nothing moves until you press Send here.',
+  '床をクリックすると行き先になり、矢印をドラッグすると向きが変わります。「ここへ送る」を押すまで何も動きません。',
+);
+export const pointer_aim = text('Shift and drag: target and direction in one go.', 'Shift を押しながらドラッグ: 行き先と向きを一度に決めます。');
+export const pointer_pan = text('Drag the floor to move the map; wheel or two fingers to zoom.', '床をドラッグすると地図が動き、ホイールか二本指で拡大・縮小します。');
+export const signs = text('Signs', '記号');
+export const sign_known = text('full: identified', '塗りつぶし: 識別済み');
+export const sign_gone = text('dashed: out of sight, or not told of any more, with its age', '破線: 見えない、または古い(経過時間つき)');
+

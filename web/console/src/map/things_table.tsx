@@ -4,12 +4,11 @@ import { Button } from '../ui';
 import { age, certainty, degrees, position } from './says';
 import type { Shown } from './scene';
 import { session_of } from './session';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function ThingsTable() {
   const console = useConsole();
   const session = session_of(console);
-  const t = texts();
   void console.now.value;
   const is_shown = session.shows_table.value;
   const { shown } = session.scene();
@@ -17,13 +16,13 @@ export function ThingsTable() {
   const choose = (key: string) => (session.interaction.value = { ...session.interaction.value, target: undefined, chosen: key });
   const table = (
     <table class={is_shown ? 'table' : undefined}>
-      <caption class="unseen">{t.table_label}</caption>
+      <caption class="unseen">{t.table_label()}</caption>
       <thead>
         <tr>
-          {[t.kind_column, t.name, t.state, t.position, t.direction, t.certainty, t.told].map((title) => (
+          {[t.kind_column(), t.name(), t.state(), t.position(), t.direction(), t.certainty(), t.told()].map((title) => (
             <th key={title} scope="col">{title}</th>
           ))}
-          {is_shown && <th scope="col"><span class="unseen">{t.choose}</span></th>}
+          {is_shown && <th scope="col"><span class="unseen">{t.choose()}</span></th>}
         </tr>
       </thead>
       <tbody>
@@ -38,8 +37,8 @@ export function ThingsTable() {
             <td>{t.ago(age(one.age))}</td>
             {is_shown && (
               <td>
-                <Button small aria-label={`${t.choose}: ${one.name}`} onClick={() => choose(one.key)}>
-                  {t.choose}
+                <Button small aria-label={`${t.choose()}: ${one.name}`} onClick={() => choose(one.key)}>
+                  {t.choose()}
                 </Button>
               </td>
             )}
@@ -50,8 +49,8 @@ export function ThingsTable() {
   );
   if (!is_shown) return <div class="unseen">{table}</div>;
   return (
-    <div class="map-table" role="region" aria-label={t.table_label} tabIndex={0}>
-      {shown.length === 0 ? <p class="map-soft">{t.nothing}</p> : table}
+    <div class="map-table" role="region" aria-label={t.table_label()} tabIndex={0}>
+      {shown.length === 0 ? <p class="map-soft">{t.nothing()}</p> : table}
     </div>
   );
 }

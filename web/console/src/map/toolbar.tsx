@@ -7,25 +7,24 @@ import { Badge, Button, Checkbox, error_text } from '../ui';
 import { all_layers, type Layers } from './ground';
 import { Help } from './help';
 import { session_of } from './session';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function Toolbar() {
   const session = session_of(useConsole());
-  const t = texts();
   const is_helping = useSignal(false);
   const shows_table = session.shows_table.value;
   return (
     <div class="map-bar">
-      <h2>{session.map?.name || t.title}</h2>
+      <h2>{session.map?.name || t.title()}</h2>
       <Observe />
       <div class="map-bar-end">
         <PlaceChoice />
         <LayerChoice />
         <Button small icon="table" aria-pressed={shows_table} onClick={() => session.show_table(!shows_table)}>
-          {t.table}
+          {t.table()}
         </Button>
         <Button small icon="help" onClick={() => (is_helping.value = true)}>
-          {t.help}
+          {t.help()}
         </Button>
       </div>
       <Help open={is_helping.value} close={() => (is_helping.value = false)} />
@@ -36,7 +35,6 @@ export function Toolbar() {
 function Observe() {
   const console = useConsole();
   const { observer } = session_of(console);
-  const t = texts();
   const { is_wanted, is_busy, on, refused } = observer.state.value;
   const of = observer.components.length;
   const why = refused.map(({ ref, error }) => `${ref}: ${error_text(error)}`).join('\n');
@@ -49,16 +47,16 @@ function Observe() {
         aria-checked={is_wanted}
         aria-busy={is_busy}
         disabled={of === 0 || (!console.link.is_open && !is_wanted)}
-        title={of === 0 ? t.observe_none : t.observe_hint}
+        title={of === 0 ? t.observe_none() : t.observe_hint()}
         onClick={() => void observer.turn_to(!is_wanted)}
       >
         <span class="map-switch-track" aria-hidden="true" />
-        {t.observe}
+        {t.observe()}
       </button>
       {is_wanted && <Badge tone={refused.length > 0 ? 'warning' : on.length === of ? 'good' : 'busy'} title={why || undefined}>{t.observing(on.length, of)}</Badge>}
       {refused.length > 0 && (
         <details class="map-pop">
-          <summary>{t.observe_refused}</summary>
+          <summary>{t.observe_refused()}</summary>
           <ul class="map-pop-box plain-list">
             {refused.map(({ ref, error }) => (
               <li key={ref}>
@@ -74,7 +72,6 @@ function Observe() {
 
 function PlaceChoice() {
   const session = session_of(useConsole());
-  const t = texts();
   const places = session.map?.places ?? [];
   const target = session.interaction.value.target;
   if (places.length === 0) return null;
@@ -84,9 +81,9 @@ function PlaceChoice() {
   };
   return (
     <label class="map-places">
-      <span class="unseen">{t.go_to_place}</span>
+      <span class="unseen">{t.go_to_place()}</span>
       <select value={target?.place ?? ''} onChange={(event) => choose(event.currentTarget.value)}>
-        <option value="">{t.go_to} …</option>
+        <option value="">{t.go_to()} …</option>
         {places.map(({ name }) => (
           <option key={name} value={name}>
             {name}
@@ -115,10 +112,10 @@ function LayerChoice() {
         if (event.relatedTarget && !box.current?.contains(event.relatedTarget as Node)) shut();
       }}
     >
-      <summary>{texts().layers}</summary>
+      <summary>{t.layers()}</summary>
       <div class="map-pop-box">
         {names.map((name) => (
-          <Checkbox key={name} label={texts().layer(name)} checked={session.layers.value[name]} change={(is_shown) => session.show(name, is_shown)} />
+          <Checkbox key={name} label={t.layer(name)} checked={session.layers.value[name]} change={(is_shown) => session.show(name, is_shown)} />
         ))}
       </div>
     </details>

@@ -7,19 +7,18 @@ import { useConsole } from '../shell/context';
 import type { Console } from '../state/console';
 import type { LoggedDocument } from '../state/documents';
 import { Button, EmptyState, SplitPane, useIsWide, VirtualList } from '../ui';
-import { Feed, is_gap, no_filter, type Row, type Source } from './feed';
+import { categories, Feed, is_gap, no_filter, type Row, type Source } from './feed';
 import { Reader } from './reader';
 import { RowView } from './row';
 import { chosen_of_recording, filter, paused, recording, type ShownRecording } from './shown';
 import { command_of, component_of } from './summary';
-import { texts } from './texts';
+import * as t from './texts';
 import { Toolbar } from './toolbar';
 
 const look_every = 250; // ms: nobody reads faster
 
 export default function MessagesPanel() {
   const console = useConsole();
-  const t = texts();
   const [frame, is_wide] = useIsWide(900); // for the list and the document side by side
   const tape = recording.value;
   const feed = useMemo(() => new Feed(tape ? source_of(tape) : live(console), filter.value), [tape, filter.value]);
@@ -45,13 +44,20 @@ export default function MessagesPanel() {
   useEffect(() => {
     if (recording.value && picked.value !== undefined) recording.value = undefined;
   }, [picked.value]);
+  const { subscription } = console.selection;
+  useEffect(() => {
+    if (subscription.value === '') return;
+    filter.value = { ...no_filter, hidden: new Set(categories.slice(1)), text: `subscribe_id>${subscription.value}<` };
+    recording.value = paused.value = undefined;
+    subscription.value = '';
+  }, [subscription.value]);
   const document = chosen === undefined ? undefined : tape ? tape.documents[chosen] : (console.documents.ring.numbered(chosen) ?? held?.rows.find((one): one is LoggedDocument => !is_gap(one) && one.number === chosen));
   const all = whole.rows.length;
 
   const list =
     rows.length > 0 ? (
       <VirtualList<Row>
-        label={t.list}
+        label={t.list()}
         rows={rows}
         row_height={matchMedia('(pointer: coarse)').matches ? 40 : 26}
         key_of={key_of}
@@ -61,29 +67,28 @@ export default function MessagesPanel() {
         follow={!tape && !held}
       />
     ) : (
-      <EmptyState icon="messages" title={is_bare && !tape ? t.none : filter.value === no_filter ? t.only_own : t.none_pass}>
-        {(tape || !is_bare) && <Button onClick={() => (filter.value = { ...no_filter, with_own: true })}>{t.clear}</Button>}
+      <EmptyState icon="messages" title={is_bare && !tape ? t.none() : filter.value === no_filter ? t.only_own() : t.none_pass()}>
+        {(tape || !is_bare) && <Button onClick={() => (filter.value = { ...no_filter, with_own: true })}>{t.clear()}</Button>}
       </EmptyState>
     );
-  const reader = document ? <Reader key={document.number} document={document} tape={tape} choose={(one) => (choice.value = one.number)} /> : <EmptyState icon="messages" title={t.pick} />;
+  const reader = document ? <Reader key={document.number} document={document} tape={tape} choose={(one) => (choice.value = one.number)} /> : <EmptyState icon="messages" title={t.pick()} />;
   const direction = is_wide ? 'row' : 'column';
   return (
     <div class="messages" ref={frame}>
       <Toolbar feed={feed} rows={rows} all={all} />
       {tape && <TapeBanner tape={tape} />}
       <div class="messages-body">
-        <SplitPane key={direction} id={`messages.${direction}`} direction={direction} share={0.58} label={t.list} first={list} second={reader} />
+        <SplitPane key={direction} id={`messages.${direction}`} direction={direction} share={0.58} label={t.list()} first={list} second={reader} />
       </div>
     </div>
   );
 }
 
 function TapeBanner({ tape }: { tape: ShownRecording }) {
-  const t = texts();
   return (
     <p class="banner banner-warning" role="status">
-      <strong>{t.not_live}</strong> {t.recording(tape.file, tape.documents.length, tape.begun, tape.url)}
-      <Button small onClick={() => (recording.value = undefined)}>{t.to_live}</Button>
+      <strong>{t.not_live()}</strong> {t.recording(tape.file, tape.documents.length, tape.begun, tape.url)}
+      <Button small onClick={() => (recording.value = undefined)}>{t.to_live()}</Button>
     </p>
   );
 }

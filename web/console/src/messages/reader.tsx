@@ -13,7 +13,7 @@ import type { Ring } from '../state/ring';
 import { Badge, Button, Checkbox, CurlButton, StatusBadge, XmlView } from '../ui';
 import type { ShownRecording } from './shown';
 import { command_of, component_of, expire_of } from './summary';
-import { texts } from './texts';
+import * as t from './texts';
 
 export interface ReaderProps {
   document: LoggedDocument;
@@ -23,7 +23,6 @@ export interface ReaderProps {
 
 export function Reader({ document, tape, choose }: ReaderProps) {
   const console = useConsole();
-  const t = texts();
   const [raw, set_raw] = useState(false);
   const { name, return_code, direction } = document;
   const component = component_of(document);
@@ -34,25 +33,25 @@ export function Reader({ document, tape, choose }: ReaderProps) {
       <div class="messages-head">
         <h3>{name === '' ? '—' : name}</h3>
         {return_code !== undefined && <StatusBadge status={return_code} />}
-        {tape && <Badge tone="warning">{t.not_live}</Badge>}
+        {tape && <Badge tone="warning">{t.not_live()}</Badge>}
         <span class="soft">
-          {direction === 'out' ? t.outward : t.inward} {t.at(document.at)} · {t.size(document.text.length)}
+          {direction === 'out' ? t.outward() : t.inward()} {t.at(document.at)} · {t.size(document.text.length)}
           {document.took !== undefined && ` · ${t.took(document.took)}`}
         </span>
       </div>
       <div class="messages-head">
-        {document.request && <Button small icon="up" onClick={() => choose(document.request!)}>{t.to_request}</Button>}
-        {answer && <Button small icon="down" onClick={() => choose(answer)}>{t.to_answer}</Button>}
+        {document.request && <Button small icon="up" onClick={() => choose(document.request!)}>{t.to_request()}</Button>}
+        {answer && <Button small icon="down" onClick={() => choose(answer)}>{t.to_answer()}</Button>}
         {component !== '' && !tape && console.profile.component(component) && (
           <Button small icon="components" onClick={() => show_component(console, component)}>{t.to_component(component)}</Button>
         )}
         {direction === 'out' && !tape && <CurlButton request={document.text} />}
-        <Checkbox label={t.raw} checked={raw} change={set_raw} />
+        <Checkbox label={t.raw()} checked={raw} change={set_raw} />
       </div>
       {tape ? <Values results={values_in(document)} /> : <Live document={document} />}
       {place && <p class="soft">{t.place(place.line, place.column)}</p>}
       <XmlView text={document.text} raw={raw} label={t.document(name)} />
-      {place && document.request && <XmlView text={document.request.text} raw label={t.to_request} marked_line={place.line} />}
+      {place && document.request && <XmlView text={document.request.text} raw label={t.to_request()} marked_line={place.line} />}
     </div>
   );
 }
@@ -68,7 +67,7 @@ function Live({ document }: { document: LoggedDocument }) {
   if (document.name === 'receive_event') {
     void events.pulse.beat.value;
     const entry = entry_of(document.is_own ? events.own_events : events.events, document);
-    return entry ? <DetailsOf details={entry.details} expire={expire_of(document)} ask={() => void events.fetch_event(entry)} /> : <p class="soft">{texts().not_kept}</p>;
+    return entry ? <DetailsOf details={entry.details} expire={expire_of(document)} ask={() => void events.fetch_event(entry)} /> : <p class="soft">{t.not_kept()}</p>;
   }
   if (document.name === 'receive_error') {
     void events.pulse.beat.value;
@@ -80,9 +79,8 @@ function Live({ document }: { document: LoggedDocument }) {
 
 function DetailsOf({ details, expire, ask }: { details: Details; expire: number | undefined; ask: () => void }) {
   const { now, link } = useConsole();
-  const t = texts();
   const is_expired = expire !== undefined && expire <= now.value;
-  const until = expire === undefined ? null : is_expired ? <Badge>{t.expired}</Badge> : <span class="soft">{t.expires(clock_time(expire, false))}</span>;
+  const until = expire === undefined ? null : is_expired ? <Badge>{t.expired()}</Badge> : <span class="soft">{t.expires(clock_time(expire, false))}</span>;
   switch (details.state) {
     case 'there':
       return (
@@ -92,20 +90,20 @@ function DetailsOf({ details, expire, ask }: { details: Details; expire: number 
         </>
       );
     case 'gone':
-      return <p>{t.gone} <span class="soft">{details.reason}</span> {until}</p>;
+      return <p>{t.gone()} <span class="soft">{details.reason}</span> {until}</p>;
     case 'asked':
-      return <p class="soft" role="status">{t.fetching}</p>;
+      return <p class="soft" role="status">{t.fetching()}</p>;
     default:
       return (
         <p class="messages-head">
-          <Button small icon="download" disabled={!link.is_open} onClick={ask}>{t.fetch}</Button> {until}
+          <Button small icon="download" disabled={!link.is_open} onClick={ask}>{t.fetch()}</Button> {until}
         </p>
       );
   }
 }
 
 function Values({ results }: { results: Results }) {
-  return results.parameters.length === 0 ? null : <ResultsTable label={texts().details} results={results} />;
+  return results.parameters.length === 0 ? null : <ResultsTable label={t.details()} results={results} />;
 }
 
 function values_in(document: LoggedDocument): Results {

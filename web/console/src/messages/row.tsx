@@ -3,16 +3,15 @@ import { useConsole } from '../shell/context';
 import { Badge, Icon, StatusBadge } from '../ui';
 import { category_of, is_gap, type Row } from './feed';
 import { command_of, component_of, expire_of, summary } from './summary';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function RowView({ row, is_live }: { row: Row; is_live: boolean }) {
   const { now, commands } = useConsole();
-  const t = texts();
   if (is_gap(row))
     return (
       <span class="messages-gap">
         <Icon name="warning" size={14} />
-        {clock_time(row.at)} {row.gap.reason === 'lost' ? t.gap_lost(row.gap.count) : t.gap_session}
+        {clock_time(row.at)} {row.gap.reason === 'lost' ? t.gap_lost(row.gap.count) : t.gap_session()}
       </span>
     );
   const expire = expire_of(row);
@@ -23,14 +22,14 @@ export function RowView({ row, is_live }: { row: Row; is_live: boolean }) {
   return (
     <>
       <span class="messages-time">{clock_time(row.at)}</span>
-      <span class={`messages-way messages-${row.direction}`}>
+      <span class={`messages-way messages-way-${row.direction}`}>
         <Icon name={row.direction === 'out' ? 'up' : 'down'} size={12} />
-        <span class="unseen">{row.direction === 'out' ? t.outward : t.inward}</span>
+        <span class="unseen">{row.direction === 'out' ? t.outward() : t.inward()}</span>
       </span>
       <span class={`messages-name messages-is-${look}`}>{row.name === '' ? '—' : row.name}</span>
       <span class="messages-component">{command?.component ?? component_of(row)}</span>
       <span class="messages-summary">{summary(row)}{command && `  ${command.component} ${command.command_type}`}</span>
-      {is_expired && <Badge>{t.expired}</Badge>}
+      {is_expired && <Badge>{t.expired()}</Badge>}
       {status !== undefined && status !== 'OK' && <StatusBadge status={status} />}
       {row.name === 'fault' && <Badge tone="bad">fault</Badge>}
     </>

@@ -2,28 +2,27 @@
 import { useRef } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
+import { reason_of } from '../state/reason_of';
 import { read_recording, recording_of } from '../state/recording';
-import { Button, Checkbox, SelectField, TextField } from '../ui';
+import { Button, Checkbox, save_file, SelectField, TextField } from '../ui';
 import { categories, type Category, type Feed, type Filter, type Row } from './feed';
-import { save } from './save';
 import { chosen_of_recording, filter, paused, recording } from './shown';
-import { texts } from './texts';
+import * as t from './texts';
 
 const most_bytes = 64 * 1024 * 1024; // of a recording that is opened
 
 export function Toolbar({ feed, rows, all }: { feed: Feed; rows: readonly Row[]; all: number }) {
   const { profile } = useConsole();
-  const t = texts();
   const now = filter.value;
   const put = (some: Partial<Filter>) => (filter.value = { ...now, ...some });
   const toggle = (name: Category) => put({ hidden: now.hidden.has(name) ? new Set([...now.hidden].filter((one) => one !== name)) : new Set([...now.hidden, name]) });
   const tape = recording.value;
   const refs = tape ? [...new Set(tape.documents.flatMap((one) => one.component ?? []))].sort() : profile.components.value.map((one) => one.ref);
   return (
-    <div class="messages-bar" role="group" aria-label={t.title}>
-      <h2 class="unseen">{t.title}</h2>
+    <div class="messages-bar" role="group" aria-label={t.title()}>
+      <h2 class="unseen">{t.title()}</h2>
       {!tape && <Pause feed={feed} />}
-      <div class="messages-kinds" role="group" aria-label={t.kinds}>
+      <div class="messages-kinds" role="group" aria-label={t.kinds()}>
         {categories.map((name) => (
           <button key={name} type="button" class="button button-small messages-kind" aria-pressed={!now.hidden.has(name)} onClick={() => toggle(name)}>
             {t.category(name)}
@@ -31,11 +30,11 @@ export function Toolbar({ feed, rows, all }: { feed: Feed; rows: readonly Row[];
         ))}
       </div>
       <div class="messages-which">
-        <SelectField label={t.component} hide_label value={now.component} change={(component) => put({ component })} choices={[{ value: '', label: t.all_components }, ...refs.map((ref) => ({ value: ref, label: ref }))]} />
-        <TextField label={t.search} hide_label value={now.text} change={(text) => put({ text })} input={{ type: 'search', placeholder: t.search }} />
+        <SelectField label={t.component()} hide_label value={now.component} change={(component) => put({ component })} choices={[{ value: '', label: t.all_components() }, ...refs.map((ref) => ({ value: ref, label: ref }))]} />
+        <TextField label={t.search()} hide_label value={now.text} change={(text) => put({ text })} input={{ type: 'search', placeholder: t.search() }} />
       </div>
-      <Checkbox label={t.own} checked={now.with_own} change={(with_own) => put({ with_own })} />
-      <span class="messages-count" title={t.shown_hint}>{t.shown(rows.length, Math.max(all, rows.length))}</span>
+      <Checkbox label={t.own()} checked={now.with_own} change={(with_own) => put({ with_own })} />
+      <span class="messages-count" title={t.shown_hint()}>{t.shown(rows.length, Math.max(all, rows.length))}</span>
       <Recordings />
     </div>
   );
@@ -43,31 +42,29 @@ export function Toolbar({ feed, rows, all }: { feed: Feed; rows: readonly Row[];
 
 function Pause({ feed }: { feed: Feed }) {
   const { documents } = useConsole();
-  const t = texts();
   const held = paused.value;
   const end = () => documents.ring.end;
   if (!held)
     return (
       <Button small icon="pause" onClick={() => (paused.value = { rows: [...feed.rows], until: end() })}>
-        {t.pause}
+        {t.pause()}
       </Button>
     );
   return (
     <Button small look="primary" icon="play" onClick={() => (paused.value = undefined)}>
-      {t.go_on} ({t.waiting(end() - held.until)})
+      {t.go_on()} ({t.waiting(end() - held.until)})
     </Button>
   );
 }
 
 function Recordings() {
   const console = useConsole();
-  const t = texts();
   const chooser = useRef<HTMLInputElement>(null);
   const write = () => {
     const { ring } = console.documents;
     const { size } = ring;
-    save(`rois-${new Date(console.environment.now()).toISOString().slice(0, 19).replaceAll(':', '')}.jsonl`, recording_of(ring, console.environment.origin));
-    console.notices.tell('good', t.exported(size), { detail: t.session_inside });
+    save_file(`rois-${new Date(console.environment.now()).toISOString().slice(0, 19).replaceAll(':', '')}.jsonl`, recording_of(ring, console.environment.origin));
+    console.notices.tell('good', t.exported(size), { detail: t.session_inside() });
   };
   const read = async (file: File | undefined) => {
     if (!file) return;
@@ -77,19 +74,19 @@ function Recordings() {
       chosen_of_recording.value = undefined;
       console.selection.document.value = undefined;
     } catch (error) {
-      console.notices.tell('error', t.import_failed(file.name), { detail: error instanceof Error ? error.message : String(error) });
+      console.notices.tell('error', t.import_failed(file.name), { detail: reason_of(error) });
     }
     chooser.current!.value = ''; // so that the same file can be opened again
   };
   return (
     <>
       <Button small icon="download" onClick={write}>
-        {t.export}
+        {t.export_it()}
       </Button>
       <Button small icon="upload" onClick={() => chooser.current?.click()}>
-        {t.import}
+        {t.import_it()}
       </Button>
-      <input ref={chooser} type="file" class="unseen" accept=".jsonl,.json,.rois,text/plain" tabIndex={-1} aria-label={t.import} onChange={(event) => void read(event.currentTarget.files?.[0])} />
+      <input ref={chooser} type="file" class="unseen" accept=".jsonl,.json,.rois,text/plain" tabIndex={-1} aria-label={t.import_it()} onChange={(event) => void read(event.currentTarget.files?.[0])} />
     </>
   );
 }

@@ -2,18 +2,17 @@
 import { useSignal } from '@preact/signals';
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 
-import { Button } from '../ui';
+import { Button, joined, watch_size } from '../ui';
 import type { Desk, Run } from './desk';
 import { label_of, label_of_edge } from './graph';
 import { type Box, type DrawnEdge, path_of } from './layout';
 import type { Scenario, State } from './model';
 import { arrow_head, neighbour, picture_of, shown_name } from './picture';
-import { words } from './words';
+import * as w from './texts';
 
 const smallest = 0.68; // below that one scrolls
 
 export function Diagram({ desk, scenario, edit }: { desk: Desk; scenario: Scenario; edit: (state: string) => void }) {
-  const w = words();
   const frame = useRef<HTMLDivElement>(null);
   const size = useSignal({ width: 600, height: 600 });
   const is_whole = desk.shows_whole;
@@ -24,9 +23,7 @@ export function Diagram({ desk, scenario, edit }: { desk: Desk; scenario: Scenar
 
   useLayoutEffect(() => {
     const element = frame.current!;
-    const observer = new ResizeObserver(([box]) => (size.value = { width: box!.contentRect.width, height: box!.contentRect.height }));
-    observer.observe(element);
-    return () => observer.disconnect();
+    return watch_size(element, () => (size.value = { width: element.clientWidth, height: element.clientHeight }));
   }, []);
   const fit = Math.min(1, (size.value.width - 2) / layout.width);
   const scale = is_whole.value ? Math.min(fit, (size.value.height - 4) / layout.height) : Math.max(smallest, fit);
@@ -57,7 +54,7 @@ export function Diagram({ desk, scenario, edit }: { desk: Desk; scenario: Scenar
           height={layout.height * scale}
           viewBox={`0 0 ${layout.width} ${layout.height}`}
           role="group"
-          aria-label={`${w.diagram}. ${w.diagram_hint}`}
+          aria-label={`${w.diagram()}. ${w.diagram_hint()}`}
           onKeyDown={pressed}
         >
           {layout.edges.map((one) => (
@@ -78,7 +75,7 @@ export function Diagram({ desk, scenario, edit }: { desk: Desk; scenario: Scenar
         </svg>
       </div>
       <Button class="scenario-fit" small aria-pressed={is_whole.value} onClick={() => (is_whole.value = !is_whole.value)}>
-        {is_whole.value ? w.natural : w.whole}
+        {is_whole.value ? w.natural() : w.whole()}
       </Button>
     </div>
   );
@@ -100,7 +97,7 @@ function EdgePicture({ drawn, run, choose }: { drawn: DrawnEdge; run: Run | unde
   const leads_on = run !== undefined && run.ended_at === undefined && run.state === edge.from && !run.is_leaving;
   const path = path_of(drawn.points);
   return (
-    <g class={['scenario-edge', is_last && 'scenario-edge-last', leads_on && 'scenario-edge-open'].filter(Boolean).join(' ')} aria-hidden="true">
+    <g class={joined('scenario-edge', is_last && 'scenario-edge-last', leads_on && 'scenario-edge-open')} aria-hidden="true">
       <path class="scenario-line" d={path} />
       {is_last && <path key={run.taken} class="scenario-flash" d={path} />}
       <path class="scenario-head" d={arrow_head(drawn)} />
@@ -125,18 +122,17 @@ interface StateProps {
 }
 
 function StatePicture({ state, box, run, is_start, is_chosen, is_reachable, choose }: StateProps) {
-  const w = words();
   const { name, is_end, failed } = state;
   const is_current = run?.state === name;
   const is_left = is_current && run.is_leaving;
   const visits = run?.visits.get(name) ?? 0;
   const [x, y] = [box.x - box.width / 2, box.y - box.height / 2];
-  const marks = [is_start && w.starts_here, is_end && (failed ? w.is_failed : w.is_end), is_left ? w.is_left : is_current && w.is_current, visits > 0 && w.visits(visits)].filter(Boolean);
+  const marks = [is_start && w.starts_here(), is_end && (failed ? w.is_failed() : w.is_end()), is_left ? w.is_left() : is_current && w.is_current(), visits > 0 && w.visits(visits)].filter(Boolean);
   const leads = state.triggers.map((one) => w.leads_to(shown_name(one.to), label_of(one))).join(', ');
-  const classes = ['scenario-state', is_end && 'scenario-end', failed && 'scenario-failed', is_current && 'scenario-current', is_current && run.ended_at === undefined && 'scenario-live', is_left && 'scenario-left', is_chosen && 'scenario-chosen'];
+  const classes = joined('scenario-state', is_end && 'scenario-end', failed && 'scenario-failed', is_current && 'scenario-current', is_current && run.ended_at === undefined && 'scenario-live', is_left && 'scenario-left', is_chosen && 'scenario-chosen');
   return (
     <g
-      class={classes.filter(Boolean).join(' ')}
+      class={classes}
       role="button"
       tabindex={is_reachable ? 0 : -1}
       data-state={name}

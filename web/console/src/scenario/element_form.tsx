@@ -6,7 +6,7 @@ import { closed_choices, relation_of, relations, steps_for, suggestions, with_ne
 import { actions, type AttributeRule, is_of, rule_of, statuses } from './grammar';
 import type { Problem } from './read';
 import { moved, type Node, read_source, with_attribute, with_state_renamed, with_text, without } from './source';
-import { type Words, words } from './words';
+import * as w from './texts';
 
 export interface FormProps {
   desk: Desk;
@@ -15,18 +15,17 @@ export interface FormProps {
 }
 
 /** What is wrong with an element, in words. */
-export function problems_at(problems: readonly Problem[], node: Node, w: Words): string[] {
-  return problems.filter((one) => one.node?.path === node.path).map(({ say }) => say(w));
+export function problems_at(problems: readonly Problem[], node: Node): string[] {
+  return problems.filter((one) => one.node?.path === node.path).map(({ say }) => say());
 }
 
 /** With its name, and what moves it and takes it away. */
 export function ElementCard({ desk, root, node }: FormProps) {
-  const w = words();
   const title = w.element(node.name);
   const sisters = (node.parent?.children ?? []).filter((one) => same_group(one, node));
   const { text } = desk;
   const may_not = desk.is_running.value;
-  const said = problems_at(desk.reading.value.problems, node, w);
+  const said = problems_at(desk.reading.value.problems, node);
   const is_step = node.parent !== undefined && node.parent.name !== 'state' && node.parent.name !== 'robot_scenario';
   return (
     <div class={`scenario-card scenario-card-${is_step ? 'step' : 'own'}`} data-element={node.name} role="group" aria-label={title}>
@@ -64,14 +63,13 @@ function addable(node: Node): readonly string[] {
 
 /** Chooses what is added; one kind alone is a button's worth. */
 export function Adder({ desk, root, parent, names }: { desk: Desk; root: Node; parent: Node; names: readonly string[] }) {
-  const w = words();
   if (names.length === 0) return null;
   const state = name_of_state(parent);
   const add = (name: string) => name !== '' && desk.edit(with_new(desk.text.value, parent, name, root, state), '');
   return (
     <div class="scenario-adder">
       <select
-        aria-label={`${w.add_choose} ${w.element(parent.name)}`}
+        aria-label={`${w.add_choose()} ${w.element(parent.name)}`}
         value=""
         disabled={desk.is_running.value}
         onChange={(event) => {
@@ -79,7 +77,7 @@ export function Adder({ desk, root, parent, names }: { desk: Desk; root: Node; p
           event.currentTarget.value = '';
         }}
       >
-        <option value="">{w.add_choose}</option>
+        <option value="">{w.add_choose()}</option>
         {names.map((one) => <option key={one} value={one}>{w.element(one)}</option>)}
       </select>
     </div>
@@ -93,7 +91,6 @@ function name_of_state(node: Node | undefined): string {
 
 /** The fields of its attributes and of its text. */
 export function ElementFields({ desk, root, node }: FormProps) {
-  const w = words();
   const rule = rule_of(node.name);
   if (!rule) return null;
   const change_text = (value: string) => desk.edit(with_text(desk.text.value, node, value), `text ${node.path}`);
@@ -107,11 +104,11 @@ export function ElementFields({ desk, root, node }: FormProps) {
     <>
       {names.length > hidden.length && <div class="scenario-fields">{names.filter((one) => !hidden.includes(one)).map(field)}</div>}
       {rule.text && (
-        <TextField hide_label label={w.value_of(w.element(node.name))} value={node.element.text.trim()} change={change_text} input={{ disabled: desk.is_running.value, placeholder: w.text_of }} />
+        <TextField hide_label label={w.value_of(w.element(node.name))} value={node.element.text.trim()} change={change_text} input={{ disabled: desk.is_running.value, placeholder: w.text_with() }} />
       )}
       {hidden.length > 0 && (
         <details class="scenario-more">
-          <summary>{w.more}</summary>
+          <summary>{w.more()}</summary>
           <div class="scenario-fields">{hidden.map(field)}</div>
         </details>
       )}
@@ -121,7 +118,6 @@ export function ElementFields({ desk, root, node }: FormProps) {
 
 function AttributeField({ desk, root, node, name, rule }: FormProps & { name: string; rule: AttributeRule }) {
   const { profile } = useConsole();
-  const w = words();
   const value = node.element.attribute(name);
   const label = w.attribute(name);
   const is_locked = desk.is_running.value;
@@ -134,7 +130,7 @@ function AttributeField({ desk, root, node, name, rule }: FormProps & { name: st
   const closed = rule.type === 'status' ? [...statuses] : rule.type === 'boolean' ? ['true', 'false'] : closed_choices(rule.type, root);
   if (closed) {
     const now = (value ?? '').trim();
-    const none = rule.required ? [] : [{ value: '', label: name === 'status' || name === 'component' ? w.none_chosen : w.not_given }];
+    const none = rule.required ? [] : [{ value: '', label: name === 'status' || name === 'component' ? w.none_chosen() : w.not_given() }];
     const unknown = now !== '' && !closed.includes(now) ? [{ value: now, label: `${now} ?` }] : [];
     const choices = [...none, ...closed.map((one) => ({ value: one, label: one })), ...unknown];
     return (
@@ -167,7 +163,6 @@ function component_meant(root: Node, name: string, profile: ReturnType<typeof us
 
 // A condition says one thing of a variable: what that is, is chosen.
 function WhenFields({ desk, root, node }: FormProps) {
-  const w = words();
   const relation = relation_of(node);
   const rules = rule_of('when')!.attributes;
   const first_variable = closed_choices('variable', root)?.[0] ?? '';
@@ -177,7 +172,7 @@ function WhenFields({ desk, root, node }: FormProps) {
     <div class="scenario-fields">
       {field('variable')}
       <fieldset class="scenario-lock" disabled={desk.is_running.value}>
-        <SelectField label={w.relation} value={relation ?? 'is'} change={turn} choices={relations.map((one) => ({ value: one, label: w.attribute(one).replace('_', ' ') }))} />
+        <SelectField label={w.relation()} value={relation ?? 'is'} change={turn} choices={relations.map((one) => ({ value: one, label: w.attribute(one).replace('_', ' ') }))} />
       </fieldset>
       {relation && field(relation)}
       {relation === 'near' && field('within')}

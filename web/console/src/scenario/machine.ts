@@ -9,6 +9,7 @@ import type { Scenario, ScenarioCommand, State, Trigger, TriggerKind } from './m
 import { Trouble } from './trouble';
 import { typed_arguments } from './typed';
 import { listed, Variables } from './variables';
+import * as w from './texts';
 
 /** What a machine tells while it runs. */
 export interface Observer {
@@ -86,11 +87,11 @@ export class Machine {
   private check(): void {
     switch (this.inbox.ended) {
       case 'stopped':
-        return Trouble.raise((w) => w.stopped);
+        return Trouble.raise(w.stopped);
       case 'session':
-        return Trouble.raise((w) => w.session_ended);
+        return Trouble.raise(w.session_ended);
       case 'closed':
-        return Trouble.raise((w) => w.connection_closed);
+        return Trouble.raise(w.connection_closed);
     }
   }
 
@@ -138,7 +139,7 @@ export class Machine {
   private async execute(commands: readonly ScenarioCommand[]): Promise<string[]> {
     const units = commands.map((command): CommandMessage => {
       const ref = this.refs.get(command.component)!;
-      const component = this.console.profile.component(ref) ?? Trouble.raise((w) => w.no_component(ref));
+      const component = this.console.profile.component(ref) ?? Trouble.raise(() => w.no_component(ref));
       const given = command.arguments.map(({ name, text }) => ({ name, text: this.variables.filled(text) }));
       const made: CommandMessage = { kind: 'command', component_ref: ref, command_type: command.type, command_id: '', arguments: typed_arguments(component, command.type, given) };
       return command.delay === undefined ? made : { ...made, delay_time: command.delay };
@@ -177,7 +178,7 @@ export class Machine {
     const is_meant = (trigger: Trigger) => trigger.kind === 'completed' && (trigger.status === undefined || trigger.status === ended);
     if (await this.fire_if(is_meant, undefined, `completed ${ended}`)) return;
     const { name, triggers } = this.state;
-    if (!triggers.some(({ kind }) => kind === 'event' || kind === 'after')) Trouble.raise((w) => w.unexpected_end(name, ended));
+    if (!triggers.some(({ kind }) => kind === 'event' || kind === 'after')) Trouble.raise(() => w.unexpected_end(name, ended));
   }
 
   // --- Times, since the state was entered ---
@@ -185,7 +186,7 @@ export class Machine {
   private due({ seconds }: Trigger): number {
     const text = this.variables.filled(seconds);
     const read = text.trim() === '' ? NaN : Number(text);
-    if (!(read >= 0 && read < 1e9)) Trouble.raise((w) => w.no_seconds(this.state.name, text));
+    if (!(read >= 0 && read < 1e9)) Trouble.raise(() => w.no_seconds(this.state.name, text));
     return this.entered + read * 1000;
   }
 

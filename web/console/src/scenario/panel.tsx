@@ -2,20 +2,18 @@
 import './scenario.css';
 
 import { useSignal } from '@preact/signals';
-import { useLayoutEffect, useRef } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
 import type { Notices } from '../state/notices';
-import { Button, EmptyState, Icon, SplitPane, Tabs, TextArea } from '../ui';
+import { Button, chosen_file, EmptyState, Icon, save_file, SplitPane, Tabs, TextArea, useIsWide } from '../ui';
 import { against_engine } from './against_engine';
 import { type Desk, desk_of } from './desk';
 import { Diagram } from './diagram';
 import { EditView } from './edit_view';
-import { chosen_file, save_file } from './files';
 import type { Problem } from './read';
 import { RunState, RunView, state_of } from './run_view';
 import type { Node } from './source';
-import { words } from './words';
+import * as w from './texts';
 
 type Part = 'run' | 'edit' | 'xml';
 
@@ -23,26 +21,18 @@ const beside_from = 760; // px: narrower than that, the diagram stands above the
 
 export default function ScenarioPanel() {
   const console = useConsole();
-  const w = words();
   const desk = desk_of(console);
   const part = useSignal<Part>('run');
-  const frame = useRef<HTMLDivElement>(null);
-  const is_wide = useSignal(true);
-  useLayoutEffect(() => {
-    const element = frame.current!;
-    const observer = new ResizeObserver(() => (is_wide.value = element.clientWidth >= beside_from));
-    observer.observe(element);
-    return () => observer.disconnect();
-  }, []);
+  const [frame, is_wide] = useIsWide(beside_from);
   const scenario = desk.drawn.value;
   const edit = (state: string) => {
     desk.chosen.value = state;
     if (!desk.is_running.value) part.value = 'edit';
   };
   const tabs = [
-    { id: 'run' as const, title: w.tab_run, icon: 'play' as const },
-    { id: 'edit' as const, title: w.tab_edit, icon: 'sequence' as const },
-    { id: 'xml' as const, title: w.tab_xml, icon: 'messages' as const },
+    { id: 'run' as const, title: w.tab_run(), icon: 'play' as const },
+    { id: 'edit' as const, title: w.tab_edit(), icon: 'sequence' as const },
+    { id: 'xml' as const, title: w.tab_xml(), icon: 'messages' as const },
   ];
   return (
     <div class="scenario-panel" ref={frame}>
@@ -50,13 +40,13 @@ export default function ScenarioPanel() {
       <Problems desk={desk} choose={edit} />
       <div class="scenario-body">
         <SplitPane
-          key={is_wide.value ? 'beside' : 'below'}
-          id={is_wide.value ? 'scenario' : 'scenario-below'}
-          direction={is_wide.value ? 'row' : 'column'}
-          share={is_wide.value ? 0.56 : 0.5}
-          first={scenario ? <Diagram desk={desk} scenario={scenario} edit={edit} /> : <EmptyState icon="scenario" title={w.cannot_draw} />}
+          key={is_wide ? 'beside' : 'below'}
+          id={is_wide ? 'scenario' : 'scenario-below'}
+          direction={is_wide ? 'row' : 'column'}
+          share={is_wide ? 0.56 : 0.5}
+          first={scenario ? <Diagram desk={desk} scenario={scenario} edit={edit} /> : <EmptyState icon="scenario" title={w.cannot_draw()} />}
           second={
-            <Tabs label={w.tabs} tabs={tabs} chosen={part.value} choose={(id) => (part.value = id)}>
+            <Tabs label={w.tabs()} tabs={tabs} chosen={part.value} choose={(id) => (part.value = id)}>
               {part.value === 'run' && <RunView desk={desk} />}
               {part.value === 'edit' && <EditView desk={desk} />}
               {part.value === 'xml' && <XmlPart desk={desk} />}
@@ -70,10 +60,9 @@ export default function ScenarioPanel() {
 
 function Bar({ desk, started }: { desk: Desk; started: () => void }) {
   const { link, notices } = useConsole();
-  const w = words();
   const is_running = desk.is_running.value;
   const { scenario } = desk.reading.value;
-  const why_not = !link.is_open ? w.not_connected : scenario ? undefined : w.mend_first;
+  const why_not = !link.is_open ? w.not_connected() : scenario ? undefined : w.mend_first();
   const start = () => {
     started();
     void desk.start().then(() => tell_end(desk, notices));
@@ -81,25 +70,25 @@ function Bar({ desk, started }: { desk: Desk; started: () => void }) {
   const open = async () => {
     const file = await chosen_file('.xml,application/xml,text/xml');
     if (!file) return;
-    await file.text().then((text) => desk.open(file.name, text), (error: unknown) => void notices.tell('error', w.file_unreadable, { detail: String(error) }));
+    await file.text().then((text) => desk.open(file.name, text), (error: unknown) => void notices.tell('error', w.file_unreadable(), { detail: String(error) }));
   };
   return (
     <header class="scenario-bar">
       <div class="scenario-bar-title">
-        <h2>{desk.drawn.value?.name || w.unnamed}</h2>
+        <h2>{desk.drawn.value?.name || w.unnamed()}</h2>
         <span class="scenario-soft">{desk.file_name.value}</span>
       </div>
       {is_running ? (
-        <Button look="danger" icon="stop" onClick={() => desk.stop()}>{w.stop}</Button>
+        <Button look="danger" icon="stop" onClick={() => desk.stop()}>{w.stop()}</Button>
       ) : (
-        <Button look="primary" icon="play" disabled={why_not !== undefined} title={why_not} onClick={start}>{w.start}</Button>
+        <Button look="primary" icon="play" disabled={why_not !== undefined} title={why_not} onClick={start}>{w.start()}</Button>
       )}
       <RunState desk={desk} />
       <div class="scenario-bar-end">
-        <Button small look="quiet" icon="undo" disabled={is_running || !desk.can_undo.value} onClick={() => desk.undo()}>{w.undo}</Button>
-        <Button small look="quiet" icon="refresh" title={w.shipped_hint} disabled={is_running || desk.is_as_shipped} onClick={() => desk.open_shipped()}>{w.shipped}</Button>
-        <Button small look="quiet" icon="upload" disabled={is_running} onClick={() => void open()}>{w.open}</Button>
-        <Button small look="quiet" icon="download" onClick={() => save_file(desk.file_name.value, desk.text.value)}>{w.save}</Button>
+        <Button small look="quiet" icon="undo" disabled={is_running || !desk.can_undo.value} onClick={() => desk.undo()}>{w.undo()}</Button>
+        <Button small look="quiet" icon="refresh" title={w.shipped_hint()} disabled={is_running || desk.is_as_shipped} onClick={() => desk.open_shipped()}>{w.shipped()}</Button>
+        <Button small look="quiet" icon="upload" disabled={is_running} onClick={() => void open()}>{w.open()}</Button>
+        <Button small look="quiet" icon="download" onClick={() => save_file(desk.file_name.value, [desk.text.value])}>{w.save()}</Button>
       </div>
     </header>
   );
@@ -107,15 +96,14 @@ function Bar({ desk, started }: { desk: Desk; started: () => void }) {
 
 // It may end while the user looks elsewhere.
 function tell_end(desk: Desk, notices: Notices): void {
-  const { tone, text, why } = state_of(desk.run, false, words());
+  const { tone, text, why } = state_of(desk.run, false);
   if (tone === 'calm') return;
-  notices.tell(tone === 'good' ? 'good' : 'error', `${desk.drawn.value?.name || words().unnamed}: ${text}`, why === undefined ? {} : { detail: why });
+  notices.tell(tone === 'good' ? 'good' : 'error', `${desk.drawn.value?.name || w.unnamed()}: ${text}`, why === undefined ? {} : { detail: why });
 }
 
 // What keeps it from running, and what this engine cannot do.
 function Problems({ desk, choose }: { desk: Desk; choose: (state: string) => void }) {
   const { profile } = useConsole();
-  const w = words();
   const { problems, scenario, text } = desk.reading.value;
   const warnings = scenario && profile.profile.value ? against_engine(scenario, text, profile) : [];
   const all = problems.length > 0 ? problems : warnings;
@@ -123,19 +111,18 @@ function Problems({ desk, choose }: { desk: Desk; choose: (state: string) => voi
   return (
     <details class={problems.length > 0 ? 'scenario-problems scenario-problems-bad' : 'scenario-problems'} open={problems.length > 0}>
       <summary>
-        <Icon name="warning" /> {problems.length > 0 ? w.problems : w.warnings} ({all.length})
+        <Icon name="warning" /> {problems.length > 0 ? w.problems() : w.warnings()} ({all.length})
       </summary>
       <ul>
-        {all.slice(0, 50).map((one) => <ProblemLine key={`${one.line} ${one.column} ${one.say(w)}`} problem={one} choose={choose} />)}
+        {all.slice(0, 50).map((one) => <ProblemLine key={`${one.line} ${one.column} ${one.say()}`} problem={one} choose={choose} />)}
       </ul>
     </details>
   );
 }
 
 function ProblemLine({ problem, choose }: { problem: Problem; choose: (state: string) => void }) {
-  const w = words();
   const state = state_around(problem.node);
-  const text = <><span class="scenario-soft">{w.at_line(problem.line, problem.column)}</span> {problem.say(w)}</>;
+  const text = <><span class="scenario-soft">{w.at_line(problem.line, problem.column)}</span> {problem.say()}</>;
   return <li>{state === undefined ? text : <button type="button" class="scenario-link" onClick={() => choose(state)}>{text}</button>}</li>;
 }
 
@@ -145,11 +132,10 @@ function state_around(node: Node | undefined): string | undefined {
 }
 
 function XmlPart({ desk }: { desk: Desk }) {
-  const w = words();
   return (
     <fieldset class="scenario-xml" disabled={desk.is_running.value}>
-      {desk.is_running.value && <p class="scenario-locked"><Icon name="info" /> {w.locked}</p>}
-      <TextArea label={w.xml_label} hide_label value={desk.text.value} change={(text) => desk.edit(text, 'xml')} rows={30} />
+      {desk.is_running.value && <p class="scenario-locked"><Icon name="info" /> {w.locked()}</p>}
+      <TextArea label={w.xml_label()} hide_label value={desk.text.value} change={(text) => desk.edit(text, 'xml')} rows={30} />
     </fieldset>
   );
 }

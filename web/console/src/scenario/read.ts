@@ -6,6 +6,7 @@ import type { Relation, Scenario, ScenarioCommand, State, Step, Trigger, Trigger
 import { line_and_column, type Node, read_source } from './source';
 import type { Say } from './trouble';
 import { names_in } from './variables';
+import * as w from './texts';
 
 export interface Problem {
   say: Say;
@@ -50,7 +51,7 @@ class Reader {
 
   scenario(): Scenario {
     const { root } = this;
-    if (root.name !== 'robot_scenario') this.complain(root, (w) => w.not_a_scenario(root.name));
+    if (root.name !== 'robot_scenario') this.complain(root, () => w.not_a_scenario(root.name));
     else this.check_grammar(root);
     const made: Scenario = { name: attribute(root, 'name'), start: name(root, 'start'), components: [], variables: this.variables, states: this.states, root };
     if (this.problems.length > 0) return made;
@@ -71,21 +72,21 @@ class Reader {
 
   private check_grammar(node: Node): void {
     const rule = rule_of(node.name);
-    if (!rule || node.element.namespace !== namespace) return this.complain(node, (w) => w.unknown_element(node.name, node.parent?.name ?? ''));
+    if (!rule || node.element.namespace !== namespace) return this.complain(node, () => w.unknown_element(node.name, node.parent?.name ?? ''));
     this.check_attributes(node, rule);
     this.check_content(node, rule);
-    if (!rule.text && node.element.text.trim() !== '') this.complain(node, (w) => w.no_text_here(node.name));
+    if (!rule.text && node.element.text.trim() !== '') this.complain(node, () => w.no_text_here(node.name));
     for (const child of node.children) this.check_grammar(child);
   }
 
   private check_attributes(node: Node, rule: ElementRule): void {
     for (const { name: given, namespace: of, value } of node.element.attributes) {
       const expected = of === '' && Object.hasOwn(rule.attributes, given) ? rule.attributes[given] : undefined;
-      if (of === '' && !expected) this.complain(node, (w) => w.unknown_attribute(given, node.name));
-      if (expected && !is_of(expected.type, value)) this.complain(node, (w) => w.wrong_value(given, value, expected.type));
+      if (of === '' && !expected) this.complain(node, () => w.unknown_attribute(given, node.name));
+      if (expected && !is_of(expected.type, value)) this.complain(node, () => w.wrong_value(given, value, expected.type));
     }
     for (const [needed, { required }] of Object.entries(rule.attributes))
-      if (required && node.element.attribute(needed) === undefined) this.complain(node, (w) => w.missing_attribute(needed, node.name));
+      if (required && node.element.attribute(needed) === undefined) this.complain(node, () => w.missing_attribute(needed, node.name));
   }
 
   private check_content(node: Node, { content }: ElementRule): void {
@@ -93,35 +94,35 @@ class Reader {
     for (const { names, least, most } of content) {
       let count = 0;
       for (; count < most && names.includes(node.children[at]?.name ?? ''); ++at) count += 1;
-      if (count < least) return this.complain(node, (w) => w.missing_element(names.join(', '), node.name));
+      if (count < least) return this.complain(node, () => w.missing_element(names.join(', '), node.name));
     }
     const more = node.children[at];
     if (!more || !rule_of(more.name)) return; // what nobody knows is told where it stands
     const known = content.some(({ names }) => names.includes(more.name));
-    this.complain(more, (w) => (known ? w.element_out_of_order(more.name, node.name) : w.unknown_element(more.name, node.name)));
+    this.complain(more, () => (known ? w.element_out_of_order(more.name, node.name) : w.unknown_element(more.name, node.name)));
   }
 
   // --- What it means ---
 
   private component(node: Node): Scenario['components'][number] {
     const read = { name: name(node, 'name'), ref: name(node, 'ref'), type: name(node, 'type'), node };
-    if (read.ref !== '' && read.type !== '') this.complain(node, (w) => w.ref_or_type());
+    if (read.ref !== '' && read.type !== '') this.complain(node, () => w.ref_or_type());
     if (read.ref === '' && read.type === '') read.ref = read.name;
-    if (this.components.has(read.name)) this.complain(node, (w) => w.second('component', read.name));
+    if (this.components.has(read.name)) this.complain(node, () => w.second('component', read.name));
     this.components.add(read.name);
     return read;
   }
 
   private variable(node: Node): void {
     const own = name(node, 'name');
-    if (this.variables.has(own)) this.complain(node, (w) => w.second('variable', own));
+    if (this.variables.has(own)) this.complain(node, () => w.second('variable', own));
     this.variables.set(own, node.element.text.trim());
   }
 
   // All names of states, before any is led to.
   private announce(node: Node): void {
     const own = name(node, 'name');
-    if (this.states.has(own)) this.complain(node, (w) => w.second('state', own));
+    if (this.states.has(own)) this.complain(node, () => w.second('state', own));
     this.states.set(own, { name: own, steps: [], commands: [], triggers: [], leaving: [], is_end: node.name === 'end', failed: false, node });
   }
 
@@ -142,9 +143,9 @@ class Reader {
 
   private check_ways_out({ node, is_end, triggers: out, commands, query }: State): void {
     if (is_end) return;
-    if (out.length === 0) this.complain(node, (w) => w.no_way_out());
-    if (commands.length === 0 && out.some(({ kind }) => kind === 'completed')) this.complain(node, (w) => w.no_commands());
-    if (!query && out.some(({ kind }) => kind === 'answered')) this.complain(node, (w) => w.no_query());
+    if (out.length === 0) this.complain(node, () => w.no_way_out());
+    if (commands.length === 0 && out.some(({ kind }) => kind === 'completed')) this.complain(node, () => w.no_commands());
+    if (!query && out.some(({ kind }) => kind === 'answered')) this.complain(node, () => w.no_query());
   }
 
   private command(node: Node): ScenarioCommand {
@@ -174,7 +175,7 @@ class Reader {
     this.check_state(node, read.to);
     const has_results = kind === 'event' || kind === 'answered';
     for (const child of node.children) {
-      if (child.name === 'take' && !has_results) this.complain(child, (w) => w.nothing_to_take());
+      if (child.name === 'take' && !has_results) this.complain(child, () => w.nothing_to_take());
       read.steps.push(this.step(child));
     }
     return read;
@@ -202,8 +203,8 @@ class Reader {
 
   private take_result(node: Node, variable: string): Step {
     const has = (one: string) => node.element.attribute(one) !== undefined;
-    if (has('apart') && !has('not_in')) this.complain(node, (w) => w.belong_together('apart', 'not_in'));
-    if (has('beside') !== has('is')) this.complain(node, (w) => w.belong_together('beside', 'is'));
+    if (has('apart') && !has('not_in')) this.complain(node, () => w.belong_together('apart', 'not_in'));
+    if (has('beside') !== has('is')) this.complain(node, () => w.belong_together('beside', 'is'));
     return {
       kind: 'take',
       variable,
@@ -217,29 +218,29 @@ class Reader {
 
   private when(node: Node, variable: string): Step {
     const given = relations.filter((one) => node.element.attribute(one) !== undefined);
-    if (given.length !== 1) this.complain(node, (w) => w.one_relation(relations.join(', ')));
+    if (given.length !== 1) this.complain(node, () => w.one_relation(relations.join(', ')));
     let relation: Relation = given[0] ?? 'is';
     const operand = this.known_text(node, attribute(node, relation));
     if (relation === 'in' || relation === 'not_in') this.known_variable(node, operand);
     if (relation === 'empty' && !is_true(operand)) relation = 'not_empty';
-    if ((relation === 'near') !== (node.element.attribute('within') !== undefined)) this.complain(node, (w) => w.belong_together('near', 'within'));
+    if ((relation === 'near') !== (node.element.attribute('within') !== undefined)) this.complain(node, () => w.belong_together('near', 'within'));
     return { kind: 'when', variable, relation, operand, within: number(node, 'within') };
   }
 
   // --- What there must be ---
 
   private check_state(node: Node, to: string): void {
-    if (!this.states.has(to)) this.complain(node, (w) => w.no_such('state', to, [...this.states.keys()]));
+    if (!this.states.has(to)) this.complain(node, () => w.no_such('state', to, [...this.states.keys()]));
   }
 
   private known_component(node: Node): string {
     const used = name(node, 'component');
-    if (used !== '' && !this.components.has(used)) this.complain(node, (w) => w.no_such('component', used, [...this.components]));
+    if (used !== '' && !this.components.has(used)) this.complain(node, () => w.no_such('component', used, [...this.components]));
     return used;
   }
 
   private known_variable(node: Node, used: string): string {
-    if (used !== '' && !this.variables.has(used)) this.complain(node, (w) => w.no_such('variable', used, [...this.variables.keys()]));
+    if (used !== '' && !this.variables.has(used)) this.complain(node, () => w.no_such('variable', used, [...this.variables.keys()]));
     return used;
   }
 

@@ -9,14 +9,14 @@ import { shown_name } from './picture';
 import { nodes_in, with_text } from './source';
 import { Trouble } from './trouble';
 import { listed } from './variables';
-import { type Words, words } from './words';
+import * as w from './texts';
 
 const most_shown = 300;
 
 /** In which tone, and in which words. */
-export function state_of(run: Run | undefined, is_running: boolean, w: Words): { tone: Tone; text: string; why?: string } {
-  if (!run) return { tone: 'calm', text: w.never_run };
-  if (is_running) return { tone: 'busy', text: run.state === '' ? w.binding : w.running };
+export function state_of(run: Run | undefined, is_running: boolean): { tone: Tone; text: string; why?: string } {
+  if (!run) return { tone: 'calm', text: w.never_run() };
+  if (is_running) return { tone: 'busy', text: run.state === '' ? w.binding() : w.running() };
   const { outcome } = run;
   switch (outcome?.how) {
     case 'ended':
@@ -24,18 +24,17 @@ export function state_of(run: Run | undefined, is_running: boolean, w: Words): {
     case 'failed':
       return { tone: 'bad', text: w.failed(shown_name(outcome.state)) };
     case 'trouble':
-      return { tone: 'bad', text: w.trouble, why: outcome.trouble instanceof Trouble ? outcome.trouble.say(w) : error_text(outcome.trouble) };
+      return { tone: 'bad', text: w.trouble(), why: outcome.trouble instanceof Trouble ? outcome.trouble.say() : error_text(outcome.trouble) };
     default:
-      return { tone: 'calm', text: w.was_stopped };
+      return { tone: 'calm', text: w.was_stopped() };
   }
 }
 
 export function RunState({ desk }: { desk: Desk }) {
   const console = useConsole();
-  const w = words();
   void desk.pulse.beat.value;
   const { run } = desk;
-  const { tone, text } = state_of(run, desk.is_running.value, w);
+  const { tone, text } = state_of(run, desk.is_running.value);
   const until = run?.ended_at ?? console.time();
   return (
     <span class="scenario-run-state">
@@ -46,9 +45,8 @@ export function RunState({ desk }: { desk: Desk }) {
 }
 
 export function RunView({ desk }: { desk: Desk }) {
-  const w = words();
   void desk.pulse.beat.value;
-  const { why } = state_of(desk.run, desk.is_running.value, w);
+  const { why } = state_of(desk.run, desk.is_running.value);
   return (
     <div class="scenario-run">
       {why !== undefined && <p class="scenario-why"><Icon name="warning" /> {why}</p>}
@@ -59,7 +57,6 @@ export function RunView({ desk }: { desk: Desk }) {
 }
 
 function History({ desk }: { desk: Desk }) {
-  const w = words();
   const frame = useRef<HTMLDivElement>(null);
   const at_end = useRef(true);
   void desk.pulse.beat.value;
@@ -75,9 +72,9 @@ function History({ desk }: { desk: Desk }) {
   };
   return (
     <section class="scenario-history">
-      <h3>{w.history}</h3>
-      <div class="scenario-history-frame" ref={frame} onScroll={scrolled} tabIndex={0} role="region" aria-label={w.history}>
-        {entries.length === 0 && <p class="scenario-soft">{w.no_history}</p>}
+      <h3>{w.history()}</h3>
+      <div class="scenario-history-frame" ref={frame} onScroll={scrolled} tabIndex={0} role="region" aria-label={w.history()}>
+        {entries.length === 0 && <p class="scenario-soft">{w.no_history()}</p>}
         <ol>
           {entries.map((one) => <Entry key={one.number} entry={one} is_new={one.number === last && desk.is_running.value} />)}
         </ol>
@@ -87,14 +84,13 @@ function History({ desk }: { desk: Desk }) {
 }
 
 function Entry({ entry, is_new }: { entry: HistoryEntry; is_new: boolean }) {
-  const w = words();
   const time = <time class="scenario-time">{clock_time(entry.at, false)}</time>;
   if (entry.kind === 'print')
     return (
       <li class="scenario-print">
         {time}
         <Icon name="messages" />
-        <span><span class="unseen">{w.printed}: </span><span class="scenario-printed">{entry.line}</span></span>
+        <span><span class="unseen">{w.printed()}: </span><span class="scenario-printed">{entry.line}</span></span>
       </li>
     );
   return (
@@ -110,24 +106,23 @@ function Entry({ entry, is_new }: { entry: HistoryEntry; is_new: boolean }) {
 
 // What they begin with is changed in the text, as all else.
 function VariablesTable({ desk }: { desk: Desk }) {
-  const w = words();
   void desk.pulse.beat.value;
   const { root, text } = desk.reading.value;
   const those = root ? [...nodes_in(root)].filter((one) => one.name === 'variable' && one.parent === root) : [];
   const { run } = desk;
   return (
     <section class="scenario-variables">
-      <h3>{w.variables} <span class="scenario-soft">{w.begins_hint}</span></h3>
+      <h3>{w.variables()} <span class="scenario-soft">{w.begins_hint()}</span></h3>
       <div class="scenario-variables-frame">
         {those.length === 0 ? (
-          <p class="scenario-soft">{w.no_variables}</p>
+          <p class="scenario-soft">{w.no_variables()}</p>
         ) : (
           <table class="table">
             <thead>
               <tr>
-                <th scope="col">{w.column_name}</th>
-                <th scope="col">{w.column_begins}</th>
-                <th scope="col">{w.column_value}</th>
+                <th scope="col">{w.column_name()}</th>
+                <th scope="col">{w.column_begins()}</th>
+                <th scope="col">{w.column_value()}</th>
               </tr>
             </thead>
             <tbody>
@@ -148,7 +143,7 @@ function VariablesTable({ desk }: { desk: Desk }) {
                       />
                     </td>
                     <td class="scenario-value">
-                      {run && <span key={changed} class={changed === undefined ? undefined : 'scenario-changed'}>{value === '' ? <span class="scenario-soft">{w.nothing}</span> : value}</span>}
+                      {run && <span key={changed} class={changed === undefined ? undefined : 'scenario-changed'}>{value === '' ? <span class="scenario-soft">{w.nothing()}</span> : value}</span>}
                     </td>
                   </tr>
                 );

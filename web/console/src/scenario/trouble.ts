@@ -1,7 +1,6 @@
 // What is wrong with a scenario, or has ended it: said in the language that the page has when it is shown.
-import type { Words } from './words';
 
-export type Say = (words: Words) => string;
+export type Say = () => string;
 
 export class Trouble extends Error {
   override readonly name = 'Trouble';

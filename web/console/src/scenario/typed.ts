@@ -4,6 +4,7 @@ import type { Parameter, ParameterProfile } from 'rois-client';
 import { data_type, is_packed, problem_of } from '../forms/data_type';
 import type { ComponentView } from '../state/profile_state';
 import { Trouble } from './trouble';
+import * as w from './texts';
 
 /** What a command may be given: its own arguments, and whatever `set_parameter` takes. */
 export function known_arguments(component: ComponentView, command_type: string): ParameterProfile[] {
@@ -17,7 +18,7 @@ export function typed_arguments(component: ComponentView, command_type: string, 
   const made: Parameter[] = [];
   for (const { name, text } of given) {
     const declared = known.find((one) => one.name.toLowerCase() === name.toLowerCase());
-    if (!declared) return Trouble.raise((w) => w.no_argument(component.ref, name, known.map((one) => one.name)));
+    if (!declared) return Trouble.raise(() => w.no_argument(component.ref, name, known.map((one) => one.name)));
     let argument = made.find((one) => one.name === declared.name);
     if (!argument) made.push((argument = { name: declared.name, data_type_ref: declared.data_type_ref, values: [] }));
     add_value(argument, text);
@@ -25,9 +26,9 @@ export function typed_arguments(component: ComponentView, command_type: string, 
   for (const { name, data_type_ref, values } of made) {
     const type = data_type(data_type_ref.code);
     const items = type.is_list && is_packed(type) ? values.join(' ').split(/\s+/).filter(Boolean) : values;
-    if (!type.is_list && values.length !== 1) Trouble.raise((w) => w.one_value(name));
+    if (!type.is_list && values.length !== 1) Trouble.raise(() => w.one_value(name));
     const wrong = items.find((one) => problem_of(type, one) !== undefined);
-    if (wrong !== undefined) Trouble.raise((w) => w.not_of_type(name, wrong, data_type_ref.code));
+    if (wrong !== undefined) Trouble.raise(() => w.not_of_type(name, wrong, data_type_ref.code));
   }
   return made;
 }

@@ -10,7 +10,7 @@ import { run_view, type RunView } from './running';
 import { SlotView } from './slot_view';
 import { CommandBox, ParallelHead, WaitBox } from './step_box';
 import type { SequenceStore } from './store';
-import { texts } from './texts';
+import * as t from './texts';
 
 export interface DrawingProps {
   store: SequenceStore;
@@ -21,7 +21,6 @@ export interface DrawingProps {
 }
 
 export function Drawing({ store, adding, set_adding, open_form }: DrawingProps) {
-  const t = texts();
   const console = useConsole();
   const frame = useRef<HTMLDivElement>(null);
   const root = store.root.value;
@@ -49,10 +48,10 @@ export function Drawing({ store, adding, set_adding, open_form }: DrawingProps) 
   const first = store.chosen.value !== 0 && found(root, store.chosen.value) ? store.chosen.value : root.steps[0]?.id;
   const context: LaneContext = { store, view, adding, set_adding, drag, first, go_to, open_form };
   return (
-    <div ref={frame} class={drag.dragged ? 'sequence-drawing sequence-dragging' : 'sequence-drawing'} role="group" aria-label={t.drawing} onKeyDown={pressed}>
+    <div ref={frame} class={drag.dragged ? 'sequence-drawing sequence-dragging' : 'sequence-drawing'} role="group" aria-label={t.drawing()} onKeyDown={pressed}>
       <div class="sequence-whole">
         <span class="sequence-begin" aria-hidden="true" />
-        <LaneView lane={root} label={t.steps} context={context} />
+        <LaneView lane={root} label={t.steps()} context={context} />
         <span class="sequence-end" aria-hidden="true" />
       </div>
     </div>
@@ -100,7 +99,6 @@ function StepView({ step, context }: { step: Step; context: LaneContext }) {
 }
 
 function ParallelView({ step, context }: { step: ParallelStep; context: LaneContext }) {
-  const t = texts();
   const { store } = context;
   return (
     <div class="sequence-parallel">
@@ -112,7 +110,7 @@ function ParallelView({ step, context }: { step: ParallelStep; context: LaneCont
           </li>
         ))}
       </ul>
-      <IconButton small class="sequence-add-branch" icon="plus" label={t.add_branch} tabIndex={-1} onClick={() => store.change(with_branch(store.root.value, step.id))} />
+      <IconButton small class="sequence-add-branch" icon="plus" label={t.add_branch()} tabIndex={-1} onClick={() => store.change(with_branch(store.root.value, step.id))} />
     </div>
   );
 }

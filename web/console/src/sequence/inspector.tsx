@@ -4,30 +4,29 @@ import { CommandProgress } from '../forms/command_progress';
 import { asked_by, command_types, same } from '../forms/describe';
 import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
-import { Button, EmptyState, error_text, SelectField, TextField } from '../ui';
+import { Button, EmptyState, error_text, Form, SelectField, TextField } from '../ui';
 import { is_unfinished, type Problem } from './checking';
 import { type CommandStep, found, type ParallelStep, type Step, with_branch, with_changed, without_branch } from './model';
 import type { SequenceStore } from './store';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function Inspector({ store }: { store: SequenceStore }) {
-  const t = texts();
   const step = found(store.root.value, store.chosen.value)?.step;
-  if (!step) return <EmptyState icon="sequence" title={t.choose_step}>{t.keys}</EmptyState>;
+  if (!step) return <EmptyState icon="sequence" title={t.choose_step()}>{t.keys()}</EmptyState>;
   const problem = store.problems.value.find((one) => one.step === step.id);
   const change = (to: Partial<Step>) => store.change(with_changed(store.root.value, step.id, (one) => ({ ...one, ...to }) as Step));
   const shown = problem && (store.is_strict.value || !is_unfinished(problem)) ? problem : undefined;
   return (
-    <form key={step.id} class="sequence-form" noValidate onSubmit={(event) => event.preventDefault()}>
+    <Form key={step.id} class="sequence-form">
       <Outcome store={store} step={step} />
       {step.kind === 'command' && <CommandForm step={step} problem={shown} all={problem} change={change} />}
       {step.kind === 'wait' && (
         <div class="sequence-fields">
-          <TextField label={t.wait_time} unit="ms" value={step.time} change={(time) => change({ time })} error={shown && t.no_time} input={{ inputMode: 'numeric' }} />
+          <TextField label={t.wait_time()} unit="ms" value={step.time} change={(time) => change({ time })} error={shown && t.no_time()} input={{ inputMode: 'numeric' }} />
         </div>
       )}
       {step.kind === 'parallel' && <BranchesForm store={store} step={step} problem={shown} change={change} />}
-    </form>
+    </Form>
   );
 }
 
@@ -47,8 +46,15 @@ interface CommandFormProps {
   change: (to: Partial<CommandStep>) => void;
 }
 
+const complaints = {
+  no_component: t.no_component,
+  unknown_component: t.unknown_component,
+  no_command: t.no_command,
+  unknown_command: t.unknown_command,
+  no_time: t.no_time,
+};
+
 function CommandForm({ step, problem, all, change }: CommandFormProps) {
-  const t = texts();
   const { profile } = useConsole();
   const view = profile.component(step.component);
   const choose = (ref: string) => {
@@ -56,21 +62,21 @@ function CommandForm({ step, problem, all, change }: CommandFormProps) {
     change({ component: ref, command_type: types.find((one) => same(one, step.command_type)) ?? types.find((one) => same(one, 'start')) ?? types[0] ?? '' });
   };
   const refs = profile.components.value.filter((one) => types_of(one).length > 0).map((one) => one.ref);
-  const error = (...these: Problem['what'][]) => (problem && these.includes(problem.what) ? t[problem.what as 'no_time'] : undefined);
+  const error = (...these: (keyof typeof complaints)[]) => these.filter((one) => one === problem?.what).map((one) => complaints[one]())[0];
   const asked = view ? asked_by(view, step.command_type) : [];
   const missing = all?.what === 'arguments' && problem === undefined ? {} : (all?.fields ?? {});
   return (
     <>
       <div class="sequence-fields">
-        <SelectField label={t.component} value={step.component} change={choose} choices={listed(refs, step.component, t.choose)} error={error('no_component', 'unknown_component')} />
+        <SelectField label={t.component()} value={step.component} change={choose} choices={listed(refs, step.component, t.choose())} error={error('no_component', 'unknown_component')} />
         <SelectField
-          label={t.command}
+          label={t.command()}
           value={step.command_type}
           change={(command_type) => change({ command_type })}
-          choices={listed(types_of(view), step.command_type, t.choose)}
+          choices={listed(types_of(view), step.command_type, t.choose())}
           error={error('no_command', 'unknown_command')}
         />
-        <TextField label={t.delay} unit="ms" value={step.delay} change={(delay) => change({ delay })} error={error('no_time')} input={{ inputMode: 'numeric', placeholder: '0' }} />
+        <TextField label={t.delay()} unit="ms" value={step.delay} change={(delay) => change({ delay })} error={error('no_time')} input={{ inputMode: 'numeric', placeholder: '0' }} />
       </div>
       {view && asked.length > 0 && (
         <ArgumentFields key={`${view.ref} ${step.command_type}`} view={view} asked={asked} inputs={step.inputs} change={(inputs) => change({ inputs })} problems={missing} />
@@ -79,7 +85,7 @@ function CommandForm({ step, problem, all, change }: CommandFormProps) {
         <p class="field-error">
           {t.unknown_arguments_are(step.unknown.map((one) => one.name).join(', '))}{' '}
           <Button small onClick={() => change({ unknown: [] })}>
-            {t.drop_arguments}
+            {t.drop_arguments()}
           </Button>
         </p>
       )}
@@ -98,7 +104,6 @@ function listed(all: readonly string[], chosen: string, choose: string) {
 }
 
 function BranchesForm({ store, step, problem, change }: { store: SequenceStore; step: ParallelStep; problem: Problem | undefined; change: (to: Partial<ParallelStep>) => void }) {
-  const t = texts();
   const remove = (lane: number) => {
     store.change(without_branch(store.root.value, lane));
     if (!found(store.root.value, step.id)) store.chosen.value = 0;
@@ -106,9 +111,9 @@ function BranchesForm({ store, step, problem, change }: { store: SequenceStore; 
   return (
     <>
       <div class="sequence-fields">
-        <TextField label={t.delay} unit="ms" value={step.delay} change={(delay) => change({ delay })} error={problem?.what === 'no_time' ? t.no_time : undefined} input={{ inputMode: 'numeric', placeholder: '0' }} />
+        <TextField label={t.delay()} unit="ms" value={step.delay} change={(delay) => change({ delay })} error={problem?.what === 'no_time' ? t.no_time() : undefined} input={{ inputMode: 'numeric', placeholder: '0' }} />
       </div>
-      {problem?.what === 'no_branches' && <p class="field-error">{t.no_branches}</p>}
+      {problem?.what === 'no_branches' && <p class="field-error">{t.no_branches()}</p>}
       <ul class="sequence-list">
         {step.branches.map((one, i) => (
           <li key={one.id} class="row-spread">
@@ -123,7 +128,7 @@ function BranchesForm({ store, step, problem, change }: { store: SequenceStore; 
       </ul>
       <div>
         <Button small icon="plus" onClick={() => store.change(with_branch(store.root.value, step.id))}>
-          {t.add_branch}
+          {t.add_branch()}
         </Button>
       </div>
     </>

@@ -1,13 +1,13 @@
 // Keeps sequences in this browser, and takes them in and out as XML.
 import { useRef, useState } from 'preact/hooks';
 
-import { Button, CopyButton, Dialog, Field, IconButton, TextArea, TextField } from '../ui';
+import { reason_of } from '../state/reason_of';
+import { Button, CopyButton, Dialog, Field, IconButton, save_file, TextArea, TextField } from '../ui';
 import { commands_in, new_lane } from './model';
 import type { SequenceStore } from './store';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function LibraryDialog({ store, open, close }: { store: SequenceStore; open: boolean; close: () => void }) {
-  const t = texts();
   const [pasted, set_pasted] = useState('');
   const [error, set_error] = useState<string>();
   const file = useRef<HTMLInputElement>(null);
@@ -18,8 +18,8 @@ export function LibraryDialog({ store, open, close }: { store: SequenceStore; op
       set_error(undefined);
       close();
     } catch (caught) {
-      const reason = caught instanceof Error ? caught.message : String(caught);
-      set_error(reason === 'no CommandUnitSequence' ? t.no_sequence : t.unreadable(reason));
+      const reason = reason_of(caught);
+      set_error(reason === 'no CommandUnitSequence' ? t.no_sequence() : t.unreadable(reason));
     }
   };
   const chosen_file = async () => {
@@ -33,28 +33,28 @@ export function LibraryDialog({ store, open, close }: { store: SequenceStore; op
     close();
   };
   return (
-    <Dialog title={t.sequences} open={open} close={close} wide>
+    <Dialog title={t.sequences()} open={open} close={close} wide>
       <div class="sequence-library">
-        <section class="sequence-keep" aria-label={t.this_one}>
-          <h3>{t.this_one}</h3>
+        <section class="sequence-keep" aria-label={t.this_one()}>
+          <h3>{t.this_one()}</h3>
           <div class="sequence-keep-line">
-            <TextField label={t.name} value={store.name.value} change={(name) => store.rename(name)} />
+            <TextField label={t.name()} value={store.name.value} change={(name) => store.rename(name)} />
             <Button look="primary" disabled={is_empty || store.name.value.trim() === ''} onClick={() => store.keep()}>
-              {t.keep}
+              {t.keep()}
             </Button>
-            <Button icon="download" disabled={is_empty} onClick={() => download(store.document, store.name.value || 'sequence')}>
-              {t.export}
+            <Button icon="download" disabled={is_empty} onClick={() => save_file(`${(store.name.value || 'sequence').replace(/[^\w.-]+/g, '_')}.xml`, [store.document])}>
+              {t.export_it()}
             </Button>
-            <CopyButton small={false} look="quiet" disabled={is_empty} text={() => store.document} label={t.copy_xml} />
+            <CopyButton small={false} look="quiet" disabled={is_empty} text={() => store.document} label={t.copy_xml()} />
             <Button look="quiet" icon="plus" onClick={fresh}>
-              {t.new_one}
+              {t.new_one()}
             </Button>
           </div>
         </section>
-        <section aria-label={t.kept}>
-          <h3>{t.kept}</h3>
+        <section aria-label={t.kept()}>
+          <h3>{t.kept()}</h3>
           {store.kept.value.size === 0 ? (
-            <p class="field-hint">{t.none_kept}</p>
+            <p class="field-hint">{t.none_kept()}</p>
           ) : (
             <ul class="sequence-list">
               {[...store.kept.value].map(([name, text]) => (
@@ -62,7 +62,7 @@ export function LibraryDialog({ store, open, close }: { store: SequenceStore; op
                   <strong>{name}</strong>
                   <span class="row">
                     <Button small aria-label={t.open_it(name)} onClick={() => take(name, text)}>
-                      {t.open}
+                      {t.open()}
                     </Button>
                     <IconButton small icon="close" label={t.drop_it(name)} onClick={() => store.drop(name)} />
                   </span>
@@ -71,26 +71,17 @@ export function LibraryDialog({ store, open, close }: { store: SequenceStore; op
             </ul>
           )}
         </section>
-        <section class="sequence-keep" aria-label={t.import}>
-          <h3>{t.import}</h3>
-          <Field label={t.file} control={(props) => <input {...props} ref={file} type="file" accept=".xml,application/xml,text/xml" onChange={() => void chosen_file()} />} />
-          <TextArea label={t.paste} hint={t.paste_hint} value={pasted} change={set_pasted} error={error} rows={6} />
+        <section class="sequence-keep" aria-label={t.import_it()}>
+          <h3>{t.import_it()}</h3>
+          <Field label={t.file()} control={(props) => <input {...props} ref={file} type="file" accept=".xml,application/xml,text/xml" onChange={() => void chosen_file()} />} />
+          <TextArea label={t.paste()} hint={t.paste_hint()} value={pasted} change={set_pasted} error={error} rows={6} />
           <div>
             <Button disabled={pasted.trim() === ''} onClick={() => take('', pasted)}>
-              {t.take}
+              {t.take()}
             </Button>
           </div>
         </section>
       </div>
     </Dialog>
   );
-}
-
-function download(text: string, name: string): void {
-  const url = URL.createObjectURL(new Blob([text], { type: 'application/xml' }));
-  const link = document.createElement('a');
-  link.href = url;
-  link.download = `${name.replace(/[^\w.-]+/g, '_')}.xml`;
-  link.click();
-  URL.revokeObjectURL(url);
 }

@@ -11,13 +11,12 @@ import { LibraryDialog } from './library_dialog';
 import { commands_in, new_command, new_lane, new_parallel, type Slot, type Step, with_inserted } from './model';
 import { RunSummary } from './run_summary';
 import { type SequenceStore, store_of } from './store';
-import { texts } from './texts';
+import * as t from './texts';
 import { Toolbar } from './toolbar';
 
 type Part = 'step' | 'xml';
 
 export default function SequencePanel() {
-  const t = texts();
   const console = useConsole();
   const store = store_of(console);
   const [adding, set_adding] = useState<Slot>();
@@ -35,7 +34,7 @@ export default function SequencePanel() {
   const knows_profile = console.profile.profile.value !== undefined;
   return (
     <div class="sequence">
-      <h2 class="unseen">{t.title}</h2>
+      <h2 class="unseen">{t.title()}</h2>
       {refs.map((ref) => <Looks key={ref} component={ref} />)}
       <Toolbar store={store} set_adding={set_adding} open_library={() => set_library(true)} />
       <RunSummary store={store} />
@@ -45,10 +44,10 @@ export default function SequencePanel() {
           id={is_wide ? 'sequence.row' : 'sequence'}
           direction={is_wide ? 'row' : 'column'}
           share={is_wide ? 0.62 : 0.5}
-          label={t.resize}
+          label={t.resize()}
           first={
             !knows_profile ? (
-              <EmptyState icon="sequence" title={t.no_profile} />
+              <EmptyState icon="sequence" title={t.no_profile()} />
             ) : root.steps.length === 0 && !adding ? (
               <Beginning store={store} open_form={open_form} />
             ) : (
@@ -57,7 +56,7 @@ export default function SequencePanel() {
           }
           second={
             <div class="sequence-below" ref={below}>
-              <Tabs<Part> label={t.parts} tabs={[{ id: 'step', title: t.step }, { id: 'xml', title: 'XML' }]} chosen={part} choose={set_part}>
+              <Tabs<Part> label={t.parts()} tabs={[{ id: 'step', title: t.step() }, { id: 'xml', title: 'XML' }]} chosen={part} choose={set_part}>
                 <div class="sequence-part">{part === 'step' ? <Inspector store={store} /> : <AsXml store={store} />}</div>
               </Tabs>
             </div>
@@ -76,7 +75,6 @@ function Looks({ component }: { component: string }) {
 }
 
 function Beginning({ store, open_form }: { store: SequenceStore; open_form: () => void }) {
-  const t = texts();
   const begin = (step: Step, chosen: Step) => {
     store.change(with_inserted(store.root.value, { lane: store.root.value.id, index: 0 }, step));
     store.chosen.value = chosen.id;
@@ -91,13 +89,13 @@ function Beginning({ store, open_form }: { store: SequenceStore; open_form: () =
     begin(first, first);
   };
   return (
-    <EmptyState icon="sequence" title={t.empty}>
+    <EmptyState icon="sequence" title={t.empty()}>
       <div class="row sequence-beginning">
         <Button look="primary" icon="plus" onClick={one}>
-          {t.begin_command}
+          {t.begin_command()}
         </Button>
         <Button icon="sequence" onClick={both}>
-          {t.begin_parallel}
+          {t.begin_parallel()}
         </Button>
       </div>
     </EmptyState>
@@ -105,16 +103,15 @@ function Beginning({ store, open_form }: { store: SequenceStore; open_form: () =
 }
 
 function AsXml({ store }: { store: SequenceStore }) {
-  const t = texts();
   const { request } = store;
-  if (commands_in(store.root.value).length === 0) return <p class="field-hint">{t.nothing}</p>;
+  if (commands_in(store.root.value).length === 0) return <p class="field-hint">{t.nothing()}</p>;
   return (
     <div class="sequence-xml">
       <div class="row">
         <CurlButton request={request} disabled={request === ''} />
-        <span class="field-hint">{t.curl_hint}</span>
+        <span class="field-hint">{t.curl_hint()}</span>
       </div>
-      <XmlView text={request} label={t.request} />
+      <XmlView text={request} label={t.request()} />
     </div>
   );
 }

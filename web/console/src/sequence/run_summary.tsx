@@ -5,10 +5,9 @@ import { useConsole } from '../shell/context';
 import { type CommandEntry, has_ended } from '../state/commands_state';
 import { Badge, Button, error_text, StatusBadge } from '../ui';
 import type { Run, SequenceStore } from './store';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function RunSummary({ store }: { store: SequenceStore }) {
-  const t = texts();
   const { commands } = useConsole();
   void commands.pulse.beat.value;
   const run = store.run.value;
@@ -24,7 +23,7 @@ export function RunSummary({ store }: { store: SequenceStore }) {
 function Refused({ store, run }: { store: SequenceStore; run: Run }) {
   return (
     <>
-      <Badge tone="bad">{texts().refused}</Badge>
+      <Badge tone="bad">{t.refused()}</Badge>
       <span>{error_text(run.error)}</span>
       {run.refused_step !== undefined && <Show store={store} step={run.refused_step} />}
     </>
@@ -32,7 +31,6 @@ function Refused({ store, run }: { store: SequenceStore; run: Run }) {
 }
 
 function Progress({ store, run }: { store: SequenceStore; run: Run }) {
-  const t = texts();
   const console = useConsole();
   const entries = [...run.entries];
   const all = entries.map(([, entry]) => entry);
@@ -42,7 +40,7 @@ function Progress({ store, run }: { store: SequenceStore; run: Run }) {
   const took = duration(is_over ? last_end(all) - run.sent_at : Math.max(0, console.time() - run.sent_at));
   return (
     <>
-      {is_over ? <StatusBadge status={failed ? failed[1].state : 'OK'} /> : <Badge tone={store.is_running ? 'busy' : 'warning'}>{store.is_running ? t.running : t.stopped}</Badge>}
+      {is_over ? <StatusBadge status={failed ? failed[1].state : 'OK'} /> : <Badge tone={store.is_running ? 'busy' : 'warning'}>{store.is_running ? t.running() : t.stopped()}</Badge>}
       <span>{is_over && !failed ? t.all_done(took) : t.done_of(ended.filter((one) => one.state === 'OK').length, all.length, took)}</span>
       {failed && (
         <>
@@ -57,7 +55,7 @@ function Progress({ store, run }: { store: SequenceStore; run: Run }) {
 function Show({ store, step }: { store: SequenceStore; step: number }) {
   return (
     <Button small onClick={() => (store.chosen.value = step)}>
-      {texts().show_step}
+      {t.show_step()}
     </Button>
   );
 }

@@ -1,13 +1,12 @@
 // The way from one step to the next, where steps can be added and dropped.
 import { useLayoutEffect, useRef } from 'preact/hooks';
 
-import { Button, IconButton } from '../ui';
+import { Button, IconButton, joined } from '../ui';
 import type { LaneContext } from './drawing';
 import { new_command, new_parallel, new_wait, type Slot, type Step, with_inserted } from './model';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function SlotView({ slot, context, is_empty = false }: { slot: Slot; context: LaneContext; is_empty?: boolean }) {
-  const t = texts();
   const { adding, set_adding, drag, store, go_to, open_form } = context;
   const is = (one: Slot | undefined) => one?.lane === slot.lane && one.index === slot.index;
   const add = (step: Step) => {
@@ -17,24 +16,24 @@ export function SlotView({ slot, context, is_empty = false }: { slot: Slot; cont
     if (step.kind === 'parallel') go_to(step.id); // it is filled in the drawing
     else open_form();
   };
-  const name = ['sequence-slot', is(drag.over) && 'sequence-target', is_empty && 'sequence-empty'].filter(Boolean).join(' ');
+  const name = joined('sequence-slot', is(drag.over) && 'sequence-target', is_empty && 'sequence-empty');
   return (
     <div class={name} data-slot={`${slot.lane} ${slot.index}`}>
       {is(adding) ? (
         <Choices close={() => set_adding(undefined)}>
           <Button small icon="clock" onClick={() => add(new_wait())}>
-            {t.wait}
+            {t.wait()}
           </Button>
           {/* In the middle, under the pointer that has opened it. */}
           <Button small look="primary" icon="components" onClick={() => add(new_command())}>
-            {t.command}
+            {t.command()}
           </Button>
           <Button small icon="sequence" onClick={() => add(new_parallel())}>
-            {t.parallel}
+            {t.parallel()}
           </Button>
         </Choices>
       ) : (
-        <IconButton small class="sequence-add" icon="plus" label={t.add_here} tabIndex={is_empty ? 0 : -1} onClick={() => set_adding(slot)} />
+        <IconButton small class="sequence-add" icon="plus" label={t.add_here()} tabIndex={is_empty ? 0 : -1} onClick={() => set_adding(slot)} />
       )}
     </div>
   );
@@ -48,7 +47,7 @@ function Choices({ close, children }: { close: () => void; children: preact.Comp
     if (!box.current?.contains(event.relatedTarget as Node | null)) close();
   };
   return (
-    <div ref={box} class="sequence-choices" role="group" aria-label={texts().add} onFocusOut={left} onKeyDown={(event) => event.key === 'Escape' && close()}>
+    <div ref={box} class="sequence-choices" role="group" aria-label={t.add()} onFocusOut={left} onKeyDown={(event) => event.key === 'Escape' && close()}>
       {children}
     </div>
   );

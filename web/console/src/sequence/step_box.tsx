@@ -1,24 +1,23 @@
 // One step in the drawing, with how far it is.
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
-import { Icon, StatusBadge } from '../ui';
+import { Icon, joined, StatusBadge } from '../ui';
 import { is_unfinished } from './checking';
 import type { LaneContext } from './drawing';
 import type { CommandStep, ParallelStep, Step, WaitStep } from './model';
 import type { StepState } from './running';
-import { texts } from './texts';
+import * as t from './texts';
 import { milliseconds } from './units';
 
 type Of<T extends Step> = { step: T; context: LaneContext };
 
 export function CommandBox({ step, context }: Of<CommandStep>) {
-  const t = texts();
   return (
     <Box step={step} context={context} kind="command">
-      <span class="sequence-title">{step.component || t.no_component}</span>
+      <span class="sequence-title">{step.component || t.no_component()}</span>
       <span class="sequence-what">
         {step.delay.trim() !== '' && <Delay text={step.delay} />}
-        {step.command_type || t.no_command}
+        {step.command_type || t.no_command()}
       </span>
       <span class="sequence-arguments">{said_by(step)}</span>
     </Box>
@@ -29,7 +28,7 @@ export function WaitBox({ step, context }: Of<WaitStep>) {
   return (
     <Box step={step} context={context} kind="wait">
       <span class="sequence-title">
-        <Icon name="clock" /> {texts().wait}
+        <Icon name="clock" /> {t.wait()}
       </span>
       <span class="sequence-what">{time_text(step.time)}</span>
     </Box>
@@ -37,7 +36,6 @@ export function WaitBox({ step, context }: Of<WaitStep>) {
 }
 
 export function ParallelHead({ step, context }: Of<ParallelStep>) {
-  const t = texts();
   return (
     <Box step={step} context={context} kind="parallel">
       <span class="sequence-what">
@@ -50,7 +48,7 @@ export function ParallelHead({ step, context }: Of<ParallelStep>) {
 
 function Delay({ text }: { text: string }) {
   return (
-    <span class="sequence-delay" title={texts().delay}>
+    <span class="sequence-delay" title={t.delay()}>
       <Icon name="clock" size={12} /> {time_text(text)}
     </span>
   );
@@ -70,24 +68,24 @@ function said_by({ inputs }: CommandStep): string {
 }
 
 function Box({ step, context, kind, children }: Of<Step> & { kind: Step['kind']; children: preact.ComponentChildren }) {
-  const t = texts();
   const { store, view, drag, first } = context;
   const state = view.get(step.id);
   const problem = store.problems.value.find((one) => one.step === step.id);
   const is_refused = store.run.value?.refused_step === step.id;
   const is_bad = is_refused || (problem !== undefined && (store.is_strict.value || !is_unfinished(problem)));
-  const name = [
+  const name = joined(
     'sequence-box',
-    `sequence-${kind}`,
+    kind === 'wait' && 'sequence-wait',
+    kind === 'parallel' && 'sequence-parallel',
     state && `sequence-is-${state.state}`,
     problem && !is_bad && 'sequence-unfinished',
     is_bad && 'sequence-bad',
     drag.dragged === step.id && 'sequence-dragged',
-  ];
+  );
   return (
     <button
       type="button"
-      class={name.filter(Boolean).join(' ')}
+      class={name}
       data-step={step.id}
       tabIndex={step.id === first ? 0 : -1}
       aria-pressed={store.chosen.value === step.id}
@@ -98,7 +96,7 @@ function Box({ step, context, kind, children }: Of<Step> & { kind: Step['kind'];
       {children}
       {is_bad && (
         <span class="sequence-problem">
-          <Icon name="warning" size={13} /> {is_refused ? t.refused : t.has_problem}
+          <Icon name="warning" size={13} /> {is_refused ? t.refused() : t.has_problem()}
         </span>
       )}
       {state && <StateLine state={state} />}

@@ -3,7 +3,7 @@ import { computed, signal } from '@preact/signals';
 import { type CommandUnit, type Parameter, parse_xml, request, RoisError, sequence_xml } from 'rois-client';
 
 import { arguments_in } from '../forms/argument_fields';
-import { asked_by, goes_on, same } from '../forms/describe';
+import { asked_by, same } from '../forms/describe';
 import { type CommandEntry, has_ended } from '../state/commands_state';
 import type { Console } from '../state/console';
 import { placed_commands, units_of } from '../state/sequences';
@@ -164,7 +164,7 @@ export class SequenceStore {
   /** Components whose work goes on when their `start` has completed: they stay bound. */
   get going_on(): string[] {
     const starts = commands_in(this.root.value).filter((one) => same(one.command_type, 'start')).map((one) => one.component);
-    return [...new Set(starts)].filter((ref) => goes_on(this.console.profile.component(ref)));
+    return [...new Set(starts)].filter((ref) => this.console.profile.lasts(ref));
   }
 
   async execute(): Promise<void> {

@@ -1,89 +1,88 @@
-import { in_both } from '../i18n/i18n';
+import { text, text_of } from '../i18n/i18n';
 
-export const texts = in_both({
-  title: ['Sequences', 'シーケンス'],
-  no_profile: ['Nothing is known of the engine yet', 'エンジンについてまだ何も分かっていません'],
-  empty: ['Nothing to do yet. Commands run one after the other; branches run at the same time.', 'まだ何もありません。コマンドは順番に、分岐は同時に実行されます。'],
-  begin_command: ['A command', 'コマンド'],
-  begin_parallel: ['Two at the same time', '二つを同時に'],
-  drawing: ['Drawing of the sequence', 'シーケンスの図'],
-  steps: ['Steps', 'ステップ'],
-  branch: (n: number) => [`Branch ${n}`, `分岐 ${n}`],
-  together: (n: number) => [`${n} branches at once`, `${n} 分岐を同時に`],
-  tools: ['Tools', '操作'],
-  run: ['Run', '実行'],
-  stop: ['Stop', '停止'],
-  add: ['Add a step', 'ステップを追加'],
-  add_here: ['Add a step here', 'ここにステップを追加'],
-  duplicate: ['Duplicate the step', 'ステップを複製'],
-  earlier: ['Move the step forward (Alt+Left)', '前へ移す (Alt+←)'],
-  later: ['Move the step back (Alt+Right)', '後ろへ移す (Alt+→)'],
-  up: ['Move the step to the branch above (Alt+Up)', '上の分岐へ移す (Alt+↑)'],
-  down: ['Move the step to the branch below (Alt+Down)', '下の分岐へ移す (Alt+↓)'],
-  remove: ['Remove the step (Delete)', 'ステップを削除 (Delete)'],
-  undo: ['Undo (Ctrl+Z)', '元に戻す (Ctrl+Z)'],
-  unnamed: ['unnamed', '名前なし'],
-  sequences: ['Open and keep', '開く・保存'],
-  command: ['Command', 'コマンド'],
-  wait: ['Wait', '待つ'],
-  parallel: ['Branches', '分岐'],
-  add_branch: ['Add a branch', '分岐を追加'],
-  remove_branch: (n: number) => [`Remove branch ${n}`, `分岐 ${n} を削除`],
-  count: (n: number) => [n === 1 ? '1 step' : `${n} steps`, `${n} ステップ`],
-  no_component: ['Choose a component', 'コンポーネントを選んでください'],
-  unknown_component: ['The engine has no such component', 'エンジンにそのコンポーネントはありません'],
-  no_command: ['Choose a command', 'コマンドを選んでください'],
-  unknown_command: ['The component has no such command', 'コンポーネントにそのコマンドはありません'],
-  no_time: ['A whole number of milliseconds is needed here', '整数のミリ秒が必要です'],
-  no_branches: ['There is nothing in its branches yet', '分岐の中にまだ何もありません'],
-  unknown_arguments: ['The command takes no such arguments', 'コマンドにその引数はありません'],
-  arguments: ['Arguments are missing or wrong', '引数が足りないか、誤っています'],
-  nothing: ['There is no command in it yet.', 'まだコマンドがありません。'],
-  unknown_arguments_are: (names: string) => [`The command does not take: ${names}.`, `このコマンドの引数ではありません: ${names}。`],
-  drop_arguments: ['Leave them out', '省く'],
-  has_problem: ['not complete', '未完成'],
-  refused: ['refused', '拒否'],
-  parts: ['Step and XML', 'ステップと XML'],
-  step: ['Step', 'ステップ'],
-  component: ['Component', 'コンポーネント'],
-  choose: ['choose …', '選んでください…'],
-  delay: ['Waits before it starts', '開始までの待ち時間'],
-  wait_time: ['How long', '時間'],
-  choose_step: ['Choose a step to see what it does', 'ステップを選ぶと内容が表示されます'],
-  keys: [
-    'Arrows go from step to step, Alt and arrows move it, Insert adds one behind it, Delete removes it, Enter opens its form. The mouse drags steps.',
-    '矢印で移動、Alt+矢印で並べ替え、Insert で後ろに追加、Delete で削除、Enter で内容へ。マウスではドラッグできます。',
-  ],
-  running: ['running', '実行中'],
-  stopped: ['stopped', '停止'],
-  in_vain: (refs: string) => [
-    `Released: ${refs}. What waits there is aborted when its turn comes; bound again before, it would run. To end it at once, disconnect.`,
-    `解放済み: ${refs}。待っているものは順番が来ると中断されますが、先にバインドすると実行されます。すぐに終えるには切断してください。`,
-  ],
-  all_done: (took: string) => [`All is done, after ${took}.`, `${took}ですべて完了しました。`],
-  done_of: (done: number, all: number, took: string) => [`${done} of ${all} done, after ${took}.`, `${all} 個中 ${done} 個完了、${took}経過。`],
-  failed: (what: string, state: string) => [`${what} ended with ${state}.`, `${what} は ${state} で終わりました。`],
-  show_step: ['Show the step', 'ステップを表示'],
-  stays_bound: (refs: string) => [`What works on after its start stays bound: ${refs}.`, `start の後も働き続けるものはバインドされたままです: ${refs}。`],
-  this_one: ['This sequence', 'このシーケンス'],
-  name: ['Name', '名前'],
-  keep: ['Keep', '保存'],
-  export: ['Export', '書き出す'],
-  copy_xml: ['Copy XML', 'XML をコピー'],
-  new_one: ['New', '新規'],
-  kept: ['Kept in this browser', 'このブラウザに保存したもの'],
-  none_kept: ['None yet: give this one a name, and keep it.', 'まだありません。名前を付けて保存してください。'],
-  open: ['Open', '開く'],
-  open_it: (name: string) => [`Open ${name}`, `${name} を開く`],
-  drop_it: (name: string) => [`Forget ${name}`, `${name} を忘れる`],
-  import: ['Import', '読み込み'],
-  file: ['An XML file', 'XML ファイル'],
-  paste: ['Or its text', 'またはその本文'],
-  paste_hint: ['A CommandUnitSequence, or an execute that has one.', 'CommandUnitSequence、またはそれを含む execute。'],
-  take: ['Take over', '取り込む'],
-  no_sequence: ['There is no CommandUnitSequence in it', 'CommandUnitSequence がありません'],
-  unreadable: (reason: string) => [`This cannot be read: ${reason}`, `読めません: ${reason}`],
-  request: ['The execute request as XML', 'XML としての execute 要求'],
-  curl_hint: ['The components have to be bound by the session before; Run does that by itself.', '先にセッションがコンポーネントをバインドしている必要があります。「実行」では自動です。'],
-  resize: ['Size of the drawing', '図の大きさ'],
-});
+export const title = text('Sequences', 'シーケンス');
+export const no_profile = text('Nothing is known of the engine yet', 'エンジンについてまだ何も分かっていません');
+export const empty = text('Nothing to do yet. Commands run one after the other; branches run at the same time.', 'まだ何もありません。コマンドは順番に、分岐は同時に実行されます。');
+export const begin_command = text('A command', 'コマンド');
+export const begin_parallel = text('Two at the same time', '二つを同時に');
+export const drawing = text('Drawing of the sequence', 'シーケンスの図');
+export const steps = text('Steps', 'ステップ');
+export const branch = text_of((n: number) => [`Branch ${n}`, `分岐 ${n}`]);
+export const together = text_of((n: number) => [`${n} branches at once`, `${n} 分岐を同時に`]);
+export const tools = text('Tools', '操作');
+export const run = text('Run', '実行');
+export const stop = text('Stop', '停止');
+export const add = text('Add a step', 'ステップを追加');
+export const add_here = text('Add a step here', 'ここにステップを追加');
+export const duplicate = text('Duplicate the step', 'ステップを複製');
+export const earlier = text('Move the step forward (Alt+Left)', '前へ移す (Alt+←)');
+export const later = text('Move the step back (Alt+Right)', '後ろへ移す (Alt+→)');
+export const up = text('Move the step to the branch above (Alt+Up)', '上の分岐へ移す (Alt+↑)');
+export const down = text('Move the step to the branch below (Alt+Down)', '下の分岐へ移す (Alt+↓)');
+export const remove = text('Remove the step (Delete)', 'ステップを削除 (Delete)');
+export const undo = text('Undo (Ctrl+Z)', '元に戻す (Ctrl+Z)');
+export const unnamed = text('unnamed', '名前なし');
+export const sequences = text('Open or save …', '開く・保存…');
+export const command = text('Command', 'コマンド');
+export const wait = text('Wait', '待つ');
+export const parallel = text('Branches', '分岐');
+export const add_branch = text('Add a branch', '分岐を追加');
+export const remove_branch = text_of((n: number) => [`Remove branch ${n}`, `分岐 ${n} を削除`]);
+export const count = text_of((n: number) => [n === 1 ? '1 step' : `${n} steps`, `${n} ステップ`]);
+export const no_component = text('Choose a component', 'コンポーネントを選んでください');
+export const unknown_component = text('The engine has no such component', 'エンジンにそのコンポーネントはありません');
+export const no_command = text('Choose a command', 'コマンドを選んでください');
+export const unknown_command = text('The component has no such command', 'コンポーネントにそのコマンドはありません');
+export const no_time = text('A whole number of milliseconds is needed here', '整数のミリ秒が必要です');
+export const no_branches = text('There is nothing in its branches yet', '分岐の中にまだ何もありません');
+export const unknown_arguments = text('The command takes no such arguments', 'コマンドにその引数はありません');
+export const arguments_of = text('Arguments are missing or wrong', '引数が足りないか、誤っています');
+export const nothing = text('There is no command in it yet.', 'まだコマンドがありません。');
+export const unknown_arguments_are = text_of((names: string) => [`The command does not take: ${names}.`, `このコマンドの引数ではありません: ${names}。`]);
+export const drop_arguments = text('Leave them out', '省く');
+export const has_problem = text('not complete', '未完成');
+export const refused = text('refused', '拒否');
+export const parts = text('Step and XML', 'ステップと XML');
+export const step = text('Step', 'ステップ');
+export const component = text('Component', 'コンポーネント');
+export const choose = text('choose …', '選んでください…');
+export const delay = text('Waits before it starts', '開始までの待ち時間');
+export const wait_time = text('How long', '時間');
+export const choose_step = text('Choose a step to see what it does', 'ステップを選ぶと内容が表示されます');
+export const keys = text(
+  'Arrows go from step to step, Alt and arrows move it, Insert adds one behind it, Delete removes it, Enter opens its form. The mouse drags steps.',
+  '矢印で移動、Alt+矢印で並べ替え、Insert で後ろに追加、Delete で削除、Enter で内容へ。マウスではドラッグできます。',
+);
+export const running = text('running', '実行中');
+export const stopped = text('stopped', '停止');
+export const in_vain = text_of((refs: string) => [
+  `Released: ${refs}. What waits there is aborted when its turn comes; bound again before, it would run. To end it at once, disconnect.`,
+  `解放済み: ${refs}。待っているものは順番が来ると中断されますが、先にバインドすると実行されます。すぐに終えるには切断してください。`,
+]);
+export const all_done = text_of((took: string) => [`All is done, after ${took}.`, `${took}ですべて完了しました。`]);
+export const done_of = text_of((done: number, all: number, took: string) => [`${done} of ${all} done, after ${took}.`, `${all} 個中 ${done} 個完了、${took}経過。`]);
+export const failed = text_of((what: string, state: string) => [`${what} ended with ${state}.`, `${what} は ${state} で終わりました。`]);
+export const show_step = text('Show the step', 'ステップを表示');
+export const stays_bound = text_of((refs: string) => [`What works on after its start stays bound: ${refs}.`, `start の後も働き続けるものはバインドされたままです: ${refs}。`]);
+export const this_one = text('This sequence', 'このシーケンス');
+export const name = text('Name', '名前');
+export const keep = text('Save in this browser', 'このブラウザに保存');
+export const export_it = text('Export', '書き出す');
+export const copy_xml = text('Copy XML', 'XML をコピー');
+export const new_one = text('New', '新規');
+export const kept = text('Saved in this browser', 'このブラウザに保存したもの');
+export const none_kept = text('None yet: give this one a name, and save it.', 'まだありません。名前を付けて保存してください。');
+export const open = text('Open', '開く');
+export const open_it = text_of((name: string) => [`Open ${name}`, `${name} を開く`]);
+export const drop_it = text_of((name: string) => [`Forget ${name}`, `${name} を忘れる`]);
+export const import_it = text('Import', '読み込み');
+export const file = text('An XML file', 'XML ファイル');
+export const paste = text('Or its text', 'またはその本文');
+export const paste_hint = text('A CommandUnitSequence, or an execute that has one.', 'CommandUnitSequence、またはそれを含む execute。');
+export const take = text('Take over', '取り込む');
+export const no_sequence = text('There is no CommandUnitSequence in it', 'CommandUnitSequence がありません');
+export const unreadable = text_of((reason: string) => [`This cannot be read: ${reason}`, `読めません: ${reason}`]);
+export const request = text('The execute request as XML', 'XML としての execute 要求');
+export const curl_hint = text('The components have to be bound by the session before; Run does that by itself.', '先にセッションがコンポーネントをバインドしている必要があります。「実行」では自動です。');
+export const resize = text('Size of the drawing', '図の大きさ');
+

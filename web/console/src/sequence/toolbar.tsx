@@ -4,7 +4,7 @@ import { Button, error_text, IconButton } from '../ui';
 import { move } from './keys';
 import { copy_of, found, slot_towards, type Slot, with_inserted, without } from './model';
 import type { SequenceStore } from './store';
-import { texts } from './texts';
+import * as t from './texts';
 
 export interface ToolbarProps {
   store: SequenceStore;
@@ -13,7 +13,6 @@ export interface ToolbarProps {
 }
 
 export function Toolbar({ store, set_adding, open_library }: ToolbarProps) {
-  const t = texts();
   const console = useConsole();
   const root = store.root.value;
   const at = found(root, store.chosen.value);
@@ -30,28 +29,28 @@ export function Toolbar({ store, set_adding, open_library }: ToolbarProps) {
     <IconButton icon={icon} label={label} disabled={!can_move(direction)} onClick={() => at && move(store, at.step.id, direction)} />
   );
   return (
-    <div class="sequence-toolbar" role="group" aria-label={t.tools}>
+    <div class="sequence-toolbar" role="group" aria-label={t.tools()}>
       <Button look="primary" icon="play" disabled={store.is_empty || store.is_running || store.waiting_in_vain.length > 0 || !console.link.is_open} onClick={run}>
-        {t.run}
+        {t.run()}
       </Button>
       <Button look="danger" icon="stop" disabled={!store.is_running} onClick={stop}>
-        {t.stop}
+        {t.stop()}
       </Button>
       <span class="sequence-gap" />
       <Button icon="plus" onClick={add}>
-        {t.add}
+        {t.add()}
       </Button>
-      <IconButton icon="copy" label={t.duplicate} disabled={!at} onClick={() => at && store.change(with_inserted(root, { ...at.slot, index: at.slot.index + 1 }, copy_of(at.step)))} />
-      {tool('left', t.earlier, 'earlier')}
-      {tool('right', t.later, 'later')}
-      {tool('up', t.up, 'up')}
-      {tool('down', t.down, 'down')}
-      <IconButton icon="close" label={t.remove} disabled={!at} onClick={() => at && store.change(without(root, at.step.id))} />
-      <IconButton icon="undo" label={t.undo} disabled={!store.can_undo.value} onClick={() => store.undo()} />
+      <IconButton icon="copy" label={t.duplicate()} disabled={!at} onClick={() => at && store.change(with_inserted(root, { ...at.slot, index: at.slot.index + 1 }, copy_of(at.step)))} />
+      {tool('left', t.earlier(), 'earlier')}
+      {tool('right', t.later(), 'later')}
+      {tool('up', t.up(), 'up')}
+      {tool('down', t.down(), 'down')}
+      <IconButton icon="close" label={t.remove()} disabled={!at} onClick={() => at && store.change(without(root, at.step.id))} />
+      <IconButton icon="undo" label={t.undo()} disabled={!store.can_undo.value} onClick={() => store.undo()} />
       <span class="sequence-fill" />
-      <span class="sequence-name">{store.name.value || t.unnamed}</span>
+      <span class="sequence-name">{store.name.value || t.unnamed()}</span>
       <Button icon="download" onClick={open_library}>
-        {t.sequences}
+        {t.sequences()}
       </Button>
     </div>
   );

@@ -6,13 +6,13 @@ import { ConsoleContext, useConsole, useWatch } from './context';
 import { Header } from './header';
 import { Layout } from './layout';
 import { LinkBanner } from './link_status';
-import { texts } from './texts';
+import * as texts from './texts';
 import { TokenDialog } from './token_dialog';
 
 export function App({ console }: { console: Console }) {
   useEffect(() => {
     document.documentElement.lang = language.value;
-    document.title = texts().title;
+    document.title = texts.title();
   }, [language.value]);
   const { phase } = console.link.view.value;
   const is_stale = console.link.heard_at > 0 && /^(lost|draining|refused|closed)$/.test(phase);

@@ -1,9 +1,10 @@
 // A panel that fails takes no other with it.
 import { Component, type ComponentChildren } from 'preact';
 
+import { reason_of } from '../state/reason_of';
 import { Button } from '../ui/button';
 import { Icon } from '../ui/icon';
-import { texts } from '../ui/texts';
+import * as texts from '../ui/texts';
 
 interface State {
   error?: unknown;
@@ -26,12 +27,12 @@ export class Boundary extends Component<{ children: ComponentChildren }, State> 
     return (
       <div class="state state-error" role="alert">
         <Icon name="warning" size={24} />
-        <p class="state-title">{texts().panel_failed}</p>
+        <p class="state-title">{texts.panel_failed()}</p>
         <p class="state-more">
-          {texts().panel_failed_hint} <code>{error instanceof Error ? error.message : String(error)}</code>
+          {texts.panel_failed_hint()} <code>{reason_of(error)}</code>
         </p>
         <Button icon="refresh" onClick={() => this.setState({ error: undefined } as State, () => delete this.state.error)}>
-          {texts().retry}
+          {texts.retry()}
         </Button>
       </div>
     );

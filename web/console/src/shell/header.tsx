@@ -7,18 +7,17 @@ import { error_text } from '../ui/error_text';
 import { useConsole } from './context';
 import { LinkMark } from './link_status';
 import { NoticeArea } from './notices';
-import { texts } from './texts';
+import * as t from './texts';
 import { theme, type Theme } from './theme';
 
 export function Header() {
   const console = useConsole();
-  const t = texts();
   const asks = useSignal(false);
   const name = console.profile.profile.value?.engine.name;
   return (
     <header class="head">
       <a class="skip" href="#panels">
-        {t.skip}
+        {t.skip()}
       </a>
       <h1>
         RoIS {name && <span class="head-engine">{name}</span>}
@@ -28,16 +27,16 @@ export function Header() {
       <div class="head-end">
         <Bound />
         <label class="head-choice">
-          <span class="unseen">{t.theme}</span>
-          <select value={theme.value} title={t.theme} onChange={(event) => choose_theme(event.currentTarget.value as Theme)}>
-            <option value="system">{t.theme_system}</option>
-            <option value="dark">{t.theme_dark}</option>
-            <option value="light">{t.theme_light}</option>
+          <span class="unseen">{t.theme()}</span>
+          <select value={theme.value} title={t.theme()} onChange={(event) => choose_theme(event.currentTarget.value as Theme)}>
+            <option value="system">{t.theme_system()}</option>
+            <option value="dark">{t.theme_dark()}</option>
+            <option value="light">{t.theme_light()}</option>
           </select>
         </label>
         <label class="head-choice">
-          <span class="unseen">{t.language}</span>
-          <select value={language.value} title={t.language} onChange={(event) => choose_language(event.currentTarget.value as Language)}>
+          <span class="unseen">{t.language()}</span>
+          <select value={language.value} title={t.language()} onChange={(event) => choose_language(event.currentTarget.value as Language)}>
             {languages.map((one) => (
               <option key={one.code} value={one.code} lang={one.code}>
                 {one.name}
@@ -47,17 +46,17 @@ export function Header() {
         </label>
         {console.link.is_open && (
           <Button small look="quiet" onClick={() => (is_at_work() ? (asks.value = true) : void console.close())}>
-            {t.disconnect}
+            {t.disconnect()}
           </Button>
         )}
         <Dialog
-          title={t.disconnect_title}
+          title={t.disconnect_title()}
           open={asks.value}
           close={() => (asks.value = false)}
           actions={
             <>
-              <Button look="danger" onClick={disconnect}>{t.disconnect}</Button>
-              <Button onClick={() => (asks.value = false)}>{t.cancel}</Button>
+              <Button look="danger" onClick={disconnect}>{t.disconnect()}</Button>
+              <Button onClick={() => (asks.value = false)}>{t.cancel()}</Button>
             </>
           }
         >
@@ -87,28 +86,27 @@ export function Header() {
 // What this console has bound, since others cannot have it meanwhile.
 function Bound() {
   const { bindings, notices } = useConsole();
-  const t = texts();
   const is_open = useSignal(false);
   const mine = [...bindings.mine.value].sort();
   const tell = (error: unknown) => void notices.tell('error', error_text(error));
   return (
     <>
-      <Button small look="quiet" icon="link" title={t.bound_title} onClick={() => (is_open.value = true)}>
+      <Button small look="quiet" icon="link" title={t.bound_title()} onClick={() => (is_open.value = true)}>
         {t.bound(mine.length)}
       </Button>
       <Dialog
-        title={t.bound_title}
+        title={t.bound_title()}
         open={is_open.value}
         close={() => (is_open.value = false)}
-        actions={mine.length > 0 && <Button look="danger" onClick={() => void bindings.release_all().catch(tell)}>{t.release_all}</Button>}
+        actions={mine.length > 0 && <Button look="danger" onClick={() => void bindings.release_all().catch(tell)}>{t.release_all()}</Button>}
       >
-        {mine.length === 0 ? <p>{t.none_bound}</p> : <p>{t.release_hint}</p>}
+        {mine.length === 0 ? <p>{t.none_bound()}</p> : <p>{t.release_hint()}</p>}
         <ul class="plain-list">
           {mine.map((ref) => (
             <li key={ref} class="row-spread">
               <code>{ref}</code>
-              <Button small onClick={() => void bindings.release(ref).catch(tell)} aria-label={`${t.release}: ${ref}`}>
-                {t.release}
+              <Button small onClick={() => void bindings.release(ref).catch(tell)} aria-label={`${t.release()}: ${ref}`}>
+                {t.release()}
               </Button>
             </li>
           ))}

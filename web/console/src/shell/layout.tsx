@@ -8,11 +8,12 @@ import { SplitPane } from '../ui/split_pane';
 import { Tabs } from '../ui/tabs';
 import { Boundary } from './boundary';
 import { useConsole } from './context';
-import { texts } from './texts';
+import * as texts from './texts';
 
 let panels: readonly Panel[] = [];
 const wide = signal(true);
 const areas: readonly Area[] = ['main', 'below', 'side'];
+const area_names: Record<Area, () => string> = { main: texts.main, below: texts.below, side: texts.side };
 
 /** Which panel is shown, in each area and, on a narrow screen, in all. */
 const shown = signal<Readonly<Record<Area | 'all', string>>>({ main: '', below: '', side: '', all: '' });
@@ -37,6 +38,12 @@ export function show_document({ selection }: Console, number: number): void {
   show_panel('messages');
 }
 
+/** Shows the events of a subscription, and nothing else. */
+export function show_events({ selection }: Console, subscribe_id: string): void {
+  selection.subscription.value = subscribe_id;
+  show_panel('messages');
+}
+
 /** Begins with these panels, those in front that are recalled, and follows the width of the window and the address. */
 export function begin_layout(all: readonly Panel[], recalled: string | undefined): void {
   panels = all;
@@ -57,14 +64,14 @@ export function Layout() {
   const { environment } = useConsole();
   const now = shown.value;
   useEffect(() => environment.remember('panels', `${now.main} ${now.below} ${now.side} ${now.all}`), [now]);
-  if (!wide.value) return <Group id="all" label={texts().panels} panels={panels} />;
+  if (!wide.value) return <Group id="all" label={texts.panels()} panels={panels} />;
   const [main, below, side] = areas.map((area) => {
     const those = panels.filter((one) => one.area === area);
-    return those.length === 0 ? undefined : <Group id={area} label={texts()[area]} panels={those} />;
+    return those.length === 0 ? undefined : <Group id={area} label={area_names[area]()} panels={those} />;
   });
-  const left = main && below ? <SplitPane id="below" direction="column" share={0.62} label={texts().below} first={main} second={below} /> : (main ?? below);
+  const left = main && below ? <SplitPane id="below" direction="column" share={0.62} label={texts.below()} first={main} second={below} /> : (main ?? below);
   if (!left || !side) return left ?? side ?? null;
-  return <SplitPane id="side" direction="row" share={0.64} label={texts().side} first={left} second={side} />;
+  return <SplitPane id="side" direction="row" share={0.64} label={texts.side()} first={left} second={side} />;
 }
 
 function Group({ id, label, panels: those }: { id: Area | 'all'; label: string; panels: readonly Panel[] }) {

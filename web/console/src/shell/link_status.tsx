@@ -2,7 +2,7 @@
 import { useConsole } from './context';
 import { Badge, tone_of } from '../ui/states';
 import { Button } from '../ui/button';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function LinkMark() {
   const { link, now } = useConsole();
@@ -11,26 +11,25 @@ export function LinkMark() {
   return (
     <div class="link-mark">
       <Badge tone={tone_of(phase)} title={reason}>
-        {texts().phase(phase)}
+        {t.phase(phase)}
       </Badge>
-      {link.heard_at > 0 && <span class="link-age">{texts().age(Math.max(0, age))}</span>}
+      {link.heard_at > 0 && <span class="link-age">{t.age(Math.max(0, age))}</span>}
     </div>
   );
 }
 
 export function LinkBanner() {
   const console = useConsole();
-  const t = texts();
   const { phase, reason, since } = console.link.view.value;
   const missed = console.link.missed.value;
   const heard = console.link.heard_at;
   // A link that opens within a moment is not worth a line that comes and goes.
   const is_long = console.now.value - since > 1500;
   const said = () => {
-    if (phase === 'lost') return `${t.is_old(console.now.value - heard)} ${t.lost_hint}`;
-    if (phase === 'draining') return heard > 0 ? `${t.draining_hint} ${t.is_old(console.now.value - heard)}` : t.draining_hint;
-    if (phase === 'connecting') return is_long ? t.connecting_hint : '';
-    return { refused: t.refused_hint, closed: t.closed_hint }[phase as string] ?? '';
+    if (phase === 'lost') return `${t.is_old(console.now.value - heard)} ${t.lost_hint()}`;
+    if (phase === 'draining') return heard > 0 ? `${t.draining_hint()} ${t.is_old(console.now.value - heard)}` : t.draining_hint();
+    if (phase === 'connecting') return is_long ? t.connecting_hint() : '';
+    return { refused: t.refused_hint(), closed: t.closed_hint() }[phase as string] ?? '';
   };
   const text = said();
   return (
@@ -40,27 +39,27 @@ export function LinkBanner() {
           <strong>{t.phase(phase)}.</strong> {text} {reason !== '' && phase !== 'closed' && <code>{reason}</code>}
           {/^(connecting|lost|draining|refused)$/.test(phase) && (
             <Button small icon="refresh" onClick={() => console.retry()}>
-              {t.try_now}
+              {t.try_now()}
             </Button>
           )}
           {phase === 'closed' && (
             <Button small onClick={() => console.connect(console.current_token)}>
-              {t.connect}
+              {t.connect()}
             </Button>
           )}
         </p>
       )}
       {missed && (
         <p class="banner banner-warning">
-          {missed.gap.reason === 'lost' ? t.missed_lost(missed.gap.count) : t.missed_session}
+          {missed.gap.reason === 'lost' ? t.missed_lost(missed.gap.count) : t.missed_session()}
           <Button small onClick={() => console.link.forget_missed()}>
-            {t.seen}
+            {t.seen()}
           </Button>
         </p>
       )}
       {console.profile.is_empty.value && (
         <p class="banner banner-calm">
-          <strong>{t.empty_engine}.</strong> {t.empty_engine_hint}
+          <strong>{t.empty_engine()}.</strong> {t.empty_engine_hint()}
         </p>
       )}
     </div>

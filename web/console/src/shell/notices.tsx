@@ -1,9 +1,9 @@
 import { Button, IconButton } from '../ui/button';
 import { Icon, type IconName } from '../ui/icon';
-import { texts as ui } from '../ui/texts';
+import * as ui from '../ui/texts';
 import type { Severity } from '../state/notices';
 import { useConsole } from './context';
-import { texts } from './texts';
+import * as texts from './texts';
 
 const signs: Record<Severity, IconName> = { info: 'info', good: 'check', warning: 'warning', error: 'warning' };
 
@@ -11,7 +11,7 @@ const signs: Record<Severity, IconName> = { info: 'info', good: 'check', warning
 export function NoticeArea() {
   const { notices } = useConsole();
   return (
-    <section class="notices" aria-label={texts().notices}>
+    <section class="notices" aria-label={texts.notices()}>
       {notices.list.value.map((one) => (
         <div key={one.number} class={`notice notice-${one.severity}`} role={one.severity === 'error' ? 'alert' : 'status'}>
           <Icon name={signs[one.severity]} />
@@ -30,7 +30,7 @@ export function NoticeArea() {
               {one.action.label}
             </Button>
           )}
-          <IconButton small icon="close" label={ui().close} onClick={() => notices.dismiss(one.number)} />
+          <IconButton small icon="close" label={ui.close()} onClick={() => notices.dismiss(one.number)} />
         </div>
       ))}
     </section>

@@ -1,5 +1,5 @@
 import type { Phase } from '../state/link_state';
-import { type Both, count_text, duration, in_both } from '../i18n/i18n';
+import { type Both, count_text, duration, text, text_of } from '../i18n/i18n';
 
 const phases: Record<Phase, Both> = {
   connecting: ['Connecting', '接続中'],
@@ -12,55 +12,54 @@ const phases: Record<Phase, Both> = {
   closed: ['Disconnected', '切断しました'],
 };
 
-export const texts = in_both({
-  title: ['RoIS console', 'RoIS コンソール'],
-  skip: ['Skip to the panels', 'パネルへ移動'],
-  phase: (phase: Phase) => phases[phase],
-  age: (ms: number) => [`data ${duration(ms)} old`, `データは${duration(ms)}前`],
-  is_old: (ms: number) => [`What you see is ${duration(Math.max(0, ms))} old.`, `表示は${duration(Math.max(0, ms))}前のものです。`],
-  lost_hint: ['The console goes on trying.', '再接続を試みています。'],
-  connecting_hint: ['The gateway does not answer yet. The console goes on trying.', 'ゲートウェイからまだ応答がありません。接続を試みています。'],
-  draining_hint: ['The gateway is starting or shutting down. The console connects as soon as it can.', 'ゲートウェイは起動中か停止中です。可能になりしだい接続します。'],
-  refused_hint: ['The gateway is there and does not let this console in. It is asked again every few seconds.', 'ゲートウェイはこのコンソールを受け入れません。数秒ごとに試みます。'],
-  closed_hint: ['The session has ended, and what it ran was stopped.', 'セッションは終了し、実行中のものは停止しました。'],
-  missed_lost: (n: number) => [
-    `${count_text(n)} ${n === 1 ? 'notification was' : 'notifications were'} missed while the connection was away.`,
-    `接続が切れている間に通知 ${count_text(n)} 件を受け取れませんでした。`,
-  ],
-  missed_session: [
-    'The old session was lost: its bindings and commands have ended, subscriptions were made anew. What happened meanwhile is not known.',
-    '前のセッションは失われました。バインドとコマンドは終了し、購読はやり直しました。その間に起きたことは分かりません。',
-  ],
-  seen: ['Seen', '確認'],
-  try_now: ['Try now', '今すぐ試す'],
-  disconnect_title: ['Disconnect?', '切断しますか?'],
-  disconnect_hint: (bound: number, commands: number) => [
-    `The session ends: ${count_text(bound)} bound ${bound === 1 ? 'component is' : 'components are'} released${commands === 0 ? '' : `, and ${count_text(commands)} ${commands === 1 ? 'command that has' : 'commands that have'} not ended ${commands === 1 ? 'is' : 'are'} stopped`}.`,
-    `セッションを終了します。バインドした ${count_text(bound)} 個のコンポーネントを解放${commands === 0 ? 'します' : `し、終わっていないコマンド ${count_text(commands)} 件を止めます`}。`,
-  ],
-  cancel: ['Cancel', '取り消し'],
-  connect: ['Connect', '接続'],
-  disconnect: ['Disconnect', '切断'],
-  empty_engine: ['This engine has no components', 'このエンジンにはコンポーネントがありません'],
-  empty_engine_hint: ['They appear here as soon as it has some.', '追加されしだい、ここに現れます。'],
-  bound: (n: number) => [`${n} bound`, `バインド ${n}`],
-  bound_title: ['Components that this console has bound', 'このコンソールがバインドしたコンポーネント'],
-  release: ['Release', '解放'],
-  release_all: ['Release all', 'すべて解放'],
-  release_hint: ['Releasing stops what this console runs there.', '解放すると、そこで実行中のものは停止します。'],
-  none_bound: ['None. A component is bound when you first send it a command.', 'ありません。最初のコマンドを送るときにバインドします。'],
-  token_title: ['This gateway wants a token', 'このゲートウェイにはトークンが必要です'],
-  token_wrong: ['The gateway did not accept this token.', 'このトークンは受け入れられませんでした。'],
-  token_label: ['Token', 'トークン'],
-  token_hint: ['Whoever runs the gateway knows it. It is kept until this page is closed.', 'ゲートウェイの管理者に尋ねてください。このページを閉じるまで保持します。'],
-  theme: ['Colours', '配色'],
-  theme_system: ['Colours as the system', '配色: システムに合わせる'],
-  theme_dark: ['Dark colours', '配色: 暗い'],
-  theme_light: ['Light colours', '配色: 明るい'],
-  language: ['Language', '言語'],
-  panels: ['Panels', 'パネル'],
-  notices: ['Notices', 'お知らせ'],
-  main: ['Main area', '主領域'],
-  below: ['Lower area', '下の領域'],
-  side: ['Side area', '横の領域'],
-});
+export const title = text('RoIS console', 'RoIS コンソール');
+export const skip = text('Skip to the panels', 'パネルへ移動');
+export const phase = text_of((phase: Phase) => phases[phase]);
+export const age = text_of((ms: number) => [`data ${duration(ms)} old`, `データは${duration(ms)}前`]);
+export const is_old = text_of((ms: number) => [`What you see is ${duration(Math.max(0, ms))} old.`, `表示は${duration(Math.max(0, ms))}前のものです。`]);
+export const lost_hint = text('The console goes on trying.', '再接続を試みています。');
+export const connecting_hint = text('The gateway does not answer yet. The console goes on trying.', 'ゲートウェイからまだ応答がありません。接続を試みています。');
+export const draining_hint = text('The gateway is starting or shutting down. The console connects as soon as it can.', 'ゲートウェイは起動中か停止中です。可能になりしだい接続します。');
+export const refused_hint = text('The gateway is there and does not let this console in. It is asked again every few seconds.', 'ゲートウェイはこのコンソールを受け入れません。数秒ごとに試みます。');
+export const closed_hint = text('The session has ended, and what it ran was stopped.', 'セッションは終了し、実行中のものは停止しました。');
+export const missed_lost = text_of((n: number) => [
+  `${count_text(n)} ${n === 1 ? 'notification was' : 'notifications were'} missed while the connection was away.`,
+  `接続が切れている間に通知 ${count_text(n)} 件を受け取れませんでした。`,
+]);
+export const missed_session = text(
+  'The old session was lost: its bindings and commands have ended, subscriptions were made anew. What happened meanwhile is not known.',
+  '前のセッションは失われました。バインドとコマンドは終了し、購読はやり直しました。その間に起きたことは分かりません。',
+);
+export const seen = text('Seen', '確認');
+export const try_now = text('Try now', '今すぐ試す');
+export const disconnect_title = text('Disconnect?', '切断しますか?');
+export const disconnect_hint = text_of((bound: number, commands: number) => [
+  `The session ends: ${count_text(bound)} bound ${bound === 1 ? 'component is' : 'components are'} released${commands === 0 ? '' : `, and ${count_text(commands)} ${commands === 1 ? 'command that has' : 'commands that have'} not ended ${commands === 1 ? 'is' : 'are'} stopped`}.`,
+  `セッションを終了します。バインドした ${count_text(bound)} 個のコンポーネントを解放${commands === 0 ? 'します' : `し、終わっていないコマンド ${count_text(commands)} 件を止めます`}。`,
+]);
+export const cancel = text('Cancel', '取り消し');
+export const connect = text('Connect', '接続');
+export const disconnect = text('Disconnect', '切断');
+export const empty_engine = text('This engine has no components', 'このエンジンにはコンポーネントがありません');
+export const empty_engine_hint = text('They appear here as soon as it has some.', '追加されしだい、ここに現れます。');
+export const bound = text_of((n: number) => [`${n} bound`, `バインド ${n}`]);
+export const bound_title = text('Components that this console has bound', 'このコンソールがバインドしたコンポーネント');
+export const release = text('Release', '解放');
+export const release_all = text('Release all', 'すべて解放');
+export const release_hint = text('Releasing stops what this console runs there.', '解放すると、そこで実行中のものは停止します。');
+export const none_bound = text('None. A component is bound when you first send it a command.', 'ありません。最初のコマンドを送るときにバインドします。');
+export const token_title = text('This gateway wants a token', 'このゲートウェイにはトークンが必要です');
+export const token_wrong = text('The gateway did not accept this token.', 'このトークンは受け入れられませんでした。');
+export const token_label = text('Token', 'トークン');
+export const token_hint = text('Whoever runs the gateway knows it. It is kept until this page is closed.', 'ゲートウェイの管理者に尋ねてください。このページを閉じるまで保持します。');
+export const theme = text('Colours', '配色');
+export const theme_system = text('Colours as the system', '配色: システムに合わせる');
+export const theme_dark = text('Dark colours', '配色: 暗い');
+export const theme_light = text('Light colours', '配色: 明るい');
+export const language = text('Language', '言語');
+export const panels = text('Panels', 'パネル');
+export const notices = text('Notices', 'お知らせ');
+export const main = text('Main area', '主領域');
+export const below = text('Lower area', '下の領域');
+export const side = text('Side area', '横の領域');
+

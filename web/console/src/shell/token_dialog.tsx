@@ -4,12 +4,12 @@ import { useSignal } from '@preact/signals';
 import { Button } from '../ui/button';
 import { Dialog } from '../ui/dialog';
 import { TextField } from '../ui/field';
+import { Form } from '../ui/form';
 import { useConsole } from './context';
-import { texts } from './texts';
+import * as t from './texts';
 
 export function TokenDialog() {
   const console = useConsole();
-  const t = texts();
   const token = useSignal('');
   const { phase, reason } = console.link.view.value;
   const connect = () => {
@@ -17,31 +17,26 @@ export function TokenDialog() {
   };
   return (
     <Dialog
-      title={t.token_title}
+      title={t.token_title()}
       open={phase === 'token'}
       close={() => undefined}
       closable={false}
       actions={
         <Button look="primary" onClick={connect} disabled={token.value.trim() === ''}>
-          {t.connect}
+          {t.connect()}
         </Button>
       }
     >
-      <form
-        onSubmit={(event) => {
-          event.preventDefault();
-          connect();
-        }}
-      >
+      <Form submit={connect}>
         <TextField
-          label={t.token_label}
-          hint={t.token_hint}
-          error={console.current_token === undefined ? '' : `${t.token_wrong} ${reason}`}
+          label={t.token_label()}
+          hint={t.token_hint()}
+          error={console.current_token === undefined ? '' : `${t.token_wrong()} ${reason}`}
           value={token.value}
           change={(value) => (token.value = value)}
           input={{ type: 'password', autofocus: true }}
         />
-      </form>
+      </Form>
     </Dialog>
   );
 }

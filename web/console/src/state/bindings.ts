@@ -98,6 +98,7 @@ export class Bindings {
   private async give_back(refs: string[]): Promise<void> {
     for (const ref of refs) {
       if (!this.borrowed.has(ref) || this.lower(ref) > 0 || this.kept.has(ref) || !this.mine.value.has(ref)) continue;
+      this.gone(ref); // already: whoever wants it before the answer comes has to bind it anew
       await this.client()
         .release(ref)
         .catch(() => undefined); // the session is gone, and the binding with it
@@ -112,8 +113,11 @@ export class Bindings {
       const ref = parse_xml(text).child('component_ref')?.attribute('code', namespaces.rois);
       if (ref !== undefined) this.add(ref);
     }
-    if (name === 'release_response' && request.component !== undefined && this.mine.value.has(request.component))
-      this.mine.value = new Set([...this.mine.value].filter((one) => one !== request.component));
+    if (name === 'release_response' && request.component !== undefined) this.gone(request.component);
+  }
+
+  private gone(ref: string): void {
+    if (this.mine.value.has(ref)) this.mine.value = new Set([...this.mine.value].filter((one) => one !== ref));
   }
 
   /** The session is gone, and its bindings with it. */

@@ -57,6 +57,7 @@ export class CommandsState {
     private readonly environment: Environment,
     private readonly documents: Documents,
     private readonly client: () => Client | undefined,
+    private readonly lasts: (ref: string) => boolean,
   ) {
     this.all = new Ring(most_commands);
     this.pulse = new Pulse(environment);
@@ -76,9 +77,9 @@ export class CommandsState {
     return this.open().filter((one) => one.component === ref && one.state === 'running');
   }
 
-  /** Whether it was started, and neither stopped nor released since: what detects, localizes or identifies goes on after `start` has completed. */
+  /** Whether it was started, and neither stopped nor released since, and its work goes on when `start` has completed. */
   goes_on(ref: string): boolean {
-    return this.working.has(ref);
+    return this.working.has(ref) && this.lasts(ref);
   }
 
   /** Learns from the answers, whoever has sent the requests. */

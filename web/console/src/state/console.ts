@@ -33,6 +33,7 @@ import { MetricsState } from './metrics_state';
 import { Notices } from './notices';
 import { ParametersState } from './parameters_state';
 import { ProfileState } from './profile_state';
+import { reason_of } from './reason_of';
 import { RobotsState } from './robots_state';
 import { Selection } from './selection';
 import { StatusState } from './status_state';
@@ -102,12 +103,12 @@ export class Console {
       () => this.client,
       () => this.metrics.bound.value,
     );
-    this.commands = new CommandsState(environment, this.documents, client);
+    this.commands = new CommandsState(environment, this.documents, client, (ref) => this.profile.lasts(ref));
     this.events = new EventsState(environment, this.documents, client);
     this.subscriptions = new SubscriptionsState(
       environment,
       () => this.client,
-      (event_type, error) => this.notices.tell('warning', event_type, { detail: error instanceof Error ? error.message : String(error) }),
+      (event_type, error) => this.notices.tell('warning', event_type, { detail: reason_of(error) }),
     );
     this.robots = new RobotsState(environment, this.documents, client, components, is_open);
     this.entities = new EntitiesState(
@@ -224,7 +225,7 @@ export class Console {
       this.entities.profile_changed();
       this.status.poll.now();
     } catch (error) {
-      if (this.link.is_open) this.notices.tell('error', error instanceof Error ? error.message : String(error));
+      if (this.link.is_open) this.notices.tell('error', reason_of(error));
     }
   }
 

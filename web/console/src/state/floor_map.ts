@@ -3,6 +3,7 @@ import { signal } from '@preact/signals';
 import { parse_xml, type XmlElement } from 'rois-client';
 
 import type { Environment } from './environment';
+import { reason_of } from './reason_of';
 
 export interface Bounds {
   x: number;
@@ -63,7 +64,7 @@ export class MapState {
       else if (!answer.ok) this.view.value = { state: 'trouble', reason: `status ${answer.status}` };
       else this.view.value = { state: 'there', map: read_floor_map(await answer.text()) };
     } catch (error) {
-      this.view.value = { state: 'trouble', reason: error instanceof Error ? error.message : String(error) };
+      this.view.value = { state: 'trouble', reason: reason_of(error) };
     }
   }
 }

@@ -3,6 +3,7 @@ import { computed, signal } from '@preact/signals';
 
 import type { Environment } from './environment';
 import { Poll } from './poll';
+import { reason_of } from './reason_of';
 import { Ring } from './ring';
 
 /** One line of /metrics. */
@@ -76,7 +77,7 @@ export class MetricsState {
       this.latest.value = scrape;
       this.trouble.value = '';
     } catch (error) {
-      this.trouble.value = error instanceof Error ? error.message : String(error);
+      this.trouble.value = reason_of(error);
     }
   }
 }

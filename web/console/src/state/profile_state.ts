@@ -66,6 +66,12 @@ export class ProfileState {
     return this.by_ref.value.get(ref);
   }
 
+  /** Whether its work goes on when `start` has completed: it detects, localizes, identifies, recognizes or streams. */
+  lasts(ref: string): boolean {
+    const view = this.component(ref);
+    return view !== undefined && [view.type, ...view.includes].some((urn) => /(Detection|Localization|Identification|Recognition|Streaming)$/i.test(urn));
+  }
+
   /** Those of a type, by its URN or its last part, ignoring case; sub profiles count. */
   of_type(type: string): ComponentView[] {
     const is_it = (urn: string) => urn.toLowerCase() === type.toLowerCase() || type_name(urn).toLowerCase() === type.toLowerCase();

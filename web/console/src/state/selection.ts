@@ -6,4 +6,6 @@ export class Selection {
   readonly component = signal('');
   /** The number of a logged document. */
   readonly document = signal<number | undefined>(undefined);
+  /** The id of the subscription whose events are to be listed; empty: none. */
+  readonly subscription = signal('');
 }

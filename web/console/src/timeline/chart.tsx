@@ -5,12 +5,13 @@ import { useCallback, useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import { useConsole } from '../shell/context';
 import { shown_theme } from '../shell/theme';
 import { useDrawing } from '../ui/drawing';
+import { watch_size } from '../ui/use_width';
 import { describe_whole, phase_text, sentence } from './describe';
 import { type Lane, lay_out, type Layout, next_thing, type Placed, thing_at, time_of } from './layout';
 import { axis_height, paint } from './paint';
 import { Pointing } from './pointing';
 import { key_of, type Thing } from './things';
-import { texts } from './texts';
+import * as t from './texts';
 import { Tooltip } from './tooltip';
 import type { TimeView } from './view';
 
@@ -143,11 +144,7 @@ export function Chart({ view, opened, open }: ChartProps) {
     canvas.current!.addEventListener('wheel', wheel, { passive: false });
   }, []);
   // The canvas is as high as what is seen of the lanes, and stays there while they scroll.
-  useLayoutEffect(() => {
-    const observer = new ResizeObserver(() => (canvas.current!.style.height = `${frame.current!.clientHeight}px`));
-    observer.observe(frame.current!);
-    return () => observer.disconnect();
-  }, []);
+  useLayoutEffect(() => watch_size(frame.current!, () => (canvas.current!.style.height = `${frame.current!.clientHeight}px`)), []);
 
   const go = (key: 'ArrowLeft' | 'ArrowRight' | 'ArrowUp' | 'ArrowDown') => {
     view.pause();
@@ -188,7 +185,7 @@ export function Chart({ view, opened, open }: ChartProps) {
           class="timeline-place"
           role="application"
           tabIndex={0}
-          aria-label={texts().label}
+          aria-label={t.label()}
           aria-describedby="timeline-help"
           onKeyDown={pressed}
           onBlur={() => (focused.value = undefined)}
@@ -207,17 +204,18 @@ export function Chart({ view, opened, open }: ChartProps) {
           <Tip view={view} layout={layout} frame={frame} hovered={hovered.value} focused={told} />
         </div>
       </div>
-      <p id="timeline-help" class="unseen">{texts().help}</p>
+      <p id="timeline-help" class="unseen">{t.help()}</p>
       <p class="unseen" role="status">{told ? sentence(describe_whole(console, told.thing, view.sources.at)) : ''}</p>
     </div>
   );
 }
 
+const lane_names = { link: t.link, commands: t.commands, events: t.events };
+
 function LaneNames({ lanes }: { lanes: readonly Lane[] }) {
-  const t = texts();
-  const name_of = ({ kind, ref }: Lane) => (kind === 'component' ? ref : t[kind]);
+  const name_of = ({ kind, ref }: Lane) => (kind === 'component' ? ref : lane_names[kind]());
   return (
-    <ul class="timeline-names" aria-label={t.lanes} style={{ paddingTop: `${axis_height}px` }}>
+    <ul class="timeline-names" aria-label={t.lanes()} style={{ paddingTop: `${axis_height}px` }}>
       {lanes.map((lane) => (
         <li key={`${lane.kind} ${lane.ref}`} class={`timeline-name timeline-name-${lane.kind}`} style={{ height: `${lane.height}px` }} title={name_of(lane)}>
           <span>{name_of(lane)}</span>

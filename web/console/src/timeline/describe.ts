@@ -4,12 +4,12 @@ import { parse_xml } from 'rois-client';
 import { why } from '../forms/why';
 import { clock_time, duration } from '../i18n/i18n';
 import type { CommandEntry } from '../state/commands_state';
-import { texts as shell } from '../shell/texts';
+import * as shell from '../shell/texts';
 import type { Span } from '../state/history';
 import type { Phase } from '../state/link_state';
 import type { Console } from '../state/console';
 import { began_at, has_failed, type Mark, mark_ref, opened_by, type Thing } from './things';
-import { texts } from './texts';
+import * as t from './texts';
 
 export interface Description {
   at: number; // for the order
@@ -24,7 +24,7 @@ export interface Description {
 
 /** How the link is, in the words of the header. */
 export function phase_text(phase: string): string {
-  return shell().phase(phase as Phase);
+  return shell.phase(phase as Phase);
 }
 
 /** `at`: until when anything is known. */
@@ -40,7 +40,7 @@ export function describe_whole(console: Console, thing: Thing, at: number): Desc
   const opened = opened_by(thing);
   if (opened.kind !== 'command' || !has_failed(opened.entry)) return told;
   const reasons = why(console, opened.entry);
-  return reasons.length === 0 ? told : { ...told, facts: [...told.facts, [texts().reason, reasons.join(' ')]] };
+  return reasons.length === 0 ? told : { ...told, facts: [...told.facts, [t.reason(), reasons.join(' ')]] };
 }
 
 /** In one line. */
@@ -49,51 +49,47 @@ export function sentence({ kind, title, component, state, facts }: Description):
 }
 
 function of_span({ kind, ref, value, from, to, note }: Span, at: number): Description {
-  const t = texts();
   const goes_on = at - to < 2000;
   const times: Description['facts'] = [
-    [t.from, clock_time(from)],
-    [t.to, goes_on ? t.goes_on : clock_time(to)],
-    [t.lasted, duration((goes_on ? at : to) - from)],
+    [t.from(), clock_time(from)],
+    [t.to(), goes_on ? t.goes_on() : clock_time(to)],
+    [t.lasted(), duration((goes_on ? at : to) - from)],
   ];
-  if (note !== '') times.push([t.reason, note]);
-  if (kind === 'holder') return { at: from, kind: t.holder, title: value === 'me' ? t.by_me : t.by_session(value), component: ref, state: '', facts: times };
-  if (kind === 'link') return { at: from, kind: t.link, title: phase_text(value), component: '', state: '', facts: times };
-  return { at: from, kind: t.status, title: value, component: ref, state: value, facts: times };
+  if (note !== '') times.push([t.reason(), note]);
+  if (kind === 'holder') return { at: from, kind: t.holder(), title: value === 'me' ? t.by_me() : t.by_session(value), component: ref, state: '', facts: times };
+  if (kind === 'link') return { at: from, kind: t.link(), title: phase_text(value), component: '', state: '', facts: times };
+  return { at: from, kind: t.status(), title: value, component: ref, state: value, facts: times };
 }
 
 function of_command(entry: CommandEntry, at: number): Description {
-  const t = texts();
   const began = began_at(entry);
   const facts: Description['facts'] = [
-    [t.sent, clock_time(entry.sent_at)],
-    [t.began, entry.started_at !== undefined ? clock_time(entry.started_at) : entry.ended_at === undefined ? t.not_yet : t.not_seen],
-    [t.ended, entry.ended_at === undefined ? t.not_yet : clock_time(entry.ended_at)],
+    [t.sent(), clock_time(entry.sent_at)],
+    [t.began(), entry.started_at !== undefined ? clock_time(entry.started_at) : entry.ended_at === undefined ? t.not_yet() : t.not_seen()],
+    [t.ended(), entry.ended_at === undefined ? t.not_yet() : clock_time(entry.ended_at)],
   ];
-  if (entry.started_at !== undefined) facts.push([t.waited, duration(entry.started_at - entry.sent_at)]);
-  if (began !== undefined) facts.push([t.ran, duration((entry.ended_at ?? at) - began)]);
+  if (entry.started_at !== undefined) facts.push([t.waited(), duration(entry.started_at - entry.sent_at)]);
+  if (began !== undefined) facts.push([t.ran(), duration((entry.ended_at ?? at) - began)]);
   const why = entry.state === 'OK' ? undefined : entry.results?.text('reason');
-  if (why) facts.push([t.reason, why]);
-  return { at: entry.sent_at, kind: t.command, title: entry.command_type, component: entry.component, state: entry.state, facts };
+  if (why) facts.push([t.reason(), why]);
+  return { at: entry.sent_at, kind: t.command(), title: entry.command_type, component: entry.component, state: entry.state, facts };
 }
 
 export function of_mark(mark: Mark): Description {
-  const t = texts();
   if (mark.kind === 'failed') return of_command(mark.entry.command, mark.entry.at);
   const { at } = mark.entry;
-  const facts: Description['facts'] = [[t.when, clock_time(at)]];
+  const facts: Description['facts'] = [[t.when(), clock_time(at)]];
   if (mark.kind === 'gap') {
     const { gap } = mark.entry;
-    return { at, kind: t.gap, title: gap.reason === 'session' ? t.gap_session : t.gap_lost(gap.count), component: '', state: '', facts };
+    return { at, kind: t.gap(), title: gap.reason === 'session' ? t.gap_session() : t.gap_lost(gap.count), component: '', state: '', facts };
   }
   const component = mark_ref(mark);
-  if (mark.kind === 'refused') return { at, kind: t.refused, title: mark.entry.request?.name ?? mark.entry.name, component, state: mark.entry.return_code ?? '', facts: [...facts, [t.reason, reason_in(mark.entry.text)]] };
-  if (mark.kind === 'error') return { at, kind: t.error, title: mark.entry.error.error_type, component, state: '', facts };
-  return { at, kind: t.event, title: mark.entry.event.event_type, component, state: '', facts };
+  if (mark.kind === 'refused') return { at, kind: t.refused(), title: mark.entry.request?.name ?? mark.entry.name, component, state: mark.entry.return_code ?? '', facts: [...facts, [t.reason(), reason_in(mark.entry.text)]] };
+  if (mark.kind === 'error') return { at, kind: t.error(), title: mark.entry.error.error_type, component, state: '', facts };
+  return { at, kind: t.event(), title: mark.entry.event.event_type, component, state: '', facts };
 }
 
 function of_many(marks: readonly Mark[]): Description {
-  const t = texts();
   const [first, last] = [marks[0]!.entry.at, marks.at(-1)!.entry.at];
   const counts = new Map<string, number>();
   for (const mark of marks) {
@@ -101,7 +97,7 @@ function of_many(marks: readonly Mark[]): Description {
     counts.set(title, (counts.get(title) ?? 0) + 1);
   }
   const refs = new Set(marks.map(mark_ref));
-  const facts: Description['facts'] = [[t.when, `${clock_time(first)} – ${clock_time(last)}`]];
+  const facts: Description['facts'] = [[t.when(), `${clock_time(first)} – ${clock_time(last)}`]];
   for (const [title, n] of [...counts].sort((a, b) => b[1] - a[1]).slice(0, 5)) facts.push([title, `× ${n}`]);
   return { at: first, kind: '', title: t.many(marks.length), component: refs.size === 1 ? [...refs][0]! : '', state: '', facts };
 }

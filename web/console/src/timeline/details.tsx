@@ -7,10 +7,10 @@ import { CommandProgress, DetailsOf, LoggedXml, ResultsTable } from '../forms';
 import { useConsole } from '../shell/context';
 import { show_component } from '../shell/layout';
 import type { CommandEntry } from '../state/commands_state';
-import { Button, IconButton, StatusBadge } from '../ui';
+import { Button, Fact, IconButton, StatusBadge } from '../ui';
 import { describe, of_mark } from './describe';
 import { key_of, type Mark, mark_key, type Thing } from './things';
-import { texts } from './texts';
+import * as t from './texts';
 import type { TimeView } from './view';
 
 export interface DetailsProps {
@@ -24,7 +24,6 @@ const most_listed = 200;
 
 export function DetailsPane({ view, thing, open, close }: DetailsProps) {
   const console = useConsole();
-  const t = texts();
   const heading = useRef<HTMLHeadingElement>(null);
   const key = key_of(thing);
   useEffect(() => heading.current?.focus(), [key]);
@@ -38,31 +37,25 @@ export function DetailsPane({ view, thing, open, close }: DetailsProps) {
     close();
   };
   return (
-    <section class="timeline-details" aria-label={t.details} onKeyDown={closed}>
+    <section class="timeline-details" aria-label={t.details()} onKeyDown={closed}>
       <header class="timeline-details-head">
         <h3 ref={heading} tabIndex={-1}>
           {kind !== '' && <span class="timeline-kind">{kind}</span>} {title}
         </h3>
-        <IconButton icon="close" small label={t.close} onClick={close} />
+        <IconButton icon="close" small label={t.close()} onClick={close} />
       </header>
       <div class="timeline-details-body" tabIndex={0} role="region" aria-label={title}>
         <dl class="timeline-facts">
           {component !== '' && (
-            <div>
-              <dt>{t.component}</dt>
-              <dd>
-                <button type="button" class="timeline-link" onClick={() => show_component(console, component)}>{component}</button>
-              </dd>
-            </div>
+            <Fact name={t.component()}>
+              <button type="button" class="timeline-link" onClick={() => show_component(console, component)}>{component}</button>
+            </Fact>
           )}
           {state !== '' && thing.kind !== 'command' && (
-            <div>
-              <dt>{t.state}</dt>
-              <dd><StatusBadge status={state} /></dd>
-            </div>
+            <Fact name={t.state()}><StatusBadge status={state} /></Fact>
           )}
-          {facts.map(([name, value]) => <Fact key={name} name={name} value={value} />)}
-          {thing.kind === 'command' && thing.entry.sequence.commands.length > 1 && <Fact name={t.place} value={thing.entry.path} />}
+          {facts.map(([name, value]) => <Fact key={name} name={name}>{value}</Fact>)}
+          {thing.kind === 'command' && thing.entry.sequence.commands.length > 1 && <Fact name={t.place()}>{thing.entry.path}</Fact>}
           {single(thing)?.kind === 'event' && <Expiry mark={single(thing)!} />}
         </dl>
         {thing.kind === 'command' && <CommandDetails entry={thing.entry} />}
@@ -77,22 +70,12 @@ function single(thing: Thing): Mark | undefined {
   return thing.kind === 'marks' && thing.marks.length === 1 ? thing.marks[0] : undefined;
 }
 
-function Fact({ name, value }: { name: string; value: string }) {
-  return (
-    <div>
-      <dt>{name}</dt>
-      <dd>{value}</dd>
-    </div>
-  );
-}
-
 function Expiry({ mark }: { mark: Mark }) {
-  return mark.kind === 'event' ? <Fact name={texts().expires} value={clock_time(mark.entry.event.expire.getTime(), false)} /> : null;
+  return mark.kind === 'event' ? <Fact name={t.expires()}>{clock_time(mark.entry.event.expire.getTime(), false)}</Fact> : null;
 }
 
 function CommandDetails({ entry }: { entry: CommandEntry }) {
   const { commands } = useConsole();
-  const t = texts();
   useEffect(() => {
     if (entry.ended_at !== undefined && entry.state !== 'unknown') void commands.fetch_results(entry);
   }, [entry, entry.ended_at]);
@@ -101,17 +84,17 @@ function CommandDetails({ entry }: { entry: CommandEntry }) {
       <CommandProgress entry={entry} />
       {entry.arguments.length > 0 && (
         <>
-          <h4>{t.arguments}</h4>
-          <ResultsTable label={t.arguments} results={new Results(entry.arguments)} />
+          <h4>{t.arguments_of()}</h4>
+          <ResultsTable label={t.arguments_of()} results={new Results(entry.arguments)} />
         </>
       )}
       {entry.results && (
         <>
-          <h4>{t.results}</h4>
-          {entry.results.parameters.length === 0 ? <p>{t.no_results}</p> : <ResultsTable label={t.results} results={entry.results} />}
+          <h4>{t.results()}</h4>
+          {entry.results.parameters.length === 0 ? <p>{t.no_results()}</p> : <ResultsTable label={t.results()} results={entry.results} />}
         </>
       )}
-      <LoggedText title={t.request} number={entry.sequence.document} />
+      <LoggedText title={t.request()} number={entry.sequence.document} />
     </>
   );
 }
@@ -126,16 +109,16 @@ function MarkDetails({ mark }: { mark: Mark }) {
   if (mark.kind === 'refused')
     return (
       <>
-        {mark.entry.request && <LoggedText title={texts().request} number={mark.entry.request.number} />}
-        <LoggedText title={texts().document} number={mark.entry.number} />
+        {mark.entry.request && <LoggedText title={t.request()} number={mark.entry.request.number} />}
+        <LoggedText title={t.document()} number={mark.entry.number} />
       </>
     );
   const is_expired = mark.kind === 'event' && mark.entry.details.state === 'none' && events.is_expired(mark.entry);
   return (
     <>
-      <h4>{texts().results}</h4>
-      {is_expired ? <p>{texts().expired}</p> : <DetailsOf details={mark.entry.details} label={texts().results} none={texts().no_results} />}
-      <LoggedText title={texts().document} number={mark.entry.document} />
+      <h4>{t.results()}</h4>
+      {is_expired ? <p>{t.expired()}</p> : <DetailsOf details={mark.entry.details} label={t.results()} none={t.no_results()} />}
+      <LoggedText title={t.document()} number={mark.entry.document} />
     </>
   );
 }
@@ -150,14 +133,13 @@ function LoggedText({ title, number }: { title: string; number: number }) {
 }
 
 function Many({ marks, view, open }: { marks: readonly Mark[]; view: TimeView; open: (thing: Thing) => void }) {
-  const t = texts();
   const [from, to] = [marks[0]!.entry.at, marks.at(-1)!.entry.at];
   const around = Math.max(20, (to - from) * 0.2);
   return (
     <>
       <p>
         <Button small icon="search" onClick={() => view.show(from - around, to + around)}>
-          {t.zoom_here}
+          {t.zoom_here()}
         </Button>
       </p>
       {marks.length > most_listed && <p>{t.shown_of(most_listed, marks.length)}</p>}

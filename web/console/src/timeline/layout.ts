@@ -48,10 +48,10 @@ export interface LayoutOptions {
   with_own: boolean;
 }
 
-const heights = { link: 20, row: 18, events: 28, component: 30 };
+const heights = { link: 20, row: 18, events: 32, component: 30 };
 const most_rows = 6; // of commands at once; what is more lies in the last one
 /** Marks nearer to each other than this are one. Where the borders are depends on the time alone, so that nothing flickers while it moves. */
-const together = { events: 30, component: 7 }; // px
+const together = { events: 34, component: 7 }; // px
 
 export function x_of(at: number, { from, to }: Range, width: number): number {
   return ((at - from) / (to - from)) * width;
@@ -94,9 +94,12 @@ export function lay_out(sources: Sources, range: Range, { width, hides_quiet, wi
     put(thing, by_ref.get(entry.component), entry.sent_at, to, 20, 7, 3);
     put(thing, by_ref.get(' commands'), entry.sent_at, to, 3 + heights.row * (rows.of.get(entry) ?? 0), heights.row - 4, 3);
   }
+  const events_lane = by_ref.get(' events');
   const put_marks = (those: Mark[], lane: number | undefined, most: number, top: number, height: number, side: number) => {
-    for (const { marks: one, from, to } of clusters(those, ((range.to - range.from) / width) * most)) {
-      const middle = x_of((from + to) / 2, range, width);
+    const length = ((range.to - range.from) / width) * most;
+    for (const { marks: one, from, to } of clusters(those, length)) {
+      // A number stands in the middle of its stretch, so that it does not lie on its neighbour's.
+      const middle = x_of(lane === events_lane && one.length > 1 ? (Math.floor(from / length) + 0.5) * length : (from + to) / 2, range, width);
       const wide = one.length === 1 ? side : Math.max(side, x_of(to, range, width) - x_of(from, range, width));
       if (lane !== undefined) place({ kind: 'marks', marks: one }, lane, { x: middle - wide / 2, y: lanes[lane]!.y + top, width: wide, height });
     }
@@ -104,8 +107,8 @@ export function lay_out(sources: Sources, range: Range, { width, hides_quiet, wi
   // Of a command that has failed its bar tells in the component's lane.
   for (const [ref, those] of grouped(marks.filter((one) => one.kind !== 'failed'), mark_ref)) if (ref !== '') put_marks(those, by_ref.get(ref), together.component, 19, 9, 3);
   const [events, troubles] = [marks.filter((one) => one.kind === 'event'), marks.filter((one) => one.kind !== 'event')];
-  put_marks(events, by_ref.get(' events'), together.events, 6, 16, 12);
-  put_marks(troubles, by_ref.get(' events'), together.events, 6, 16, 14);
+  put_marks(events, events_lane, together.events, 1, 14, 12);
+  put_marks(troubles, events_lane, together.events, 17, 14, 14);
   return { range, oldest: oldest_of(sources), width, height: lanes.at(-1)!.y + lanes.at(-1)!.height, lanes, placed };
 }
 

@@ -5,7 +5,7 @@ import { EmptyState, StatusBadge, Table } from '../ui';
 import { describe, type Description, sentence } from './describe';
 import { lay_out } from './layout';
 import { key_of, type Thing } from './things';
-import { texts } from './texts';
+import * as t from './texts';
 import type { TimeView } from './view';
 
 const most_rows = 200;
@@ -18,32 +18,31 @@ interface Row extends Description {
 
 export function Listing({ view, open }: { view: TimeView; open: (thing: Thing) => void }) {
   const console = useConsole();
-  const t = texts();
   if (view.is_live) void console.now.value; // once a second is enough to read
   const { at } = view.sources;
   const { rows, count } = rows_of(view, at);
-  if (count === 0) return <EmptyState icon="timeline" title={t.nothing} />;
+  if (count === 0) return <EmptyState icon="timeline" title={t.nothing()} />;
   return (
     <div class="timeline-listing">
       {count > rows.length && <p class="timeline-listing-note">{t.shown_of(rows.length, count)}</p>}
       <Table
-        label={t.label}
+        label={t.label()}
         rows={rows}
         key_of={(row) => row.key}
         columns={[
-          { id: 'when', title: t.when, cell: (row) => clock_time(row.at) },
+          { id: 'when', title: t.when(), cell: (row) => clock_time(row.at) },
           {
             id: 'what',
-            title: t.what,
+            title: t.what(),
             cell: (row) => (
               <button type="button" class="timeline-row" aria-label={t.open(sentence(row))} onClick={() => open(row.thing)}>
                 <span class="timeline-kind">{row.kind}</span> {row.title}
               </button>
             ),
           },
-          { id: 'component', title: t.component, cell: (row) => row.component },
-          { id: 'state', title: t.state, cell: (row) => row.state !== '' && <StatusBadge status={row.state} /> },
-          { id: 'lasted', title: t.lasted, cell: (row) => row.lasted, numeric: true },
+          { id: 'component', title: t.component(), cell: (row) => row.component },
+          { id: 'state', title: t.state(), cell: (row) => row.state !== '' && <StatusBadge status={row.state} /> },
+          { id: 'lasted', title: t.lasted(), cell: (row) => row.lasted, numeric: true },
         ]}
       />
     </div>

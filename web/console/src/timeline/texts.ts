@@ -1,76 +1,77 @@
-import { count_text, in_both } from '../i18n/i18n';
+import { count_text, text, text_of } from '../i18n/i18n';
 
-export const texts = in_both({
-  title: ['Time line', 'タイムライン'],
-  label: ['Time line of the link, commands, events and components', '接続・コマンド・イベント・コンポーネントのタイムライン'],
-  help: [
-    'Arrow keys go from one thing to the next and stop the time; Enter opens it. Plus and minus zoom, Page Up and Page Down move in time, Home goes to the beginning, End to now. Space stops and goes on. Dragging chooses a stretch of time, the wheel zooms, Backspace goes back.',
-    '矢印キーで項目を移動し、時間を止めます。Enter で開きます。+ と - で拡大・縮小、Page Up と Page Down で時間を移動、Home で最初へ、End で現在へ移動します。Space で停止・再開します。ドラッグで範囲を選び、ホイールで拡大・縮小し、Backspace で戻ります。',
-  ],
-  live: ['Live', 'ライブ'],
-  go_live: ['Go on live', 'ライブに戻る'],
-  pause: ['Stop time', '時間を止める'],
-  held: ['Waits while you point', '指している間は停止'],
-  stopped: ['Stopped', '停止中'],
-  zoom_in: ['Zoom in', '拡大'],
-  zoom_out: ['Zoom out', '縮小'],
-  earlier: ['Earlier', '前へ'],
-  later: ['Later', '後へ'],
-  back: ['Back to the stretch before', '前の範囲に戻る'],
-  everything: ['Everything', 'すべて'],
-  stretch: ['Stretch of time', '時間の範囲'],
-  hide_quiet: ['Hide quiet components', '動きのないコンポーネントを隠す'],
-  with_own: ['Console’s own events', 'コンソール自身のイベント'],
-  as_table: ['As a table', '表で見る'],
-  lanes: ['Lanes', 'レーン'],
-  link: ['Link', '接続'],
-  commands: ['Commands', 'コマンド'],
-  events: ['Events and errors', 'イベントとエラー'],
-  nothing: ['Nothing here in this stretch of time', 'この時間の範囲には何もありません'],
-  shown_of: (shown: number, all: number) => [
-    `The last ${count_text(shown)} of ${count_text(all)} in this stretch of time.`,
-    `この範囲の ${count_text(all)} 件のうち最後の ${count_text(shown)} 件です。`,
-  ],
-  details: ['Details', '詳細'],
-  open: (what: string) => [`Open: ${what}`, `開く: ${what}`],
-  close: ['Close the details', '詳細を閉じる'],
-  // What things are
-  command: ['Command', 'コマンド'],
-  event: ['Event', 'イベント'],
-  error: ['Error', 'エラー'],
-  refused: ['Refused', '拒否'],
-  gap: ['Missed', '受信漏れ'],
-  status: ['Status', '状態'],
-  holder: ['Bound', 'バインド'],
-  many: (n: number) => [`${count_text(n)} events and errors`, `イベントとエラー ${count_text(n)} 件`],
-  by_me: ['by this console', 'このコンソール'],
-  by_session: (session: string) => [`by session ${session}`, `セッション ${session}`],
-  gap_lost: (n: number) => [`${count_text(n)} notifications were lost`, `通知 ${count_text(n)} 件を失いました`],
-  gap_session: ['The session was lost', 'セッションを失いました'],
-  // What is told of them
-  when: ['Time', '時刻'],
-  what: ['What', '内容'],
-  component: ['Component', 'コンポーネント'],
-  state: ['State', '状態'],
-  lasted: ['Lasted', '長さ'],
-  from: ['From', '開始'],
-  to: ['Until', '終了'],
-  goes_on: ['goes on', '継続中'],
-  sent: ['Sent', '送信'],
-  began: ['Began', '実行開始'],
-  ended: ['Ended', '終了'],
-  not_yet: ['not yet', 'まだ'],
-  not_seen: ['not seen', '確認できず'],
-  waited: ['Waited', '待ち時間'],
-  ran: ['Ran', '実行時間'],
-  arguments: ['Arguments', '引数'],
-  results: ['Results', '結果'],
-  no_results: ['It has no results.', '結果はありません。'],
-  place: ['Place in its sequence', 'シーケンス内の位置'],
-  expires: ['Details kept until', '詳細の保持期限'],
-  expired: ['The engine has forgotten the details.', 'エンジンは詳細を保持していません。'],
-  document: ['The document', '文書'],
-  request: ['The request', '要求'],
-  zoom_here: ['Zoom to it', 'ここを拡大'],
-  reason: ['Reason', '理由'],
-});
+export const title = text('Time line', 'タイムライン');
+export const label = text('Time line of the link, commands, events and components', '接続・コマンド・イベント・コンポーネントのタイムライン');
+export const help = text(
+  'Arrow keys go from thing to thing and stop the time, Enter opens one. Plus, minus and the wheel zoom, Page Up and Page Down move in time, Home goes to the beginning, End to now, Space stops and goes on. Dragging chooses a stretch of time, Backspace goes back.',
+  '矢印キーで項目へ移動して時間を止め、Enter で開きます。+・-・ホイールで拡大・縮小、Page Up・Page Down で時間を移動、Home で最初、End で現在、Space で停止・再開。ドラッグで範囲を選び、Backspace で戻ります。',
+);
+export const live = text('Live', 'ライブ');
+export const go_live = text('Go on live', 'ライブに戻る');
+export const pause = text('Stop time', '時間を止める');
+export const held = text('Waits while you point', '指している間は停止');
+export const stopped = text('Stopped', '停止中');
+export const zoom_in = text('Zoom in', '拡大');
+export const zoom_out = text('Zoom out', '縮小');
+export const earlier = text('Earlier', '前へ');
+export const later = text('Later', '後へ');
+export const back = text('Back to the stretch before', '前の範囲に戻る');
+export const everything = text('Everything', 'すべて');
+export const stretch = text('Stretch of time', '時間の範囲');
+export const hide_quiet = text('Hide quiet components', '動きのないコンポーネントを隠す');
+export const with_own = text('Console’s own events', 'コンソール自身のイベント');
+export const as_table = text('As a table', '表で見る');
+export const lanes = text('Lanes', 'レーン');
+export const link = text('Link', '接続');
+export const commands = text('Commands', 'コマンド');
+export const events = text('Events and errors', 'イベントとエラー');
+export const nothing = text('Nothing here in this stretch of time', 'この時間の範囲には何もありません');
+export const shown_of = text_of((shown: number, all: number) => [
+  `The last ${count_text(shown)} of ${count_text(all)} in this stretch of time.`,
+  `この範囲の ${count_text(all)} 件のうち最後の ${count_text(shown)} 件です。`,
+]);
+export const details = text('Details', '詳細');
+export const open = text_of((what: string) => [`Open: ${what}`, `開く: ${what}`]);
+export const close = text('Close the details', '詳細を閉じる');
+
+// What things are
+export const command = text('Command', 'コマンド');
+export const event = text('Event', 'イベント');
+export const error = text('Error', 'エラー');
+export const refused = text('Refused', '拒否');
+export const gap = text('Missed', '受信漏れ');
+export const status = text('Status', '状態');
+export const holder = text('Bound', 'バインド');
+export const many = text_of((n: number) => [`${count_text(n)} events and errors`, `イベントとエラー ${count_text(n)} 件`]);
+export const by_me = text('by this console', 'このコンソール');
+export const by_session = text_of((session: string) => [`by session ${session}`, `セッション ${session}`]);
+export const gap_lost = text_of((n: number) => [`${count_text(n)} notifications were lost`, `通知 ${count_text(n)} 件を失いました`]);
+export const gap_session = text('The session was lost', 'セッションを失いました');
+
+// What is told of them
+export const when = text('Time', '時刻');
+export const what = text('What', '内容');
+export const component = text('Component', 'コンポーネント');
+export const state = text('State', '状態');
+export const lasted = text('Lasted', '長さ');
+export const from = text('From', '開始');
+export const to = text('Until', '終了');
+export const goes_on = text('goes on', '継続中');
+export const sent = text('Sent', '送信');
+export const began = text('Began', '実行開始');
+export const ended = text('Ended', '終了');
+export const not_yet = text('not yet', 'まだ');
+export const not_seen = text('not seen', '確認できず');
+export const waited = text('Waited', '待ち時間');
+export const ran = text('Ran', '実行時間');
+export const arguments_of = text('Arguments', '引数');
+export const results = text('Results', '結果');
+export const no_results = text('It has no results.', '結果はありません。');
+export const place = text('Place in its sequence', 'シーケンス内の位置');
+export const expires = text('Details kept until', '詳細の保持期限');
+export const expired = text('The engine has forgotten the details.', 'エンジンは詳細を保持していません。');
+export const document = text('The document', '文書');
+export const request = text('The request', '要求');
+export const zoom_here = text('Zoom to it', 'ここを拡大');
+export const reason = text('Reason', '理由');
+

@@ -1,6 +1,6 @@
 import { useLayoutEffect, useRef } from 'preact/hooks';
 
-import { StatusBadge } from '../ui';
+import { Fact, StatusBadge } from '../ui';
 import type { Description } from './describe';
 
 /** Beside a point of what it stands in, and inside the window. A screen reader is told elsewhere. */
@@ -25,10 +25,7 @@ export function Tooltip({ description, x, y }: { description: Description; x: nu
       {component !== '' && <p>{component}</p>}
       <dl>
         {facts.map(([name, value]) => (
-          <div key={name}>
-            <dt>{name}</dt>
-            <dd>{value}</dd>
-          </div>
+          <Fact key={name} name={name}>{value}</Fact>
         ))}
       </dl>
     </div>

@@ -1,6 +1,7 @@
 import type { ComponentChildren, JSX } from 'preact';
 
 import { Icon, type IconName } from './icon';
+import { joined } from './joined';
 
 type Native = Omit<JSX.IntrinsicElements['button'], 'icon' | 'label'>;
 
@@ -15,7 +16,7 @@ export interface ButtonProps extends Native {
 }
 
 export function Button({ look, icon, small, busy, children, disabled, class: more, ...native }: ButtonProps) {
-  const name = ['button', look && `button-${look}`, small && 'button-small', more].filter(Boolean).join(' ');
+  const name = joined('button', look && `button-${look}`, small && 'button-small', more as string);
   return (
     <button type="button" {...native} class={name} disabled={disabled || busy || false} aria-busy={busy || undefined}>
       {icon && <Icon name={icon} />}

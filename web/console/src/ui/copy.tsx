@@ -3,7 +3,7 @@ import { useEffect, useState } from 'preact/hooks';
 import { useConsole } from '../shell/context';
 import { Button, type ButtonProps } from './button';
 import { curl_of } from './curl';
-import { texts } from './texts';
+import * as texts from './texts';
 
 export interface CopyProps extends Omit<ButtonProps, 'icon' | 'children'> {
   text: string | (() => string);
@@ -19,12 +19,12 @@ export function CopyButton({ text, label, ...rest }: CopyProps) {
       await write_to_clipboard(typeof text === 'string' ? text : text());
       set_copied(true);
     } catch {
-      console.notices.tell('warning', texts().copy_failed);
+      console.notices.tell('warning', texts.copy_failed());
     }
   };
   return (
     <Button small look="quiet" {...rest} icon={copied ? 'check' : 'copy'} onClick={() => void copy()}>
-      {copied ? texts().copied : (label ?? texts().copy)}
+      {copied ? texts.copied() : (label ?? texts.copy())}
     </Button>
   );
 }
@@ -33,7 +33,7 @@ export function CopyButton({ text, label, ...rest }: CopyProps) {
 export function CurlButton({ request, ...rest }: Omit<CopyProps, 'text' | 'label'> & { request: string }) {
   const console = useConsole();
   const line = () => curl_of(request, { origin: console.environment.origin, session: console.link.session.value, token: console.current_token });
-  return <CopyButton {...rest} text={line} label={texts().copy_as_curl} />;
+  return <CopyButton {...rest} text={line} label={texts.copy_as_curl()} />;
 }
 
 // The clipboard's own interface exists only on pages that came by https or from this machine.

@@ -3,7 +3,7 @@ import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useRef } from 'preact/hooks';
 
 import { IconButton } from './button';
-import { texts } from './texts';
+import * as texts from './texts';
 
 export interface DialogProps {
   title: string;
@@ -37,7 +37,7 @@ export function Dialog({ title, open, close, closable = true, actions, wide = fa
         <>
           <div class="dialog-head">
             <h2 id={id}>{title}</h2>
-            {closable && <IconButton icon="close" label={texts().close} onClick={close} />}
+            {closable && <IconButton icon="close" label={texts.close()} onClick={close} />}
           </div>
           <div class="dialog-body">{children}</div>
           {actions && <div class="dialog-actions">{actions}</div>}

@@ -2,6 +2,8 @@
 import { type RefObject } from 'preact';
 import { useCallback, useLayoutEffect, useRef } from 'preact/hooks';
 
+import { watch_size } from './use_width';
+
 /** What is drawn on; lengths in CSS pixels. */
 export interface Sheet {
   pen: CanvasRenderingContext2D;
@@ -30,10 +32,9 @@ export function useDrawing(draw: (sheet: Sheet) => void): Drawing {
   }, []);
   useLayoutEffect(redraw);
   useLayoutEffect(() => {
-    const observer = new ResizeObserver(redraw);
-    observer.observe(canvas.current!);
+    const end = watch_size(canvas.current!, redraw);
     return () => {
-      observer.disconnect();
+      end();
       cancelAnimationFrame(asked.current);
       asked.current = 0;
     };

@@ -1,26 +1,26 @@
 import { RoisError } from 'rois-client';
 
-import { texts } from './texts';
+import { reason_of } from '../state/reason_of';
+import * as t from './texts';
 
 /** What went wrong with a call, in the user's language; the engine's own reason, which is English, comes after it. */
 export function error_text(error: unknown): string {
-  const t = texts();
-  if (!(error instanceof RoisError)) return error instanceof Error ? error.message : String(error);
+  if (!(error instanceof RoisError)) return reason_of(error);
   switch (error.failure) {
     case 'refused':
-      if (error.return_code === 'OUT_OF_RESOURCES') return `${t.out_of_resources} (${error.message})`;
-      if (error.return_code === 'UNSUPPORTED') return `${t.unsupported} (${error.message})`;
+      if (error.return_code === 'OUT_OF_RESOURCES') return `${t.out_of_resources()} (${error.message})`;
+      if (error.return_code === 'UNSUPPORTED') return `${t.unsupported()} (${error.message})`;
       return t.refused(error.message);
     case 'fault':
       return t.fault(error.message);
     case 'deadline':
-      return t.deadline;
+      return t.deadline();
     case 'link_lost':
-      return t.link_lost;
+      return t.link_lost();
     case 'session_lost':
-      return t.session_lost;
+      return t.session_lost();
     case 'closed':
-      return t.closed;
+      return t.closed();
     default:
       return error.message;
   }

@@ -2,7 +2,8 @@
 import type { ComponentChildren, JSX } from 'preact';
 import { useId } from 'preact/hooks';
 
-import { texts } from './texts';
+import { joined } from './joined';
+import * as texts from './texts';
 
 export interface FieldProps {
   label: string;
@@ -25,13 +26,13 @@ export interface ControlProps {
 
 export function Field({ label, hint, error, unit, required = false, hide_label = false, control }: FieldProps & { control: (props: ControlProps) => ComponentChildren }) {
   const id = useId();
-  const described = [hint && `${id}-hint`, error && `${id}-error`].filter(Boolean).join(' ');
+  const described = joined(hint && `${id}-hint`, error && `${id}-error`);
   const props: ControlProps = { id, 'aria-describedby': described || undefined, 'aria-invalid': Boolean(error), 'aria-required': required };
   return (
     <div class="field">
       <label for={id} class={hide_label ? 'unseen' : undefined}>
         {label}
-        {required && <span class="field-required" title={texts().required} aria-hidden="true">*</span>}
+        {required && <span class="field-required" title={texts.required()} aria-hidden="true">*</span>}
       </label>
       <div class="field-control">
         {control(props)}

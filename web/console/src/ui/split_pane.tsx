@@ -3,7 +3,7 @@ import type { ComponentChildren } from 'preact';
 import { useRef, useState } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
-import { texts } from './texts';
+import * as texts from './texts';
 
 export interface SplitPaneProps {
   /** By which its place is remembered. */
@@ -48,7 +48,7 @@ export function SplitPane({ id, direction, share: usual = 0.5, label, first, sec
         role="separator"
         tabIndex={0}
         aria-orientation={direction === 'row' ? 'vertical' : 'horizontal'}
-        aria-label={label ?? texts().resize}
+        aria-label={label ?? texts.resize()}
         aria-valuenow={Math.round(share * 100)}
         aria-valuemin={least * 100}
         aria-valuemax={(1 - least) * 100}

@@ -2,7 +2,7 @@
 import type { ComponentChildren } from 'preact';
 
 import { Icon, type IconName } from './icon';
-import { texts } from './texts';
+import * as texts from './texts';
 
 export function EmptyState({ icon = 'info', title, children }: { icon?: IconName; title: string; children?: ComponentChildren }) {
   return (
@@ -17,7 +17,7 @@ export function EmptyState({ icon = 'info', title, children }: { icon?: IconName
 export function Loading() {
   return (
     <div class="state" role="status">
-      <p class="state-title">{texts().loading}</p>
+      <p class="state-title">{texts.loading()}</p>
     </div>
   );
 }

@@ -2,6 +2,8 @@
 import type { ComponentChildren } from 'preact';
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 
+import { watch_size } from './use_width';
+
 export interface VirtualListProps<Row> {
   label: string;
   rows: readonly Row[];
@@ -25,9 +27,7 @@ export function VirtualList<Row>({ label, rows, row_height, key_of, render, chos
 
   useLayoutEffect(() => {
     const element = frame.current!;
-    const observer = new ResizeObserver(() => set_height(element.clientHeight));
-    observer.observe(element);
-    return () => observer.disconnect();
+    return watch_size(element, () => set_height(element.clientHeight));
   }, []);
   useLayoutEffect(() => {
     const element = frame.current!;

@@ -1,7 +1,7 @@
 import { useMemo } from 'preact/hooks';
 
 import { CopyButton } from './copy';
-import { texts } from './texts';
+import * as texts from './texts';
 import { laid_out, pieces_of } from './xml_text';
 
 export interface XmlViewProps {
@@ -17,7 +17,7 @@ export function XmlView({ text, label, raw = false, marked_line }: XmlViewProps)
   const lines = useMemo(() => (raw ? text : laid_out(text)).split('\n'), [text, raw]);
   return (
     <div class={raw ? 'xml xml-raw' : 'xml'}>
-      <pre tabIndex={0} role="region" aria-label={label ?? texts().xml}>
+      <pre tabIndex={0} role="region" aria-label={label ?? texts.xml()}>
         {lines.map((line, i) => (
           <code key={i} class={i + 1 === marked_line ? 'xml-line xml-marked' : 'xml-line'}>
             {pieces_of(line).map((piece, j) => (

@@ -6,9 +6,10 @@ import { useConsole, useWatch } from '../shell/context';
 import { bounds_around, type FloorPose, nearest_of, on_map, type Point } from '../state/floor';
 import type { FloorMap } from '../state/floor_map';
 import type { Visitor } from '../state/hall_state';
+import { joined } from '../ui';
 import { floor_point, SmallFloor } from '../ui/small_floor';
 import { steering_of } from './steering';
-import { words } from './words';
+import * as w from './texts';
 
 interface Aim extends Point {
   ref: string;
@@ -25,7 +26,6 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
   const console = useConsole();
   const { hall, robots } = console;
   useWatch(robots.poll);
-  const w = words();
   const steering = steering_of(console);
   const aim = useSignal<Aim | undefined>(undefined);
   const svg = useRef<SVGSVGElement>(null);
@@ -80,7 +80,7 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
   const aimed = aim.value;
   return (
     <div class="visitors-floor">
-      <SmallFloor svg={svg} bounds={bounds} map={map} onClick={clicked} role="group" aria-label={`${w.map} ${w.map_hint}`}>
+      <SmallFloor svg={svg} bounds={bounds} map={map} onClick={clicked} role="group" aria-label={`${w.map()} ${w.map_hint()}`}>
         {[...robots.all.values()].map((robot) => {
           const at = on_map(map, robot.crs, robot);
           const radius = map?.robots.find((one) => one.name === robot.ref)?.radius ?? person_radius;
@@ -91,7 +91,7 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
         {[...hall.visitors.values()].map((one) => (
           <g
             key={one.ref}
-            class={['visitors-person', one.steered && 'visitors-steered', one.ref === steering.chosen.value && 'visitors-chosen'].filter(Boolean).join(' ')}
+            class={joined('visitors-person', one.steered && 'visitors-steered', one.ref === steering.chosen.value && 'visitors-chosen')}
             role="button"
             tabindex={0}
             data-visitor={one.ref}
@@ -124,7 +124,7 @@ function Body({ at, radius, kind, name }: { at: FloorPose; radius: number; kind:
   const turn = ((at.th ?? 0) * Math.PI) / 180;
   const nose = { x: at.x + Math.cos(turn) * radius * 1.7, y: at.y + Math.sin(turn) * radius * 1.7 };
   return (
-    <g class={`visitors-body visitors-${kind}`}>
+    <g class={`visitors-body visitors-is-${kind}`}>
       {name !== '' && <title>{name}</title>}
       {at.th !== undefined && <line x1={at.x} y1={-at.y} x2={nose.x} y2={-nose.y} />}
       <circle cx={at.x} cy={-at.y} r={radius} />

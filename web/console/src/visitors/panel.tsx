@@ -3,24 +3,23 @@ import './visitors.css';
 
 import { useConsole, useWatch } from '../shell/context';
 import { gestures, type Visitor } from '../state/hall_state';
-import { Badge, Button, Checkbox, EmptyState, Loading, SelectField, TextField } from '../ui';
+import { Badge, Button, Checkbox, EmptyState, Form, Loading, SelectField, TextField } from '../ui';
 import { Floor } from './floor';
 import { languages, type Steering, steering_of } from './steering';
-import { words } from './words';
+import * as w from './texts';
 
 export default function VisitorsPanel() {
   const console = useConsole();
   const { hall, profile } = console;
   useWatch(hall.poll);
-  const w = words();
   const component = hall.component.value;
   void hall.pulse.beat.value;
   const view = console.map.view.value;
   if (!profile.profile.value) return <Loading />;
   if (!component)
     return (
-      <EmptyState icon="person" title={w.none_here}>
-        {w.none_here_hint} <code>--steering on</code>
+      <EmptyState icon="person" title={w.none_here()}>
+        {w.none_here_hint()} <code>--steering on</code>
       </EmptyState>
     );
   const steering = steering_of(console);
@@ -32,7 +31,7 @@ export default function VisitorsPanel() {
       <div class="visitors-people">
         <Entering steering={steering} />
         <Who steering={steering} />
-        {chosen?.steered ? <Orders key={chosen.ref} steering={steering} visitor={chosen} /> : <p class="soft">{chosen ? w.of_scenario_hint : w.choose_somebody}</p>}
+        {chosen?.steered ? <Orders key={chosen.ref} steering={steering} visitor={chosen} /> : <p class="soft">{chosen ? w.of_scenario_hint() : w.choose_somebody()}</p>}
       </div>
     </div>
   );
@@ -41,22 +40,15 @@ export default function VisitorsPanel() {
 function Entering({ steering }: { steering: Steering }) {
   const { hall } = useConsole();
   void hall.pulse.beat.value;
-  const w = words();
   const name = steering.name.value.trim();
-  const wrong = hall.visitors.has(name) ? w.name_taken : /[\s.:]/.test(name) ? w.name_wrong : undefined;
+  const wrong = hall.visitors.has(name) ? w.name_taken() : /[\s.:]/.test(name) ? w.name_wrong() : undefined;
   return (
-    <form
-      class="visitors-entering"
-      onSubmit={(event) => {
-        event.preventDefault();
-        if (wrong === undefined) steering.enter();
-      }}
-    >
-      <TextField label={w.name} value={steering.name.value} change={(to) => (steering.name.value = to)} error={wrong} input={{ placeholder: steering.next_name(), maxLength: 64 }} />
-      <SelectField label={w.language} value={steering.language.value} change={(to) => (steering.language.value = to)} choices={languages.map((one) => ({ value: one, label: one }))} />
-      <Checkbox label={w.known} checked={steering.is_known.value} change={(to) => (steering.is_known.value = to)} />
-      <Button look="primary" icon="plus" type="submit" disabled={wrong !== undefined}>{w.let_in}</Button>
-    </form>
+    <Form class="visitors-entering" submit={() => wrong === undefined && steering.enter()}>
+      <TextField label={w.name()} value={steering.name.value} change={(to) => (steering.name.value = to)} error={wrong} input={{ placeholder: steering.next_name(), maxLength: 64 }} />
+      <SelectField label={w.language()} value={steering.language.value} change={(to) => (steering.language.value = to)} choices={languages.map((one) => ({ value: one, label: one }))} />
+      <Checkbox label={w.known()} checked={steering.is_known.value} change={(to) => (steering.is_known.value = to)} />
+      <Button look="primary" icon="plus" type="submit" disabled={wrong !== undefined}>{w.let_in()}</Button>
+    </Form>
   );
 }
 
@@ -64,12 +56,11 @@ function Who({ steering }: { steering: Steering }) {
   const { hall, commands } = useConsole();
   void hall.pulse.beat.value;
   void commands.pulse.beat.value;
-  const w = words();
   const all = [...hall.visitors.values()];
   return (
-    <section class="visitors-who" aria-label={w.who}>
+    <section class="visitors-who" aria-label={w.who()}>
       <h2>{w.in_hall(all.length)}</h2>
-      {all.length === 0 && <p class="soft">{w.nobody}</p>}
+      {all.length === 0 && <p class="soft">{w.nobody()}</p>}
       <ul>
         {all.map((one) => {
           const doing = hall.orders_of(one.ref).map(({ command_type }) => w.doing(command_type));
@@ -77,8 +68,8 @@ function Who({ steering }: { steering: Steering }) {
             <li key={one.ref}>
               <button type="button" class="visitors-one" aria-pressed={one.ref === steering.chosen.value} onClick={() => (steering.chosen.value = one.ref)}>
                 <span class="visitors-ref">{one.ref}</span>
-                {one.known && <Badge>{w.is_known}</Badge>}
-                {!one.steered && <span class="soft">{w.of_scenario}</span>}
+                {one.known && <Badge>{w.is_known()}</Badge>}
+                {!one.steered && <span class="soft">{w.of_scenario()}</span>}
                 {doing.length > 0 && <Badge tone="busy">{[...new Set(doing)].join(', ')}</Badge>}
                 <span class="visitors-at">{w.metres((one.x / 1000).toFixed(1), (one.y / 1000).toFixed(1))}</span>
               </button>
@@ -92,7 +83,6 @@ function Who({ steering }: { steering: Steering }) {
 
 function Orders({ steering, visitor: { ref } }: { steering: Steering; visitor: Visitor }) {
   const { hall, map } = useConsole();
-  const w = words();
   const view = map.view.value;
   const places = view.state === 'there' ? view.map.places.map(({ name }) => name) : [];
   const place = places.includes(steering.place.value) ? steering.place.value : (places[0] ?? '');
@@ -106,40 +96,28 @@ function Orders({ steering, visitor: { ref } }: { steering: Steering; visitor: V
     <section class="visitors-orders" aria-label={ref}>
       <h2>{ref}</h2>
       {places.length > 0 && (
-        <form
-          class="visitors-row"
-          onSubmit={(event) => {
-            event.preventDefault();
-            void steering.order(ref, 'walk', hall.walk(ref, place));
-          }}
-        >
-          <SelectField label={w.walk_to} value={place} change={(to) => (steering.place.value = to)} choices={places.map((one) => ({ value: one, label: one.replaceAll('_', ' ') }))} />
-          <Button type="submit" icon="right">{w.go}</Button>
-        </form>
+        <Form class="visitors-row" submit={() => void steering.order(ref, 'walk', hall.walk(ref, place))}>
+          <SelectField label={w.walk_to()} value={place} change={(to) => (steering.place.value = to)} choices={places.map((one) => ({ value: one, label: one.replaceAll('_', ' ') }))} />
+          <Button type="submit" icon="right">{w.go()}</Button>
+        </Form>
       )}
-      <form
-        class="visitors-row visitors-saying"
-        onSubmit={(event) => {
-          event.preventDefault();
-          say();
-        }}
-      >
-        <TextField label={w.say} value={steering.words.value} change={(to) => (steering.words.value = to)} input={{ placeholder: w.say_hint, enterkeyhint: 'send' }} />
+      <Form class="visitors-row visitors-saying" submit={say}>
+        <TextField label={w.say()} value={steering.words.value} change={(to) => (steering.words.value = to)} input={{ placeholder: w.say_hint(), enterkeyhint: 'send' }} />
         <SelectField
-          label={w.language}
+          label={w.language()}
           value={steering.spoken.value}
           change={(to) => (steering.spoken.value = to)}
-          choices={[{ value: '', label: w.own_language }, ...languages.map((one) => ({ value: one as string, label: one }))]}
+          choices={[{ value: '', label: w.own_language() }, ...languages.map((one) => ({ value: one as string, label: one }))]}
         />
-        <Button type="submit" icon="messages" disabled={steering.words.value.trim() === ''}>{w.speak}</Button>
-      </form>
-      <div class="visitors-gestures" role="group" aria-label={w.gestures}>
+        <Button type="submit" icon="messages" disabled={steering.words.value.trim() === ''}>{w.speak()}</Button>
+      </Form>
+      <div class="visitors-gestures" role="group" aria-label={w.gestures()}>
         {gestures.map((one) => (
           <Button key={one} small onClick={() => void steering.order(ref, 'gesture', hall.gesture(ref, one))}>{w.gesture(one)}</Button>
         ))}
       </div>
       <div>
-        <Button small look="danger" onClick={() => void steering.order(ref, 'leave', hall.leave(ref))}>{w.leave}</Button>
+        <Button small look="danger" onClick={() => void steering.order(ref, 'leave', hall.leave(ref))}>{w.leave()}</Button>
       </div>
     </section>
   );
@@ -148,15 +126,14 @@ function Orders({ steering, visitor: { ref } }: { steering: Steering; visitor: V
 const spans = [100, 1000, 10_000]; // ms
 
 function Time({ steering }: { steering: Steering }) {
-  const w = words();
   const flows = steering.flows.value;
   return (
-    <section class="visitors-time" aria-label={w.time}>
-      <p title={w.stands_still_hint}>{w.stands_still}</p>
+    <section class="visitors-time" aria-label={w.time()}>
+      <p title={w.stands_still_hint()}>{w.stands_still()}</p>
       {spans.map((ms) => (
         <Button key={ms} small disabled={flows} aria-label={w.pass_label(ms / 1000)} onClick={() => void steering.pass(ms)}>{`+ ${w.pass(String(ms / 1000))}`}</Button>
       ))}
-      <Button small icon={flows ? 'pause' : 'play'} aria-pressed={flows} onClick={() => (flows ? steering.halt() : void steering.flow())}>{flows ? w.halt : w.flow}</Button>
+      <Button small icon={flows ? 'pause' : 'play'} aria-pressed={flows} onClick={() => (flows ? steering.halt() : void steering.flow())}>{flows ? w.halt() : w.flow()}</Button>
     </section>
   );
 }

@@ -4,7 +4,7 @@ import { signal } from '@preact/signals';
 import type { Console } from '../state/console';
 import type { Outcome } from '../state/hall_state';
 import { error_text } from '../ui/error_text';
-import { words } from './words';
+import * as words from './texts';
 
 export const languages = ['de', 'en', 'es', 'fr', 'it', 'ja', 'ko', 'zh'] as const;
 const names = ['anna', 'ben', 'chika', 'daniel', 'emi', 'farid', 'grace', 'hiro'];
@@ -35,10 +35,10 @@ export class Steering {
     const { notices } = this.console;
     try {
       const { status, reason } = await ordered;
-      if (status === 'ERROR' || status === 'TIMEOUT' || status === 'OUT_OF_RESOURCES') notices.tell('warning', words().not_done(ref, what), reason === '' ? {} : { detail: reason });
+      if (status === 'ERROR' || status === 'TIMEOUT' || status === 'OUT_OF_RESOURCES') notices.tell('warning', words.not_done(ref, what), reason === '' ? {} : { detail: reason });
       return status === 'OK';
     } catch (error) {
-      notices.tell('error', words().not_done(ref, what), { detail: error_text(error) });
+      notices.tell('error', words.not_done(ref, what), { detail: error_text(error) });
       return false;
     }
   }

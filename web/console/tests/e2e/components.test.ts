@@ -37,7 +37,7 @@ describe('components', () => {
       await page.getByLabel('volume', { exact: true }).fill('loud');
       await page.getByText('This has to be a whole number.').waitFor();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      expect(await page.evaluate(() => document.activeElement?.getAttribute('aria-invalid'))).toBe('true');
+      await page.locator('input[aria-invalid="true"]:focus').waitFor();
       await page.getByLabel('volume', { exact: true }).fill('70');
       const request = page.getByRole('region', { name: 'Request: speech_synthesis start' });
       expect(await request.textContent()).toMatch(/<rois:value>Good morning\.<\/rois:value>[^]*<rois:value>70<\/rois:value>/);
@@ -90,7 +90,7 @@ describe('components', () => {
       await open(page, 'follow');
       await page.getByLabel('target_object_ref').fill('nobody');
       await page.getByLabel('distance').fill('500');
-      await page.getByLabel('Release it when the command has ended').check();
+      await page.getByLabel(/^Release the component when/).check();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
       await answer(page).getByText('It is running.').waitFor();
       await item(page, 'follow').getByText('running').waitFor();

@@ -42,6 +42,9 @@ describe('conditions', () => {
         await hall.pass_until(page, panel(page).locator('.conditions-subscription').getByText(/^[1-9]\d* events?$/), 200);
         await picture(page, 'conditions-box');
         expect(await violations(page)).toBe('');
+        await panel(page).getByRole('button', { name: /^[1-9]\d* events?$/ }).click();
+        await page.getByRole('listbox', { name: /^Documents/ }).getByText('person_localized').first().waitFor();
+        expect(await page.getByLabel('Search in the text').inputValue()).toMatch(/^subscribe_id>.+<$/);
         await panel(page).getByRole('button', { name: 'Unsubscribe' }).click();
         await panel(page).locator('.conditions-subscription').waitFor({ state: 'detached' });
       },

@@ -295,6 +295,20 @@ describe('people', () => {
       { look: 'light' },
     ));
 
+  test('are looked for again when the page is loaded again, until that is switched off', () =>
+    stage.page(async (page) => {
+      await ready(page);
+      await observe(page);
+      await page.reload();
+      await page.getByText('5 components look').waitFor();
+      await page.locator('.map-switch[aria-busy="false"]').waitFor();
+      await page.getByRole('switch', { name: 'Observe' }).click();
+      await page.getByText('0 bound').waitFor();
+      await page.reload();
+      await ready(page);
+      expect(await page.getByRole('switch', { name: 'Observe' }).getAttribute('aria-checked')).toBe('false');
+    }));
+
   test('who have left are drawn as gone, and then no more', () =>
     stage.page(async (page) => {
       await ready(page);

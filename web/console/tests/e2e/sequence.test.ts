@@ -22,7 +22,7 @@ afterAll(async () => {
 
 const box = (page: Page, text: string) => panel(page).locator('.sequence-box', { hasText: text });
 const component = (page: Page) => panel(page).getByLabel('Component', { exact: true });
-const open_library = (page: Page) => panel(page).getByRole('button', { name: 'Open and keep' }).click();
+const open_library = (page: Page) => panel(page).getByRole('button', { name: 'Open or save …' }).click();
 
 /** Two branches: speech, and a way. */
 async function greeting(page: Page, target = 'desk'): Promise<void> {
@@ -110,11 +110,11 @@ describe('sequences', () => {
         await page.waitForFunction(() => document.activeElement?.textContent?.includes('branches'));
         await page.keyboard.press('ArrowLeft');
         await page.keyboard.press('Alt+ArrowDown');
-        expect(await panel(page).locator('.sequence-branch').first().locator('.sequence-box').textContent()).toContain('speech_synthesis');
+        await panel(page).locator('.sequence-branch').first().locator('.sequence-box', { hasText: 'speech_synthesis' }).waitFor();
         await page.keyboard.press('Alt+ArrowDown');
-        expect(await panel(page).locator('.sequence-branch').nth(1).locator('.sequence-box').textContent()).toContain('speech_synthesis');
+        await panel(page).locator('.sequence-branch').nth(1).locator('.sequence-box', { hasText: 'speech_synthesis' }).waitFor();
         await page.keyboard.press('Alt+ArrowRight');
-        expect(await panel(page).locator('.sequence-branch .sequence-box').count()).toBe(0);
+        await panel(page).locator('.sequence-branch .sequence-box').waitFor({ state: 'detached' });
         await page.waitForFunction(() => document.activeElement?.textContent?.includes('speech_synthesis'));
         await page.keyboard.press('ArrowLeft');
         await page.keyboard.press('Delete');
@@ -191,7 +191,7 @@ describe('sequences', () => {
         await greeting(page);
         await open_library(page);
         await panel(page).getByLabel('Name', { exact: true }).fill('Greeting');
-        await panel(page).getByRole('button', { name: 'Keep', exact: true }).click();
+        await panel(page).getByRole('button', { name: 'Save in this browser' }).click();
         const [download] = await Promise.all([page.waitForEvent('download'), panel(page).getByRole('button', { name: 'Export' }).click()]);
         expect(download.suggestedFilename()).toBe('Greeting.xml');
         const file = await download.path();

@@ -221,6 +221,14 @@ describe('commands', () => {
     expect(world.names().filter((name) => name === 'release')).toHaveLength(1);
   });
 
+  test('one that is borrowed while it is being given back is bound anew', async () => {
+    const giving = (await console.bindings.borrow(['navigation']))();
+    await console.bindings.borrow(['navigation']);
+    await giving;
+    expect(world.names().filter((name) => /^(bind|release)$/.test(name))).toEqual(['bind', 'release', 'bind']);
+    expect(console.bindings.mine.value).toContain('navigation');
+  });
+
   test('nothing is bound when one of them cannot be', async () => {
     world.answers.set('bind', (request) => (request.child('component_ref')!.attributes[0]!.value === 'move' ? 'OUT_OF_RESOURCES' : ''));
     await expect(console.execute([command('navigation', 'start'), command('move', 'start')], { give_back: true })).rejects.toMatchObject({ return_code: 'OUT_OF_RESOURCES' });
@@ -234,6 +242,18 @@ describe('commands', () => {
     await world.notifies('completed', `<command_id>${command_ids[0]}</command_id><status>ERROR</status>`);
     await settled();
     expect(console.commands.find(command_ids[0]!)?.results?.text('status')).toBe('ERROR');
+  });
+
+  test('what detects or localizes goes on when its start has completed; what drives does not', async () => {
+    for (const ref of ['navigation', 'person_localization']) {
+      const { command_ids } = await console.run(ref, 'start');
+      await world.notifies('completed', `<command_id>${command_ids[0]}</command_id><status>OK</status>`);
+    }
+    expect(console.commands.goes_on('navigation')).toBe(false);
+    expect(console.commands.goes_on('person_localization')).toBe(true);
+    const { command_ids } = await console.run('person_localization', 'stop');
+    await world.notifies('completed', `<command_id>${command_ids[0]}</command_id><status>OK</status>`);
+    expect(console.commands.goes_on('person_localization')).toBe(false);
   });
 
   test('a lost session leaves them unknown', async () => {

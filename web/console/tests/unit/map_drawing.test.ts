@@ -6,6 +6,7 @@ import { Drawing, type Sheet } from '../../src/map/drawing';
 import { drivers_of, follow, go, motions_of, stop } from '../../src/map/driving';
 import { goals_of } from '../../src/map/goals';
 import type { Palette } from '../../src/map/palette';
+import { knob_distance } from '../../src/map/picture';
 import { MapSession } from '../../src/map/session';
 import type { Console } from '../../src/state/console';
 import { profile_xml, settled, World } from './world';
@@ -385,4 +386,12 @@ describe('observing', () => {
     expect(executed().slice(2)).toEqual(['person_localization start', 'sound_localization start']);
     expect(session.observer.state.value).toMatchObject({ is_wanted: true, on: ['person_localization', 'sound_localization'] });
   });
+});
+
+test('the knob that turns a target is seen whole, also where the floor ends', () => {
+  const size = { width: 600, height: 400 };
+  expect(knob_distance(15, { x: 300, y: 200 }, -90, size)).toBe(46);
+  expect(knob_distance(15, { x: 300, y: 360 }, -90, size)).toBeCloseTo(31); // 9 px from the lower edge
+  expect(knob_distance(15, { x: 300, y: 360 }, 90, size)).toBe(46);
+  expect(knob_distance(15, { x: 575, y: 200 }, 0, size)).toBe(20); // never in the middle of the target
 });

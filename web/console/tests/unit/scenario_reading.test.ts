@@ -7,7 +7,6 @@ import { graph_of, label_of_edge } from '../../src/scenario/graph';
 import { layout_of } from '../../src/scenario/layout';
 import { read_scenario } from '../../src/scenario/read';
 import { moved, node_of, nodes_in, plain_lines, read_source, with_attribute, with_child, with_state_renamed, with_text, without } from '../../src/scenario/source';
-import { words } from '../../src/scenario/words';
 import { language } from '../../src/i18n/i18n';
 
 const reception = readFileSync(new URL('../../../../client-cpp/scenarios/reception.xml', import.meta.url), 'utf8');
@@ -17,7 +16,7 @@ function scenario_with(states: string, start = 'a'): string {
 }
 
 function told(text: string): string[] {
-  return read_scenario(text).problems.map(({ say, line, column }) => `${line}:${column}: ${say(words())}`);
+  return read_scenario(text).problems.map(({ say, line, column }) => `${line}:${column}: ${say()}`);
 }
 
 describe('reading', () => {

@@ -4,7 +4,6 @@ import { beforeEach, describe, expect, test } from 'vitest';
 
 import { type Desk, desk_of } from '../../src/scenario/desk';
 import { Trouble } from '../../src/scenario/trouble';
-import { words } from '../../src/scenario/words';
 import type { Console } from '../../src/state/console';
 import { profile_xml, settled, World } from './world';
 
@@ -83,7 +82,7 @@ async function runs(states: string, start = 'a', variables = '<variable name="x"
     'test.xml',
     `<robot_scenario xmlns="urn:x-rois:scenario:1" start="${start}"><component name="move"/><component name="voice" type="SpeechSynthesis"/><component name="localization"/>${variables}${states}</robot_scenario>`,
   );
-  expect(desk.reading.value.problems.map(({ say }) => say(words()))).toEqual([]);
+  expect(desk.reading.value.problems.map(({ say }) => say())).toEqual([]);
   void desk.start();
   for (let i = 0; i < 12; ++i) await settled();
 }
@@ -103,7 +102,7 @@ async function goes_on(): Promise<void> {
 function trouble(): string {
   const { outcome } = desk.run!;
   if (outcome?.how !== 'trouble') return outcome?.how ?? 'runs';
-  return outcome.trouble instanceof Trouble ? outcome.trouble.say(words()) : String(outcome.trouble);
+  return outcome.trouble instanceof Trouble ? outcome.trouble.say() : String(outcome.trouble);
 }
 
 const end = '<end name="z"><print>x is {x}</print></end>';

@@ -12,6 +12,7 @@ import { clusters, lay_out, type Layout, next_thing, type Placed, rows_of, thing
 import { end_of, first_since, oldest_of, type Sources, stopped_sources } from '../../src/timeline/sources';
 import { type Mark, opened_by } from '../../src/timeline/things';
 import { TimeView, within, zoomed } from '../../src/timeline/view';
+import type { GapEntry } from '../../src/state/events_state';
 import { time_marks, value_marks } from '../../src/ui/scales';
 import { profile_xml, settled, World } from './world';
 
@@ -101,6 +102,16 @@ describe('events', () => {
     expect(layout.placed.length).toBeLessThan(150);
     const counted = layout.placed.filter(({ lane }) => lanes_of(layout)[lane] === 'events').reduce((sum, { thing }) => sum + (thing.kind === 'marks' ? thing.marks.length : 0), 0);
     expect(counted).toBe(5000);
+  });
+
+  test('have numbers that do not lie over one another, nor over those of what went wrong', () => {
+    const events = ring(...[50_900, 50_990, 51_010, 51_100].map((at) => event(at)));
+    const gaps = ring(...[50_950, 50_960].map((at) => ({ number: next++, at, reason: 'LOST', count: 1 }) as unknown as GapEntry));
+    const layout = lay_out(sources({ events, gaps }), range, wide);
+    const shown = layout.placed.filter(({ lane }) => lanes_of(layout)[lane] === 'events').map(({ box }) => box);
+    expect(shown).toHaveLength(3);
+    const apart = (a: (typeof shown)[0], b: (typeof shown)[0]) => a.y + a.height <= b.y || b.y + b.height <= a.y || Math.abs(a.x + a.width / 2 - b.x - b.width / 2) > 30;
+    for (const [i, one] of shown.entries()) for (const other of shown.slice(i + 1)) expect(apart(one, other)).toBe(true);
   });
 
   test('that the console listens for by itself are there when they are wished for', () => {

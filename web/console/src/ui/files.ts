@@ -12,9 +12,10 @@ export function chosen_file(types: string): Promise<File | undefined> {
   });
 }
 
-export function save_file(name: string, text: string): void {
+/** Has the browser save one. */
+export function save_file(name: string, pieces: string[]): void {
   const link = document.createElement('a');
-  link.href = URL.createObjectURL(new Blob([text], { type: 'application/xml' }));
+  link.href = URL.createObjectURL(new Blob(pieces));
   link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000); // the browser has begun to read it by then
