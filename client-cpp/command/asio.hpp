@@ -1,10 +1,6 @@
 // Boost.Asio and Beast as they are used here, on one thread with one io_context.
 #pragma once
 
-#ifdef __SANITIZE_THREAD__
-#define BOOST_ASIO_DISABLE_FENCED_BLOCK  // the thread sanitizer does not understand fences
-#endif
-
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>

@@ -1,11 +1,5 @@
 // The types of Boost.Asio that are used here, all with the concrete executor of one I/O thread's io_context.
-// Comes before any other header of Boost.Asio.
 #pragma once
-
-// The thread sanitizer does not understand fences; those of Asio are not needed for what it hands over under its mutexes.
-#ifdef __SANITIZE_THREAD__
-#define BOOST_ASIO_DISABLE_FENCED_BLOCK
-#endif
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/basic_stream_socket.hpp>

@@ -1,11 +1,10 @@
 // Where a loop takes its connections from.
 #pragma once
 
-#include "net/asio.hpp"
-
 #include <boost/asio/basic_socket_acceptor.hpp>
 
 #include "net/admission.hpp"
+#include "net/asio.hpp"
 
 namespace rois::net {
 
