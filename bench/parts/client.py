@@ -20,6 +20,7 @@ PROGRAMS = {
 
 def round(keep, settings):
     with running(gateway(1, *settings.gateway)) as (server,):
-        for row, (program, *how) in PROGRAMS.items():
-            command = [BIN / program, server.port, document("query-0.6kB"), settings.seconds, *how]
-            keep(row, json.loads(run_beside(server, command)))
+        for _ in range(settings.turns):
+            for row, (program, *how) in PROGRAMS.items():
+                command = [BIN / program, server.port, document("query-0.6kB"), settings.seconds, *how]
+                keep(row, json.loads(run_beside(server, command)))
