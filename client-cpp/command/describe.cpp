@@ -161,7 +161,7 @@ std::string values_line(ParameterList const& parameters, bool coloured) {
     std::string line;
     for (auto const& parameter : parameters) {
         auto value = listed_values(parameter);
-        if (value.find_first_of(" \t\"") != value.npos) value = "\"" + value + "\"";
+        if (value.find_first_of(" \t\"") != value.npos) value.insert(0, 1, '"').push_back('"');
         if (!line.empty()) line += " ";
         line += painted(parameter.name, Colour::quiet, coloured) + "=" + painted(value, Colour::value, coloured);
     }

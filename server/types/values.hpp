@@ -14,12 +14,12 @@
 
 namespace rois {
 
-// RoIS_Identifier (table 9): a code, unique within its codebook. Absent attributes are empty. One of a code alone has no warning.
+// RoIS_Identifier (table 9): a code, unique within its codebook. Absent attributes are empty.
 struct Identifier {
-    std::string code{};          // NOLINT(readability-redundant-member-init)
-    std::string authority{};     // NOLINT(readability-redundant-member-init)
-    std::string codebook_ref{};  // NOLINT(readability-redundant-member-init)
-    std::string version{};       // NOLINT(readability-redundant-member-init)
+    std::string code{};
+    std::string authority{};
+    std::string codebook_ref{};
+    std::string version{};
 
     bool operator==(Identifier const&) const = default;
 };
