@@ -24,6 +24,11 @@ struct Quantity {
     friend constexpr Self operator*(double factor, Self a) { return Self{a.value * factor}; }
     friend constexpr Self operator/(Self a, double divisor) { return Self{a.value / divisor}; }
     friend constexpr double operator/(Self a, Self b) { return a.value / b.value; }
+
+private:
+    friend Self;
+    constexpr Quantity() = default;
+    explicit constexpr Quantity(double number) : value{number} {}
 };
 
 }  // namespace detail
