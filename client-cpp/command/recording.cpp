@@ -27,7 +27,7 @@ RecordedDocument document_of(Json const& json) {
     RecordedDocument document;
     document.at = std::chrono::microseconds{static_cast<std::int64_t>(json.at("at").get<double>() * 1e6)};
     auto const direction = json.at("direction").get<std::string>();
-    if (direction != "out" && direction != "in") throw std::out_of_range{"direction must be \"out\" or \"in\""};
+    if (direction != "out" && direction != "in") throw std::out_of_range{R"(direction must be "out" or "in")"};
     document.direction = direction == "out" ? Direction::out : Direction::in;
     if (json.contains("session")) document.session = json.at("session").get<std::string>();
     document.text = json.at("document").get<std::string>();
