@@ -221,7 +221,7 @@ export function is_in_view(one: Locator): Promise<boolean> {
   return one.evaluate((part) => {
     const { left, right, top, bottom } = part.getBoundingClientRect();
     const [x, y] = [(left + right) / 2, (top + bottom) / 2];
-    return [[x, top + 1], [x, bottom - 1], [left + 1, y], [right - 1, y]].every(([x, y]) => part.contains(document.elementFromPoint(x!, y!)));
+    return [[x, top + 2], [x, bottom - 2], [left + 2, y], [right - 2, y]].every(([x, y]) => part.contains(document.elementFromPoint(x!, y!)));
   });
 }
 

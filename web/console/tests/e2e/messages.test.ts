@@ -52,6 +52,7 @@ describe('events and messages', () => {
       await command(page, 'person_detection');
       await row(page, /completed.*person_detection start/).waitFor();
       await row(page, 'execute_response').waitFor();
+      await row(page, 'bind_response').getByText('person_detection', { exact: true }).waitFor();
       await page.getByLabel('Search in the text').fill('component_status');
       await page.getByText('Nothing passes the filter').waitFor();
       await page.getByLabel('Also what the console asks by itself').check();

@@ -57,6 +57,7 @@ describe('the page', () => {
         stage.front.cut();
         await page.getByText('Connection lost', { exact: true }).waitFor();
         await page.getByText(/What you see is .* old/).waitFor();
+        await page.getByText('Not live', { exact: true }).waitFor();
         expect(await violations(page)).toBe('');
         await picture(page, 'shell-lost');
         stage.front.mend();

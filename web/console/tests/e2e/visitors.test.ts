@@ -102,7 +102,7 @@ describe('in a world that stands still', () => {
         await pass_until(page, row(page, 'anna').getByText(/^9\.[78] m, 2\.[678] m$/));
 
         await page.getByLabel('Name', { exact: true }).fill('ben');
-        await page.getByText('Somebody of this name is in the hall.').waitFor();
+        await page.getByText('Somebody has this name already.').waitFor();
         expect(await page.getByRole('button', { name: 'Let in' }).isDisabled()).toBe(true);
         await page.getByLabel('Name', { exact: true }).fill('');
         await visitor(page, 'anna').focus();
