@@ -2,7 +2,7 @@
 import { shown_description, useDraft } from '../forms';
 import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';
-import { Button, error_text, StatusBadge, Tabs } from '../ui';
+import { Button, StatusBadge, Tabs, tried } from '../ui';
 import { CommandsTab } from './commands_tab';
 import { EventsTab } from './events_tab';
 import { holder_text } from './holder';
@@ -42,9 +42,8 @@ export function Detail({ view }: { view: ComponentView }) {
 
 function Head({ view }: { view: ComponentView }) {
   const console = useConsole();
-  const { status, bindings, notices, now, link } = console;
+  const { status, bindings, now, link } = console;
   const entry = status.of(view.ref);
-  const told = (done: Promise<unknown>) => void done.catch((error: unknown) => notices.tell('error', error_text(error)));
   return (
     <header class="component-head">
       <div class="component-line">
@@ -54,11 +53,11 @@ function Head({ view }: { view: ComponentView }) {
         {entry && <span class="soft">{t.since(Math.max(0, now.value - entry.since))}</span>}
         <span class="component-holder">{holder_text(console, view.ref) || t.nobody()}</span>
         {bindings.mine.value.has(view.ref) ? (
-          <Button small disabled={!link.is_open} aria-label={t.release_it(view.ref)} onClick={() => told(bindings.release(view.ref))}>
+          <Button small disabled={!link.is_open} aria-label={t.release_it(view.ref)} onClick={() => tried(console, view.ref, bindings.release(view.ref))}>
             {t.release()}
           </Button>
         ) : (
-          <Button small disabled={!link.is_open} aria-label={t.bind_it(view.ref)} onClick={() => told(bindings.bind(view.ref))}>
+          <Button small disabled={!link.is_open} aria-label={t.bind_it(view.ref)} onClick={() => tried(console, view.ref, bindings.bind(view.ref))}>
             {t.bind()}
           </Button>
         )}

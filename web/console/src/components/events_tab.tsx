@@ -6,7 +6,7 @@ import { clock_time } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import type { ComponentView, Offered } from '../state/profile_state';
 import { reason_of } from '../state/reason_of';
-import { Button, Checkbox, error_text, Form, TextArea } from '../ui';
+import { Button, Checkbox, Form, TextArea, tried } from '../ui';
 import { Pick } from './pick';
 import * as t from './texts';
 
@@ -79,11 +79,12 @@ function what_is_wrong(xml: string): string {
 }
 
 function Subscriptions({ event_type }: { event_type: string }) {
-  const { subscriptions, notices, events } = useConsole();
+  const console = useConsole();
+  const { subscriptions, events } = console;
   void events.pulse.beat.value; // counts change in place
   const those = [...subscriptions.all.value.values()].filter((one) => one.event_type === event_type && !subscriptions.is_own(one.id));
   if (those.length === 0) return null;
-  const leave = (id: string) => void subscriptions.unsubscribe(id).catch((error: unknown) => notices.tell('error', error_text(error)));
+  const leave = (id: string) => tried(console, id, subscriptions.unsubscribe(id));
   return (
     <>
       <h3>{t.subscriptions()}</h3>

@@ -1,5 +1,5 @@
 // The tree of engines and components, as the ARIA practices have trees: one stop of the Tab key, arrows inside.
-import { useRef, useState } from 'preact/hooks';
+import { useEffect, useRef, useState } from 'preact/hooks';
 
 import { shown_description } from '../forms';
 import { useConsole } from '../shell/context';
@@ -19,6 +19,8 @@ export function Tree({ engine }: { engine: EngineView }) {
   };
   const [focused, set_focused] = useState('');
   const chosen = selection.component.value;
+  // The list may have become lower by that.
+  useEffect(() => root.current!.querySelector('[aria-selected=true]')?.scrollIntoView({ block: 'nearest' }), [chosen]);
   const at = focused !== '' ? focused : chosen !== '' ? `component ${chosen}` : `engine ${engine.name}`;
 
   const pressed = (event: KeyboardEvent) => {

@@ -2,6 +2,7 @@
 import { SelectField, TextField } from '../ui';
 import { useConsole } from '../shell/context';
 import { AreaPicker } from './area_picker';
+import { is_number } from './checking';
 import type { Area } from './model';
 import * as t from './texts';
 import type { Known } from './vocabulary';
@@ -20,7 +21,7 @@ export interface AreaFieldsProps {
 export function AreaFields({ area, change, error, hint, known, distance, change_distance, distance_complaint }: AreaFieldsProps) {
   const set = (name: keyof Area) => (value: string) => change({ ...area, [name]: value });
   const number = (name: 'x' | 'y' | 'x2' | 'y2', label: string) => (
-    <TextField label={label} unit="mm" value={area[name]} change={set(name)} input={{ inputMode: 'numeric' }} />
+    <TextField label={label} unit="mm" value={area[name]} change={set(name)} error={area[name].trim() === '' || is_number(area[name]) ? undefined : t.problem_named('no_number')} input={{ inputMode: 'numeric' }} />
   );
   const radius = Number(distance) > 0 ? Number(distance) : undefined;
   return (

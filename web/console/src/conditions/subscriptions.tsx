@@ -4,7 +4,7 @@ import type { Subscription } from 'rois-client';
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import { show_events } from '../shell/layout';
-import { Badge, Button, error_text, Icon } from '../ui';
+import { Badge, Button, Icon, tried } from '../ui';
 import type { ConditionStore } from './store';
 import * as t from './texts';
 
@@ -50,13 +50,7 @@ function StartHint({ subscription }: { subscription: Subscription }) {
   const those = console.profile.with_event(subscription.wanted.event_type).filter((one) => one.commands.some(({ name }) => name === 'start'));
   if (those.length === 0) return null;
   const started = new Set(console.commands.all.list().filter((one) => one.command_type === 'start' && one.state === 'OK').map((one) => one.component));
-  const start = async (ref: string) => {
-    try {
-      await console.run(ref, 'start');
-    } catch (error) {
-      console.notices.tell('error', error_text(error));
-    }
-  };
+  const start = (ref: string) => tried(console, ref, console.run(ref, 'start'));
   return (
     <div class="conditions-start">
       <p>

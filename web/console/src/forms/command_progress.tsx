@@ -6,7 +6,7 @@ import { useEffect } from 'preact/hooks';
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import { type CommandEntry, has_ended } from '../state/commands_state';
-import { Button, error_text, StatusBadge } from '../ui';
+import { Button, StatusBadge, tried } from '../ui';
 import * as t from './exchange_texts';
 import { why } from './why';
 
@@ -21,13 +21,13 @@ export function CommandProgress({ entry }: { entry: CommandEntry }) {
     if (entry.state === 'OK' && has_results) void console.commands.fetch_results(entry);
   }, [entry.state, has_results]);
   const can_stop = !ended && entry.command_type === 'start';
-  const stop = () => void console.run(entry.component, 'stop', {}, { give_back: true }).catch((error: unknown) => console.notices.tell('error', error_text(error)));
+  const stop = () => tried(console, entry.component, console.run(entry.component, 'stop', {}, { give_back: true }));
   return (
     <div class="command-progress">
       <p class="exchange-line">
         <StatusBadge status={entry.state} />
         <span>{t.ended(entry.state)}</span>
-        <span class="exchange-took">{(ended ? t.lasted : t.lasts)(duration(Math.max(0, now - (entry.started_at ?? entry.sent_at))))}</span>
+        <span class="soft">{(ended ? t.lasted : t.lasts)(duration(Math.max(0, now - (entry.started_at ?? entry.sent_at))))}</span>
         {can_stop && (
           <Button small look="danger" icon="stop" aria-label={t.stop_it(title)} onClick={stop}>
             {t.stop()}

@@ -1,7 +1,7 @@
 // A request as it is built, the button that sends it, and what came of it.
 import './forms.css';
 
-import { useRef, useState } from 'preact/hooks';
+import { useEffect, useRef, useState } from 'preact/hooks';
 import { parse_xml, type Operation, Results, results_of, RoisError } from 'rois-client';
 
 import { duration } from '../i18n/i18n';
@@ -46,17 +46,17 @@ export function Exchange({ title, operation, request, act, may_send, can_send = 
   const [outcome, set_outcome] = useDraft<Outcome | undefined>(key_of(title), undefined);
   const [is_busy, set_busy] = useState(false);
   const whole = useRef<HTMLDivElement>(null);
-  const came = useRef<HTMLDivElement>(null);
+  const sent = useRef<string>();
   const send = async () => {
     if (may_send && !may_send()) {
       const form = whole.current?.closest('form') ?? whole.current?.parentElement;
       requestAnimationFrame(() => form?.querySelector<HTMLElement>('[aria-invalid="true"]')?.focus());
       return;
     }
+    sent.current = request;
     set_busy(true);
     set_outcome(await watched(console, operation, act));
     set_busy(false);
-    requestAnimationFrame(() => came.current?.firstElementChild?.scrollIntoView({ block: 'nearest' })); // what came of it is seen
   };
   return (
     <div class="exchange" ref={whole}>
@@ -68,8 +68,8 @@ export function Exchange({ title, operation, request, act, may_send, can_send = 
           {children}
           <CurlButton request={request} disabled={request === ''} class="exchange-curl" />
         </div>
-        <div class="exchange-came" aria-live="polite" ref={came}>
-          {outcome ? <Came title={title} {...outcome} /> : <p class="exchange-none">{t.none()}</p>}
+        <div class="exchange-came" aria-live="polite">
+          {outcome ? <Came title={title} follows={sent.current === request} {...outcome} /> : <p class="exchange-none">{t.none()}</p>}
         </div>
         {request !== '' && <div class="exchange-request"><XmlView text={request} label={t.request(title)} /></div>}
       </div>
@@ -101,21 +101,33 @@ export async function watched(console: Console, operation: Operation, act: () =>
   return outcome;
 }
 
-function Came({ title, answer, error }: Outcome & { title: string }) {
+// What counts is first: how the commands are, or what was refused and why. While it `follows`, it is in view, however long it grows.
+function Came({ title, answer, error, follows }: Outcome & { title: string; follows: boolean }) {
   const { commands } = useConsole();
   void commands.pulse.beat.value;
   const made = answer ? commands.all.list().filter((one) => one.sequence.document === answer.request?.number) : [];
   const results = answer && answer.return_code === 'OK' ? results_in(answer) : new Results();
   const refused = error instanceof RoisError && error.failure === 'refused' && answer !== undefined;
+  const said = useRef<HTMLDivElement>(null);
+  const height = useRef(0);
+  useEffect(() => {
+    const now = said.current!.offsetHeight;
+    if (follows && now !== height.current) said.current!.scrollIntoView({ block: 'nearest' });
+    height.current = now;
+  });
   return (
     <>
-      <p class="exchange-line">
-        {answer ? <StatusBadge status={answer.return_code ?? answer.name} /> : <StatusBadge status="ERROR" />}
-        {answer?.took !== undefined && <span class="exchange-took">{t.took(duration(answer.took))}</span>}
-      </p>
-      {error !== undefined && <p class="exchange-why">{refused ? reason_in(answer) : error_text(error)}</p>}
+      <div class="exchange-said" ref={said}>
+        {made.map((one: CommandEntry) => <CommandProgress key={one.id} entry={one} />)}
+        {(made.length === 0 || error !== undefined) && (
+          <p class="exchange-line">
+            <StatusBadge status={answer ? (answer.return_code ?? answer.name) : 'ERROR'} />
+            {error !== undefined && <span class="exchange-why">{refused ? reason_in(answer) : error_text(error)}</span>}
+          </p>
+        )}
+      </div>
+      {answer?.took !== undefined && <p class="soft">{t.took(duration(answer.took))}</p>}
       {results.parameters.length > 0 && <ResultsTable label={t.results(title)} results={results} />}
-      {made.map((one: CommandEntry) => <CommandProgress key={one.id} entry={one} />)}
       {answer && <XmlView text={answer.text} label={t.answer(title)} />}
     </>
   );

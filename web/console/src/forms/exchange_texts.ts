@@ -14,7 +14,7 @@ const ends: Record<CommandState, Both> = {
 
 export const send = text('Send', '送信');
 export const none = text('The answer will stand here.', 'ここに応答が表示されます。');
-export const took = text_of((time: string) => [`after ${time}`, `${time}後`]);
+export const took = text_of((time: string) => [`Answered after ${time}`, `${time}後に応答`]);
 export const request = text_of((title: string) => [`Request: ${title}`, `要求: ${title}`]);
 export const answer = text_of((title: string) => [`Answer: ${title}`, `応答: ${title}`]);
 export const results = text_of((title: string) => [`Results: ${title}`, `結果: ${title}`]);

@@ -254,7 +254,7 @@ function Pursuit({ driver, thing, close }: { driver: Driver; thing: Shown; close
     <Form class="map-form" submit={pursue}>
       <DriverChoice />
       {driver.follow ? (
-        <TextField label={t.gap()} unit="m" value={session.gap.value} change={(to) => (session.gap.value = to)} error={is_number ? undefined : t.no_number()} input={{ inputMode: 'decimal' }} />
+        <TextField label={t.gap()} unit="m" value={session.gap.value} change={(to) => (session.gap.value = to)} error={is_number ? undefined : t.no_gap()} input={{ inputMode: 'decimal' }} />
       ) : (
         <p>{t.no_follow()}</p>
       )}

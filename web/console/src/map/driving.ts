@@ -2,7 +2,7 @@
 import { value } from 'rois-client';
 
 import { show_panel } from '../shell/layout';
-import { error_text } from '../ui/error_text';
+import { tried } from '../ui/error_text';
 import { type CommandEntry, has_ended } from '../state/commands_state';
 import type { Console } from '../state/console';
 import type { Robot } from '../state/things';
@@ -78,7 +78,7 @@ async function drive(console: Console, driver: Driver, ref: string, named: Param
   const about = `drive ${driver.engine}`;
   const entry = commands.find(command_ids[0] ?? '');
   const halt = () => {
-    if (entry && !has_ended(entry)) stop(console, driver).catch((error: unknown) => notices.tell('error', error_text(error)));
+    if (entry && !has_ended(entry)) tried(console, driver.engine, stop(console, driver));
   };
   const notice = notices.tell('info', begun, { about, action: { label: texts.stop(), act: halt } });
   ends.then(

@@ -1,6 +1,6 @@
 // What robots are doing now, each with a button to stop it.
 import { useConsole } from '../shell/context';
-import { Button, error_text } from '../ui';
+import { Button, tried } from '../ui';
 import { motions_of, stop } from './driving';
 import { type Goal, goals_of, useGoals } from './goals';
 import { age } from './says';
@@ -32,7 +32,7 @@ export function Motions() {
                 look="danger"
                 icon="stop"
                 aria-label={t.stop_robot(driver.name)}
-                onClick={() => void stop(console, driver).catch((error: unknown) => console.notices.tell('error', error_text(error)))}
+                onClick={() => tried(console, driver.engine, stop(console, driver))}
               >
                 {t.stop()}
               </Button>

@@ -74,6 +74,7 @@ export const straight = text_of((away: string) => [`${away} away`, `直線で ${
 export const sent_as = text('sent as', '送る値');
 export const give_up = text('Give up after', '制限時間');
 export const never = text('never', 'なし');
+export const no_gap = text('A number above 0, please', '0 より大きい数値を入れてください');
 export const no_number = text('A number, please', '数値を入れてください');
 export const send = text('Send here', 'ここへ送る');
 export const cancel = text('Cancel', '取り消し');

@@ -37,6 +37,7 @@ export const session_inside = text(
   'コンソール自身の問い合わせも含みます。ファイルにはこのセッションの ID が含まれます。接続中は、それを持つ人がこのコンソールとして操作できます。',
 );
 export const import_failed = text_of((file: string) => [`${file} cannot be read as a recording`, `${file} を記録として読めません`]);
+export const is_cut = text('The last line of the recording was cut off; it is left out.', '記録の最後の行は途切れていたため、除きました。');
 export const too_large = text_of((most: number) => [`It is larger than ${bytes_text(most)}.`, `${bytes_text(most)} を超えています。`]);
 export const not_live = text('Not live.', 'ライブではありません。');
 export const recording = text_of((file: string, n: number, begun: string, url: string) => [

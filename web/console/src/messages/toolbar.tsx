@@ -66,15 +66,18 @@ function Recordings() {
     save_file(`rois-${new Date(console.environment.now()).toISOString().slice(0, 19).replaceAll(':', '')}.jsonl`, recording_of(ring, console.environment.origin));
     console.notices.tell('good', t.exported(size), { detail: t.session_inside() });
   };
-  const read = async (file: File | undefined) => {
+  const open = async (file: File | undefined) => {
     if (!file) return;
     try {
       if (file.size > most_bytes) throw new Error(t.too_large(most_bytes));
-      recording.value = { ...read_recording(await file.text()), file: file.name };
+      const read = read_recording(await file.text());
+      recording.value = { ...read, file: file.name };
       chosen_of_recording.value = undefined;
       console.selection.document.value = undefined;
+      console.notices.dismiss('recording');
+      if (read.is_cut) console.notices.tell('warning', t.is_cut(), { about: 'recording' });
     } catch (error) {
-      console.notices.tell('error', t.import_failed(file.name), { detail: reason_of(error) });
+      console.notices.tell('error', t.import_failed(file.name), { detail: reason_of(error), about: 'recording' });
     }
     chooser.current!.value = ''; // so that the same file can be opened again
   };
@@ -86,7 +89,7 @@ function Recordings() {
       <Button small icon="upload" onClick={() => chooser.current?.click()}>
         {t.import_it()}
       </Button>
-      <input ref={chooser} type="file" class="unseen" accept=".jsonl,.json,.rois,text/plain" tabIndex={-1} aria-label={t.import_it()} onChange={(event) => void read(event.currentTarget.files?.[0])} />
+      <input ref={chooser} type="file" class="unseen" accept=".jsonl,.json,.rois,text/plain" tabIndex={-1} aria-label={t.import_it()} onChange={(event) => void open(event.currentTarget.files?.[0])} />
     </>
   );
 }

@@ -70,7 +70,7 @@ function Bar({ desk, started }: { desk: Desk; started: () => void }) {
   const open = async () => {
     const file = await chosen_file('.xml,application/xml,text/xml');
     if (!file) return;
-    await file.text().then((text) => desk.open(file.name, text), (error: unknown) => void notices.tell('error', w.file_unreadable(), { detail: String(error) }));
+    await file.text().then((text) => desk.open(file.name, text), (error: unknown) => void notices.tell('error', w.file_unreadable(), { detail: String(error), about: 'scenario' }));
   };
   return (
     <header class="scenario-bar">
@@ -98,7 +98,7 @@ function Bar({ desk, started }: { desk: Desk; started: () => void }) {
 function tell_end(desk: Desk, notices: Notices): void {
   const { tone, text, why } = state_of(desk.run, false);
   if (tone === 'calm') return;
-  notices.tell(tone === 'good' ? 'good' : 'error', `${desk.drawn.value?.name || w.unnamed()}: ${text}`, why === undefined ? {} : { detail: why });
+  notices.tell(tone === 'good' ? 'good' : 'error', `${desk.drawn.value?.name || w.unnamed()}: ${text}`, { about: 'scenario', ...(why !== undefined && { detail: why }) });
 }
 
 // What keeps it from running, and what this engine cannot do.

@@ -25,7 +25,7 @@ export const ended = text_of((state: string) => [`Ended in “${state}”`, `「
 export const failed = text_of((state: string) => [`Failed in ${state}`, `${state} で失敗`]);
 export const was_stopped = text('Stopped', '停止しました');
 export const trouble = text('Ended with trouble', '問題が起きて終了');
-export const for_so_long = text_of((time: string) => [`for ${time}`, `${time}間`]);
+export const for_so_long = text_of((time: string) => `(${time})`);
 
 // Tabs
 export const tabs = text('Parts of the scenario', 'シナリオの部分');

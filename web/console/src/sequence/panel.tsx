@@ -57,7 +57,7 @@ export default function SequencePanel() {
           second={
             <div class="sequence-below" ref={below}>
               <Tabs<Part> label={t.parts()} tabs={[{ id: 'step', title: t.step() }, { id: 'xml', title: 'XML' }]} chosen={part} choose={set_part}>
-                <div class="sequence-part">{part === 'step' ? <Inspector store={store} /> : <AsXml store={store} />}</div>
+                <div class="sequence-part" tabIndex={0} role="region" aria-label={t.parts()}>{part === 'step' ? <Inspector store={store} /> : <AsXml store={store} />}</div>
               </Tabs>
             </div>
           }

@@ -108,7 +108,7 @@ export class SequenceStore {
     if (units.length === 0) throw new Error('no CommandUnitSequence');
     return lane_of(units, (ref, type, name) => {
       const view = this.console.profile.component(ref);
-      return view === undefined || asked_by(view, type).some((one) => same(one.name, name));
+      return view ? asked_by(view, type).some((one) => same(one.name, name)) : this.console.profile.profile.value === undefined;
     });
   }
 

@@ -80,7 +80,7 @@ export const file = text('An XML file', 'XML ファイル');
 export const paste = text('Or its text', 'またはその本文');
 export const paste_hint = text('A CommandUnitSequence, or an execute that has one.', 'CommandUnitSequence、またはそれを含む execute。');
 export const take = text('Take over', '取り込む');
-export const no_sequence = text('There is no CommandUnitSequence in it', 'CommandUnitSequence がありません');
+export const no_sequence = text('There is no CommandUnitSequence with commands in it', 'コマンドのある CommandUnitSequence がありません');
 export const unreadable = text_of((reason: string) => [`This cannot be read: ${reason}`, `読めません: ${reason}`]);
 export const request = text('The execute request as XML', 'XML としての execute 要求');
 export const curl_hint = text('The components have to be bound by the session before; Run does that by itself.', '先にセッションがコンポーネントをバインドしている必要があります。「実行」では自動です。');

@@ -1,6 +1,6 @@
 // What can be done with the sequence and with the step that is chosen.
 import { useConsole } from '../shell/context';
-import { Button, error_text, IconButton } from '../ui';
+import { Button, IconButton, tried } from '../ui';
 import { move } from './keys';
 import { copy_of, found, slot_towards, type Slot, with_inserted, without } from './model';
 import type { SequenceStore } from './store';
@@ -22,7 +22,7 @@ export function Toolbar({ store, set_adding, open_library }: ToolbarProps) {
     if (problem) store.chosen.value = problem.step;
     else void store.execute().catch(() => undefined); // the drawing shows it
   };
-  const stop = () => void store.stop().catch((error: unknown) => console.notices.tell('error', error_text(error)));
+  const stop = () => tried(console, 'sequence', store.stop());
   const add = () => set_adding({ lane: at?.lane.id ?? root.id, index: at ? at.slot.index + 1 : root.steps.length });
   const can_move = (direction: 'earlier' | 'later' | 'up' | 'down') => at !== undefined && slot_towards(root, at.step.id, direction) !== undefined;
   const tool = (icon: 'left' | 'right' | 'up' | 'down', label: string, direction: 'earlier' | 'later' | 'up' | 'down') => (

@@ -3,7 +3,7 @@ import { useSignal } from '@preact/signals';
 import { language, type Language, languages } from '../i18n/i18n';
 import { Button } from '../ui/button';
 import { Dialog } from '../ui/dialog';
-import { error_text } from '../ui/error_text';
+import { tried } from '../ui/error_text';
 import { useConsole } from './context';
 import { LinkMark } from './link_status';
 import { NoticeArea } from './notices';
@@ -85,10 +85,10 @@ export function Header() {
 
 // What this console has bound, since others cannot have it meanwhile.
 function Bound() {
-  const { bindings, notices } = useConsole();
+  const console = useConsole();
+  const { bindings } = console;
   const is_open = useSignal(false);
   const mine = [...bindings.mine.value].sort();
-  const tell = (error: unknown) => void notices.tell('error', error_text(error));
   return (
     <>
       <Button small look="quiet" icon="link" title={t.bound_title()} onClick={() => (is_open.value = true)}>
@@ -98,14 +98,14 @@ function Bound() {
         title={t.bound_title()}
         open={is_open.value}
         close={() => (is_open.value = false)}
-        actions={mine.length > 0 && <Button look="danger" onClick={() => void bindings.release_all().catch(tell)}>{t.release_all()}</Button>}
+        actions={mine.length > 0 && <Button look="danger" onClick={() => tried(console, '', bindings.release_all())}>{t.release_all()}</Button>}
       >
         {mine.length === 0 ? <p>{t.none_bound()}</p> : <p>{t.release_hint()}</p>}
         <ul class="plain-list">
           {mine.map((ref) => (
             <li key={ref} class="row-spread">
               <code>{ref}</code>
-              <Button small onClick={() => void bindings.release(ref).catch(tell)} aria-label={`${t.release()}: ${ref}`}>
+              <Button small onClick={() => tried(console, ref, bindings.release(ref))} aria-label={`${t.release()}: ${ref}`}>
                 {t.release()}
               </Button>
             </li>

@@ -15,10 +15,9 @@ export function NoticeArea() {
       {notices.list.value.map((one) => (
         <div key={one.number} class={`notice notice-${one.severity}`} role={one.severity === 'error' ? 'alert' : 'status'}>
           <Icon name={signs[one.severity]} />
-          <div class="notice-text">
-            <p>{one.text}</p>
-            {one.detail && <p class="notice-detail">{one.detail}</p>}
-          </div>
+          <p class="notice-text">
+            {one.text} {one.detail && <span class="soft">{one.detail}</span>}
+          </p>
           {one.action && (
             <Button
               small

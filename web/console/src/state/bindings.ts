@@ -14,6 +14,7 @@ export class Bindings {
   readonly mine = signal<ReadonlySet<string>>(new Set());
   private readonly borrowed = new Map<string, number>(); // those that were bound to be lent, and how many have them
   private readonly kept = new Set<string>();
+  private readonly left = new Map<string, unknown>(); // those that were released, and what was known of others then: that they had it was told of this console
 
   constructor(
     private readonly client: () => Client,
@@ -23,7 +24,7 @@ export class Bindings {
   holder_of(ref: string): Holder {
     if (this.mine.value.has(ref)) return { who: 'me' };
     const session = this.others().get(ref);
-    return session === undefined ? { who: 'nobody' } : { who: 'other', session };
+    return session === undefined || this.left.get(ref) === this.others() ? { who: 'nobody' } : { who: 'other', session };
   }
 
   /** How many have borrowed it, unless the user has it for themselves. */
@@ -117,6 +118,7 @@ export class Bindings {
   }
 
   private gone(ref: string): void {
+    this.left.set(ref, this.others());
     if (this.mine.value.has(ref)) this.mine.value = new Set([...this.mine.value].filter((one) => one !== ref));
   }
 

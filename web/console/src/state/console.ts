@@ -108,7 +108,7 @@ export class Console {
     this.subscriptions = new SubscriptionsState(
       environment,
       () => this.client,
-      (event_type, error) => this.notices.tell('warning', event_type, { detail: reason_of(error) }),
+      (event_type, error) => this.notices.tell('warning', event_type, { detail: reason_of(error), about: event_type }),
     );
     this.robots = new RobotsState(environment, this.documents, client, components, is_open);
     this.entities = new EntitiesState(
@@ -224,8 +224,9 @@ export class Console {
       this.profile.tell(await this.documents.as_own(() => this.client.get_profile()), this.environment.now());
       this.entities.profile_changed();
       this.status.poll.now();
+      this.notices.dismiss('profile');
     } catch (error) {
-      if (this.link.is_open) this.notices.tell('error', reason_of(error));
+      if (this.link.is_open) this.notices.tell('error', reason_of(error), { about: 'profile' });
     }
   }
 

@@ -95,6 +95,17 @@ export class HallState {
     return this.parts.commands.open().filter((one) => one.component === hall && one.arguments.some(({ name, values }) => name === 'visitor_ref' && values[0] === ref));
   }
 
+  /** Who has been told to come in and waits until the entrance is free. */
+  awaited(): string[] {
+    const hall = this.component.value?.ref;
+    const enters = this.parts.commands.open().filter((one) => one.component === hall && one.command_type === 'enter');
+    return enters.flatMap((one) => one.arguments.find(({ name }) => name === 'visitor_ref')?.values ?? []).filter((ref) => !this.visitors.has(ref));
+  }
+
+  is_taken(ref: string): boolean {
+    return this.visitors.has(ref) || this.awaited().includes(ref);
+  }
+
   forget(): void {
     this.visitors.clear();
     this.pulse.touch();

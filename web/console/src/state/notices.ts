@@ -18,8 +18,7 @@ export interface Notice {
   about?: string;
 }
 
-const most_notices = 5;
-const shown_for = 8000; // ms; errors stay until they are dismissed
+const most_notices = 2;
 
 export class Notices {
   readonly list = signal<readonly Notice[]>([]);
@@ -31,11 +30,13 @@ export class Notices {
     const notice: Notice = { number: this.next++, at: this.environment.now(), severity, text, ...more };
     const others = this.list.value.filter((one) => one.about === undefined || one.about !== notice.about);
     this.list.value = [...others, notice].slice(-most_notices);
-    if (severity !== 'error') this.environment.after(shown_for, () => this.dismiss(notice.number));
+    this.environment.after(severity === 'error' ? 30_000 : 8000, () => this.dismiss(notice.number));
     return notice.number;
   }
 
-  dismiss(number: number): void {
-    if (this.list.value.some((one) => one.number === number)) this.list.value = this.list.value.filter((one) => one.number !== number);
+  /** One by its number, or all that was told `about` something: it has come to a good end since. */
+  dismiss(which: number | string): void {
+    const others = this.list.value.filter((one) => one.number !== which && one.about !== which);
+    if (others.length < this.list.value.length) this.list.value = others;
   }
 }

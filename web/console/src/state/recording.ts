@@ -7,6 +7,7 @@ const format = 'rois-recording-1';
 export interface Recording {
   url: string; // of the engine; empty when the file does not say it
   begun: string; // as the file has it
+  is_cut: boolean; // its last line is not whole, and left out: whoever wrote it was ended
   documents: LoggedDocument[]; // `at` is in ms since 1970 when it is known when the recording began, else since then
 }
 
@@ -34,7 +35,10 @@ function is_connect({ direction, name }: LoggedDocument): boolean {
 /** Throws an Error that says which line is wrong, and why. */
 export function read_recording(text: string): Recording {
   const lines = text.split('\n').filter((line, i) => i === 0 || line.trim() !== '');
-  const head = object_of(lines[0] ?? '', 1);
+  const is_cut = lines.length > 1 && !text.endsWith('\n') && !is_json(lines.at(-1)!);
+  if (is_cut) lines.pop();
+  if (text.trim() === '') throw new Error('nothing is recorded');
+  const head = object_of(lines[0]!, 1);
   if (head['recording'] !== format) throw new Error(`line 1: this is no recording of the format ${format}`);
   const begun = String(head['begun'] ?? '');
   const zero = Date.parse(begun);
@@ -51,7 +55,7 @@ export function read_recording(text: string): Recording {
     return logged;
   });
   if (documents.length === 0) throw new Error('nothing is recorded');
-  return { url: String(head['url'] ?? ''), begun, documents };
+  return { url: String(head['url'] ?? ''), begun, is_cut, documents };
 }
 
 // Answers belong to the requests of their own session.
@@ -65,12 +69,17 @@ function sessions_log(sessions: Map<string, Documents>, session: string, now: ()
   return made;
 }
 
-function object_of(line: string, number: number): Record<string, unknown> {
+function is_json(line: string): boolean {
   try {
-    const read: unknown = JSON.parse(line);
-    if (typeof read === 'object' && read !== null) return read as Record<string, unknown>;
+    JSON.parse(line);
+    return true;
   } catch {
-    // told below
+    return false;
   }
+}
+
+function object_of(line: string, number: number): Record<string, unknown> {
+  const read: unknown = is_json(line) ? JSON.parse(line) : undefined;
+  if (typeof read === 'object' && read !== null) return read as Record<string, unknown>;
   throw new Error(`line ${number}: this is no JSON object`);
 }

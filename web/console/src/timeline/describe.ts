@@ -40,7 +40,7 @@ export function describe_whole(console: Console, thing: Thing, at: number): Desc
   const opened = opened_by(thing);
   if (opened.kind !== 'command' || !has_failed(opened.entry)) return told;
   const reasons = why(console, opened.entry);
-  return reasons.length === 0 ? told : { ...told, facts: [...told.facts, [t.reason(), reasons.join(' ')]] };
+  return reasons.length === 0 ? told : { ...told, facts: [...told.facts.filter(([name]) => name !== t.reason()), [t.reason(), reasons.join(' ').replace(/^reason: /, '')]] };
 }
 
 /** In one line. */

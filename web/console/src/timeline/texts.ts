@@ -7,6 +7,7 @@ export const help = text(
   '矢印キーで項目へ移動して時間を止め、Enter で開きます。+・-・ホイールで拡大・縮小、Page Up・Page Down で時間を移動、Home で最初、End で現在、Space で停止・再開。ドラッグで範囲を選び、Backspace で戻ります。',
 );
 export const live = text('Live', 'ライブ');
+export const not_live = text('Not live', 'ライブではありません');
 export const go_live = text('Go on live', 'ライブに戻る');
 export const pause = text('Stop time', '時間を止める');
 export const held = text('Waits while you point', '指している間は停止');

@@ -23,7 +23,7 @@ export function Toolbar({ view, as_table, choose_table }: { view: TimeView; as_t
         <Button small look="primary" icon="play" onClick={() => view.go_live()}>{t.go_live()}</Button>
       )}
       <span class="timeline-shown">
-        <strong class={is_live ? 'timeline-live' : 'timeline-stopped'}>{!is_live ? t.stopped() : view.held.value === undefined ? t.live() : t.held()}</strong> {clock_time(from, span < 10_000)} – {clock_time(to, span < 10_000)}
+        <strong class={is_live && console.link.is_open ? 'timeline-live' : 'timeline-stopped'}>{!is_live ? t.stopped() : !console.link.is_open ? t.not_live() : view.held.value === undefined ? t.live() : t.held()}</strong> {clock_time(from, span < 10_000)} – {clock_time(to, span < 10_000)}
       </span>
       <span class="timeline-buttons">
         <IconButton small icon="left" label={t.earlier()} onClick={() => view.move(-third)} />

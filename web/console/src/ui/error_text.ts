@@ -1,7 +1,16 @@
 import { RoisError } from 'rois-client';
 
+import type { useConsole } from '../shell/context';
 import { reason_of } from '../state/reason_of';
 import * as t from './texts';
+
+/** Tells when it fails; when it succeeds, what was told of an earlier failure `about` the same is over. */
+export function tried({ notices }: Pick<ReturnType<typeof useConsole>, 'notices'>, about: string, done: Promise<unknown>): void {
+  done.then(
+    () => notices.dismiss(about),
+    (error: unknown) => notices.tell('error', error_text(error), { about }),
+  );
+}
 
 /** What went wrong with a call, in the user's language; the engine's own reason, which is English, comes after it. */
 export function error_text(error: unknown): string {

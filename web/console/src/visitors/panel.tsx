@@ -38,10 +38,11 @@ export default function VisitorsPanel() {
 }
 
 function Entering({ steering }: { steering: Steering }) {
-  const { hall } = useConsole();
+  const { hall, commands } = useConsole();
   void hall.pulse.beat.value;
+  void commands.pulse.beat.value;
   const name = steering.name.value.trim();
-  const wrong = hall.visitors.has(name) ? w.name_taken() : /[\s.:]/.test(name) ? w.name_wrong() : undefined;
+  const wrong = hall.is_taken(name) ? w.name_taken() : /[\s.:]/.test(name) ? w.name_wrong() : undefined;
   return (
     <Form class="visitors-entering" submit={() => wrong === undefined && steering.enter()}>
       <TextField label={w.name()} value={steering.name.value} change={(to) => (steering.name.value = to)} error={wrong} input={{ placeholder: steering.next_name(), maxLength: 64 }} />
@@ -76,6 +77,11 @@ function Who({ steering }: { steering: Steering }) {
             </li>
           );
         })}
+        {hall.awaited().map((ref) => (
+          <li key={ref} class="row-spread">
+            {ref} <Badge tone="busy">{w.waits()}</Badge>
+          </li>
+        ))}
       </ul>
     </section>
   );

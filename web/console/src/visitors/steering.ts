@@ -26,19 +26,23 @@ export class Steering {
 
   /** A name that nobody in the hall has. */
   next_name(): string {
-    const { visitors } = this.console.hall;
-    for (let round = 1; ; ++round) for (const one of names) if (!visitors.has(round === 1 ? one : `${one}${round}`)) return round === 1 ? one : `${one}${round}`;
+    for (let round = 1; ; ++round) {
+      const free = names.map((one) => (round === 1 ? one : `${one}${round}`)).find((one) => !this.console.hall.is_taken(one));
+      if (free !== undefined) return free;
+    }
   }
 
   /** Carries out an order, and tells when it was not done. `replaced` orders end with ABORT; that is no trouble. */
   async order(ref: string, what: string, ordered: Promise<Outcome>): Promise<boolean> {
     const { notices } = this.console;
+    const about = `${ref} ${what}`;
     try {
       const { status, reason } = await ordered;
-      if (status === 'ERROR' || status === 'TIMEOUT' || status === 'OUT_OF_RESOURCES') notices.tell('warning', words.not_done(ref, what), reason === '' ? {} : { detail: reason });
+      if (status === 'ERROR' || status === 'TIMEOUT' || status === 'OUT_OF_RESOURCES') notices.tell('warning', words.not_done(ref, what), { about, detail: reason });
+      else notices.dismiss(about);
       return status === 'OK';
     } catch (error) {
-      notices.tell('error', words.not_done(ref, what), { detail: error_text(error) });
+      notices.tell('error', words.not_done(ref, what), { about, detail: error_text(error) });
       return false;
     }
   }
@@ -54,7 +58,7 @@ export class Steering {
     try {
       return (await this.console.hall.let_pass(ms)).status === 'OK';
     } catch (error) {
-      this.console.notices.tell('error', error_text(error));
+      this.console.notices.tell('error', error_text(error), { about: 'time' });
       return false;
     }
   }

@@ -22,7 +22,7 @@ export const let_in = text('Let in', '入れる');
 export const name = text('Name', '名前');
 export const language = text('Language', '言語');
 export const known = text('Identification knows them', '人物同定に登録済み');
-export const name_taken = text('Somebody of this name is in the hall.', '同じ名前の人がホールにいます。');
+export const name_taken = text('Somebody has this name already.', '同じ名前の人がいます。');
 export const name_wrong = text('A name without blanks, dots and colons.', '空白・ピリオド・コロンを含まない名前にしてください。');
 
 // The map
@@ -43,6 +43,7 @@ export const is_known = text('known', '登録済み');
 export const of_scenario = text('goes their own way', '自分で行動');
 export const of_scenario_hint = text('Somebody of the engine’s own scenario: they cannot be steered.', 'エンジンのシナリオの人物なので動かせません。');
 export const doing = text_of((what: string) => doings[what] ?? what);
+export const waits = text('comes in when the entrance is free', '入口が空いたら入ります');
 export const choose_somebody = text('Choose somebody in the hall, or let somebody in.', 'ホールの誰かを選ぶか、誰かを入れてください。');
 
 // What they do

@@ -4,7 +4,7 @@ import { connect } from 'rois-client';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
 import { Hall, more_profiles, still_hall } from './hall';
-import { looks, picture, sizes, Stage, violations } from './harness';
+import { is_in_view, looks, picture, sizes, Stage, violations } from './harness';
 
 let stage: Stage;
 let hall: Hall;
@@ -59,10 +59,18 @@ describe('components', () => {
       await target.fill('nowhere');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
       await answer(page).getByText(/nowhere' is neither "x, y" nor .* one of the places/).first().waitFor();
+      await expect.poll(() => is_in_view(answer(page).locator('p').first())).toBe(true);
       await target.fill('100000, 2000');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
       await is_told(page, 'The component could not do it.');
       expect(await violations(page)).toBe('');
+      await target.fill('17500, 7000');
+      await page.getByRole('button', { name: 'start', exact: true }).last().click();
+      const reason = answer(page).getByText(/is outside of the hall, in a wall or in furniture/).first();
+      await hall.pass_until(page, reason);
+      await expect.poll(() => is_in_view(answer(page).locator('> div').first())).toBe(true);
+      expect(await is_in_view(reason)).toBe(true);
+      await picture(page, 'components-low');
 
       await target.fill('exit');
       await page.getByRole('button', { name: 'Add to target_position' }).click();
@@ -83,7 +91,7 @@ describe('components', () => {
       await answer(page).getByText('It is running.').waitFor();
       await page.getByRole('button', { name: 'Release navigation' }).click();
       await item(page, 'navigation').getByText('bound by me').waitFor({ state: 'detached' });
-    }));
+    }, sizes.low));
 
   test('a running command is stopped', () =>
     stage.page(async (page) => {
@@ -203,6 +211,17 @@ describe('components', () => {
     });
     await hall.leave('tanaka');
   });
+
+  test('the list has the room until something is chosen, which is seen in it then; nothing is out of reach, however long its name', () =>
+    stage.page(async (page) => {
+      await item(page, 'wheelchair_robot').waitFor();
+      const [list, panel] = await Promise.all([page.getByRole('tree'), page.locator('.panel-components')].map((one) => one.locator('xpath=..').evaluate((frame) => frame.clientHeight)));
+      expect(list! / panel!).toBeGreaterThan(0.75);
+      await open(page, 'wheelchair_robot');
+      await expect.poll(() => is_in_view(item(page, 'wheelchair_robot'))).toBe(true);
+      await page.getByRole('heading', { name: 'wheelchair_robot' }).evaluate((name) => (name.textContent = 'wheelchair_'.repeat(12)));
+      expect(await is_in_view(page.getByRole('button', { name: 'Bind wheelchair_robot' }))).toBe(true);
+    }, sizes.laptop));
 
   test('the tree is walked with the keyboard, and says who has what', () =>
     stage.page(async (page) => {

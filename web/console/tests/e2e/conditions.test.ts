@@ -32,6 +32,9 @@ describe('conditions', () => {
         await panel(page).getByRole('radio', { name: 'Subscribe' }).click();
         expect(await panel(page).getByLabel('Event', { exact: true }).inputValue()).toBe('person_localized');
         await panel(page).getByRole('button', { name: 'position_data within a box' }).click();
+        await panel(page).getByLabel('Corner 1, x').fill('abc');
+        await panel(page).getByText('This is no number').waitFor();
+        await panel(page).getByLabel('Corner 1, x').fill('');
         await count(page, '1 component can send it');
         await drag_area(page, { x: 500, y: 11_500 }, { x: 19_500, y: 500 });
         expect(Number(await panel(page).getByLabel('Corner 1, x').inputValue())).toBeLessThan(1000);

@@ -6,7 +6,7 @@ import { createRequire } from 'node:module';
 import { connect } from 'node:net';
 import { extname, normalize, resolve } from 'node:path';
 
-import { type Browser, chromium, type Page } from 'playwright-core';
+import { type Browser, chromium, type Locator, type Page } from 'playwright-core';
 
 import { Gateway, root } from '../../../client/tests/gateway.js';
 
@@ -128,7 +128,7 @@ export interface PageOptions {
   may_complain?: RegExp;
 }
 
-export const sizes = { wide: { width: 1600, height: 900 }, tablet: { width: 1024, height: 768 }, small: { width: 768, height: 1024 } } as const;
+export const sizes = { wide: { width: 1600, height: 900 }, tablet: { width: 1024, height: 768 }, small: { width: 768, height: 1024 }, laptop: { width: 1280, height: 720 }, low: { width: 1366, height: 700 } } as const;
 
 /** In which each panel is judged, beside the wide, dark and English one of all other tests; not wide is touched by fingers. */
 export const looks = [
@@ -214,6 +214,15 @@ export class Stage {
 export async function picture(page: Page, name: string): Promise<void> {
   await mkdir(pictures, { recursive: true });
   await page.screenshot({ path: `${pictures}/${name}.png` });
+}
+
+/** Whether all of it is seen: neither cut off nor below something else. */
+export function is_in_view(one: Locator): Promise<boolean> {
+  return one.evaluate((part) => {
+    const { left, right, top, bottom } = part.getBoundingClientRect();
+    const [x, y] = [(left + right) / 2, (top + bottom) / 2];
+    return [[x, top + 2], [x, bottom - 2], [left + 2, y], [right - 2, y]].every(([x, y]) => part.contains(document.elementFromPoint(x!, y!)));
+  });
 }
 
 const axe = createRequire(import.meta.url).resolve('axe-core/axe.min.js');

@@ -279,6 +279,8 @@ describe('people', () => {
         await page.keyboard.press('n');
         const person = page.getByRole('region', { name: /^Person/ });
         await person.waitFor();
+        await page.getByLabel('How near it comes').fill('-1');
+        await page.getByText('A number above 0, please').waitFor();
         await page.getByLabel('How near it comes').fill('1.5');
         await person.getByRole('button', { name: 'Follow' }).click();
         await page.locator('.map-motion', { hasText: /robot1 follows/ }).waitFor();

@@ -52,6 +52,7 @@ describe('events and messages', () => {
       await command(page, 'person_detection');
       await row(page, /completed.*person_detection start/).waitFor();
       await row(page, 'execute_response').waitFor();
+      await row(page, 'bind_response').getByText('person_detection', { exact: true }).waitFor();
       await page.getByLabel('Search in the text').fill('component_status');
       await page.getByText('Nothing passes the filter').waitFor();
       await page.getByLabel('Also what the console asks by itself').check();
@@ -186,7 +187,14 @@ describe('events and messages', () => {
 
       await writeFile(file, '{"recording":"rois-recording-1"}\n{"at":0}\n');
       await page.getByLabel('Open a recording').last().setInputFiles(file);
-      await page.getByText("line 2: 'at' and 'document' are needed").waitFor();
+      const trouble = page.getByText("line 2: 'at' and 'document' are needed");
+      await trouble.waitFor();
+      const [below, above] = await Promise.all([page.getByRole('alert').boundingBox(), page.locator('#panels').boundingBox()]);
+      expect(below!.y + below!.height, 'covers nothing').toBeLessThanOrEqual(above!.y);
+      await writeFile(file, '{"recording":"rois-recording-1"}\n{"at":0,"direction":"out","document":"<connect/>"}\n{"at":1,"dire');
+      await page.getByLabel('Open a recording').last().setInputFiles(file);
+      await page.getByText('The last line of the recording was cut off; it is left out.').waitFor();
+      expect(await trouble.count()).toBe(0);
     }));
 
   test.each(looks)('look well and are accessible: %s, %s, %s', (size, look, language) =>

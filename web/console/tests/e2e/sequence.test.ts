@@ -42,6 +42,7 @@ describe('sequences', () => {
         await greeting(page, 'exit');
         // Behind both: a wait, and a reaction.
         await panel(page).locator('.sequence-whole > .sequence-lane > .sequence-last').hover();
+        expect(await panel(page).locator('.sequence-add').evaluateAll((all) => all.every((one) => Number(getComputedStyle(one).opacity) >= 0.5)), 'seen without hovering').toBe(true);
         await panel(page).locator('.sequence-whole > .sequence-lane > .sequence-last').getByRole('button', { name: 'Add a step here' }).click();
         await panel(page).getByRole('button', { name: 'Wait', exact: true }).click();
         await expect.poll(() => panel(page).getByLabel('How long').evaluate((one) => one === document.activeElement)).toBe(true);
@@ -209,7 +210,7 @@ describe('sequences', () => {
         await open_library(page);
         await panel(page).getByLabel('Or its text').fill('<a/>');
         await panel(page).getByRole('button', { name: 'Take over' }).click();
-        await panel(page).getByText('There is no CommandUnitSequence in it').waitFor();
+        await panel(page).getByText('There is no CommandUnitSequence with commands in it').waitFor();
         await panel(page).getByLabel('An XML file').setInputFiles({ name: 'Other.xml', mimeType: 'text/xml', buffer: await import('node:fs/promises').then(({ readFile }) => readFile(file)) });
         await box(page, 'speech_synthesis').getByText('This way, please.').waitFor();
         await panel(page).getByText('Other', { exact: true }).waitFor();

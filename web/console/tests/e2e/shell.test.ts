@@ -41,6 +41,15 @@ describe('the page', () => {
     ),
   );
 
+  test('is accessible in a low window, panel by panel, with nothing in them', () =>
+    stage.page(async (page) => {
+      await page.getByRole('treeitem', { name: /^speech_synthesis / }).waitFor();
+      for (const name of await page.getByRole('tab').allTextContents()) {
+        await page.getByRole('tab', { name, exact: true }).click();
+        expect(await violations(page), name).toBe('');
+      }
+    }, sizes.laptop));
+
   test('tells that the link is lost, what is stale, and that it is there again', () =>
     stage.page(
       async (page) => {
@@ -48,6 +57,7 @@ describe('the page', () => {
         stage.front.cut();
         await page.getByText('Connection lost', { exact: true }).waitFor();
         await page.getByText(/What you see is .* old/).waitFor();
+        await page.getByText('Not live', { exact: true }).waitFor();
         expect(await violations(page)).toBe('');
         await picture(page, 'shell-lost');
         stage.front.mend();

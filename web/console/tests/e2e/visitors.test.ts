@@ -41,7 +41,9 @@ describe('in a world that stands still', () => {
       async (page) => {
         await page.getByText('The world stands still.').waitFor();
         await let_in(page, 'anna', true);
+        await page.getByRole('listitem').filter({ hasText: 'anna' }).getByText('comes in when the entrance is free').waitFor();
         await page.getByRole('button', { name: 'Let 1 second pass' }).click();
+        await page.getByText('comes in when the entrance is free').waitFor({ state: 'detached' });
         await pass_until(page, row(page, 'anna').getByText('known'));
         await row(page, 'anna').getByText('10.0 m, 0.7 m').waitFor();
 
@@ -100,7 +102,7 @@ describe('in a world that stands still', () => {
         await pass_until(page, row(page, 'anna').getByText(/^9\.[78] m, 2\.[678] m$/));
 
         await page.getByLabel('Name', { exact: true }).fill('ben');
-        await page.getByText('Somebody of this name is in the hall.').waitFor();
+        await page.getByText('Somebody has this name already.').waitFor();
         expect(await page.getByRole('button', { name: 'Let in' }).isDisabled()).toBe(true);
         await page.getByLabel('Name', { exact: true }).fill('');
         await visitor(page, 'anna').focus();

@@ -369,6 +369,11 @@ describe('polls', () => {
     await settled();
     expect(console.bindings.holder_of('move')).toEqual({ who: 'other', session: '3' });
     expect(console.metrics.latest.value?.value('rois_sessions')).toBe(2);
+    await console.bindings.bind('move');
+    await console.bindings.release('move'); // it was this session
+    expect(console.bindings.holder_of('move')).toEqual({ who: 'nobody' });
+    await world.passes(2000);
+    expect(console.bindings.holder_of('move')).toEqual({ who: 'other', session: '3' });
     stop();
   });
 });

@@ -75,7 +75,9 @@ describe('the hall', () => {
       'walk visitor_ref=anna target_position=1, 2, 90', 'say visitor_ref=anna text=Hello language=en', 'gesture visitor_ref=anna gesture=wave', 'leave visitor_ref=anna', 'let_pass time=1000',
     ]);
     expect(hall.orders_of('anna').map((one) => one.command_type)).toEqual(['enter', 'walk', 'walk', 'walk', 'say', 'gesture', 'leave']);
+    expect([hall.awaited(), hall.is_taken('ben'), hall.is_taken('chika')]).toEqual([['anna', 'ben'], true, false]);
     for (let i = 0; i < all.length; ++i) await completes('OK', i);
+    expect(hall.awaited()).toEqual([]);
     expect(await Promise.all(all)).toEqual(all.map(() => ({ status: 'OK', reason: '' })));
     expect(world.names().filter((one) => one === 'bind' || one === 'release')).toContain('release');
     expect([...console.bindings.mine.value]).toEqual([]);

@@ -118,6 +118,7 @@ describe('recordings', () => {
     expect([...file.matchAll(/"session":"(\d)"/g)].map(([, n]) => n)).toEqual(['1', '1', '2', '2']);
     const read = read_recording(file);
     expect(read).toMatchObject({ url: 'http://engine.example', begun: '2026-11-20T12:00:00.000Z' });
+    expect([read.is_cut, read_recording(file.slice(0, -9))]).toMatchObject([false, { is_cut: true, documents: { length: 3 } }]);
     expect(read.documents.map((one: LoggedDocument) => [one.number, one.name, one.at])).toEqual([
       [0, 'connect', world.now() - 5],
       [1, 'bind', world.now() - 5],
@@ -144,7 +145,10 @@ describe('recordings', () => {
   });
 
   test.each([
-    ['', 'line 1: this is no JSON object'],
+    ['', 'nothing is recorded'],
+    ['hello', 'line 1: this is no JSON object'],
+    ['{"recording":"rois-recording-1"}\n{"at":0,', 'nothing is recorded'],
+    ['{"recording":"rois-recording-1"}\n{"at":0,\n', 'line 2: this is no JSON object'],
     ['{"recording":"other"}', 'line 1: this is no recording of the format rois-recording-1'],
     ['{"recording":"rois-recording-1"}\n', 'nothing is recorded'],
     ['{"recording":"rois-recording-1"}\n{"at":0,"direction":"up","document":""}', 'line 2: the direction has to be "in" or "out"'],

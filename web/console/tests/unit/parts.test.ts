@@ -6,12 +6,33 @@ import { language, duration, wished_language } from '../../src/i18n/i18n';
 import { Documents } from '../../src/state/documents';
 import { read_floor_map } from '../../src/state/floor_map';
 import { read_metrics, Scrape } from '../../src/state/metrics_state';
+import { Notices } from '../../src/state/notices';
 import { Ring } from '../../src/state/ring';
 import { placed_commands, units_of } from '../../src/state/sequences';
 import { ellipse_of } from '../../src/state/things';
 import { curl_of } from '../../src/ui/curl';
+import { tried } from '../../src/ui/error_text';
 import { laid_out, pieces_of } from '../../src/ui/xml_text';
 import { World } from './world';
+
+describe('notices', () => {
+  test('are two at most, go by themselves, errors later, and at once when what they are about has come to a good end', async () => {
+    const world = new World();
+    const notices = new Notices(world);
+    const texts = () => notices.list.value.map((one) => one.text);
+    for (const text of ['a', 'b', 'c']) notices.tell('error', text, { about: text });
+    expect(texts()).toEqual(['b', 'c']);
+    tried({ notices }, 'b', Promise.resolve());
+    tried({ notices }, 'c', Promise.reject(new Error('again')));
+    await world.passes(0);
+    expect(texts()).toEqual(['again']);
+    notices.tell('good', 'd');
+    await world.passes(8000);
+    expect(texts()).toEqual(['again']);
+    await world.passes(22_000);
+    expect(texts()).toEqual([]);
+  });
+});
 
 describe('a ring', () => {
   test('forgets the oldest by number', () => {

@@ -292,6 +292,9 @@ describe('the store', () => {
     expect(store.read(text).steps[0]).toMatchObject({ branches: [{}, { steps: [{ inputs: { speech_text: { texts: ['Hello & welcome'] } }, unknown: [] }] }] });
     expect(store.read(store.request).steps.length).toBe(1);
     expect(() => store.read('<a/>')).toThrow('no CommandUnitSequence');
+    store.change(store.read(text.replaceAll('"speech"', '"nobody"')));
+    expect(store.request).toContain('Hello &amp; welcome'); // arguments of components that there are not stay
+    store.undo();
     store.change(new_lane());
     store.undo();
     expect(text_of_lane(store.root.value)).toBe('(navigation|speech)');
