@@ -1,4 +1,6 @@
 // What makes the built page light besides leaving things out; docs/console.md says how much each brings.
+import { readFileSync } from 'node:fs';
+
 import { minify } from 'terser';
 import type { Plugin } from 'vite';
 
@@ -48,6 +50,17 @@ export const scripts: Plugin = {
       const small = await minify(code.replace(/^( *)const /gm, '$1let '), { module: true, ecma: 2020, compress, mangle: { properties } });
       return { code: small.code!, map: null };
     },
+  },
+};
+
+/** The shipped scenario without its comments, which the page shows nowhere. */
+export const documents: Plugin = {
+  name: 'documents',
+  enforce: 'pre',
+  load(id) {
+    if (!id.endsWith('.xml?raw')) return undefined;
+    const text = readFileSync(id.slice(0, -'?raw'.length), 'utf8').replace(/ *<!--[^]*?-->/g, '');
+    return `export default ${JSON.stringify(text)}`;
   },
 };
 

@@ -1,12 +1,12 @@
 import { defineConfig } from 'vitest/config';
 
-import { scripts, styles } from './lighter';
+import { documents, scripts, styles } from './lighter';
 
 // Where `npm run dev` finds a gateway.
 const gateway = process.env['ROIS_URL'] ?? 'http://127.0.0.1:8080';
 
 export default defineConfig({
-  plugins: [scripts, styles],
+  plugins: [documents, scripts, styles],
   // All that it writes is in dist/ and build/; nothing is inlined, since the page's policy forbids it.
   cacheDir: 'build/vite',
   build: {

@@ -3,8 +3,8 @@
 //     and what all files of the console are together;
 //   20 people at 20 Hz: pictures a second, the longest time between two (ms), the share of a core that the page's thread works.
 // cd web/console && npm run build && ROIS_BINARY_DIR=../../build/release npx vite-node tests/measure/console.ts [SECONDS]
-import { existsSync, readdirSync, readFileSync } from 'node:fs';
-import { gzipSync } from 'node:zlib';
+import { execFileSync } from 'node:child_process';
+import { existsSync, readdirSync } from 'node:fs';
 
 import { type Browser, chromium } from 'playwright-core';
 import { command, connect, value } from 'rois-client';
@@ -122,7 +122,7 @@ function weight(folder: string): number {
   if (!existsSync(folder)) throw new Error('the console is not built: npm run build in web/console');
   return readdirSync(folder, { withFileTypes: true }).reduce((sum, one) => {
     const path = `${folder}/${one.name}`;
-    return sum + (one.isDirectory() ? weight(path) : gzipSync(readFileSync(path), { level: 9 }).length);
+    return sum + (one.isDirectory() ? weight(path) : execFileSync('gzip', ['-9nc', path]).length);
   }, 0);
 }
 

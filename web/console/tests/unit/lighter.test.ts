@@ -3,11 +3,13 @@ import { expect, it } from 'vitest';
 
 import { kept } from '../../lighter';
 
+const root = new URL('../..', import.meta.url).pathname;
+
 const text_of = (folder: string, ending: string) =>
-  readdirSync(folder, { recursive: true })
+  readdirSync(`${root}/${folder}`, { recursive: true })
     .map(String)
     .filter((name) => name.endsWith(ending))
-    .map((name) => readFileSync(`${folder}/${name}`, 'utf8'))
+    .map((name) => readFileSync(`${root}/${folder}/${name}`, 'utf8'))
     .join('\n');
 
 it('keeps the names of the classes that tests look for', () => {
