@@ -35,7 +35,7 @@ function is_connect({ direction, name }: LoggedDocument): boolean {
 /** Throws an Error that says which line is wrong, and why. */
 export function read_recording(text: string): Recording {
   const lines = text.split('\n').filter((line, i) => i === 0 || line.trim() !== '');
-  const is_cut = lines.length > 1 && !text.endsWith('\n') && !is_json(lines.at(-1)!);
+  const is_cut = lines.length > 1 && !text.endsWith('\n') && parsed(lines.at(-1)!) === undefined;
   if (is_cut) lines.pop();
   if (text.trim() === '') throw new Error('nothing is recorded');
   const head = object_of(lines[0]!, 1);
@@ -69,17 +69,17 @@ function sessions_log(sessions: Map<string, Documents>, session: string, now: ()
   return made;
 }
 
-function is_json(line: string): boolean {
+/** Undefined when it is no JSON. */
+function parsed(line: string): unknown {
   try {
-    JSON.parse(line);
-    return true;
+    return JSON.parse(line);
   } catch {
-    return false;
+    return undefined;
   }
 }
 
 function object_of(line: string, number: number): Record<string, unknown> {
-  const read: unknown = is_json(line) ? JSON.parse(line) : undefined;
+  const read = parsed(line);
   if (typeof read === 'object' && read !== null) return read as Record<string, unknown>;
   throw new Error(`line ${number}: this is no JSON object`);
 }
