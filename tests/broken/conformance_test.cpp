@@ -1,26 +1,23 @@
-// The proof of the proof: rois-conformance finds nothing wrong with our gateway, and finds every rule that is broken on purpose.
+// The proof of the proof: rois-conformance finds nothing wrong with our gateway, however it is set up (rules_test.cpp: and every
+// rule that is broken on purpose).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cctype>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <pugixml.hpp>
 #include <regex>
-#include <set>
 #include <sstream>
-#include <thread>
 
 #include "broken/breaking.hpp"
-#include "broken/rules.hpp"
-#include "server/gateway_process.hpp"
+#include "broken/judging.hpp"
+#include "broken/proxy.hpp"
 #include "server/profile_folder.hpp"
 
 namespace rois::broken {
@@ -28,54 +25,10 @@ namespace {
 
 using test::GatewayProcess;
 
-struct Judged {
-    int exit_code = -1;
-    std::string text{};
-};
-
-// Runs rois-conformance with these arguments.
-Judged judge(std::string const& arguments) {
-    auto const command = ROIS_BINARY_DIR "/bin/rois-conformance " + arguments + " 2>&1";
-    auto* const program = popen(command.c_str(), "r");
-    Judged judged;
-    if (program == nullptr) return judged;
-    std::array<char, 4096> buffer;
-    while (auto const size = fread(buffer.data(), 1, buffer.size(), program)) judged.text.append(buffer.data(), size);
-    auto const status = pclose(program);
-    judged.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return judged;
-}
-
-// The names of the checks that found a broken rule.
-std::set<std::string> broken_in(std::string const& report) {
-    static std::string const mark = "\n  BROKEN     ";
-    std::set<std::string> names;
-    for (auto at = report.find(mark); at != std::string::npos; at = report.find(mark, at + 1)) {
-        auto const begin = at + mark.size();
-        names.insert(report.substr(begin, report.find(' ', begin) - begin));
-    }
-    return names;
-}
-
 void replace_all(std::string& text, std::string_view part, std::string_view by) {
     for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + by.size()))
         text.replace(at, part.size(), by);
 }
-
-struct EmptyHall : GatewayProcess {
-    explicit EmptyHall(std::vector<std::string> const& settings = {}) : GatewayProcess{with_usual(settings)} {}
-
-private:
-    static std::vector<std::string> with_usual(std::vector<std::string> settings) {
-        std::vector<std::string> const usual{
-            "--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--seed", "1", "--media", "127.0.0.1:0"};
-        if (std::ranges::find(settings, "--sim-speed") == settings.end()) settings.insert(settings.end(), {"--sim-speed", "20"});
-        settings.insert(settings.end(), usual.begin(), usual.end());
-        return settings;
-    }
-};
-
-std::string url(std::uint16_t port) { return "http://127.0.0.1:" + std::to_string(port); }
 
 std::string const common = "<rois:SubComponentProfile>urn:x-rois:def:component:OMG::RoISCommon</rois:SubComponentProfile>";
 
@@ -374,47 +327,6 @@ TEST(Conformance, OfAGatewayInUseBlamesNobody) {
         EXPECT_THAT(judged.text, testing::HasSubstr("another application uses")) << check;
     }
 }
-
-TEST(Conformance, BrokenRulesAreManyAndNamedOnce) {
-    std::set<std::string> names;
-    for (auto const part : all_parts)
-        for (auto const& rule : part.rules()) EXPECT_TRUE(names.insert(rule.name).second) << rule.name;
-    EXPECT_GE(names.size(), 20u);
-}
-
-Judged judge_broken(BrokenRule const& rule) {
-    EmptyHall gateway;
-    Proxy const proxy{gateway.port(), rule.breaking};
-    std::string const over = rule.over == Over::http ? "http" : "websocket";
-    return judge(url(proxy.port()) + " --patience 2 --limit 90 --over " + over);
-}
-
-// Four at a time: they wait for most of it.
-std::vector<Judged> judge_all(std::vector<BrokenRule> const& rules) {
-    std::vector<Judged> judged(rules.size());
-    std::atomic<std::size_t> next = 0;
-    std::vector<std::thread> judges;
-    for (int i = 0; i < 4; ++i)
-        judges.emplace_back([&] {
-            for (auto n = next++; n < rules.size(); n = next++) judged[n] = judge_broken(rules[n]);
-        });
-    for (auto& one : judges) one.join();
-    return judged;
-}
-
-struct Broken : testing::TestWithParam<Part> {};
-
-TEST_P(Broken, RulesAreFound) {
-    auto const rules = GetParam().rules();
-    auto const judged = judge_all(rules);
-    for (std::size_t i = 0; i < rules.size(); ++i) {
-        SCOPED_TRACE(rules[i].name);
-        EXPECT_EQ(judged[i].exit_code, 1) << judged[i].text;
-        EXPECT_THAT(broken_in(judged[i].text), testing::Contains(rules[i].found_by)) << judged[i].text;
-    }
-}
-
-INSTANTIATE_TEST_SUITE_P(Of, Broken, testing::ValuesIn(all_parts), testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace rois::broken

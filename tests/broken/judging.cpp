@@ -1,0 +1,49 @@
+#include "broken/judging.hpp"
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace rois::broken {
+
+namespace {
+
+std::vector<std::string> with_usual(std::vector<std::string> settings) {
+    std::vector<std::string> const usual{
+        "--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--seed", "1", "--media", "127.0.0.1:0"};
+    if (std::ranges::find(settings, "--sim-speed") == settings.end()) settings.insert(settings.end(), {"--sim-speed", "20"});
+    settings.insert(settings.end(), usual.begin(), usual.end());
+    return settings;
+}
+
+}  // namespace
+
+Judged judge(std::string const& arguments) {
+    auto const command = ROIS_BINARY_DIR "/bin/rois-conformance " + arguments + " 2>&1";
+    auto* const program = popen(command.c_str(), "r");
+    Judged judged;
+    if (program == nullptr) return judged;
+    std::array<char, 4096> buffer;
+    while (auto const size = fread(buffer.data(), 1, buffer.size(), program)) judged.text.append(buffer.data(), size);
+    auto const status = pclose(program);
+    judged.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return judged;
+}
+
+std::set<std::string> broken_in(std::string const& report) {
+    static std::string const mark = "\n  BROKEN     ";
+    std::set<std::string> names;
+    for (auto at = report.find(mark); at != std::string::npos; at = report.find(mark, at + 1)) {
+        auto const begin = at + mark.size();
+        names.insert(report.substr(begin, report.find(' ', begin) - begin));
+    }
+    return names;
+}
+
+EmptyHall::EmptyHall(std::vector<std::string> const& settings) : GatewayProcess{with_usual(settings)} {}
+
+std::string url(std::uint16_t port) { return "http://127.0.0.1:" + std::to_string(port); }
+
+}  // namespace rois::broken
