@@ -1,6 +1,7 @@
 #include "command/recording.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
@@ -93,6 +94,12 @@ std::vector<RecordedDocument> read_recording(std::string const& file) {
             } else if (json.at("recording").get<std::string>() != format) {
                 complain(file, number, std::string{"this is no recording of the format "} + format);
             }
+        } catch (Json::parse_error const&) {
+            if (number > 1 && in.eof()) {  // whoever wrote it was ended
+                std::fprintf(stderr, "rois: %s:%zu: this last line is cut off, and left out\n", file.c_str(), number);
+                break;
+            }
+            complain(file, number, number == 1 ? "this is no recording: no JSON" : "this is no JSON");
         } catch (std::exception const& error) {
             if (dynamic_cast<Trouble const*>(&error) != nullptr) throw;
             complain(file, number, number == 1 ? std::string{"this is no recording: "} + error.what() : error.what());

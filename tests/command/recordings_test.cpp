@@ -2,6 +2,8 @@
 #include <signal.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "client/http_client.hpp"
 #include "command/rois_fixture.hpp"
@@ -92,10 +94,21 @@ TEST_F(Rois, LeavesARecordingAloneUntilItHasAnother) {
     EXPECT_FALSE(std::filesystem::exists(none));
 }
 
+TEST_F(Rois, ReplaysARecordingWhoseLastLineIsCutOff) {
+    auto const file = file_named("whole.jsonl");
+    ASSERT_EQ(run({"search", "--record", file}).exit_code, 0);
+    std::ifstream in{file};
+    auto const cut = file_with("cut.jsonl", std::string{std::istreambuf_iterator<char>{in}, {}} + R"({"at":99,"direc)");
+    RoisProcess engine{{"replay", cut, "--listen", "127.0.0.1:0", "--json"}};
+    Variables const there{{"ROIS_URL", json::parse(engine.line())["listening"]}};
+    EXPECT_EQ(run_rois({"search"}, {}, there).exit_code, 0);
+}
+
 TEST_F(Rois, RefusesWhatIsNoRecording) {
     expect(2, ":1: this is no recording", {"replay", file_with("none.jsonl", "<xml/>\n")});
     expect(2,
            ":2: ", {"replay", file_with("bad.jsonl", "{\"recording\":\"rois-recording-1\"}\n{\"at\":1,\"direction\":\"up\"}\n")});
+    expect(2, ":2: this is no JSON", {"replay", file_with("torn.jsonl", "{\"recording\":\"rois-recording-1\"}\n{\"at\"\n")});
     expect(2, "cannot be read", {"replay", "/no/such/file"});
     expect(2, "cannot be written", {"search", "--record", "/no/such/folder/file"});
 }
