@@ -61,8 +61,8 @@ Task<Connection::Then> Connection::serve() {
         }
         request_due_ = Steady::max();
         bool const whole = std::exchange(has_head_, false);
-        if (whole && head_.method != "POST") then = co_await serve_other();
-        if (whole && head_.method == "POST") {
+        if (whole && head().method != "POST") then = co_await serve_other();
+        if (whole && head().method == "POST") {
             auto answer = operate();
             if (answer.turn == Answer::Turn::disconnected) {
                 co_await flush();
@@ -82,10 +82,10 @@ Connection::Then Connection::take_request() {
         if (then != Then::next) return then;
         auto const judged = judge_head();
         if (!has_head_) return judged;
-        if (wire_.received().size() < head_.content_length && !head_.http_1_0 && head_.lists("Expect", "100-continue"))
+        if (wire_.received().size() < head().content_length && !head().http_1_0 && head().lists("Expect", "100-continue"))
             out_.append("HTTP/1.1 100 Continue\r\n\r\n");
     }
-    return wire_.received().size() < head_.content_length ? Then::receive : Then::next;
+    return wire_.received().size() < head().content_length ? Then::receive : Then::next;
 }
 
 Connection::Then Connection::take_head() {
@@ -98,21 +98,25 @@ Connection::Then Connection::take_head() {
     if (size == 0 && wire_.received().size() <= settings.max_header) return Then::receive;
     if (size == 0 || size > settings.max_header) return refuse(overlong_head(wire_.text(), settings));
     searched_ = 0;
-    head_text_.assign(wire_.text().substr(0, size));
+    auto const fault = heads_.read(wire_.text().substr(0, size), settings);
     wire_.use(size);
-    if (auto const fault = read_head(head_text_, settings, head_)) return refuse(*fault);
-    session_.text.assign(head_.field("RoIS-Session").value_or(""));
+    if (fault) return refuse(*fault);
+    if (!heads_.repeated()) session_.text.assign(head().field("RoIS-Session").value_or(""));
     return Then::next;
 }
 
-// Sends a request away by its head alone, or keeps it.
+// Sends a request away by its head alone, or keeps it. What was kept is kept again, unless its length is another.
 Connection::Then Connection::judge_head() {
-    route_ = route_of(head_.path);
-    auto const refused = refusal(head_, route_, loop_.shared().settings);
-    has_head_ = !refused;
+    auto const& settings = loop_.shared().settings;
+    has_head_ = heads_.repeated() && !refused_ && head().content_length <= settings.document.bytes;
+    if (has_head_) return Then::next;
+    route_ = route_of(head().path);
+    auto const refused = refusal(head(), route_, settings);
+    refused_ = refused.has_value();
+    has_head_ = !refused_;
     if (!refused) return Then::next;
-    if (head_.content_length > wire_.received().size()) return reply(*refused, Framed::last);
-    wire_.use(head_.content_length);
+    if (head().content_length > wire_.received().size()) return reply(*refused, Framed::last);
+    wire_.use(head().content_length);
     return reply(*refused);
 }
 
@@ -124,7 +128,7 @@ Task<Connection::Then> Connection::receive() {
     if (idle_ && loop_.draining()) co_return Then::end;
     if (idle_) request_due_ = Steady::max();
     if (!idle_ && request_due_ == Steady::max()) request_due_ = now() + settings.request_timeout;
-    auto const expected = has_head_ ? head_.content_length - wire_.received().size() : 0;
+    auto const expected = has_head_ ? head().content_length - wire_.received().size() : 0;
     auto const until = idle_ ? now() + settings.idle_timeout : request_due_;
     auto outcome = wire_.receive_now(until, expected);
     while (!outcome) {
@@ -139,8 +143,8 @@ Task<Connection::Then> Connection::receive() {
 
 Answer Connection::operate() {
     auto answer =
-        loop_.shared().gateway.answer(loop_.reader(), session_, wire_.text().substr(0, head_.content_length), Via::http);
-    wire_.use(head_.content_length);
+        loop_.shared().gateway.answer(loop_.reader(), session_, wire_.text().substr(0, head().content_length), Via::http);
+    wire_.use(head().content_length);
     return answer;
 }
 
@@ -154,16 +158,16 @@ Connection::Then Connection::reply(Answer&& answer) {
 }
 
 Task<Connection::Then> Connection::serve_other() {
-    wire_.use(head_.content_length);
+    wire_.use(head().content_length);
     if (route_.endpoint == Endpoint::rois) co_return serve_upgrade();
     if (route_.endpoint == Endpoint::notifications) co_return co_await serve_notifications();
-    co_return reply(loop_.shared().documents.answer(route_, head_));
+    co_return reply(loop_.shared().documents.answer(route_, head()));
 }
 
 Connection::Then Connection::serve_upgrade() {
     auto const& shared = loop_.shared();
     if (shared.gateway.shutting_down()) return reply(answer_of(shutting_down()));
-    auto const answer = upgrade(head_, shared.settings);
+    auto const answer = upgrade(head(), shared.settings);
     if (answer.status != 101) return reply(answer);
     append(out_, answer, {});
     return Then::websocket;
@@ -172,9 +176,8 @@ Connection::Then Connection::serve_upgrade() {
 // Of the request nothing is kept: there may be many thousand WebSockets that wait.
 Task<> Connection::serve_websocket() {
     co_await flush();
-    std::string{}.swap(head_text_);
+    heads_ = {};
     std::string{}.swap(out_);
-    head_ = {};
     auto const& shared = loop_.shared();
     counted_.emplace(shared.telemetry, Telemetry::Kind::websocket);
     auto const websocket = std::make_shared<WebSocket>(std::shared_ptr<Wire>{shared_from_this(), &wire_}, shared.gateway,
@@ -186,12 +189,12 @@ Task<> Connection::serve_websocket() {
 
 Task<Connection::Then> Connection::serve_notifications() {
     auto const& shared = loop_.shared();
-    auto const read = read_wanted(head_);
+    auto const read = read_wanted(head());
     if (auto const* fault = std::get_if<Fault>(&read)) co_return reply(answer_of(*fault));
     if (shared.gateway.shutting_down()) co_return reply(answer_of(shutting_down()));
     auto wanted = std::get<NotificationsWanted>(read);
     co_await flush();
-    if (wanted.as == NotificationsWanted::As::stream && head_.method == "GET") {
+    if (wanted.as == NotificationsWanted::As::stream && head().method == "GET") {
         counted_.emplace(shared.telemetry, Telemetry::Kind::stream);
         auto const refused =
             co_await stream(wire_, shared.gateway, shared.telemetry, loop_.wakes(), session_, wanted, shared.settings);
@@ -205,8 +208,8 @@ Task<Connection::Then> Connection::serve_notifications() {
 
 Connection::Then Connection::reply(HttpAnswer const& answer, Framed framed) {
     if (answer.fault) loop_.shared().telemetry.faulted(*answer.fault);
-    bool const close = framed == Framed::last || !head_.keep_alive() || loop_.draining();
-    append(out_, answer, {.body = head_.method != "HEAD", .close = close});
+    bool const close = framed == Framed::last || !head().keep_alive() || loop_.draining();
+    append(out_, answer, {.body = head().method != "HEAD", .close = close});
     return close ? Then::linger : Then::next;
 }
 

@@ -36,6 +36,7 @@ private:
     // What becomes of the connection after a request; `receive`: it has not arrived whole.
     enum class Then : std::uint8_t { next, receive, websocket, linger, end };
 
+    RequestHead const& head() const { return heads_.last(); }
     Task<Then> serve();
     Then take_request();
     Then take_head();
@@ -64,8 +65,8 @@ private:
     // The request that is being received or served.
     std::size_t searched_ = 0;  // bytes in which no head ends
     bool has_head_ = false;     // of these four
-    std::string head_text_;
-    RequestHead head_;  // views into head_text_
+    HeadReader heads_;
+    bool refused_ = false;  // by its head
     Route route_;
     SessionId session_;  // that it names; empty when it names none
     Steady request_due_ = Steady::max();

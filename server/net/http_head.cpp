@@ -4,6 +4,7 @@
 #include <boost/asio/buffer.hpp>
 #include <boost/beast/http/basic_parser.hpp>
 #include <boost/none.hpp>
+#include <charconv>
 #include <string>
 #include <utility>
 
@@ -219,6 +220,39 @@ std::size_t find_head(std::string_view text, std::size_t& searched) {
 
 std::optional<Fault> read_head(std::string_view text, Settings const& settings, RequestHead& head) {
     return HeadParser{settings, head}.read(text);
+}
+
+std::optional<Fault> HeadReader::read(std::string_view text, Settings const& settings) {
+    repeated_ = repeat(text);
+    if (repeated_) return {};
+    text_.assign(text);
+    auto fault = read_head(text_, settings, head_);
+    if (fault) text_.clear();
+    note_length();
+    return fault;
+}
+
+// The digits are as many as before: so no view into the text changes.
+bool HeadReader::repeat(std::string_view text) {
+    auto const end = length_at_ + length_digits_;
+    auto const last = std::string_view{text_};
+    if (text.empty() || text.size() != last.size() || text.substr(end) != last.substr(end) ||
+        text.substr(0, length_at_) != last.substr(0, length_at_))
+        return false;
+    if (length_digits_ == 0) return true;
+    auto const digits = text.substr(length_at_, length_digits_);
+    std::uint64_t length = 0;
+    auto const [stop, error] = std::from_chars(digits.begin(), digits.end(), length);
+    if (error != std::errc{} || stop != digits.end()) return false;
+    digits.copy(text_.data() + length_at_, digits.size());
+    head_.content_length = length;
+    return true;
+}
+
+void HeadReader::note_length() {
+    auto const length = text_.empty() ? std::nullopt : head_.field("Content-Length");
+    length_digits_ = length ? length->size() : 0;
+    length_at_ = length ? static_cast<std::size_t>(length->data() - text_.data()) : text_.size();
 }
 
 Fault overlong_head(std::string_view text, Settings const& settings) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -52,6 +53,28 @@ std::size_t find_head(std::string_view text, std::size_t& searched);
 
 // Reads a complete head into one whose memory is used again. A fault means that the connection cannot go on.
 std::optional<Fault> read_head(std::string_view text, Settings const&, RequestHead&);
+
+// Reads the heads of one connection's requests. Clients write them alike, but for the length of what follows: a head that differs
+// from the last in the digits of its Content-Length alone is not taken apart again. Not to be moved while `last` is in use.
+class HeadReader {
+public:
+    // A complete head, which is kept. A fault means that the connection cannot go on.
+    std::optional<Fault> read(std::string_view text, Settings const&);
+
+    RequestHead const& last() const { return head_; }
+    // Whether that said what the one before had said, but for content_length.
+    bool repeated() const { return repeated_; }
+
+private:
+    bool repeat(std::string_view text);
+    void note_length();
+
+    std::string text_;
+    RequestHead head_;  // views into text_
+    bool repeated_ = false;
+    std::size_t length_at_ = 0;  // where in text_ the digits of Content-Length are; as many as text_ when there are none
+    std::size_t length_digits_ = 0;
+};
 
 // What to answer when a head has grown over the limit without an end.
 Fault overlong_head(std::string_view text, Settings const&);

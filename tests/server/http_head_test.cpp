@@ -82,6 +82,57 @@ TEST(HttpHead, IsReadIntoOneThatWasUsedBefore) {
     EXPECT_EQ(head.fields.size(), 1u);
 }
 
+std::string post_of(std::string_view length, std::string_view session = "a") {
+    return "POST /rois HTTP/1.1\r\nHost: h\r\nContent-Length: " + std::string{length} +
+           "\r\nRoIS-Session: " + std::string{session} + "\r\n\r\n";
+}
+
+TEST(HttpHead, IsNotTakenApartAgainWhenOnlyItsLengthIsAnother) {
+    HeadReader heads;
+    ASSERT_FALSE(heads.read(post_of("123"), Settings{}));
+    EXPECT_FALSE(heads.repeated());
+    for (std::string const length : {"123", "456", "000", "999"}) {
+        ASSERT_FALSE(heads.read(post_of(length), Settings{}));
+        EXPECT_TRUE(heads.repeated());
+        EXPECT_EQ(heads.last().content_length, std::stoul(length));
+        EXPECT_EQ(heads.last().field("Content-Length"), length);
+        EXPECT_EQ(heads.last().field("RoIS-Session"), "a");
+        EXPECT_EQ(heads.last().path, "/rois");
+    }
+    std::string const without = "GET /healthz HTTP/1.1\r\nHost: h\r\n\r\n";
+    ASSERT_FALSE(heads.read(without, Settings{}));
+    EXPECT_FALSE(heads.repeated());
+    ASSERT_FALSE(heads.read(without, Settings{}));
+    EXPECT_TRUE(heads.repeated());
+    EXPECT_EQ(heads.last().content_length, 0u);
+}
+
+TEST(HttpHead, IsTakenApartAgainWhenItIsAnother) {
+    std::string const longer = post_of("12", "abc"), other_length = post_of("1234"), other_session = post_of("123", "b");
+    for (auto const& other : {longer, other_length, other_session}) {
+        HeadReader heads;
+        ASSERT_FALSE(heads.read(post_of("123"), Settings{}));
+        ASSERT_FALSE(heads.read(other, Settings{}));
+        EXPECT_FALSE(heads.repeated()) << other;
+        auto const fresh = read(other);
+        EXPECT_EQ(heads.last().content_length, std::get<RequestHead>(fresh).content_length);
+        EXPECT_EQ(heads.last().field("RoIS-Session"), std::get<RequestHead>(fresh).field("RoIS-Session"));
+    }
+}
+
+TEST(HttpHead, IsRefusedAsWellAfterOneThatLooksLikeIt) {
+    for (std::string const length : {"12x", " 1-", "+12", "1 2", "\r\n1", "1,1", "99\n"}) {
+        HeadReader heads;
+        ASSERT_FALSE(heads.read(post_of("123"), Settings{}));
+        EXPECT_TRUE(heads.read(post_of(length), Settings{})) << length;
+        EXPECT_FALSE(heads.repeated());
+    }
+    HeadReader heads;
+    ASSERT_FALSE(heads.read(post_of("18446744073709551615"), Settings{}));
+    EXPECT_TRUE(heads.read(post_of("18446744073709551616"), Settings{}));
+    EXPECT_TRUE(heads.read(post_of("18446744073709551616"), Settings{}));
+}
+
 TEST(HttpHead, EndsAtAnEmptyLine) {
     std::string const text = "GET / HTTP/1.1\r\nHost: h\r\n\r\nbody";
     for (std::size_t cut = 0, searched = 0; cut < text.size(); ++cut) {
