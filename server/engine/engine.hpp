@@ -23,6 +23,8 @@ public:
     virtual ~Outbox() = default;
     // There is something to read in this session's queue, or it was closed.
     virtual void notify(NotificationQueue&) = 0;
+    // `notify` will be called soon: what that needs may be prefetched.
+    virtual void approach(NotificationQueue const&) const {}
 };
 
 // Why an operation did not run at all; the network layer makes a fault of it.

@@ -1,4 +1,5 @@
 // Event interface (7.4.2, table 5): subscriptions, and what becomes of events.
+#include <span>
 #include <utility>
 
 #include "engine/core.hpp"
@@ -9,15 +10,13 @@ namespace rois {
 
 namespace {
 
-// An event to a thousand sessions finds each one's queue far away in memory: it is called for so many turns before its own.
-constexpr std::size_t queues_ahead = 4;
-
-using Hearers = decltype(Subscription::sessions);
-
-void call_nearer(Hearers const& hearers, Hearers::const_iterator& next) {
-    if (next == hearers.end()) return;
-    prefetch(next->second.queue, sizeof(NotificationQueue));
-    ++next;
+// An event to a thousand sessions finds each one's queue far away in memory, and behind that its entries and those who read them:
+// they are called for some turns before their own.
+void call_nearer(std::span<Subscription::Hearer const> those_who_follow, Notifier const& notifier) {
+    auto const follows = [&](std::size_t turns) { return turns < those_who_follow.size(); };
+    if (follows(6)) prefetch(those_who_follow[6].queue, sizeof(NotificationQueue));
+    if (follows(4)) Notifier::approach(*those_who_follow[4].queue);
+    if (follows(2)) notifier.approach_readers(*those_who_follow[2].queue);
 }
 
 }  // namespace
@@ -119,11 +118,12 @@ void Engine::Core::publish(EventOccurred said, Instant now) {
                                           .component_ref = said.component->ref(),
                                           .results = nullptr},
                                          results};
-        auto ahead = subscription->sessions.cbegin();
-        for (std::size_t i = 0; i < queues_ahead; ++i) call_nearer(subscription->sessions, ahead);
-        for (auto const& [session, hearer] : subscription->sessions) {
-            call_nearer(subscription->sessions, ahead);
-            if (!each || matches(*subscription, *session)) notifier_.tell(*hearer.queue, notifications.of(hearer.inline_results));
+        for (std::span<Subscription::Hearer const> hearers{subscription->hearers}; !hearers.empty();
+             hearers = hearers.subspan(1)) {
+            call_nearer(hearers, notifier_);
+            auto const& hearer = hearers.front();
+            if (!each || matches(*subscription, *hearer.session))
+                notifier_.tell(*hearer.queue, notifications.of(hearer.inline_results));
         }
     }
 }

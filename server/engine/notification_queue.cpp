@@ -25,7 +25,7 @@ NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotifi
     std::lock_guard const lock{mutex_};
     if (waiting_ >= max_waiting_ && !make_room()) overflowed_ = true;
     if (overflowed_ && std::holds_alternative<ReceiveEvent>(notification->body)) return Pushed::overflow;
-    entries_.push_back({++last_sequence_, std::move(notification)});
+    newest_.store(&entries_.emplace_back(++last_sequence_, std::move(notification)), std::memory_order_relaxed);
     ++waiting_;
     return overflowed_ ? Pushed::overflow : Pushed::ok;
 }

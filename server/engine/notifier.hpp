@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/engine.hpp"
+#include "engine/prefetch.hpp"
 #include "engine/session.hpp"
 
 namespace rois {
@@ -35,6 +36,13 @@ public:
         lost_ += queue.lost() - lost;
         outbox_.notify(queue);
     }
+
+    // Prefetches, when the queue itself is near, what `tell` needs: first what that points to, then what lies behind that.
+    static void approach(NotificationQueue const& queue) {
+        queue.approach_entries();
+        prefetch(queue.audience().get());
+    }
+    void approach_readers(NotificationQueue const& queue) const { outbox_.approach(queue); }
 
     // Nothing more will be told to this session.
     void close(Session& session) {

@@ -17,6 +17,11 @@ void take_out(auto& by_text, std::string_view text, Subscription* subscription) 
     if (found->second.empty()) by_text.erase(found);
 }
 
+// Where the session's hearer is, or would be.
+auto place_of(Session const& session, Subscription& subscription) {
+    return std::ranges::lower_bound(subscription.hearers, session.number, {}, &Subscription::Hearer::number);
+}
+
 }  // namespace
 
 void Subscriptions::OfType::add(Subscription& subscription) {
@@ -58,8 +63,14 @@ Subscription& Subscriptions::add(Session& session, std::string const& event_type
         by_type_[event_type].add(*subscription);
         by_id_.emplace(subscription->id, std::move(made));
     }
-    subscription->sessions[&session] = {inline_results, session.notifications.get()};
-    if (session.subscriptions.insert(subscription).second) session.predicates += subscription->filter.predicates();
+    bool const is_new = session.subscriptions.insert(subscription).second;
+    if (is_new) session.predicates += subscription->filter.predicates();
+    auto const place = place_of(session, *subscription);
+    if (is_new) {
+        subscription->hearers.insert(place, {&session, session.number, session.notifications.get(), inline_results});
+    } else {
+        place->inline_results = inline_results;
+    }
     return *subscription;
 }
 
@@ -67,8 +78,7 @@ void Subscriptions::remove(Session& session, SubscribeId const& id) {
     auto const found = by_id_.find(id);
     if (found == by_id_.end()) return;
     auto& subscription = *found->second;
-    if (!subscription.sessions.contains(&session)) return;
-    session.subscriptions.erase(&subscription);
+    if (session.subscriptions.erase(&subscription) == 0) return;
     part(session, subscription);
     forget_if_unheard(subscription);
 }
@@ -81,7 +91,7 @@ void Subscriptions::remove_all(Session& session) {
 }
 
 void Subscriptions::part(Session& session, Subscription& subscription) {
-    subscription.sessions.erase(&session);
+    subscription.hearers.erase(place_of(session, subscription));
     session.predicates -= subscription.filter.predicates();
 }
 
@@ -108,13 +118,13 @@ std::set<Session*> Subscriptions::hearers(RegisteredComponent const& component, 
         if (message.kind != MessageKind::event) continue;
         for (auto const* subscription : possible(message.name, component))
             if (subscription->filter.match(ever.candidate(component)) != Match::no)
-                for (auto const& [session, hearer] : subscription->sessions) hearing.insert(session);
+                for (auto const& hearer : subscription->hearers) hearing.insert(hearer.session);
     }
     return hearing;
 }
 
 void Subscriptions::forget_if_unheard(Subscription& subscription) {
-    if (!subscription.sessions.empty()) return;
+    if (!subscription.hearers.empty()) return;
     by_type_[subscription.event_type].remove(subscription);
     by_id_.erase(subscription.id);
 }

@@ -28,10 +28,12 @@ struct Subscription {
     std::string event_type;
     Filter filter;
     struct Hearer {
-        bool inline_results = false;
-        NotificationQueue* queue = nullptr;  // the session's own, found without it
+        Session* session;
+        std::uint64_t number;      // the session's
+        NotificationQueue* queue;  // and its own, found without it
+        bool inline_results;
     };
-    std::unordered_map<Session*, Hearer> sessions;
+    std::vector<Hearer> hearers;  // in the order in which their sessions connected
 };
 
 // Kept both ways: a subscription knows its sessions, a session its subscriptions.

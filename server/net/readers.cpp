@@ -1,10 +1,27 @@
 #include "net/readers.hpp"
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 
+#include "engine/prefetch.hpp"
 #include "net/wakes.hpp"
 
+// Also found from the session's queue itself, since events go to many sessions at once.
+struct rois::Audience {
+    struct Joined {
+        Link link;
+        net::Reader* reader;
+    };
+    boost::container::small_vector<Joined, 1> joined;
+};
+
 namespace rois::net {
+
+namespace {
+
+void take_out(auto& joined, auto those) { joined.erase(std::remove_if(joined.begin(), joined.end(), those), joined.end()); }
+
+}  // namespace
 
 void Reader::wake() {
     if (!waiting_.exchange(true)) wakes_.add(shared_from_this());
@@ -17,7 +34,7 @@ void Reader::take_over() {
 
 void Reader::serve() {
     waiting_ = false;
-    if (taken_over_.exchange(false)) taken_over();
+    if (taken_over_ && taken_over_.exchange(false)) taken_over();
     woken();
 }
 
@@ -25,10 +42,9 @@ void Readers::join(NotificationQueue& queue, Link link, Reader& reader) {
     auto& audience = audiences_[queue.session()];
     if (!audience) audience = queue.audience() ? queue.audience() : std::make_shared<Audience>();
     if (link == Link::websocket) {
-        std::erase_if(audience->joined, [](Audience::Joined const& other) {
+        for (auto const& other : audience->joined)
             if (other.link == Link::websocket) other.reader->take_over();
-            return other.link == Link::websocket;
-        });
+        take_out(audience->joined, [](Audience::Joined const& other) { return other.link == Link::websocket; });
     }
     audience->joined.push_back({link, &reader});
     queue.set_audience(audience);
@@ -44,7 +60,7 @@ void Readers::leave(SessionId const& session, Reader const& reader) {
     auto const found = audiences_.find(session);
     if (found == audiences_.end()) return;
     auto& joined = found->second->joined;
-    std::erase_if(joined, [&](Audience::Joined const& one) { return one.reader == &reader; });
+    take_out(joined, [&](Audience::Joined const& one) { return one.reader == &reader; });
     for (auto const& other : joined) other.reader->wake();
     if (joined.empty()) audiences_.erase(found);
 }
@@ -57,6 +73,10 @@ std::size_t Readers::count(SessionId const& session) const {
 void Readers::notify(NotificationQueue& queue) {
     if (!queue.audience()) return;
     for (auto const& joined : queue.audience()->joined) joined.reader->wake();
+}
+
+void Readers::approach(NotificationQueue const& queue) const {
+    if (queue.audience() && !queue.audience()->joined.empty()) prefetch(queue.audience()->joined.front().reader);
 }
 
 }  // namespace rois::net

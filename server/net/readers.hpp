@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <unordered_map>
-#include <vector>
 
 #include "engine/engine.hpp"
 
@@ -29,8 +28,8 @@ public:
     void take_over();
 
 protected:
-    // How far it is to what `woken` needs: what the reader itself points to, and what lies behind that.
-    enum class Distance : std::uint8_t { far, near };
+    // How far it is to what `woken` needs: what the reader itself points to, what lies behind that, and behind that.
+    enum class Distance : std::uint8_t { far, near, next };
 
     Wakes& wakes() { return wakes_; }
 
@@ -61,18 +60,10 @@ public:
     std::size_t count(SessionId const&) const;
 
     void notify(NotificationQueue&) override;
+    void approach(NotificationQueue const&) const override;
 
 private:
     std::unordered_map<SessionId, std::shared_ptr<Audience>, IdHash> audiences_;  // that somebody is in
 };
 
 }  // namespace rois::net
-
-// Also found from the session's queue itself, since events go to many sessions at once.
-struct rois::Audience {
-    struct Joined {
-        Link link;
-        net::Reader* reader;
-    };
-    std::vector<Joined> joined;
-};

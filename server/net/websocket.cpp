@@ -153,12 +153,17 @@ void WebSocket::close(Ending ending) {
 }
 
 void WebSocket::approach(Distance distance) const {
-    if (distance == Distance::near) {
-        if (reading_) reading_->approach();
-        return;
+    switch (distance) {
+        case Distance::far:
+            prefetch(wire_.get());
+            prefetch(reading_.get());
+            break;
+        case Distance::near:
+            if (reading_) reading_->approach();
+            break;
+        case Distance::next:
+            if (reading_) reading_->approach_entries();
     }
-    prefetch(wire_.get());
-    prefetch(reading_.get());
 }
 
 void WebSocket::taken_over() { close({CloseCode::policy_violation, "the session goes on elsewhere"}); }

@@ -145,6 +145,20 @@ TEST_F(Events, OfASubscriptionSharedByTwoSessionsEndForEachAlone) {
     EXPECT_THAT(hall.heard(), ElementsAre("1 person_detected detection"));
 }
 
+TEST_F(Events, AreHeardByThoseWhoAreLeftOfMany) {
+    std::vector<Application> applications;
+    for (int i = 0; i < 7; ++i) applications.push_back(world.connect());
+    SubscribeId id;
+    for (std::size_t const i : {4U, 1U, 6U, 0U, 3U, 5U, 2U}) id = applications[i].subscribe("person_detected").subscribe_id;
+    for (std::size_t const i : {0U, 6U, 3U}) EXPECT_EQ(applications[i].unsubscribe(id), ReturnCode::ok);
+    applications[5].ask(Disconnect{});
+    applications[3].subscribe("person_detected");
+    world["detection"].fires("person_detected");
+    for (std::size_t const i : {1U, 2U, 3U, 4U})
+        EXPECT_THAT(applications[i].heard(), ElementsAre("1 person_detected detection")) << i;
+    for (std::size_t const i : {0U, 6U}) EXPECT_THAT(applications[i].heard(), IsEmpty()) << i;
+}
+
 TEST_F(Events, MayBeUnsubscribedAgainAndAgain) {
     auto const id = desk.subscribe("person_detected").subscribe_id;
     EXPECT_EQ(desk.unsubscribe(id), ReturnCode::ok);
