@@ -1,5 +1,5 @@
 // The readers of one loop that were woken. However many are woken at once, the loop hears one word, and serves them a few at a
-// time: a request does not wait behind a thousand notifications.
+// time: a request does not wait behind a thousand notifications. After some more it also lets others have the core.
 #pragma once
 
 #include <cstddef>
@@ -28,10 +28,12 @@ private:
     void serve();
     void approach() const;
     bool take_more();
+    void make_way();
 
     Executor executor_;
     std::vector<std::shared_ptr<Reader>> serving_;  // the loop's thread alone
     std::size_t served_ = 0;                        // of these
+    std::size_t in_a_row_ = 0;                      // since the loop was done with all of them, or has made way
 
     std::mutex mutex_;  // guards what follows
     std::vector<std::shared_ptr<Reader>> waiting_;
