@@ -12,7 +12,7 @@ namespace rois::command {
 
 namespace {
 
-// Throws Trouble when there is no such component: a query says no more than that nothing answers it.
+// Refuses when there is no such component: a query says no more than that nothing answers it.
 void check_there(Context& context, std::string const& ref) {
     if (context.ok(Search{conditions::component_ref == ref}).component_ref_list.empty()) context.component(ref);
 }
@@ -45,8 +45,9 @@ void get(Context& context) {
     auto& parameters = reply.results.parameters;
     for (auto const& name : options.words) {
         if (find(parameters, name) != nullptr) continue;
-        throw Trouble{Exit::bad_parameter, options.ref + " has no parameter " + rois::quoted(name) + " that is set; it has " +
-                                               listed(parameters, &Parameter::name)};
+        context.refuse<GetParameter>(ReturnCode::bad_parameter, options.ref + " has no parameter " + rois::quoted(name) +
+                                                                    " that is set; it has " +
+                                                                    listed(parameters, &Parameter::name));
     }
     std::erase_if(parameters, [&](Parameter const& parameter) {
         auto const is_it = [&](std::string const& name) { return equal_ignoring_case(name, parameter.name); };

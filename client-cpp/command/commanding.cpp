@@ -3,6 +3,7 @@
 
 #include "command/arguments.hpp"
 #include "command/context.hpp"
+#include "command/input.hpp"
 #include "command/request_file.hpp"
 #include "command/sequences.hpp"
 #include "command/terminal.hpp"

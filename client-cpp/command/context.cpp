@@ -3,12 +3,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iostream>
-#include <iterator>
 #include <stdexcept>
 
 #include "command/condition_text.hpp"
+#include "command/input.hpp"
 #include "command/request_file.hpp"
 #include "command/terminal.hpp"
 #include "files/files.hpp"
@@ -40,6 +38,9 @@ Session& Context::session() {
             session_ = std::make_unique<Session>(options_, recorded_);
         } catch (std::invalid_argument const& error) {
             throw Trouble{Exit::usage, error.what()};
+        } catch (NoSession const& gone) {
+            printer_.fault({FaultCode::no_session, gone.what(), {}, {}}, options_.command);
+            throw Trouble{Exit::fault, ""};
         }
         signals_.on_first([session = session_.get()] { session->interrupt(); });
     }
@@ -71,6 +72,13 @@ Reply Context::checked(Operation operation, Written written) {
     return std::move(reply);
 }
 
+void Context::refuse(Reply const& reply) {
+    auto const& outcome = std::visit([](auto const& one) -> Outcome const& { return one; }, reply);
+    if (printer_.form() == Form::human) throw Trouble{exit_of(outcome.return_code), outcome.reason};
+    printer_.reply(reply, xml::operation_names()[reply.index()]);
+    throw Trouble{exit_of(outcome.return_code), ""};
+}
+
 QueryExpression Context::condition() {
     if (!options_.condition_file.empty())
         return read_condition_file(schemas(), options_.condition_file, text_of_file(options_.condition_file));
@@ -87,16 +95,8 @@ ComponentEntry Context::component(std::string const& ref) {
     auto reply = ok(GetProfile{});
     auto const found = std::ranges::find(reply.components, ref, &ComponentEntry::ref);
     if (found != reply.components.end() && found->profile) return *found;
-    throw Trouble{Exit::bad_parameter,
-                  "unknown component " + rois::quoted(ref) + "; there are " + listed(reply.components, &ComponentEntry::ref)};
-}
-
-std::string text_of_file(std::string const& file) {
-    if (file == "-") return {std::istreambuf_iterator<char>{std::cin}, {}};
-    std::ifstream in{file, std::ios::binary};
-    std::string text{std::istreambuf_iterator<char>{in}, {}};
-    if (!in.is_open() || in.bad()) throw Trouble{Exit::usage, file + " cannot be read"};
-    return text;
+    refuse<GetProfile>(ReturnCode::bad_parameter, "unknown component " + rois::quoted(ref) + "; there are " +
+                                                      listed(reply.components, &ComponentEntry::ref));
 }
 
 Until end_of(Options const& options) {

@@ -46,15 +46,26 @@ public:
         return std::get<typename Op::Reply>(std::move(reply));
     }
 
+    // Refuses what this program itself sees to be wrong in what the engine has told: a document like the engine's own refusals of
+    // that operation, or the reason alone for people.
+    template <class Op>
+    [[noreturn]] void refuse(ReturnCode code, std::string const& reason) {
+        typename Op::Reply reply;
+        reply.return_code = code;
+        reply.reason = reason;
+        refuse(Reply{std::move(reply)});
+    }
+
     // The condition that the options give, by text or file.
     QueryExpression condition();
 
-    // The component of that ref. Throws Trouble with those that there are.
+    // The component of that ref. Refuses one that is unknown, with those that there are.
     ComponentEntry component(std::string const& ref);
 
 private:
     enum class Written { no, yes };
     Reply checked(Operation, Written = Written::no);
+    [[noreturn]] void refuse(Reply const&);
 
     Options options_;
     Signals& signals_;
@@ -63,9 +74,6 @@ private:
     std::shared_ptr<xml::Schemas const> schemas_;
     std::unique_ptr<Session> session_;
 };
-
-// The text of a file; `-` is standard input. Throws Trouble when it cannot be read.
-std::string text_of_file(std::string const& file);
 
 // "--for" from now on.
 Until end_of(Options const&);

@@ -36,4 +36,10 @@ private:
     Exit exit_;
 };
 
+// The session to act in is not there; the text is the reason.
+class NoSession : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
 }  // namespace rois::command

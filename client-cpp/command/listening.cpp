@@ -22,10 +22,11 @@ std::vector<std::string> event_types_of(GetProfile::Reply const& reply) {
     return types;
 }
 
-void check_known(std::vector<std::string> const& wanted, std::vector<std::string> const& known) {
+void check_known(Context& context, std::vector<std::string> const& wanted, std::vector<std::string> const& known) {
     for (auto const& type : wanted)
         if (std::ranges::find(known, type) == known.end())
-            throw Trouble{Exit::unsupported, "no component has an event " + rois::quoted(type) + "; there are " + listed(known)};
+            context.refuse<Subscribe>(ReturnCode::unsupported,
+                                      "no component has an event " + rois::quoted(type) + "; there are " + listed(known));
 }
 
 bool is_new_session(Heard const& heard) {
@@ -79,7 +80,7 @@ void start_components(Context& context) {
 
 void subscribe_to(Context& context, std::vector<std::string> event_types, QueryExpression const& condition) {
     auto const known = event_types_of(context.ok(GetProfile{}));
-    check_known(event_types, known);
+    check_known(context, event_types, known);
     bool const all = event_types.empty();
     bool heard_any = false;
     for (auto const& type : all ? known : event_types) {
@@ -91,7 +92,7 @@ void subscribe_to(Context& context, std::vector<std::string> event_types, QueryE
         heard_any = heard_any || ok;
         if (!ok && !all) context.ok(Subscribe{type, condition, true});
     }
-    if (!heard_any) throw Trouble{Exit::unsupported, "no event can meet the condition"};
+    if (!heard_any) context.refuse<Subscribe>(ReturnCode::unsupported, "no event can meet the condition");
 }
 
 void listen(Context& context, std::function<void(Heard const&)> const& told) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "command/exit.hpp"
+#include "command/input.hpp"
 #include "command/json.hpp"
 
 namespace rois::command {
@@ -82,8 +83,7 @@ void RecordingWriter::check() {
 }
 
 std::vector<RecordedDocument> read_recording(std::string const& file) {
-    std::ifstream in{file, std::ios::binary};
-    if (!in) throw Trouble{Exit::usage, file + " cannot be read"};
+    auto in = open_file(file);
     std::vector<RecordedDocument> documents;
     std::string line;
     for (std::size_t number = 1; std::getline(in, line); ++number) {

@@ -7,6 +7,7 @@
 
 #include "command/arguments.hpp"
 #include "command/context.hpp"
+#include "command/input.hpp"
 #include "command/scenario_file.hpp"
 #include "command/sequences.hpp"
 #include "command/terminal.hpp"

@@ -2,6 +2,7 @@
 #include <variant>
 
 #include "command/context.hpp"
+#include "command/input.hpp"
 #include "command/pretty.hpp"
 #include "command/terminal.hpp"
 #include "types/texts.hpp"

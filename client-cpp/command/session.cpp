@@ -21,8 +21,8 @@ Session::Session(Options const& options, std::shared_ptr<RecordingWriter> record
     : joined_{!options.session.empty()}, connection_{settings_for(options), observers(std::move(recorded))} {
     auto const none = connection_.wait(connection_.opened(options.deadline));
     if (!none) return;
-    bool const gone = joined_ && id().text.empty();
-    throw Trouble{gone ? Exit::fault : Exit::no_answer, gone ? "no_session: " + none->reason : options.url + ": " + none->reason};
+    if (joined_ && id().text.empty()) throw NoSession{none->reason};
+    throw Trouble{Exit::no_answer, options.url + ": " + none->reason};
 }
 
 Observers Session::observers(std::shared_ptr<RecordingWriter> recorded) {

@@ -27,8 +27,8 @@ using Until = std::optional<std::chrono::steady_clock::time_point>;  // none: fo
 
 class Session {
 public:
-    // Waits until it is open. `recorded` may be null. Throws Trouble when it cannot be opened, std::invalid_argument for a URL
-    // that is none.
+    // Waits until it is open. `recorded` may be null. Throws Trouble when it cannot be opened, NoSession when the one to join is
+    // not there, std::invalid_argument for a URL that is none.
     Session(Options const&, std::shared_ptr<RecordingWriter> recorded);
 
     // Whether it goes on when the program ends.

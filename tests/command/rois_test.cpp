@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "command/rois_fixture.hpp"
 
@@ -86,6 +88,72 @@ TEST_F(Rois, StartsStopsAndExecutes) {
     EXPECT_EQ(run({"execute", sequence}).out, "start person_detection  OK\nstop person_detection  OK\n");
     EXPECT_THAT(run({"execute", "person_detection", "start", "--results"}).out, HasSubstr("status  "));
     expect(2, "cannot be read", {"execute", "/no/such/file.xml"});
+}
+
+TEST_F(Rois, SaysThatAFolderIsNoFile) {
+    auto const folder = std::filesystem::path{file_named("")}.parent_path().string();
+    for (auto const& arguments : std::vector<std::vector<std::string>>{{"send", folder},
+                                                                       {"execute", folder},
+                                                                       {"scenario", folder},
+                                                                       {"replay", folder},
+                                                                       {"search", "--condition", folder}}) {
+        auto const ended = run(arguments);
+        EXPECT_EQ(ended.exit_code, 2) << arguments.front();
+        EXPECT_EQ(ended.out, "") << arguments.front();
+        EXPECT_EQ(ended.error, "rois: " + folder + " cannot be read: this is a folder; name a file in it\n") << arguments.front();
+    }
+}
+
+TEST_F(Rois, WritesADocumentOfWhatItRefusesItself) {
+    struct Refused {
+        std::vector<std::string> arguments;
+        int code;
+        std::string operation;
+        std::string says;
+    };
+    for (auto const& [arguments, code, operation, says] : std::vector<Refused>{
+             {{"profile", "elevator"}, 3, "get_profile", "unknown component 'elevator'; there are "},
+             {{"get", "elevator"}, 3, "get_profile", "unknown component 'elevator'; there are "},
+             {{"get", "navigation", "speed"}, 3, "get_parameter", "navigation has no parameter 'speed' that is set; it has "},
+             {{"query", "component_status", "--of", "elevator"}, 3, "get_profile", "unknown component 'elevator'; "},
+             {{"set", "elevator", "floor=1"}, 3, "get_profile", "unknown component 'elevator'; there are "},
+             {{"watch", "rain"}, 4, "subscribe", "no component has an event 'rain'; there are "},
+             {{"watch", "--where", "colour = red"}, 4, "subscribe", "no event can meet the condition"},
+         }) {
+        auto const with = [&](std::string const& form) {
+            auto all = arguments;
+            all.push_back(form);
+            auto ended = run(all);
+            EXPECT_EQ(ended.exit_code, code) << ended.out << ended.error;
+            EXPECT_EQ(ended.error, "") << "as with the engine's own refusals";
+            return ended.out;
+        };
+        auto const lines = lines_of(with("--json"));
+        ASSERT_EQ(lines.size(), 1u) << arguments.front();
+        auto const object = json::parse(lines[0]);
+        EXPECT_EQ(object["operation"], operation);
+        EXPECT_EQ(object["return_code"], code == 3 ? "BAD_PARAMETER" : "UNSUPPORTED");
+        EXPECT_THAT(object["reason"].get<std::string>(), StartsWith(says));
+        EXPECT_THAT(with("--xml"), AllOf(StartsWith("<" + operation + "_response"), HasSubstr(">" + says)));
+        expect(code, "rois: " + says, arguments);
+    }
+    auto const gone = run({"--session", "nobody", "release", "reaction", "--json"});
+    EXPECT_EQ(gone.exit_code, 9);
+    EXPECT_EQ(json::parse(gone.out)["fault"], "no_session");
+    EXPECT_THAT(run({"--session", "nobody", "release", "reaction", "--xml"}).out, HasSubstr("code=\"no_session\""));
+}
+
+TEST_F(Rois, WritesNoDocumentWhereNothingWasAsked) {
+    for (auto const& [arguments, code] : std::vector<std::pair<std::vector<std::string>, int>>{
+             {{"search", "type", "=", "--json"}, 2},
+             {{"send", "/no/such/file.xml", "--xml"}, 2},
+             {{"set", "navigation", "speed=1", "--json"}, 2},
+             {{"search", "--url", "http://127.0.0.1:1", "--timeout", "2", "--json"}, 8}}) {
+        auto const ended = run(arguments);
+        EXPECT_EQ(ended.exit_code, code) << ended.error;
+        EXPECT_EQ(ended.out, "");
+        EXPECT_THAT(ended.error, StartsWith("rois: "));
+    }
 }
 
 TEST_F(Rois, StopsTheRobotWhenItIsInterrupted) {
