@@ -2,7 +2,7 @@
 // reception [VISITORS]; ROIS_URL says where the gateway is.
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
+#include <regex>
 #include <rois/client.hpp>
 #include <set>
 
@@ -52,8 +52,7 @@ Task<> receive(Client& robot, int visitors) {
     auto detected = co_await detection.person_detected(conditions::result("number") > 0);
     auto identified = co_await identification.person_identified();
     auto recognized = co_await recognition.speech_recognized();
-    auto const position = co_await SystemInformation{robot.component("system_information")}.robot_position();
-    auto const start = position.robots.at(0).pose;
+    auto const start = (co_await SystemInformation{robot.component("system_information")}.robot_position()).robots.at(0).pose;
     std::set<std::string> met;  // the temporary names of those who were received, and their permanent ids
     for (int count = 0; count < visitors;) {
         co_await navigation.go_to(start);
@@ -89,10 +88,11 @@ Task<> receive(Client& robot, int visitors) {
 }
 
 int main(int argc, char** argv) try {
-    auto const visitors = argc > 1 ? std::atoi(argv[1]) : 1;
-    if (visitors < 1) throw Error{ReturnCode::bad_parameter, "expected a number of visitors"};
+    std::string const visitors = argc > 1 ? argv[1] : "1";
+    if (!std::regex_match(visitors, std::regex{"[1-9][0-9]{0,5}"}))
+        throw Error{ReturnCode::bad_parameter, "VISITORS is a whole number, 1 to 999999, not '" + visitors + "'"};
     Client robot;
-    robot.wait(receive(robot, visitors));
+    robot.wait(receive(robot, std::stoi(visitors)));
 } catch (std::exception const& problem) {
     std::fprintf(stderr, "reception: %s\n", problem.what());
     return 1;

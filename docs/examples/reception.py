@@ -2,26 +2,15 @@
 """The reception scenario of the specification (figure 1): wait for a person, go there, find out who it is, tell the message that is there
 for this visitor or ask, bow, say goodbye, return to the start. The history goes to standard output, one line a visitor.
 
-    reception.py [VISITORS]     how many to receive before it ends, 1 when left out; ROIS_URL says where the gateway is
-"""
-import math, os, sys, time
-
-from rois import Engine, NoAnswer
+    reception.py [VISITORS]     how many to receive before it ends, 1 when left out; ROIS_URL says where the gateway is"""
+import math, os, re, sys, time
+from rois import Engine, NoAnswer, Refused
 
 MESSAGES = {
-    "tanaka": "Mr. Tanaka, your meeting is in room 3.",
-    "suzuki": "Ms. Suzuki, your taxi is waiting at the entrance.",
+    "tanaka": "Mr. Tanaka, your meeting is in room 3.", "suzuki": "Ms. Suzuki, your taxi is waiting at the entrance.",
     "somebody": "Welcome. How can I help you?",
 }
-try:
-    visitors = int(sys.argv[1]) if len(sys.argv) > 1 else 1
-    engine = Engine(os.environ.get("ROIS_URL", "http://127.0.0.1:8080"))
-except (NoAnswer, ValueError) as wrong:
-    sys.exit(f"reception.py: {wrong}")
-
-
-def near(a, b, millimetres):
-    return a is not None and b is not None and math.dist(a[:2], b[:2]) <= millimetres
+met = set()  # the temporary names of those who were received, and their permanent ids
 
 
 def look():
@@ -45,12 +34,13 @@ def go_before(x, y, th):
 
 def approach():
     """Goes before the first one who stands and was not received: two looks a second apart find them at one place, and so does a third."""
+    def near(a, b, millimetres):
+        return a is not None and b is not None and math.dist(a[:2], b[:2]) <= millimetres
     before = look()
     time.sleep(1)
     for person, pose in look().items():
         if person not in met and near(before.get(person), pose, 300):
             return person if go_before(*pose) and near(pose, look().get(person), 600) else None
-    return None
 
 
 def say(text):
@@ -68,32 +58,42 @@ def ask(question):
     return heard and heard["recognized_text"][0]
 
 
-for component in ("person_detection", "person_localization", "person_identification", "speech_recognition", "speech_synthesis",
-                  "reaction", "navigation"):
-    engine.bind(component)
-for event_type in ("person_detected", "person_localized", "person_identified", "speech_recognized"):
-    engine.subscribe(event_type)
-start = engine.query("robot_position")["position_data"][0]
-received, met = 0, set()  # met: the temporary names of those who were received, and their permanent ids
-while received < visitors:
-    engine.run("navigation", target_position=["string[]", start])  # from where the hall is seen
-    engine.skip().run("person_detection")
-    engine.event("person_detected", 30, lambda results: int(results["number"][0]) > 0)
-    engine.run("person_detection", "stop")
-    if (person := approach()) is None:
-        continue
-    engine.skip().run("person_identification")
-    visitor = (engine.event("person_identified", 8) or {}).get("person_ref", ["somebody"])[0]
-    engine.run("person_identification", "stop")
-    met.add(person)
-    if visitor not in met:
-        message = MESSAGES.get(visitor, "Welcome. There is no message for you today.")
-        heard = ask(message) if visitor == "somebody" else say(message)
-        met.update({visitor} - {"somebody"})
-        engine.run("reaction", reaction_ref=["RoISIdentifier", "9"])
-        say("Goodbye.")
-        print(f'{visitor}: told "{message}"' + (f', heard "{heard}"' if heard else ""), flush=True)
-        received += 1
-engine.run("navigation", target_position=["string[]", start])
-print(f"received {visitors} visitors")
-engine.request("disconnect")
+def receive(visitors):
+    for component in ("person_detection", "person_localization", "person_identification", "speech_recognition", "speech_synthesis",
+                      "reaction", "navigation"):
+        engine.bind(component)
+    for event_type in ("person_detected", "person_localized", "person_identified", "speech_recognized"):
+        engine.subscribe(event_type)
+    start = engine.query("robot_position")["position_data"][0]
+    received = 0
+    while received < visitors:
+        engine.run("navigation", target_position=["string[]", start])  # from where the hall is seen
+        engine.skip().run("person_detection")
+        engine.event("person_detected", 30, lambda results: int(results["number"][0]) > 0)
+        engine.run("person_detection", "stop")
+        if (person := approach()) is None:
+            continue
+        engine.skip().run("person_identification")
+        visitor = (engine.event("person_identified", 8) or {}).get("person_ref", ["somebody"])[0]
+        engine.run("person_identification", "stop")
+        met.add(person)
+        if visitor not in met:
+            message = MESSAGES.get(visitor, "Welcome. There is no message for you today.")
+            heard = ask(message) if visitor == "somebody" else say(message)
+            met.update({visitor} - {"somebody"})
+            engine.run("reaction", reaction_ref=["RoISIdentifier", "9"])
+            say("Goodbye.")
+            print(f'{visitor}: told "{message}"' + (f', heard "{heard}"' if heard else ""), flush=True)
+            received += 1
+    engine.run("navigation", target_position=["string[]", start])
+    print(f"received {visitors} visitors")
+
+
+given = sys.argv[1] if len(sys.argv) > 1 else "1"
+if not re.fullmatch("[1-9][0-9]{0,5}", given):
+    sys.exit(f"reception.py: VISITORS is a whole number, 1 to 999999, not '{given}'")
+try:
+    with Engine(os.environ.get("ROIS_URL", "http://127.0.0.1:8080")) as engine:
+        receive(int(given))
+except (NoAnswer, Refused, ValueError) as wrong:
+    sys.exit(f"reception.py: {wrong}")

@@ -38,6 +38,19 @@ class Engine:
         self.names = (f"step-{n}" for n in itertools.count(1))
         self.session = self.request("connect").findtext(M + "session")
 
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, *_):
+        """Ends the session, and what the robot does for it; also when something went wrong, unless that was that nobody answers."""
+        if kind is NoAnswer:
+            return
+        try:
+            self.request("disconnect")
+        except (Refused, NoAnswer):
+            if kind is None:
+                raise
+
     def request(self, operation, content="", attributes=""):
         """The answer's document; Refused when it is not OK."""
         answer = self._fetch("/rois", f"<{operation} {NAMES} {attributes}>{content}</{operation}>".encode())
@@ -118,13 +131,22 @@ class Engine:
                 with urllib.request.urlopen(urllib.request.Request(self.url + path, body, headers), timeout=patience) as answer:
                     return ElementTree.fromstring(answer.read())
             except urllib.error.HTTPError as fault:
-                raise Refused(fault.read().decode()) from None
+                raise Refused(reason_of(fault)) from None
             except (OSError, http.client.HTTPException, ElementTree.ParseError) as trouble:  # the last: cut off in its head
                 end = end or time.monotonic() + self.deadline
                 if time.monotonic() >= end:
                     raise NoAnswer(f"{self.url} does not answer: {trouble}") from None
                 print(f"asking again after {trouble!r}", file=sys.stderr)
                 time.sleep(pause)
+
+
+def reason_of(error):
+    """A fault's code and reason; the status alone where it was no gateway that answered."""
+    try:
+        fault = ElementTree.fromstring(error.read())
+    except (OSError, http.client.HTTPException, ElementTree.ParseError):
+        return str(error)
+    return f"{fault.get('code')}: {fault.findtext(M + 'reason')}" if fault.tag == M + "fault" else str(error)
 
 
 def results_of(document):

@@ -32,8 +32,8 @@ TEST(TheReceptionInCpp, TellsTheHistoryOfTheDay) {
 
 TEST(TheReceptionInCpp, SaysWhyItCannotReceive) {
     auto const& gateway = shared_gateway().url();
-    for (auto const* visitors : {"abc", "0", "-1"})
-        EXPECT_EQ(printed(gateway, visitors, 1), "reception: expected a number of visitors\n");
+    for (std::string const visitors : {"abc", "0", "-3", "2abc", "1.5", "1000000"})
+        EXPECT_EQ(printed(gateway, visitors, 1), "reception: VISITORS is a whole number, 1 to 999999, not '" + visitors + "'\n");
     EXPECT_THAT(printed(gateway + "/nowhere", "1", 1), testing::MatchesRegex("reception: bind_any: .*404.*\n"));
     EXPECT_THAT(printed("nowhere", "1", 1), testing::StartsWith("reception: "));
 }

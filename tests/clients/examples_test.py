@@ -13,6 +13,7 @@ EXAMPLES = ROOT / "docs" / "examples"
 sys.path.insert(0, str(EXAMPLES))
 import rois  # noqa: E402
 
+NO_NUMBERS = ("abc", "0", "-3", "2abc", "1.5", "1_0", "1000000", "")
 PLACES = ["string[]", "4000, 5000", "4100, 5000", "4200, 5000"]
 
 
@@ -20,6 +21,11 @@ def nobody():
     """The URL of a port where nobody listens."""
     with socket.create_server(("127.0.0.1", 0)) as taken:
         return f"http://127.0.0.1:{taken.getsockname()[1]}"
+
+
+def run(*program, url):
+    """How an example ends, and what it says on standard error."""
+    return subprocess.run([*program], env=os.environ | {"ROIS_URL": url}, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
 def answer_once(server):
@@ -78,7 +84,40 @@ class WithAGateway(unittest.TestCase):
         self.assertEqual(self.engine.dropped, 1)
 
 
+    def test_the_reception_says_in_a_line_what_was_refused_and_ends_its_session(self):
+        end = run("python3", "-B", EXAMPLES / "reception.py", url=self.url)  # navigation is bound here
+        self.assertEqual(end.returncode, 1)
+        self.assertRegex(end.stderr, r"\Areception\.py: bind: OUT_OF_RESOURCES: .*\n\Z")
+        self.engine.bind("person_detection")  # what it had bound
+
+    def test_the_reception_says_in_a_line_that_no_gateway_is_there(self):
+        end = run("python3", "-B", EXAMPLES / "reception.py", url=f"{self.url}/nowhere")
+        self.assertEqual(end.returncode, 1)
+        self.assertRegex(end.stderr, r"\Areception\.py: not_found: .*\n\Z")
+
+
 class WithoutAGateway(unittest.TestCase):
+    def test_the_receptions_say_what_is_no_number(self):
+        for *program, name, code in (("python3", "-B", "reception.py", 1), ("sh", "reception.sh", 2)):
+            for visitors in NO_NUMBERS:
+                end = run(*program, EXAMPLES / name, visitors, url=nobody())
+                self.assertEqual(end.stderr, f"{name}: VISITORS is a whole number, 1 to 999999, not '{visitors}'\n")
+                self.assertEqual(end.returncode, code)
+
+    def test_what_answers_and_is_no_gateway_is_named_by_its_status(self):
+        def answer(server):
+            came, _ = server.accept()
+            with came:
+                came.recv(4096)
+                came.sendall(b"HTTP/1.1 502 Bad Gateway\r\nContent-Length: 14\r\nConnection: close\r\n\r\n<html>\n<hr>\n\n ")
+
+        with socket.create_server(("127.0.0.1", 0)) as server:
+            answering = threading.Thread(target=answer, args=(server,))
+            answering.start()
+            with self.assertRaisesRegex(rois.Refused, "^HTTP Error 502: Bad Gateway$"):
+                rois.Engine(f"http://127.0.0.1:{server.getsockname()[1]}")
+            answering.join()
+
     def test_a_call_ends_at_its_deadline(self):
         with self.assertRaisesRegex(rois.NoAnswer, "refused"):
             rois.Engine(nobody(), deadline=0)

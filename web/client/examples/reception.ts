@@ -1,7 +1,7 @@
 // The reception scenario of the specification (figure 1): wait for a person, go there, find out who it is, tell the message that is
 // there for this visitor or ask, bow, say goodbye, return to the start. The history goes to standard output, one line a visitor.
 //   reception [VISITORS]     how many to receive before it ends, 1 when left out; ROIS_URL says where the gateway is
-import { connect, Navigation, PersonDetection, PersonIdentification, PersonLocalization, type Pose } from 'rois-client';
+import { type Client, connect, Navigation, PersonDetection, PersonIdentification, PersonLocalization, type Pose } from 'rois-client';
 import { property, Reaction, SpeechRecognition, SpeechSynthesis, SystemInformation } from 'rois-client';
 
 const messages: Record<string, string> = {
@@ -9,82 +9,73 @@ const messages: Record<string, string> = {
   suzuki: 'Ms. Suzuki, your taxi is waiting at the entrance.',
   somebody: 'Welcome. How can I help you?',
 };
-const visitors = Number(process.argv[2] ?? 1);
-const client = await connect(process.env['ROIS_URL']);
-client.on('gap', (gap) => console.error('missed', gap));
+const near = (a: Pose | undefined, b: Pose | undefined, mm: number) => a && b && Math.hypot(a.x - b.x, a.y - b.y) <= mm;
 
-const detection = await PersonDetection.bind_any(client);
-const localization = await PersonLocalization.bind_any(client);
-const identification = await PersonIdentification.bind_any(client);
-const recognition = await SpeechRecognition.bind_any(client);
-const synthesis = await SpeechSynthesis.bind_any(client);
-const reaction = await Reaction.bind_any(client);
-const navigation = await Navigation.bind_any(client);
-const detected = await detection.subscribe('person_detected', property('number').greater_than(0));
-const localized = await localization.subscribe('person_localized');
-const identified = await identification.subscribe('person_identified');
-const recognized = await recognition.subscribe('speech_recognized');
-const start = (await new SystemInformation(client, 'system_information').robot_position())[0]!;
-const met = new Set<string>(); // the temporary names of those who were received, and their permanent ids
-
-function near(a: Pose | undefined, b: Pose | undefined, millimetres: number): boolean {
-  return a !== undefined && b !== undefined && Math.hypot(a.x - b.x, a.y - b.y) <= millimetres;
-}
-
-// Looks around once: who is where.
-async function look(): Promise<Map<string, Pose>> {
-  localized.clear();
-  await localization.start();
-  const results = (await localized.next(3000))?.results;
-  await localization.stop();
-  const poses = results?.poses('position_data') ?? [];
-  return new Map(results?.texts('person_ref').map((person, i) => [person, poses[i]!]));
-}
-
-// Goes to a metre before somebody, beside that when there is no way.
-async function go_before({ x, y, th }: Pose): Promise<boolean> {
-  for (const side of [0, 60, -60, 120, -120].map((turn) => th + turn)) {
-    const [ahead, aside] = [1000 * Math.cos((side * Math.PI) / 180), 1000 * Math.sin((side * Math.PI) / 180)];
-    const place = { x: Math.round(x + ahead), y: Math.round(y + aside), th: Math.round(side + 180) };
-    if ((await navigation.go_to(place, { time_limit: 90_000 })) === 'OK') return true;
+async function receive(client: Client, visitors: number): Promise<void> {
+  client.on('gap', (gap) => console.error('missed', gap));
+  const detection = await PersonDetection.bind_any(client);
+  const localization = await PersonLocalization.bind_any(client);
+  const identification = await PersonIdentification.bind_any(client);
+  const recognition = await SpeechRecognition.bind_any(client);
+  const synthesis = await SpeechSynthesis.bind_any(client);
+  const reaction = await Reaction.bind_any(client);
+  const navigation = await Navigation.bind_any(client);
+  const detected = await detection.subscribe('person_detected', property('number').greater_than(0));
+  const localized = await localization.subscribe('person_localized');
+  const identified = await identification.subscribe('person_identified');
+  const recognized = await recognition.subscribe('speech_recognized');
+  const start = (await new SystemInformation(client, 'system_information').robot_position())[0]!;
+  const met = new Set<string>(); // the temporary names of those who were received, and their permanent ids
+  // Looks around once: who is where.
+  async function look(): Promise<Map<string, Pose>> {
+    localized.clear();
+    await localization.start();
+    const results = (await localized.next(3000))?.results;
+    await localization.stop();
+    const poses = results?.poses('position_data') ?? [];
+    return new Map(results?.texts('person_ref').map((person, i) => [person, poses[i]!]));
   }
-  return false;
-}
-
-// Goes before the first one who stands and was not received: two looks a second apart find them at one place, and so does a third.
-async function approach(): Promise<string | undefined> {
-  const before = await look();
-  await new Promise((resolve) => setTimeout(resolve, 1000));
-  for (const [person, pose] of await look())
-    if (!met.has(person) && near(before.get(person), pose, 300))
-      return (await go_before(pose)) && near(pose, (await look()).get(person), 600) ? person : undefined;
-  return undefined;
-}
-
-// Says it, and gives what somebody answers.
-async function ask(question: string): Promise<string | undefined> {
-  await recognition.listen();
-  await synthesis.say(question);
-  const heard = (await recognized.next(10_000))?.results.text('recognized_text');
-  await recognition.stop();
-  recognized.clear();
-  if (heard !== undefined) await synthesis.say('I shall tell my colleagues at the desk.');
-  return heard;
-}
-
-for (let received = 0; received < visitors; ) {
-  await navigation.go_to(start); // from where the hall is seen
-  await detection.start();
-  await detected.next(30_000);
-  await detection.stop();
-  const person = await approach();
-  if (person === undefined) continue;
-  await identification.start();
-  const visitor = (await identified.next(8000))?.results.text('person_ref') ?? 'somebody';
-  await identification.stop();
-  identified.clear();
-  met.add(person);
-  if (!met.has(visitor)) {
+  // Goes to a metre before somebody, beside that when there is no way.
+  async function go_before({ x, y, th }: Pose): Promise<boolean> {
+    for (const side of [0, 60, -60, 120, -120].map((turn) => th + turn)) {
+      const [ahead, aside] = [1000 * Math.cos((side * Math.PI) / 180), 1000 * Math.sin((side * Math.PI) / 180)];
+      const place = { x: Math.round(x + ahead), y: Math.round(y + aside), th: Math.round(side + 180) };
+      if ((await navigation.go_to(place, { time_limit: 90_000 })) === 'OK') return true;
+    }
+    return false;
+  }
+  // Goes before the first one who stands and was not received: two looks a second apart find them at one place, and so does a third.
+  async function approach(): Promise<string | undefined> {
+    const before = await look();
+    await new Promise((resolve) => setTimeout(resolve, 1000));
+    for (const [person, pose] of await look())
+      if (!met.has(person) && near(before.get(person), pose, 300))
+        return (await go_before(pose)) && near(pose, (await look()).get(person), 600) ? person : undefined;
+    return undefined;
+  }
+  // Says it, and gives what somebody answers.
+  async function ask(question: string): Promise<string | undefined> {
+    await recognition.listen();
+    await synthesis.say(question);
+    const heard = (await recognized.next(10_000))?.results.text('recognized_text');
+    await recognition.stop();
+    recognized.clear();
+    if (heard !== undefined) await synthesis.say('I shall tell my colleagues at the desk.');
+    return heard;
+  }
+  for (let received = 0; received < visitors; ) {
+    await navigation.go_to(start); // from where the hall is seen
+    await detection.start();
+    await detected.next(30_000);
+    await detection.stop();
+    const person = await approach();
+    if (person === undefined) continue;
+    await identification.start();
+    const visitor = (await identified.next(8000))?.results.text('person_ref') ?? 'somebody';
+    await identification.stop();
+    identified.clear();
+    met.add(person);
+    if (met.has(visitor)) continue;
     const message = messages[visitor] ?? 'Welcome. There is no message for you today.';
     const heard = visitor === 'somebody' ? await ask(message) : void (await synthesis.say(message));
     if (visitor !== 'somebody') met.add(visitor);
@@ -93,7 +84,16 @@ for (let received = 0; received < visitors; ) {
     console.log(`${visitor}: told "${message}"${heard === undefined ? '' : `, heard "${heard}"`}`);
     received += 1;
   }
+  await navigation.go_to(start);
 }
-await navigation.go_to(start);
-await client.close();
-console.log(`received ${visitors} visitors`);
+
+const visitors = process.argv[2] ?? '1';
+try {
+  if (!/^[1-9]\d{0,5}$/.test(visitors)) throw new Error(`VISITORS is a whole number, 1 to 999999, not '${visitors}'`);
+  const client = await connect(process.env['ROIS_URL']);
+  await receive(client, Number(visitors)).finally(() => client.close());
+  console.log(`received ${visitors} visitors`);
+} catch (problem) {
+  console.error(`reception: ${(problem as Error).message}`);
+  process.exitCode = 1;
+}

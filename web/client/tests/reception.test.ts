@@ -3,6 +3,8 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 
+import { connect } from 'rois-client';
+
 import { Gateway, root } from './gateway.js';
 import { output_of } from './program.js';
 import { Proxy, random_from } from './proxy.js';
@@ -36,6 +38,31 @@ test('the reception has one history', { concurrency: true }, async (all) => {
     all.test(`in ${name}, while the link is cut`, async () => assert.equal(await received_by(command, 10), history)),
   ]);
   await Promise.all(each);
+});
+
+const [, , in_typescript] = programs[0]!;
+
+test('the reception in TypeScript says in a line what is no number of visitors', async () => {
+  const ends = ['abc', '0', '-3', '2abc', '1.5', '1000000', ''].map((visitors) =>
+    assert.rejects(output_of([...in_typescript, visitors], 'http://127.0.0.1:1'), {
+      message: `it ended with 1: reception: VISITORS is a whole number, 1 to 999999, not '${visitors}'\n`,
+    }),
+  );
+  await Promise.all(ends);
+});
+
+test('the reception in TypeScript says in a line why it cannot receive, and ends its session', async () => {
+  const gateway = await Gateway.start('--scenario', `${data}/empty_hall.xml`);
+  try {
+    const other = await connect(gateway.url);
+    await other.bind('navigation');
+    await assert.rejects(output_of(in_typescript, gateway.url), { message: /^it ended with 1: reception: bind_any: .*\n$/ });
+    await other.bind('person_detection'); // what it had bound
+    await other.close();
+    await assert.rejects(output_of(in_typescript, `${gateway.url}/nowhere`), { message: /^it ended with 1: reception: .*\n$/ });
+  } finally {
+    await gateway.stop();
+  }
 });
 
 test('the reception is shorter than 100 lines', () => {
