@@ -11,6 +11,8 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <thread>
+#include <vector>
 
 namespace rois::bench {
 
@@ -36,15 +38,22 @@ void accept_for_ever(Acceptor& acceptor, Shared&... shared) {
     });
 }
 
-// Serves on 127.0.0.1 until it is killed.
+// Serves on 127.0.0.1 until it is killed. Each thread has an io_context of its own and an acceptor on the same port.
 template <class Session, class... Shared>
-int serve(char const* port, Shared&... shared) {
-    asio::io_context io{1};
-    Acceptor acceptor{io.get_executor(), Tcp::endpoint{asio::ip::address_v4::loopback(),
-                                                       static_cast<std::uint16_t>(std::strtoul(port, nullptr, 10))}};
-    acceptor.listen(4'096);
-    accept_for_ever<Session>(acceptor, shared...);
-    io.run();
+int serve(char const* port, std::size_t threads, Shared&... shared) {
+    Tcp::endpoint const here{asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(std::strtoul(port, nullptr, 10))};
+    auto const run = [&] {
+        asio::io_context io{1};
+        Acceptor acceptor{io.get_executor(), here.protocol()};
+        acceptor.set_option(asio::detail::socket_option::boolean<SOL_SOCKET, SO_REUSEPORT>{true});
+        acceptor.bind(here);
+        acceptor.listen(4'096);
+        accept_for_ever<Session>(acceptor, shared...);
+        io.run();
+    };
+    std::vector<std::jthread> others;
+    while (others.size() + 1 < threads) others.emplace_back(run);
+    run();
     return 0;
 }
 

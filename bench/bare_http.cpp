@@ -1,5 +1,5 @@
-// rois-bare-http PORT ANSWER_BYTES: what HTTP with keep-alive costs at least with Boost.Beast: callbacks, kept buffers, the
-// fields of a message in an arena, one thread. It reads the request's body and answers with as many bytes, always the same.
+// rois-bare-http PORT ANSWER_BYTES [THREADS]: what HTTP with keep-alive costs at least with Boost.Beast: callbacks, kept buffers,
+// the fields of a message in an arena. It reads the request's body and answers with as many bytes, always the same.
 #include "asio.hpp"
 
 #include <array>
@@ -69,7 +69,7 @@ private:
 }  // namespace rois::bench
 
 int main(int argc, char** argv) {
-    if (argc != 3) return 2;
+    if (argc != 3 && argc != 4) return 2;
     std::string const answer(std::strtoul(argv[2], nullptr, 10), 'x');
-    return rois::bench::serve<rois::bench::HttpSession>(argv[1], answer);
+    return rois::bench::serve<rois::bench::HttpSession>(argv[1], argc == 4 ? std::strtoul(argv[3], nullptr, 10) : 1, answer);
 }

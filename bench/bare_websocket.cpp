@@ -1,5 +1,5 @@
-// rois-bare-websocket PORT: what a WebSocket costs at least with Boost.Beast: each text message is sent back, with callbacks and
-// a kept buffer, on one thread.
+// rois-bare-websocket PORT [THREADS]: what a WebSocket costs at least with Boost.Beast: each text message is sent back, with
+// callbacks and a kept buffer.
 #include "asio.hpp"
 
 #include <boost/beast/core/flat_buffer.hpp>
@@ -47,4 +47,7 @@ private:
 
 }  // namespace rois::bench
 
-int main(int argc, char** argv) { return argc == 2 ? rois::bench::serve<rois::bench::EchoSession>(argv[1]) : 2; }
+int main(int argc, char** argv) {
+    if (argc != 2 && argc != 3) return 2;
+    return rois::bench::serve<rois::bench::EchoSession>(argv[1], argc == 3 ? std::strtoul(argv[2], nullptr, 10) : 1);
+}

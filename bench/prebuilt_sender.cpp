@@ -87,5 +87,5 @@ int main(int argc, char** argv) {
     if (argc != 3) return 2;
     rois::bench::Everyone everyone;
     everyone.message_bytes = std::strtoul(argv[2], nullptr, 10);
-    return rois::bench::serve<rois::bench::Subscriber>(argv[1], everyone);
+    return rois::bench::serve<rois::bench::Subscriber>(argv[1], 1, everyone);
 }

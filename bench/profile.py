@@ -44,6 +44,8 @@ STATIONS = {
     "rois::net::Hold": "hold of notifications",
     "rois::net::Gateway::answer": "Gateway::answer, the rest",
     "rois::net::Connection::take_head": "HTTP head",
+    "rois::net::Connection::judge_head": "HTTP head",
+    "rois::net::HeadReader::": "HTTP head",
     "rois::net::read_head": "HTTP head",
     "rois::net::find_head": "HTTP head",
     "rois::net::route_of": "HTTP head",

@@ -57,6 +57,8 @@ Options read_options(int argc, char const* const* argv) {
         {"--setup", [&](auto const& text) { options.setup.push_back(text_of(text)); }},
         {"--repeat", [&](auto const& text) { options.repeat = whole(text); }},
         {"--body", [&](auto const& text) { options.bodies.push_back(text_of(text)); }},
+        {"--variants", [&](auto const& text) { options.variants = whole(text); }},
+        {"--other-heads", [&](auto const& text) { options.other_heads = text == "yes"; }},
         {"--await", [&](auto const& text) { options.await = text; }},
         {"--expect", [&](auto const& text) { options.expect = text; }},
         {"--fire-setup", [&](auto const& text) { options.fire_setup.push_back(text_of(text)); }},

@@ -23,6 +23,8 @@ struct Options {
     std::vector<std::string> setup;   // documents that each connection sends first
     std::size_t repeat = 1;           // how often it sends them
     std::vector<std::string> bodies;  // documents that it sends then, one after the other
+    std::size_t variants = 1;         // of each of them, with another {number} each
+    bool other_heads = false;         // over HTTP no request has the head of the one before
     std::string await;                // a request is over when a notification holds this text
     std::string expect;               // each answer must hold this text
     std::vector<std::string> fire_setup;

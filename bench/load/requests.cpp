@@ -16,7 +16,8 @@ namespace {
 class Asker {
 public:
     Asker(Application& application, Options const& options, std::size_t number) : application_{application}, options_{options} {
-        for (auto const& body : options.bodies) requests_.push_back(application.carried(filled_in(body, number, number)));
+        for (std::size_t i = 0; i < options.variants; ++i)
+            for (auto const& body : options.bodies) prepare(filled_in(body, number, number * options.variants + i));
     }
 
     // `due`: when it should have been sent, from which its latency counts.
@@ -40,6 +41,14 @@ public:
     std::size_t answer_bytes() const { return answer_bytes_; }
 
 private:
+    // Once, or twice with another field in the head.
+    void prepare(std::string const& document) {
+        auto const request = application_.carried(document);
+        if (!options_.other_heads) return requests_.push_back(request);
+        for (auto const* field : {"Max-Forwards: 1\r\n", "Max-Forwards: 2\r\n"})
+            requests_.push_back(std::string{request}.insert(request.find("Host:"), field));
+    }
+
     void take(Socket::Message const& message) {
         bool const told = options_.via == Via::http ? answered_ : is_notification(message.body);
         if (told) {

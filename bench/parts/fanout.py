@@ -1,5 +1,7 @@
 """One event to many subscribers, and what requests feel of it meanwhile."""
 
+import json
+
 from processes import BIN, WORK, BenchError, Server, beside, document, load, running, stage
 
 MANY = 1_000
@@ -62,4 +64,7 @@ def requests_beside_events(settings, via):
             measured = load("requests", server, body=document("reading-0.6kB"), seconds=seconds, **requests)
             if events_told.poll() is not None:
                 raise BenchError("the events ended before the requests beside them were measured")
+            told = json.loads(events_told.stdout.readline())["messages_per_second"]
+            if told < 0.975 * 20 * MANY:
+                raise BenchError(f"only {told:.0f} events a second came to {MANY} subscribers beside the requests")
             return {name: value for name, value in measured.items() if name != "cpu_us"}  # that of the events is in it

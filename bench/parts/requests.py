@@ -9,11 +9,13 @@ GSOAP = "gSOAP, HTTP"
 XMLRPC = "xmlrpc.server, HTTP"
 HTTP = "query 0.6 kB, HTTP"
 WEBSOCKET = "query 0.6 kB, WebSocket"
+OTHER_HEADS = "query 0.6 kB, HTTP, never the same head twice running"
 
-AGAINST = {HTTP: BARE_HTTP, GSOAP: HTTP, XMLRPC: HTTP, WEBSOCKET: BARE_WEBSOCKET}  # row -> row that it is divided by
+AGAINST = {HTTP: BARE_HTTP, OTHER_HEADS: BARE_HTTP, GSOAP: HTTP, XMLRPC: HTTP, WEBSOCKET: BARE_WEBSOCKET}  # row -> row that it is divided by
 
 MODES = {"HTTP": "http", "WebSocket": "websocket"}
 ANSWER_BYTES = 557  # of the gateway to the query
+MANY_VARIANTS = 2_500  # for each of 64 connections: more than are asked for in a second
 
 
 def against(bare, row):
@@ -32,8 +34,17 @@ def round(keep, settings):
     vary_size_and_connections(ask, settings)
     with running(gateway(2, *settings.gateway)) as (server,):
         for name, via in MODES.items():
-            ask(f"query 0.6 kB, {name}, 2 threads", server, "query-0.6kB", via=via)
+            with running(bare_on_two_threads(name)) as (bare,):
+                compared = f"bare, 0.6 kB, {name}, 2 threads"
+                ask(compared, bare, "query-0.6kB", connect=False, via=via)
+            ask(against(compared, f"query 0.6 kB, {name}, 2 threads"), server, "query-0.6kB", via=via)
     operations(ask)
+
+
+def bare_on_two_threads(name):
+    if name == "HTTP":
+        return Server("bare-http-2", [BIN / "rois-bare-http", "{port}", ANSWER_BYTES, 2], threads=2)
+    return Server("bare-websocket-2", [BIN / "rois-bare-websocket", "{port}", 2], threads=2)
 
 
 def compare(ask, settings):
@@ -50,6 +61,7 @@ def compare(ask, settings):
         for _ in range(settings.turns):
             ask(BARE_HTTP, bare, query, connect=False)
             ask(HTTP, rois, query)
+            ask(OTHER_HEADS, rois, query, other_heads="yes")
             ask(GSOAP, gsoap, "call-of-gsoap", connect=False, path="/", expect=">OK<")
             ask(XMLRPC, xmlrpc, "call-of-xmlrpc", connect=False, path="/RPC2", expect="9498.984")
             ask(BARE_WEBSOCKET, echo, query, connect=False, via="websocket")
@@ -72,7 +84,9 @@ def vary_size_and_connections(ask, settings):
             compared = f"bare, 0.6 kB, HTTP, {many}"
             ask(compared, bare, query, connections, connect=False)
             ask(against(compared, f"query 0.6 kB, HTTP, {many}"), server, query, connections)
-            ask(f"query 0.6 kB, WebSocket, {many}", server, query, connections, via="websocket")
+            compared = f"bare, 0.6 kB, WebSocket, {many}"
+            ask(compared, echo, query, connections, connect=False, via="websocket")
+            ask(against(compared, f"query 0.6 kB, WebSocket, {many}"), server, query, connections, via="websocket")
 
 
 def operations(ask):
@@ -83,3 +97,5 @@ def operations(ask):
             told = {"setup": document("bind"), "await": "<completed"}
             ask(f"stage: execute until completed, {name}", server, "execute", via=via, **told)
             ask(f"stage: subscribe again, {name}", server, "subscribe", via=via)
+        for name, via in MODES.items():
+            ask(f"stage: subscribe to something new, {name}", server, "subscribe-elsewhere", via=via, variants=MANY_VARIANTS)
