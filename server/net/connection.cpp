@@ -98,17 +98,17 @@ Connection::Then Connection::take_head() {
     if (size == 0 && wire_.received().size() <= settings.max_header) return Then::receive;
     if (size == 0 || size > settings.max_header) return refuse(overlong_head(wire_.text(), settings));
     searched_ = 0;
-    auto const fault = heads_.read(wire_.text().substr(0, size), settings);
+    auto const fault = heads_->read(wire_.text().substr(0, size), settings);
     wire_.use(size);
     if (fault) return refuse(*fault);
-    if (!heads_.repeated()) session_.text.assign(head().field("RoIS-Session").value_or(""));
+    if (!heads_->repeated()) session_.text.assign(head().field("RoIS-Session").value_or(""));
     return Then::next;
 }
 
 // Sends a request away by its head alone, or keeps it. What was kept is kept again, unless its length is another.
 Connection::Then Connection::judge_head() {
     auto const& settings = loop_.shared().settings;
-    has_head_ = heads_.repeated() && !refused_ && head().content_length <= settings.document.bytes;
+    has_head_ = heads_->repeated() && !refused_ && head().content_length <= settings.document.bytes;
     if (has_head_) return Then::next;
     route_ = route_of(head().path);
     auto const refused = refusal(head(), route_, settings);
@@ -176,7 +176,7 @@ Connection::Then Connection::serve_upgrade() {
 // Of the request nothing is kept: there may be many thousand WebSockets that wait.
 Task<> Connection::serve_websocket() {
     co_await flush();
-    heads_ = {};
+    heads_.reset();
     std::string{}.swap(out_);
     auto const& shared = loop_.shared();
     counted_.emplace(shared.telemetry, Telemetry::Kind::websocket);

@@ -36,7 +36,7 @@ private:
     // What becomes of the connection after a request; `receive`: it has not arrived whole.
     enum class Then : std::uint8_t { next, receive, websocket, linger, end };
 
-    RequestHead const& head() const { return heads_.last(); }
+    RequestHead const& head() const { return heads_->last(); }
     Task<Then> serve();
     Then take_request();
     Then take_head();
@@ -63,10 +63,10 @@ private:
     Wire wire_;
     std::optional<Telemetry::Counted> counted_;
     // The request that is being received or served.
-    std::size_t searched_ = 0;  // bytes in which no head ends
-    bool has_head_ = false;     // of these four
-    HeadReader heads_;
-    bool refused_ = false;  // by its head
+    std::size_t searched_ = 0;                        // bytes in which no head ends
+    bool has_head_ = false;                           // of these four
+    std::optional<HeadReader> heads_{std::in_place};  // none behind a WebSocket
+    bool refused_ = false;                            // by its head
     Route route_;
     SessionId session_;  // that it names; empty when it names none
     Steady request_due_ = Steady::max();

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 
@@ -105,6 +106,13 @@ GatewayProcess::~GatewayProcess() {
     signal(SIGTERM);
     auto const ended = wait();
     EXPECT_EQ(ended.exit_code, 0) << ended.error;
+}
+
+std::size_t GatewayProcess::resident_bytes() const {
+    std::ifstream in{"/proc/" + std::to_string(process_) + "/statm"};
+    std::size_t whole = 0, resident = 0;
+    in >> whole >> resident;
+    return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
 void GatewayProcess::signal(int number) { kill(process_, number); }

@@ -36,6 +36,7 @@ public:
     std::uint16_t port() const { return port_; }
     std::string const& url() const { return url_; }
     client::Address address() const { return {.port = port_}; }
+    std::size_t resident_bytes() const;
 
     void signal(int number);
     // Waits for its end.

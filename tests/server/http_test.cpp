@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 
 #include "server/http_client.hpp"
@@ -36,6 +37,34 @@ TEST(Http, KeepsTheConnectionAndAnswersInOrder) {
     EXPECT_EQ(headers_only.header("Content-Length"), "6");
     EXPECT_EQ(client.read().header("Connection"), "close");
     EXPECT_TRUE(client.line().ends());
+}
+
+// Heads that differ in little: in what they say of the body, and in whose session they are.
+TEST(Http, TellsRequestsApartThatLookAlike) {
+    std::array<HttpClient, 2> applications;
+    for (auto& application : applications) application.call("connect");
+    auto const post = [&](std::string const& session, std::string const& id, std::string const& blanks) {
+        auto const body = request("search", "", {{"request_id", id}}) + blanks;
+        return head("POST /rois", "RoIS-Session: " + session +
+                                      "\r\nContent-Type: text/xml\r\nContent-Length: " + std::to_string(body.size()) + "\r\n") +
+               body;
+    };
+    auto const &first = applications[0].session, &second = applications[1].session;
+    std::string const nobody(first.size(), 'x');
+    HttpClient client;
+    std::string all;
+    for (auto const& one : {post(first, "a", ""), post(first, "b", "  "), post(second, "c", "   "), post(nobody, "d", "   "),
+                            post(first, "e", std::string(1'000, ' ')), post(first, "f", std::string(1'001, ' '))})
+        all += one;
+    client.line().send(all + head("GET /healthz") + head("GET /healthz") + post(second, "g", ""));
+    for (std::string const id : {"a", "b", "c", "d", "e", "f"}) {
+        auto const reply = client.read();
+        EXPECT_EQ(reply.status, id == "d" ? 403 : 200) << id;
+        EXPECT_EQ(reply.root().attribute("request_id").value(), id);
+    }
+    EXPECT_EQ(client.read().status, 200);
+    EXPECT_EQ(client.read().status, 200);
+    EXPECT_EQ(client.read().return_code(), "OK");
 }
 
 TEST(Http, TakesARequestByteByByte) {

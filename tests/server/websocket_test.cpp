@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <stop_token>
 #include <thread>
+#include <vector>
 
 #include "server/websocket_client.hpp"
 
@@ -44,6 +46,24 @@ TEST(Handshake, IsRefusedWithoutItsParts) {
     EXPECT_EQ(reply.header("Sec-WebSocket-Version"), "13");
     EXPECT_EQ(http.get("/rois").status, 426);
     EXPECT_EQ(shake_hands(http).status, 101) << "a refusal leaves the connection as it was";
+}
+
+TEST(Handshake, LeavesNothingBehindOfItsHead) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "memory that was given back still counts";
+#endif
+    GatewayProcess gateway{{"--threads", "1"}};
+    std::vector<std::unique_ptr<HttpClient>> applications;
+    auto const connect = [&](std::size_t many) {
+        for (std::size_t i = 0; i < many; ++i) {
+            applications.push_back(std::make_unique<HttpClient>(gateway));
+            ASSERT_EQ(shake_hands(*applications.back(), {{"Cookie", std::string(12'000, 'x')}}).status, 101);
+        }
+    };
+    connect(20);
+    auto const before = gateway.resident_bytes();
+    connect(200);
+    EXPECT_LT((gateway.resident_bytes() - before) / 200, 9'000U);
 }
 
 TEST(Handshake, IsForPagesOfThisServerAndThoseAllowed) {
