@@ -14,7 +14,7 @@ namespace {
 // they are called for some turns before their own.
 void call_nearer(std::span<Subscription::Hearer const> those_who_follow, Notifier const& notifier) {
     auto const follows = [&](std::size_t turns) { return turns < those_who_follow.size(); };
-    if (follows(6)) prefetch(those_who_follow[6].queue, sizeof(NotificationQueue));
+    if (follows(6)) prefetch<sizeof(NotificationQueue)>(those_who_follow[6].queue);
     if (follows(4)) Notifier::approach(*those_who_follow[4].queue);
     if (follows(2)) notifier.approach_readers(*those_who_follow[2].queue);
 }

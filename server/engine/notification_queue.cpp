@@ -25,13 +25,15 @@ NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotifi
     std::lock_guard const lock{mutex_};
     if (waiting_ >= max_waiting_ && !make_room()) overflowed_ = true;
     if (overflowed_ && std::holds_alternative<ReceiveEvent>(notification->body)) return Pushed::overflow;
-    newest_.store(&entries_.emplace_back(++last_sequence_, std::move(notification)), std::memory_order_relaxed);
+    if (recent_count_ == recent_.size()) settle_recent();
+    recent_[recent_count_++] = {++last_sequence_, std::move(notification)};
     ++waiting_;
     return overflowed_ ? Pushed::overflow : Pushed::ok;
 }
 
 // Drops the oldest waiting event; a `Lost` takes its place, joined with one that stands right before it.
 bool NotificationQueue::make_room() {
+    settle_recent();
     auto const first_waiting = entries_.begin() + static_cast<std::ptrdiff_t>(sent_);
     auto const event = std::find_if(first_waiting, entries_.end(), [](Numbered const& entry) {
         return std::holds_alternative<ReceiveEvent>(entry.notification->body);
@@ -58,6 +60,8 @@ std::vector<Numbered> NotificationQueue::read(std::uint64_t after, std::size_t m
 
 NotificationQueue::Next NotificationQueue::read(std::uint64_t after, std::size_t most, std::vector<Numbered>& into) {
     std::lock_guard const lock{mutex_};
+    if (is_recent(after) && max_sent_ >= recent_.size()) return read_recent(after, most, into);
+    settle_recent();
     auto const until = visible_until();
     auto entry = first_after(after);
     auto const begin = into.size();
@@ -70,13 +74,30 @@ NotificationQueue::Next NotificationQueue::read(std::uint64_t after, std::size_t
     for (; entry != entries_.end() && entry->sequence <= until && into.size() - begin < most; ++entry) into.push_back(*entry);
     if (into.size() == begin) return after_locked(after);
     mark_sent(into.back().sequence);
+    forget();
     return after_locked(into.back().sequence);
+}
+
+// Most readers go on where they have stopped. Nothing that is so recent was forgotten.
+NotificationQueue::Next NotificationQueue::read_recent(std::uint64_t after, std::size_t most, std::vector<Numbered>& into) {
+    auto const until = visible_until();
+    auto last = after;
+    for (; most > 0 && last < until; --most) into.push_back(recent_[++last - recent_.front().sequence]);
+    if (last > after) mark_sent(last);
+    return after_locked(last);
+}
+
+void NotificationQueue::settle_recent() {
+    for (std::size_t i = 0; i < recent_count_; ++i) entries_.push_back(std::move(recent_[i]));
+    recent_count_ = 0;
+    forget();
 }
 
 // Most readers go on where the last has stopped: at the first that waits.
 std::vector<Numbered>::const_iterator NotificationQueue::first_after(std::uint64_t sequence) const {
-    bool const knows_sent = sent_ == 0 || entries_[sent_ - 1].sequence <= sequence;
-    auto const begin = entries_.begin() + static_cast<std::ptrdiff_t>(knows_sent ? sent_ : forgotten_);
+    auto const sent = std::min(sent_, entries_.size());
+    bool const knows_sent = sent == 0 || entries_[sent - 1].sequence <= sequence;
+    auto const begin = entries_.begin() + static_cast<std::ptrdiff_t>(knows_sent ? sent : forgotten_);
     return std::upper_bound(begin, entries_.end(), sequence,
                             [](std::uint64_t s, Numbered const& entry) { return s < entry.sequence; });
 }
@@ -86,9 +107,17 @@ NotificationQueue::Next NotificationQueue::next(std::uint64_t after) const {
     return after_locked(after);
 }
 
-NotificationQueue::Next NotificationQueue::after_locked(std::uint64_t sequence) const {
+// That of the first entry behind this one, 0 when there is none.
+std::uint64_t NotificationQueue::sequence_after(std::uint64_t sequence) const {
+    if (is_recent(sequence)) return sequence < last_sequence_ ? sequence + 1 : 0;
     auto const entry = first_after(sequence);
-    if (entry != entries_.end() && entry->sequence <= visible_until()) return Next::more;
+    if (entry != entries_.end()) return entry->sequence;
+    return recent_count_ > 0 ? recent_.front().sequence : 0;
+}
+
+NotificationQueue::Next NotificationQueue::after_locked(std::uint64_t sequence) const {
+    auto const follows = sequence_after(sequence);
+    if (follows != 0 && follows <= visible_until()) return Next::more;
     if (!shows_closed()) return Next::wait;
     return overflowed_ ? Next::overflowed : Next::ended;
 }
@@ -119,9 +148,17 @@ bool NotificationQueue::closed() const {
     return shows_closed();
 }
 
+Numbered const& NotificationQueue::at(std::size_t place) const {
+    return place < entries_.size() ? entries_[place] : recent_[place - entries_.size()];
+}
+
 void NotificationQueue::mark_sent(std::uint64_t until) {
-    for (; sent_ < entries_.size() && entries_[sent_].sequence <= until; ++sent_)
-        if (as_lost(entries_[sent_]) == nullptr) --waiting_;
+    for (; sent_ < entries_.size() + recent_count_ && at(sent_).sequence <= until; ++sent_)
+        if (as_lost(at(sent_)) == nullptr) --waiting_;
+}
+
+// For when all are in entries_.
+void NotificationQueue::forget() {
     for (; sent_ - forgotten_ > max_sent_; ++forgotten_) entries_[forgotten_].notification.reset();
     if (forgotten_ * 2 <= entries_.size()) return;
     entries_.erase(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(forgotten_));

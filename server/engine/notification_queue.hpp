@@ -1,7 +1,7 @@
 // What an engine has to tell one session: numbered, bounded, readable again for a while (decisions 22, 23).
 #pragma once
 
-#include <atomic>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/prefetch.hpp"
 #include "types/ids.hpp"
 #include "types/messages.hpp"
 
@@ -92,9 +91,6 @@ public:
 
     bool closed() const;
 
-    // Prefetches what `push` and `read` need beside the queue itself. From any thread.
-    void approach_entries() const { prefetch(newest_.load(std::memory_order_relaxed), 2 * sizeof(Numbered)); }
-
     // For the outbox, which finds them here without a search; guarded as the engine is.
     std::shared_ptr<Audience> const& audience() const { return audience_; }
     void set_audience(std::shared_ptr<Audience> audience) { audience_ = std::move(audience); }
@@ -103,19 +99,27 @@ private:
     std::uint64_t visible_until() const { return holds_.empty() ? last_sequence_ : holds_.front(); }
     bool make_room();
     bool shows_closed() const { return closed_ && holds_.empty(); }
+    bool is_recent(std::uint64_t after) const { return recent_count_ > 0 && after + 1 >= recent_.front().sequence; }
+    Next read_recent(std::uint64_t after, std::size_t most, std::vector<Numbered>& into);
+    void settle_recent();
     std::vector<Numbered>::const_iterator first_after(std::uint64_t sequence) const;
+    std::uint64_t sequence_after(std::uint64_t sequence) const;
     Next after_locked(std::uint64_t sequence) const;
+    Numbered const& at(std::size_t place) const;
     void mark_sent(std::uint64_t until);
+    void forget();
 
     // In the order of use: an event to a thousand sessions finds each of them far away in memory.
     std::shared_ptr<Audience> audience_;
-    std::atomic<Numbered const*> newest_ = nullptr;  // where it was pushed; it may be elsewhere since, or gone
-    mutable std::mutex mutex_;                       // guards what follows; what only the engine changes it may read without
+    mutable std::mutex mutex_;  // guards what follows; what only the engine changes it may read without
     // In the order of their sequence; a `Lost` stands for several; first those that were forgotten, then those that were sent.
-    // Nothing is allocated for a session that has heard nothing.
+    // Nothing is allocated for a session that has heard nothing. The last ones are kept in the queue itself, without a `Lost` and
+    // without gaps, until they are too many: what was allocated is on another page of memory, for each session on its own.
     std::vector<Numbered> entries_;
-    std::size_t forgotten_ = 0;        // how many were forgotten and are still there
-    std::size_t sent_ = 0;             // how many were forgotten or sent
+    std::size_t forgotten_ = 0;  // how many were forgotten and are still there
+    std::size_t sent_ = 0;       // how many were forgotten or sent, of all
+    std::size_t recent_count_ = 0;
+    std::array<Numbered, 8> recent_;
     std::size_t waiting_ = 0;          // the others, without `Lost`
     std::uint64_t last_sequence_ = 0;  // given last
     std::uint64_t lost_ = 0;

@@ -38,10 +38,7 @@ public:
     }
 
     // Prefetches, when the queue itself is near, what `tell` needs: first what that points to, then what lies behind that.
-    static void approach(NotificationQueue const& queue) {
-        queue.approach_entries();
-        prefetch(queue.audience().get());
-    }
+    static void approach(NotificationQueue const& queue) { prefetch(queue.audience().get()); }
     void approach_readers(NotificationQueue const& queue) const { outbox_.approach(queue); }
 
     // Nothing more will be told to this session.

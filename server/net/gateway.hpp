@@ -59,9 +59,8 @@ public:
     Taken take(std::size_t most);
     Then take(std::size_t most, std::vector<Numbered>& into);  // appends them
 
-    // Prefetches what `take` needs, and what lies behind that.
-    void approach() const { prefetch(queue_.get(), sizeof(NotificationQueue)); }
-    void approach_entries() const { queue_->approach_entries(); }
+    // Prefetches what `take` needs.
+    void approach() const { prefetch<sizeof(NotificationQueue)>(queue_.get()); }
 
     SessionId const& session() const { return queue_->session(); }
 

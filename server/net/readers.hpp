@@ -28,8 +28,8 @@ public:
     void take_over();
 
 protected:
-    // How far it is to what `woken` needs: what the reader itself points to, what lies behind that, and behind that.
-    enum class Distance : std::uint8_t { far, near, next };
+    // How far it is to what `woken` needs: what the reader itself points to, and what lies behind that.
+    enum class Distance : std::uint8_t { far, near };
 
     Wakes& wakes() { return wakes_; }
 

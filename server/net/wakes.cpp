@@ -58,10 +58,9 @@ void Wakes::approach() const {
     auto const later = [&](std::size_t turns) {
         return served_ + turns < serving_.size() ? serving_[served_ + turns].get() : nullptr;
     };
-    if (auto const* reader = later(1)) reader->approach(Reader::Distance::next);
-    if (auto const* reader = later(2)) reader->approach(Reader::Distance::near);
-    if (auto const* reader = later(3)) reader->approach(Reader::Distance::far);
-    if (auto const* reader = later(4)) prefetch(reader, bytes_of_a_reader);
+    if (auto const* reader = later(1)) reader->approach(Reader::Distance::near);
+    if (auto const* reader = later(2)) reader->approach(Reader::Distance::far);
+    if (auto const* reader = later(3)) prefetch<bytes_of_a_reader>(reader);
 }
 
 // False when nobody waits: then the next to come posts.

@@ -153,17 +153,12 @@ void WebSocket::close(Ending ending) {
 }
 
 void WebSocket::approach(Distance distance) const {
-    switch (distance) {
-        case Distance::far:
-            prefetch(wire_.get());
-            prefetch(reading_.get());
-            break;
-        case Distance::near:
-            if (reading_) reading_->approach();
-            break;
-        case Distance::next:
-            if (reading_) reading_->approach_entries();
+    if (distance == Distance::near) {
+        if (reading_) reading_->approach();
+        return;
     }
+    prefetch(wire_.get());
+    prefetch(reading_.get());
 }
 
 void WebSocket::taken_over() { close({CloseCode::policy_violation, "the session goes on elsewhere"}); }

@@ -1,6 +1,8 @@
 // Decisions 22 and 23: numbers without gaps, holds, and what is dropped when nobody reads.
 #include <gmock/gmock.h>
 
+#include <array>
+#include <random>
 #include <thread>
 
 #include "engine/notification_queue.hpp"
@@ -210,6 +212,45 @@ TEST_F(Queue, ShowsItsEndWhenNothingIsHeld) {
     queue.release(answer);
     EXPECT_TRUE(queue.closed());
     EXPECT_THAT(read(0), ElementsAre("1 c"));
+}
+
+// Two readers and somebody who holds, at random; another queue is asked for its beginning each time, which is never where its
+// last entries are.
+TEST(QueueOfAnyLength, GivesTheSameWhereverItsLastEntriesAre) {
+    for (unsigned seed = 1; seed <= 200; ++seed) {
+        std::minstd_rand random{seed};
+        auto const chance = [&](unsigned of) { return random() % of == 0; };
+        struct Seldom : Queue {
+            Seldom() : Queue{9} {}
+            void TestBody() override {}
+        } straight, settled;
+        std::array<std::uint64_t, 2> places{};
+        std::vector<NotificationQueue::Hold> holds;
+        for (int step = 0; step < 300; ++step) {
+            auto const both = [&](auto what) {
+                auto const first = what(straight);
+                EXPECT_EQ(what(settled), first) << "seed " << seed << ", step " << step;
+                return first;
+            };
+            std::vector<Numbered> ignored;
+            settled.queue.read(0, 0, ignored);
+            bool const event = !chance(9);
+            if (chance(2) && straight.queue.waiting() < (event ? 7U : 4U))
+                both([&](Seldom& queue) { return event ? queue.push(ReceiveEvent{}) : queue.push(Completed{}); });
+            if (chance(12)) holds.push_back(both([](Seldom& queue) { return queue.queue.hold(); }));
+            if (!holds.empty() && chance(6)) {
+                both([&](Seldom& queue) { return queue.queue.release(holds.front()); });
+                holds.erase(holds.begin());
+            }
+            auto& place = places[step % 2];
+            if (chance(20)) place = random() % (straight.queue.last_sequence() + 2);
+            auto const most = 1 + random() % 10;
+            both([&](Seldom& queue) { return queue.queue.next(place); });
+            auto const words = both([&](Seldom& queue) { return queue.read(place, most); });
+            both([](Seldom& queue) { return queue.queue.waiting(); });
+            if (!words.empty()) place = std::stoull(words.back());
+        }
+    }
 }
 
 TEST(OutgoingNotification, IsEncodedOnce) {
