@@ -15,6 +15,8 @@ AGAINST = {HTTP: BARE_HTTP, OTHER_HEADS: BARE_HTTP, GSOAP: HTTP, XMLRPC: HTTP, W
 
 MODES = {"HTTP": "http", "WebSocket": "websocket"}
 ANSWER_BYTES = 557  # of the gateway to the query
+CONNECTIONS = 64  # gSOAP and xmlrpc.server have a thread for each
+PYTHON = "/usr/bin/python3"  # Debian's, whatever else there is
 MANY_VARIANTS = 2_500  # for each of 64 connections: more than are asked for in a second
 
 
@@ -24,7 +26,7 @@ def against(bare, row):
 
 
 def round(keep, settings):
-    def ask(row, server, body, connections=64, connect=True, **options):
+    def ask(row, server, body, connections=CONNECTIONS, connect=True, **options):
         options = {"via": "http", "connections": connections, "seconds": settings.seconds, **options}
         if connect:
             options |= {"connect": "yes", "expect": '"OK"'}
@@ -53,8 +55,8 @@ def compare(ask, settings):
     servers = (
         gateway(1, *settings.gateway),
         Server("bare-http", [BIN / "rois-bare-http", "{port}", ANSWER_BYTES]),
-        Server("gsoap", [BIN / "rois-gsoap", "{port}"]),
-        Server("xmlrpc", ["python3", ROOT / "bench" / "xmlrpc_server.py", "{port}"]),
+        Server("gsoap", [BIN / "rois-gsoap", "{port}"], threads=CONNECTIONS),
+        Server("xmlrpc", [PYTHON, ROOT / "bench" / "xmlrpc_server.py", "{port}"], threads=CONNECTIONS),
         Server("bare-websocket", [BIN / "rois-bare-websocket", "{port}"]),
     )
     with running(*servers) as (rois, bare, gsoap, xmlrpc, echo):
