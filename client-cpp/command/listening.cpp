@@ -78,7 +78,7 @@ void start_components(Context& context) {
     context.ok(Execute{std::move(sequence)});
 }
 
-void subscribe_to(Context& context, std::vector<std::string> event_types, QueryExpression const& condition) {
+void subscribe_to(Context& context, std::vector<std::string> const& event_types, QueryExpression const& condition) {
     auto const known = event_types_of(context.ok(GetProfile{}));
     check_known(context, event_types, known);
     bool const all = event_types.empty();

@@ -1,4 +1,5 @@
-// The tables and xerces-c side by side: what the tables accept, xerces-c must accept, and both trees must hold what xerces-c reads.
+// The tables and xerces-c side by side: what the tables accept, xerces-c must accept, and both trees must hold what xerces-c
+// reads.
 #pragma once
 
 #include <cstdint>
