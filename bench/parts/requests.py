@@ -11,18 +11,14 @@ HTTP = "query 0.6 kB, HTTP"
 WEBSOCKET = "query 0.6 kB, WebSocket"
 OTHER_HEADS = "query 0.6 kB, HTTP, never the same head twice running"
 
-AGAINST = {HTTP: BARE_HTTP, OTHER_HEADS: BARE_HTTP, GSOAP: HTTP, XMLRPC: HTTP, WEBSOCKET: BARE_WEBSOCKET}  # row -> row that it is divided by
+# Row -> row that it is divided by.
+AGAINST = {HTTP: BARE_HTTP, OTHER_HEADS: BARE_HTTP, GSOAP: HTTP, XMLRPC: HTTP, WEBSOCKET: BARE_WEBSOCKET}
 
 MODES = {"HTTP": "http", "WebSocket": "websocket"}
 ANSWER_BYTES = 557  # of the gateway to the query
 CONNECTIONS = 64  # gSOAP and xmlrpc.server have a thread for each
 PYTHON = "/usr/bin/python3"  # Debian's, whatever else there is
 MANY_VARIANTS = 2_500  # for each of 64 connections: more than are asked for in a second
-
-
-def against(bare, row):
-    AGAINST[row] = bare
-    return row
 
 
 def round(keep, settings):
@@ -37,10 +33,14 @@ def round(keep, settings):
     with running(gateway(2, *settings.gateway)) as (server,):
         for name, via in MODES.items():
             with running(bare_on_two_threads(name)) as (bare,):
-                compared = f"bare, 0.6 kB, {name}, 2 threads"
-                ask(compared, bare, "query-0.6kB", connect=False, via=via)
-            ask(against(compared, f"query 0.6 kB, {name}, 2 threads"), server, "query-0.6kB", via=via)
+                beside_bare(ask, f"0.6 kB, {name}, 2 threads", bare, server, "query-0.6kB", via=via)
     operations(ask)
+
+
+def beside_bare(ask, row, bare, server, query, **options):
+    AGAINST[f"query {row}"] = f"bare, {row}"
+    ask(f"bare, {row}", bare, query, connect=False, **options)
+    ask(f"query {row}", server, query, **options)
 
 
 def bare_on_two_threads(name):
@@ -73,22 +73,16 @@ def compare(ask, settings):
 def vary_size_and_connections(ask, settings):
     bare = Server("bare-http", [BIN / "rois-bare-http", "{port}", ANSWER_BYTES])
     echo = Server("bare-websocket", [BIN / "rois-bare-websocket", "{port}"])
+    others = {"HTTP": bare, "WebSocket": echo}
     with running(gateway(1, *settings.gateway), bare, echo) as (server, *_):
         for size in ("0.3", "3", "20"):
-            query = f"query-{size}kB"
-            for name, via, other in (("HTTP", "http", bare), ("WebSocket", "websocket", echo)):
-                compared = f"bare, {size} kB, {name}"
-                ask(compared, other, query, connect=False, via=via)
-                ask(against(compared, f"query {size} kB, {name}"), server, query, via=via)
+            for name, other in others.items():
+                beside_bare(ask, f"{size} kB, {name}", other, server, f"query-{size}kB", via=MODES[name])
         for connections in (1, 16, 1_000):
             many = f"{connections:,} connection" + ("s" if connections > 1 else "")
-            query = "query-0.6kB"
-            compared = f"bare, 0.6 kB, HTTP, {many}"
-            ask(compared, bare, query, connections, connect=False)
-            ask(against(compared, f"query 0.6 kB, HTTP, {many}"), server, query, connections)
-            compared = f"bare, 0.6 kB, WebSocket, {many}"
-            ask(compared, echo, query, connections, connect=False, via="websocket")
-            ask(against(compared, f"query 0.6 kB, WebSocket, {many}"), server, query, connections, via="websocket")
+            for name, other in others.items():
+                row = f"0.6 kB, {name}, {many}"
+                beside_bare(ask, row, other, server, "query-0.6kB", connections=connections, via=MODES[name])
 
 
 def operations(ask):
