@@ -10,8 +10,8 @@ namespace rois {
 
 namespace {
 
-// An event to a thousand sessions finds each one's queue far away in memory, and behind that its entries and those who read them:
-// they are called for some turns before their own.
+// An event to a thousand sessions finds each one's queue far away in memory, and behind that those who read it: they are called
+// for some turns before their own.
 void call_nearer(std::span<Subscription::Hearer const> those_who_follow, Notifier const& notifier) {
     auto const follows = [&](std::size_t turns) { return turns < those_who_follow.size(); };
     if (follows(6)) prefetch<sizeof(NotificationQueue)>(those_who_follow[6].queue);

@@ -63,10 +63,9 @@ Subscription& Subscriptions::add(Session& session, std::string const& event_type
         by_type_[event_type].add(*subscription);
         by_id_.emplace(subscription->id, std::move(made));
     }
-    bool const is_new = session.subscriptions.insert(subscription).second;
-    if (is_new) session.predicates += subscription->filter.predicates();
     auto const place = place_of(session, *subscription);
-    if (is_new) {
+    if (session.subscriptions.insert(subscription).second) {
+        session.predicates += subscription->filter.predicates();
         subscription->hearers.insert(place, {&session, session.number, session.notifications.get(), inline_results});
     } else {
         place->inline_results = inline_results;
