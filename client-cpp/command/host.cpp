@@ -59,7 +59,7 @@ void HostedSession::wake() {
 }
 
 std::shared_ptr<HostedSession> Host::open() {
-    auto const session = std::make_shared<HostedSession>(io_, SessionId{fresh_id()});
+    auto const session = std::make_shared<HostedSession>(SessionId{fresh_id()});
     session->guest = make_(*session);
     sessions_.emplace(session->id().text, session);
     return session;

@@ -29,7 +29,7 @@ public:
 // One session of an application: its guest, and what it was told.
 class HostedSession {
 public:
-    HostedSession(asio::io_context& io, SessionId id) : io_{io}, id_{std::move(id)} {}
+    explicit HostedSession(SessionId id) : id_{std::move(id)} {}
 
     SessionId const& id() const { return id_; }
     std::unique_ptr<Guest> guest;
@@ -57,7 +57,6 @@ public:
     std::chrono::steady_clock::time_point used = std::chrono::steady_clock::now();
 
 private:
-    asio::io_context& io_;
     SessionId id_;
     std::deque<Numbered> log_;
     std::uint64_t last_ = 0;

@@ -99,6 +99,7 @@ private:
 
     ParameterList arguments(ScenarioCommand const& command, ComponentEntry const& component) const {
         std::vector<std::string> given;
+        given.reserve(command.arguments.size());
         for (auto const& argument : command.arguments) given.push_back(argument.name + "=" + variables_.filled(argument.text));
         try {
             return read_arguments(*component.profile, command.type, given);
