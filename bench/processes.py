@@ -83,10 +83,11 @@ class Server:
             self.process.wait()
 
 
-def gateway(threads=1, *arguments):
+def gateway(threads=1, *arguments, free=False):
+    """`free`: with one thread it may go wherever the kernel likes, too."""
     command = [BIN / "rois-gateway", "--listen", "127.0.0.1:{port}", "--threads", threads, "--log-level", "warning"]
     command += ["--max-sessions", 20_000, "--max-connections", 20_000, *arguments]
-    return Server(f"gateway-{threads}", command, "/readyz", threads)
+    return Server(f"gateway-{threads}{'-free' * free}", command, "/readyz", len(CORES) if free else threads)
 
 
 def stage(threads=1, probes=10, bystanders=0):
