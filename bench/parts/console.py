@@ -1,4 +1,4 @@
-"""What the console costs whoever looks at it, in Chromium: its first view, and the floor map with many people."""
+"""The cost of the console for its user, in Chromium: its first view, the floor map with many people, and the page at rest."""
 
 import json
 import os
@@ -8,6 +8,7 @@ from processes import BIN, ROOT, BenchError
 
 VIEW = "console, first view"
 PEOPLE = "console, 20 people at 20 Hz"
+REST = "console, at rest"
 
 
 def round(keep, settings):

@@ -1,5 +1,5 @@
-# Installs the public headers: those of the client under rois/, those of the messages under rois/types/, with what they include spelt as it
-# is there. cmake -DSOURCE=... -DDESTINATION=... -P install_headers.cmake
+# Installs the public headers: those of the client under rois/, those of the messages under rois/types/, those of the C++ PSM under
+# rois/psm/, with what they include spelt as it is there. cmake -DSOURCE=... -DDESTINATION=... -P install_headers.cmake
 function(install_headers from pattern to)
     file(GLOB headers ${from}/${pattern})
     foreach(header IN LISTS headers)
@@ -12,4 +12,5 @@ function(install_headers from pattern to)
 endfunction()
 
 install_headers(${SOURCE}/client-cpp/include/rois *.hpp ${DESTINATION}/rois)
+install_headers(${SOURCE}/client-cpp/include/rois/psm *.hpp ${DESTINATION}/rois/psm)
 install_headers(${SOURCE}/server/types *.hpp ${DESTINATION}/rois/types)

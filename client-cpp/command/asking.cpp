@@ -17,6 +17,22 @@ void check_there(Context& context, std::string const& ref) {
     if (context.ok(Search{conditions::component_ref == ref}).component_ref_list.empty()) context.component(ref);
 }
 
+std::vector<ComponentEntry> of(std::vector<ComponentEntry> components, std::string const& ref) {
+    std::erase_if(components, [&](ComponentEntry const& component) { return component.ref != ref; });
+    return components;
+}
+
+// The components that have this query.
+std::vector<ComponentEntry> components_with(std::vector<ComponentEntry> components, std::string const& query) {
+    std::erase_if(components, [&](ComponentEntry const& component) {
+        auto const known = message_names({component}, MessageKind::query);
+        return std::ranges::find(known, query) == known.end();
+    });
+    return components;
+}
+
+std::string name_and_engine(ComponentEntry const& entry) { return entry.ref + " (engine " + entry.engine + ")"; }
+
 }  // namespace
 
 void profile(Context& context) {
@@ -27,21 +43,40 @@ void profile(Context& context) {
     }
 }
 
-void search(Context& context) { context.show(Search{context.condition()}); }
+void search(Context& context) {
+    if (!context.show(Search{context.condition()}).component_ref_list.empty()) return;
+    remark("no component meets the condition; the engine has " + components_and_types(context.components()));
+}
 
 void query(Context& context) {
     auto condition = context.condition();
     auto const& ref = context.options().ref;
+    bool const has_condition = !context.options().where.empty() || !context.options().condition_file.empty();
     if (!ref.empty()) check_there(context, ref);
     if (!ref.empty()) condition = narrowed(std::move(condition), conditions::component_ref == ref);
-    context.show(Query{context.options().name, std::move(condition)});
+    auto const& name = context.options().name;
+    auto const reply = context.show(Query{name, std::move(condition)}, [&]() -> std::string {
+        auto const components = context.components();
+        auto known = message_names(components, MessageKind::query);
+        bool const is_known = std::ranges::find(known, name) != known.end();
+        if (ref.empty()) {
+            if (!is_known) return "; there are the queries " + listed(known);
+            return has_condition ? "; the query is answered by " + listed(components_with(components, name), name_and_engine)
+                                 : "";
+        }
+        known = message_names(of(components, ref), MessageKind::query);
+        if (std::ranges::find(known, name) != known.end()) return {};
+        return "; " + ref + " has " + (known.empty() ? "no queries" : "the queries " + listed(known));
+    });
+    if (reply.results.parameters.empty()) remark("the answer has no results");
 }
 
 // By a query, which needs no binding (decision 18).
 void get(Context& context) {
     auto const& options = context.options();
     check_there(context, options.ref);
-    auto reply = context.ok(Query{"get_parameter", conditions::component_ref == options.ref});
+    auto reply = context.ok(Query{"get_parameter", conditions::component_ref == options.ref},
+                            [&] { return "; " + options.ref + " has no parameters"; });
     auto& parameters = reply.results.parameters;
     for (auto const& name : options.words) {
         if (find(parameters, name) != nullptr) continue;
@@ -56,6 +91,7 @@ void get(Context& context) {
     GetParameter::Reply shown;
     shown.parameters = std::move(parameters);
     context.printer().reply(shown, "get_parameter");
+    if (shown.parameters.empty()) remark(options.ref + " has no parameter that is set");
 }
 
 void health(Options const& options, Printer& printer) {
@@ -71,7 +107,7 @@ void health(Options const& options, Printer& printer) {
     if (!ready && printer.form() == Form::human) {
         auto const body = harmless(trimmed(answer.body.substr(0, 200)));
         throw Trouble{Exit::error, "not healthy: " + options.url + " answers " + std::to_string(answer.status) +
-                                       (body.empty() ? "" : ": " + body)};
+                                       (body.empty() ? "" : ": " + body) + hint_for_url(options.url)};
     }
     printer.line(painted("healthy", Colour::good, printer.coloured()), "health",
                  Json{{"url", options.url}, {"ready", ready}, {"status", answer.status}});

@@ -24,7 +24,8 @@ void hold(Context& context, Until until) {
         if (session.interrupted()) return;
         if (auto const* const gap = std::get_if<Gap>(&*heard)) {
             printer.gap(*gap);
-            if (gap->why == Gap::Why::new_session && context.options().command == "start") throw ended_with_session();
+            bool const is_bound_to_it = context.options().command == "start" || context.holds_session_file();
+            if (gap->why == Gap::Why::new_session && is_bound_to_it) throw ended_with_session();
         }
         auto const* const change = std::get_if<StateChange>(&*heard);
         bool const usual = change == nullptr || change->state == State::open || change->state == State::connecting;
@@ -44,8 +45,18 @@ void say_bound(Context& context, std::string const& ref) {
 
 CommandUnitSequence one_command(std::string const& ref, std::string const& type, ParameterList arguments) {
     CommandUnitSequence sequence;
-    sequence.command_unit_list.push_back({{}, CommandMessage{ref_of(ref), type, {}, std::move(arguments)}});
+    auto& unit = sequence.command_unit_list.emplace_back();
+    unit.unit = CommandMessage{ref_of(ref), type, {}, std::move(arguments)};
     return sequence;
+}
+
+// After a refused `bind_any`: the engine's components, if none meets the condition.
+std::string what_there_is(Context& context, QueryExpression const& condition) {
+    auto const answer = context.session().request(Search{condition});
+    auto const* const reply = std::get_if<Reply>(&answer);
+    auto const* const found = reply != nullptr ? std::get_if<Search::Reply>(reply) : nullptr;
+    if (found == nullptr || !found->component_ref_list.empty()) return {};
+    return "; the engine has " + components_and_types(context.components());
 }
 
 // A component without a command looks like a file that is not there.
@@ -68,14 +79,14 @@ ParameterList arguments_of(Context& context, std::string const& ref, std::string
 void bind(Context& context) {
     auto const& options = context.options();
     bool const is_meant = !options.where.empty() || !options.condition_file.empty();
-    auto condition = context.condition();
+    auto const condition = context.condition();
     for (auto const& ref : options.words) {
-        auto const reply = context.ok(Bind{ref_of(ref)});
+        auto const reply = context.bound(ref_of(ref));
         if (options.form != Form::human) context.printer().reply(reply, "bind");
         say_bound(context, ref);
     }
     if (is_meant) {
-        auto const reply = context.ok(BindAny{std::move(condition)});
+        auto const reply = context.ok(BindAny{condition}, [&] { return what_there_is(context, condition); });
         if (options.form != Form::human) context.printer().reply(reply, "bind_any");
         say_bound(context, reply.component_ref.code);
     }
@@ -83,17 +94,20 @@ void bind(Context& context) {
     if (session.is_joined()) return;
     auto const id = session.id().text;
     context.printer().line("session " + id, "session", Json{{"session", id}});
+    context.go_to_background();
     hold(context, end_of(options));
 }
 
 void release(Context& context) {
-    for (auto const& ref : context.options().words) context.show(Release{ref_of(ref)});
+    auto const& options = context.options();
+    if (options.words.empty()) return end_holder(options.session_file, options.held->holder, options.deadline);
+    for (auto const& ref : options.words) context.show(Release{ref_of(ref)});
 }
 
 void set(Context& context) {
     auto const& options = context.options();
     auto parameters = arguments_of(context, options.ref, "set_parameter", options.words);
-    context.ok(Bind{ref_of(options.ref)});
+    context.bound(ref_of(options.ref));
     auto const reply = context.ok(SetParameter{ref_of(options.ref), std::move(parameters)});
     wait_for(context, {{reply.command_id, "set_parameter " + options.ref}});
 }
@@ -101,7 +115,7 @@ void set(Context& context) {
 void start(Context& context) {
     auto const& options = context.options();
     run(context, one_command(options.ref, "start", arguments_of(context, options.ref, "start", options.words)));
-    if (options.span) hold(context, end_of(options));
+    if (options.span) hold(context, std::chrono::steady_clock::now() + *options.span);
 }
 
 void stop(Context& context) { run(context, one_command(context.options().ref, "stop", {})); }

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <stdexcept>
 
 #include "command/condition_text.hpp"
@@ -25,26 +26,67 @@ bool coloured(Options const& options) {
 
 }  // namespace
 
-Context::Context(Options options, Signals& signals)
-    : options_{std::move(options)}, signals_{signals}, printer_{options_.form, coloured(options_)} {
+Context::Context(Options options, Signals& signals, Background* background)
+    : options_{std::move(options)}, signals_{signals}, background_{background}, printer_{options_.form, coloured(options_)} {
+    if (background_ != nullptr) take_session_file();
     if (!options_.record.empty()) recorded_ = std::make_shared<RecordingWriter>(options_.record, options_.url);
 }
 
 Context::~Context() { signals_.on_first({}); }
 
+// Locks the session file, for a session to come; if another process holds a session under it, acts in that one.
+void Context::take_session_file() {
+    while (!(session_file_ = SessionFile::lock(options_.session_file))) {
+        auto const held = find_held_session(options_.session_file, options_.deadline);
+        if (!held) continue;
+        if (!options_.record.empty()) throw Trouble{Exit::usage, "--record: there is no session of its own to record"};
+        join(options_, *held);
+        return;
+    }
+    options_.session.clear();
+    options_.held.reset();
+}
+
 Session& Context::session() {
-    if (!session_) {
+    if (session_) return *session_;
+    while (!session_) {
         try {
             session_ = std::make_unique<Session>(options_, recorded_);
         } catch (std::invalid_argument const& error) {
             throw Trouble{Exit::usage, error.what()};
         } catch (NoSession const& gone) {
-            printer_.fault({FaultCode::no_session, gone.what(), {}, {}}, options_.command);
-            throw Trouble{Exit::fault, ""};
+            replace_lost_session(gone);
         }
-        signals_.on_first([session = session_.get()] { session->interrupt(); });
     }
+    signals_.on_first([session = session_.get()] { session->interrupt(); });
+    end_left_session();
     return *session_;
+}
+
+// The engine does not have the session to act in. If the session file named it, its holder has lost it and has not noticed yet,
+// as after a restart of the engine: `bind` ends that holder, and takes its place.
+void Context::replace_lost_session(NoSession const& gone) {
+    auto const& held = options_.held;
+    if (!held || held->url != options_.url) {
+        printer_.fault({FaultCode::no_session, gone.what(), {}, {}}, options_.command);
+        throw Trouble{Exit::fault, ""};
+    }
+    if (background_ == nullptr) throw no_holder(options_.session_file);
+    end_holder(options_.session_file, held->holder, options_.deadline);
+    take_session_file();
+}
+
+// The session of a holder that was killed would keep its components bound until the engine gives it up.
+void Context::end_left_session() {
+    if (!session_file_ || !session_file_->left() || session_file_->left()->url != options_.url) return;
+    auto options = options_;
+    options.session = session_file_->left()->session;
+    try {
+        Session left{options, nullptr};
+        left.request(Disconnect{});
+    } catch (NoSession const&) {  // it has ended
+    } catch (Trouble const&) {    // then `bind` says what it cannot have
+    }
 }
 
 void Context::keep_recording() {
@@ -53,12 +95,18 @@ void Context::keep_recording() {
     recorded_->check();
 }
 
+void Context::go_to_background() {
+    if (!session_file_) return;
+    session_file_->write(options_.url, session().id().text);
+    background_->ready();
+}
+
 std::shared_ptr<xml::Schemas const> Context::schemas() {
     if (!schemas_) schemas_ = std::make_shared<xml::Schemas const>(files::schemas());
     return schemas_;
 }
 
-Reply Context::checked(Operation operation, Written written) {
+Reply Context::checked(Operation operation, Written written, std::function<std::string()> const& hint) {
     auto const name = xml::operation_names()[operation.index()];
     auto answer = session().request(std::move(operation));
     if (auto const* const fault = std::get_if<Fault>(&answer)) {
@@ -66,7 +114,9 @@ Reply Context::checked(Operation operation, Written written) {
         throw Trouble{Exit::fault, ""};
     }
     auto& reply = std::get<Reply>(answer);
-    auto const code = std::visit([](auto const& one) { return one.return_code; }, reply);
+    auto& outcome = std::visit([](auto& one) -> Outcome& { return one; }, reply);
+    auto const code = outcome.return_code;
+    if (code != ReturnCode::ok && hint) outcome.reason += hint();
     if (written == Written::yes || code != ReturnCode::ok) printer_.reply(reply, name);
     if (code != ReturnCode::ok) throw Trouble{exit_of(code), ""};
     return std::move(reply);
@@ -91,6 +141,22 @@ QueryExpression Context::condition() {
     }
 }
 
+std::vector<ComponentEntry> Context::components() {
+    auto answer = session().request(GetProfile{});
+    auto* const reply = std::get_if<Reply>(&answer);
+    auto* const profile = reply != nullptr ? std::get_if<GetProfile::Reply>(reply) : nullptr;
+    return profile != nullptr ? std::move(profile->components) : std::vector<ComponentEntry>{};
+}
+
+Bind::Reply Context::bound(Identifier component) {
+    auto const ref = component.code;
+    return ok(Bind{std::move(component)}, [&]() -> std::string {
+        auto const there = components();
+        if (std::ranges::find(there, ref, &ComponentEntry::ref) != there.end()) return {};
+        return "; there are " + listed(there, &ComponentEntry::ref);
+    });
+}
+
 ComponentEntry Context::component(std::string const& ref) {
     auto reply = ok(GetProfile{});
     auto const found = std::ranges::find(reply.components, ref, &ComponentEntry::ref);
@@ -99,9 +165,27 @@ ComponentEntry Context::component(std::string const& ref) {
                                                       listed(reply.components, &ComponentEntry::ref));
 }
 
+std::vector<std::string> message_names(std::vector<ComponentEntry> const& components, MessageKind kind) {
+    std::vector<std::string> names;
+    for (auto const& component : components) {
+        if (!component.profile) continue;
+        for (auto const& message : component.profile->messages)
+            if (message.kind == kind && std::ranges::find(names, message.name) == names.end()) names.push_back(message.name);
+    }
+    return names;
+}
+
+std::string components_and_types(std::vector<ComponentEntry> const& components) {
+    return listed(components, [](ComponentEntry const& entry) {
+        return entry.ref + " (" + entry.type.substr(entry.type.rfind(':') + 1) + ")";
+    });
+}
+
+void remark(std::string const& text) { std::fprintf(stderr, "rois: %s\n", text.c_str()); }
+
 Until end_of(Options const& options) {
     if (!options.span) return std::nullopt;
-    return std::chrono::steady_clock::now() + *options.span;
+    return options.started + *options.span;
 }
 
 }  // namespace rois::command

@@ -1,7 +1,9 @@
 // What every command has: its options, where it writes, and its session.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "command/options.hpp"
 #include "command/printer.hpp"
 #include "command/session.hpp"
+#include "command/session_file.hpp"
 #include "command/signals.hpp"
 #include "xml/schemas.hpp"
 
@@ -16,7 +19,8 @@ namespace rois::command {
 
 class Context {
 public:
-    Context(Options options, Signals&);
+    // `background` may be null: the program runs in the foreground.
+    Context(Options options, Signals&, Background* background = nullptr);
     ~Context();
     Context(Context const&) = delete;
     Context& operator=(Context const&) = delete;
@@ -24,6 +28,11 @@ public:
     Options const& options() const { return options_; }
     Printer& printer() { return printer_; }
     Signals& signals() { return signals_; }
+
+    // Whether this process holds the session of the session file.
+    bool holds_session_file() const { return session_file_ != nullptr; }
+    // If this process holds the session file: writes it and ends the parent. Throws Trouble.
+    void go_to_background();
 
     // Opened when it is asked for the first time. Throws Trouble.
     Session& session();
@@ -33,18 +42,25 @@ public:
     // With `--record`: the command does what it should, so the recording replaces what the file had. Throws Trouble.
     void keep_recording();
 
-    // The reply of an operation that is OK; otherwise it is told, and Trouble is thrown with its code.
+    // The reply of an operation that is OK. Otherwise writes the refusal, and throws Trouble with its code. The text of `hint`
+    // follows the engine's reason.
     template <class Op>
-    typename Op::Reply ok(Op operation) {
-        return std::get<typename Op::Reply>(checked(std::move(operation)));
+    typename Op::Reply ok(Op operation, std::function<std::string()> const& hint = {}) {
+        return std::get<typename Op::Reply>(checked(std::move(operation), Written::no, hint));
     }
 
     // The same, written.
     template <class Op>
-    typename Op::Reply show(Op operation) {
-        auto reply = checked(std::move(operation), Written::yes);
+    typename Op::Reply show(Op operation, std::function<std::string()> const& hint = {}) {
+        auto reply = checked(std::move(operation), Written::yes, hint);
         return std::get<typename Op::Reply>(std::move(reply));
     }
+
+    // Binds the component. If it is unknown, the refusal names those that there are.
+    Bind::Reply bound(Identifier);
+
+    // The engine's components; none if the engine does not answer.
+    std::vector<ComponentEntry> components();
 
     // Refuses what this program itself sees to be wrong in what the engine has told: a document like the engine's own refusals of
     // that operation, or the reason alone for people.
@@ -64,18 +80,32 @@ public:
 
 private:
     enum class Written { no, yes };
-    Reply checked(Operation, Written = Written::no);
+    Reply checked(Operation, Written, std::function<std::string()> const& hint);
     [[noreturn]] void refuse(Reply const&);
+    void take_session_file();
+    void replace_lost_session(NoSession const&);
+    void end_left_session();
 
     Options options_;
     Signals& signals_;
+    Background* const background_;
     Printer printer_;
     std::shared_ptr<RecordingWriter> recorded_;
     std::shared_ptr<xml::Schemas const> schemas_;
+    std::unique_ptr<SessionFile> session_file_;  // of a session in the background; locked until the session has ended
     std::unique_ptr<Session> session_;
 };
 
-// "--for" from now on.
+// The names of the components' messages of this kind, each once.
+std::vector<std::string> message_names(std::vector<ComponentEntry> const&, MessageKind);
+
+// The components with their types: "move (Move), navigation (Navigation)".
+std::string components_and_types(std::vector<ComponentEntry> const&);
+
+// Writes a remark on standard error, such as that a result is empty.
+void remark(std::string const& text);
+
+// When the time of --for is over, counted from the start of the program.
 Until end_of(Options const&);
 
 // What the commands do. Each throws Trouble when it does not go well.

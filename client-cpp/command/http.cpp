@@ -5,10 +5,12 @@
 #include <boost/asio/ssl/context.hpp>
 #include <boost/asio/ssl/host_name_verification.hpp>
 #include <boost/beast/ssl.hpp>
+#include <exception>
 #include <optional>
 #include <regex>
 
 #include "command/exit.hpp"
+#include "types/texts.hpp"
 
 namespace rois::command {
 
@@ -25,7 +27,12 @@ Address address_of(std::string const& url) {
     static std::regex const form{
         R"re((http|https|ws|wss)://(\[[0-9A-Fa-f:.]+\]|[^/:?#\[\]@\s]+)(?::([0-9]{1,5}))?(/[^?#\s]*)?)re"};
     std::smatch match;
-    if (!std::regex_match(url, match, form)) throw Trouble{Exit::usage, "this is no URL of an engine: " + url};
+    bool const is_url = std::regex_match(url, match, form);
+    auto const port = is_url && match[3].matched ? to_int(match[3].str()) : 1;
+    if (!is_url || port < 1 || port > 65'535)
+        throw Trouble{Exit::usage, rois::quoted(url) +
+                                       " is not a URL of an engine: expected http://HOST:PORT (or https, ws, wss), "
+                                       "with a port from 1 to 65535"};
     Address address;
     address.tls = match[1] == "https" || match[1] == "wss";
     address.host = match[2];
@@ -63,19 +70,34 @@ asio::awaitable<void> exchange(Stream& stream, Get& request, Outcome& outcome, F
     if (!failure) outcome.answer = HttpAnswer{parser.get().result_int(), parser.get().body()};
 }
 
+void load_trusted(asio::ssl::context& context, std::string const& ca_file) {
+    Failure failure;
+    context.set_default_verify_paths();
+    if (!ca_file.empty()) context.load_verify_file(ca_file, failure);
+    if (failure)
+        throw Trouble{Exit::usage, "the file of trusted certificates " + rois::quoted(ca_file) +
+                                       " cannot be read: " + failure.message() + "; it must be a readable file in PEM format"};
+}
+
 asio::awaitable<void> exchange_with_tls(beast::tcp_stream stream, Address const& address, HttpServer const& server, Get& request,
                                         Outcome& outcome, Failure& failure) {
     asio::ssl::context context{asio::ssl::context::tls_client};
-    context.set_default_verify_paths();
-    if (!server.ca_file.empty()) context.load_verify_file(server.ca_file, failure);
-    if (failure) co_return;
+    load_trusted(context, server.ca_file);
     beast::ssl_stream<beast::tcp_stream> secured{std::move(stream), context};
     auto const host = without_brackets(address.host);
     SSL_set_tlsext_host_name(secured.native_handle(), host.c_str());
     secured.set_verify_mode(asio::ssl::verify_peer);
     secured.set_verify_callback(asio::ssl::host_name_verification{host});
     co_await secured.async_handshake(asio::ssl::stream_base::client, into(failure));
+    if (failure.category() == asio::error::get_ssl_category() &&
+        ERR_GET_REASON(static_cast<unsigned long>(failure.value())) == SSL_R_WRONG_VERSION_NUMBER)
+        throw Trouble{Exit::no_answer, "this port speaks plain HTTP: use http: or ws: instead of https: or wss:"};
     if (!failure) co_await exchange(secured, request, outcome, failure);
+}
+
+// Whether it failed as when a port that speaks TLS is asked in plain HTTP.
+bool may_be_tls(Failure const& failure) {
+    return failure.category() == http::make_error_code(http::error::end_of_stream).category();
 }
 
 asio::awaitable<void> run(Address const& address, HttpServer const& server, Get& request, Outcome& outcome) {
@@ -91,16 +113,34 @@ asio::awaitable<void> run(Address const& address, HttpServer const& server, Get&
         co_await exchange(stream, request, outcome, failure);
     }
     if (failure) outcome.trouble = failure.message();
+    if (!address.tls && may_be_tls(failure))
+        outcome.trouble += ": this port does not answer in plain HTTP; if it speaks TLS, use https: or wss:";
+}
+
+void rethrow(std::exception_ptr const& error) {
+    if (error) std::rethrow_exception(error);
 }
 
 }  // namespace
+
+std::string hint_for_url(std::string const& url) {
+    auto const last = url.find_last_not_of('/');
+    bool const names_rois = std::string_view{url}.substr(0, last + 1).ends_with("/rois");
+    return names_rois ? "; the URL ends where /rois begins: leave it out" : "";
+}
+
+void check_ca_file(HttpServer const& server) {
+    if (server.ca_file.empty() || !address_of(server.url).tls) return;
+    asio::ssl::context context{asio::ssl::context::tls_client};
+    load_trusted(context, server.ca_file);
+}
 
 HttpAnswer http_get(HttpServer const& server, std::string const& target, std::chrono::milliseconds deadline) {
     auto const address = address_of(server.url);
     auto request = request_of(address, server, target);
     Outcome outcome;
     auto io = std::make_unique<asio::io_context>(1);
-    asio::co_spawn(*io, run(address, server, request, outcome), asio::detached);
+    asio::co_spawn(*io, run(address, server, request, outcome), rethrow);
     io->run_for(deadline);
     // The end of one that looks a name up waits for it. Nothing runs on it any more, and the program ends soon.
     [[maybe_unused]] static asio::io_context* left_alone = nullptr;

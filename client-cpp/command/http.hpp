@@ -22,4 +22,10 @@ struct HttpServer {
 // (usage) for a URL that is none.
 HttpAnswer http_get(HttpServer const&, std::string const& target, std::chrono::milliseconds deadline);
 
+// For a URL of https or wss. Throws Trouble (usage) if the file of certificates cannot be read.
+void check_ca_file(HttpServer const&);
+
+// What may be wrong with a URL that leads to no engine; empty if nothing is known.
+std::string hint_for_url(std::string const& url);
+
 }  // namespace rois::command

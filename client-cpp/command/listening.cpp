@@ -10,18 +10,6 @@ namespace rois::command {
 
 namespace {
 
-// All types of events that the components have, each once.
-std::vector<std::string> event_types_of(GetProfile::Reply const& reply) {
-    std::vector<std::string> types;
-    for (auto const& component : reply.components) {
-        if (!component.profile) continue;
-        for (auto const& message : component.profile->messages)
-            if (message.kind == MessageKind::event && std::ranges::find(types, message.name) == types.end())
-                types.push_back(message.name);
-    }
-    return types;
-}
-
 void check_known(Context& context, std::vector<std::string> const& wanted, std::vector<std::string> const& known) {
     for (auto const& type : wanted)
         if (std::ranges::find(known, type) == known.end())
@@ -72,14 +60,14 @@ void start_components(Context& context) {
     CommandUnitSequence sequence;
     for (auto const& ref : starts) {
         Identifier const component{ref, {}, {}, {}};
-        context.ok(Bind{component});
+        context.bound(component);
         sequence.command_unit_list.push_back({{}, CommandMessage{component, "start", fresh_command_id(), {}}});
     }
     context.ok(Execute{std::move(sequence)});
 }
 
 void subscribe_to(Context& context, std::vector<std::string> const& event_types, QueryExpression const& condition) {
-    auto const known = event_types_of(context.ok(GetProfile{}));
+    auto const known = message_names(context.ok(GetProfile{}).components, MessageKind::event);
     check_known(context, event_types, known);
     bool const all = event_types.empty();
     bool heard_any = false;
@@ -95,6 +83,18 @@ void subscribe_to(Context& context, std::vector<std::string> const& event_types,
     if (!heard_any) context.refuse<Subscribe>(ReturnCode::unsupported, "no event can meet the condition");
 }
 
+namespace {
+
+// The time of --for is over: fails if --count asked for more events, and remarks on it if none came.
+void end_in_time(Options const& options, std::size_t events) {
+    if (options.count)
+        throw Trouble{Exit::timeout, "only " + std::to_string(events) + " of " + std::to_string(*options.count) +
+                                         " events came in the time of --for"};
+    if (events == 0) remark("no event came in the time of --for");
+}
+
+}  // namespace
+
 void listen(Context& context, std::function<void(Heard const&)> const& told) {
     auto& session = context.session();
     auto const& options = context.options();
@@ -105,7 +105,7 @@ void listen(Context& context, std::function<void(Heard const&)> const& told) {
     while (!options.count || events < *options.count) {
         auto const heard = session.hear(until);
         if (session.interrupted()) return;
-        if (!heard && until && std::chrono::steady_clock::now() >= *until) return;
+        if (!heard && until && std::chrono::steady_clock::now() >= *until) return end_in_time(options, events);
         if (!heard) throw Trouble{Exit::no_answer, "the connection has closed"};
         auto const* const news = std::get_if<News>(&*heard);
         if (news != nullptr && std::holds_alternative<ReceiveEvent>(news->notification)) ++events;
@@ -116,7 +116,10 @@ void listen(Context& context, std::function<void(Heard const&)> const& told) {
 
 void subscribe(Context& context) {
     auto const& options = context.options();
-    auto const reply = context.ok(Subscribe{options.name, context.condition(), true});
+    auto const reply = context.ok(Subscribe{options.name, context.condition(), true}, [&]() -> std::string {
+        auto const known = message_names(context.components(), MessageKind::event);
+        return std::ranges::find(known, options.name) == known.end() ? "; there are the events " + listed(known) : "";
+    });
     context.printer().reply(reply, "subscribe");
     if (context.session().is_joined()) return;
     listen(context, [&](Heard const& heard) {

@@ -3,6 +3,7 @@
 #include <exception>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string_view>
 
 #include "command/context.hpp"
@@ -47,8 +48,11 @@ int run(int argc, char const* const* argv) {
         std::fputs(said->words.c_str(), stdout);
         return 0;
     }
+    auto options = std::get<Options>(std::move(read));
+    std::optional<Background> background;
+    if (runs_in_background(options)) background.emplace();
     Signals signals;
-    Context context{std::get<Options>(std::move(read)), signals};
+    Context context{std::move(options), signals, background ? &*background : nullptr};
     commands().at(context.options().command)(context);
     context.keep_recording();
     return 0;

@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "command/exit.hpp"
+#include "command/session_file.hpp"
 #include "rois/settings.hpp"
+#include "types/texts.hpp"
 
 namespace rois::command {
 
@@ -19,7 +22,7 @@ constexpr auto what_it_is = "rois: speaks to a RoIS HRI engine from the command 
 
 constexpr auto footer =
     "Examples:\n"
-    "  rois search type = Navigation and status = READY\n"
+    "  rois search 'type = Navigation and status = READY'\n"
     "  rois start speech_synthesis speech_text=Welcome.\n"
     "  rois watch person_detected --start person_detection\n"
     "  rois query robot_position --json\n\n"
@@ -38,6 +41,19 @@ struct Raw {
     std::vector<std::string> condition;  // words of a condition
     bool version = false;
 };
+
+// CLI::Range lets nan through.
+CLI::Validator within(double least, double most) {
+    return CLI::Validator{[least, most](std::string& text) -> std::string {
+                              double value = 0;
+                              if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return {};
+                              std::ostringstream expected;
+                              expected.precision(8);
+                              expected << rois::quoted(text) << " is not a number from " << least << " to " << most;
+                              return expected.str();
+                          },
+                          {}};
+}
 
 class Grammar {
 public:
@@ -66,10 +82,12 @@ private:
         app_.add_option("--session", options_.session, "act in this session, which rois bind holds (ROIS_SESSION)")
             ->envname("ROIS_SESSION")
             ->option_text("ID");
+        app_.add_option("--session-file", options_.session_file,
+                        "act in the session that rois bind holds in the background under this file (ROIS_SESSION_FILE)")
+            ->envname("ROIS_SESSION_FILE")
+            ->option_text("FILE");
         app_.add_flag("--http", options_.over_http, "requests and an event stream instead of a WebSocket");
-        app_.add_option("--timeout", raw_.timeout, "for an answer [10]")
-            ->option_text("SECONDS")
-            ->check(CLI::Range(0.01, 86'400.0));
+        app_.add_option("--timeout", raw_.timeout, "for an answer [10]")->option_text("SECONDS")->check(within(0.01, 86'400));
         auto* const xml = app_.add_flag("--xml", raw_.xml, "write XML documents");
         app_.add_flag("--json", raw_.json, "write JSON, an object a line")->excludes(xml);
         app_.add_option("--colour", options_.colour, "auto, always or never [auto]")
@@ -96,7 +114,7 @@ private:
     }
 
     void bounded(CLI::App& command, std::string const& what) {
-        command.add_option("--for", raw_.span, what)->option_text("SECONDS")->check(CLI::Range(0.0, 1e7));
+        command.add_option("--for", raw_.span, what)->option_text("SECONDS")->check(within(0, 1e7));
     }
 
     void counted(CLI::App& command) {
@@ -122,7 +140,7 @@ private:
         profile.add_option("REF", options_.ref, "a component")->option_text(" ");
         conditioned(profile);
         auto& search = command("search", "the components that meet a condition");
-        search.add_option("CONDITION", raw_.condition, "such as: type = Navigation and status = READY")->option_text(" ");
+        search.add_option("CONDITION", raw_.condition, "such as: 'type = Navigation and status = READY'")->option_text(" ");
         conditioned(search);
         auto& query = command("query", "ask the engine or a component");
         query.add_option("QUERY", options_.name, "a type of queries, such as robot_position")->required()->option_text(" ");
@@ -135,12 +153,13 @@ private:
     }
 
     void for_commanding() {
-        auto& bind = command("bind", "bind components, and hold them until interrupted");
+        auto& bind =
+            command("bind", "bind components, and hold them until interrupted, or in the background with --session-file");
         words(bind, "REF", "components");
         conditioned(bind);
         bounded(bind, "hold them so long");
-        auto& release = command("release", "release components of the session that --session names");
-        words(release, "REF", "components")->required();
+        auto& release = command("release", "release components of a held session; without REF, end the one of --session-file");
+        words(release, "REF", "components");
         auto& set = command("set", "set parameters of a component");
         ref(set);
         words(set, "NAME=VALUE", "parameters; a name that comes again adds to a list")->required();
@@ -190,7 +209,7 @@ private:
         listening(replay, "where [127.0.0.1:8080]; port 0 takes any free one");
         replay.add_option("--speed", options_.speed, "so many recorded seconds in a second [1]; 0: without any pause")
             ->option_text("X")
-            ->check(CLI::Range(0.0, 1e6));
+            ->check(within(0, 1e6));
         auto& scenario = command("scenario", "run a state machine");
         scenario.add_option("FILE", options_.file, "a file as schemas/scenario.xsd has it")->required()->option_text(" ");
         words(scenario, "NAME=VALUE", "what variables begin with");
@@ -270,19 +289,52 @@ bool has(CLI::App const& app, std::string const& command, std::string const& opt
     return known != nullptr && known->count() > 0;
 }
 
+bool has_own_session(Options const& options) {
+    return options.command == "scenario" || options.command == "record" || options.command == "replay" ||
+           options.command == "health";
+}
+
+// Takes the session from the session file. `bind` does so later.
+void join_held_session(Options& options) {
+    if (options.session_file.empty() || has_own_session(options)) return;
+    if (!options.session.empty())
+        throw Trouble{Exit::usage,
+                      "which session? Give --session (ROIS_SESSION) or --session-file (ROIS_SESSION_FILE), not both"};
+    if (options.command == "bind") return;
+    auto const held = find_held_session(options.session_file, options.deadline);
+    if (!held) throw no_holder(options.session_file);
+    join(options, *held);
+}
+
+// An empty value comes from a variable that is not set, and would stand for a default: another engine, or a session of its own.
+// An empty --token sends none, whatever ROIS_TOKEN says. Words have a meaning of their own when they are empty.
+void check_empty(CLI::App const& app) {
+    for (auto const* const option : app.get_options()) {
+        bool const may_be =
+            option->get_single_name() == "token" || (option->get_positional() && option->get_items_expected_max() > 1);
+        if (may_be || option->count() == 0 || std::ranges::find(option->results(), "") == option->results().end()) continue;
+        throw Trouble{Exit::usage, option->get_name() + ": the value is empty; leave the option out for its default"};
+    }
+}
+
 void check(Options const& options, Raw const& raw) {
     if (!options.where.empty() && !raw.condition.empty()) throw Trouble{Exit::usage, "the condition is given twice"};
     if (!options.condition_file.empty() && !raw.condition.empty()) throw Trouble{Exit::usage, "the condition is given twice"};
     if (options.command == "release" && options.session.empty())
-        throw Trouble{Exit::usage, "release: which session? --session or ROIS_SESSION names it; rois bind says it"};
+        throw Trouble{Exit::usage,
+                      "release: which session? --session (ROIS_SESSION) names it, as rois bind says it, or --session-file "
+                      "(ROIS_SESSION_FILE) the file of one in the background"};
+    if (options.command == "release" && options.words.empty() && options.session_file.empty())
+        throw Trouble{Exit::usage, "release: which components? Only with --session-file can they be left out"};
     if (!options.wait && options.session.empty())
         throw Trouble{Exit::usage, "--no-wait: without --session the command would end with the program"};
     if (options.command == "bind" && options.words.empty() && options.where.empty() && options.condition_file.empty())
         throw Trouble{Exit::usage, "bind: which components? Name them, or say --where CONDITION"};
-    bool const own = options.command == "scenario" || options.command == "record" || options.command == "replay" ||
-                     options.command == "health";
-    if (own && !options.session.empty() && options.command != "health" && options.command != "replay")
-        throw Trouble{Exit::usage, options.command + " has a session of its own: --session and ROIS_SESSION must not be set"};
+    bool const unasked = options.command == "replay" || options.command == "health";  // they ask for no session
+    if (has_own_session(options) && !unasked && !(options.session.empty() && options.session_file.empty()))
+        throw Trouble{
+            Exit::usage,
+            options.command + " has a session of its own: --session, --session-file and their variables must not be set"};
     if (options.command == "record" && !options.record.empty()) throw Trouble{Exit::usage, "record: the file is named twice"};
     bool const others = options.command == "record" && !options.listen.empty();
     if (others && (!options.words.empty() || !options.starts.empty() || options.span || options.count))
@@ -309,8 +361,13 @@ std::variant<Options, Said> read_options(int argc, char const* const* argv) {
     }
     if (raw.version) return Said{"rois " ROIS_VERSION "\n"};
     if (options.command.empty()) throw Trouble{Exit::usage, "which command? rois --help tells what there is"};
-    if (options.url.empty()) options.url = options.command == "health" ? url_beside_gateway() : default_url();
+    check_empty(app);
+    check_empty(*app.get_subcommand(options.command));
     options.deadline = milliseconds_of(raw.timeout);
+    options.deadline_is_given = app.get_option("--timeout")->count() > 0;
+    options.url_is_given = !options.url.empty();
+    join_held_session(options);
+    if (options.url.empty()) options.url = options.command == "health" ? url_beside_gateway() : default_url();
     if (raw.xml) options.form = Form::xml;
     if (raw.json) options.form = Form::json;
     options.wait = !raw.no_wait;
@@ -321,5 +378,13 @@ std::variant<Options, Said> read_options(int argc, char const* const* argv) {
     if (options.command == "record") options.record = options.file;
     return options;
 }
+
+void join(Options& options, HeldSession const& held) {
+    options.session = held.session;
+    options.held = held;
+    if (!options.url_is_given) options.url = held.url;
+}
+
+bool runs_in_background(Options const& options) { return options.command == "bind" && !options.session_file.empty(); }
 
 }  // namespace rois::command

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "command/printer.hpp"
+#include "command/session_file.hpp"
 
 namespace rois::command {
 
@@ -18,11 +19,16 @@ struct Options {
 
     // Of every command.
     std::string url;
+    bool url_is_given = false;  // by --url
     std::string token;
     std::string ca_file;
-    std::string session;  // joined instead of opening one; empty: none
+    std::string session;              // joined instead of opening one; empty: none
+    std::string session_file;         // names the session that a process in the background holds; empty: none
+    std::optional<HeldSession> held;  // what the session file named, if `session` is from there
     bool over_http = false;
     std::chrono::milliseconds deadline{10'000};  // of each request
+    bool deadline_is_given = false;              // by --timeout
+    std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
     Form form = Form::human;
     std::string colour = "auto";
     std::string record;  // file; empty: none
@@ -50,7 +56,15 @@ struct Said {
     std::string words;
 };
 
-// Throws Trouble, with what was wrong. Reads ROIS_URL, ROIS_TOKEN, ROIS_CA_FILE and ROIS_SESSION.
+// Reads the command line, the variables ROIS_URL, ROIS_TOKEN, ROIS_CA_FILE, ROIS_SESSION and ROIS_SESSION_FILE, and the session
+// file, whose session becomes `session`; `bind` looks into the file later. Throws Trouble with the reason.
 std::variant<Options, Said> read_options(int argc, char const* const* argv);
+
+// The command then acts in this session, and speaks to its engine unless --url names another.
+void join(Options&, HeldSession const&);
+
+// Whether the command goes on in the background: bind with a session file. Only there it finds out whether it opens a session or
+// acts in one that another process holds.
+bool runs_in_background(Options const&);
 
 }  // namespace rois::command

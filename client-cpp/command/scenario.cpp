@@ -148,14 +148,19 @@ private:
         auto const found = std::ranges::find(pending_, completed.command_id);
         if (found == pending_.end()) return;
         pending_.erase(found);
-        if (status_ == CompletedStatus::ok) status_ = completed.status;
+        if (status_ == CompletedStatus::ok) {
+            status_ = completed.status;
+            decisive_ = completed.command_id;
+        }
         if (!pending_.empty()) return;
         auto const is_meant = [&](Trigger const& trigger) {
             return trigger.kind == Trigger::Kind::completed && (!trigger.status || *trigger.status == status_);
         };
         if (fire_if(is_meant, nullptr, "completed " + std::string{to_text(status_)}) || waits_for_more()) return;
+        auto const reason = reason_of(context_, decisive_);
         throw Trouble{exit_of(status_), state_->place + ": the commands of " + rois::quoted(state_->name) + " ended with " +
-                                            std::string{to_text(status_)} + ", and no trigger is for that"};
+                                            std::string{to_text(status_)} + ", and no trigger is for that" +
+                                            (reason.empty() ? "" : ": " + reason)};
     }
 
     bool waits_for_more() const {
@@ -167,8 +172,8 @@ private:
     Clock::time_point due(Trigger const& trigger) const {
         auto const text = variables_.filled(trigger.seconds);
         auto const seconds = to_double(text);
-        if (!seconds || !(*seconds >= 0 && *seconds < 1e9))
-            throw Trouble{Exit::usage, state_->place + ": " + rois::quoted(text) + " is no number of seconds"};
+        bool const possible = seconds && *seconds >= 0 && *seconds < 1e9;
+        if (!possible) throw Trouble{Exit::usage, state_->place + ": " + rois::quoted(text) + " is no number of seconds"};
         return entered_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>{*seconds});
     }
 
@@ -275,6 +280,7 @@ private:
     Clock::time_point entered_;
     std::vector<CommandId> pending_;
     CompletedStatus status_ = CompletedStatus::ok;
+    CommandId decisive_;  // the command whose status that is
     std::set<Trigger const*> fired_;
     std::optional<std::string> next_;  // entered next
 };

@@ -39,7 +39,7 @@ public:
             if (!heard) throw Trouble{Exit::no_answer, "the connection has closed"};
             take(*heard);
         }
-        if (worst_) throw Trouble{exit_of(*worst_), ""};
+        if (failure_) throw Trouble{*failure_};
     }
 
 private:
@@ -57,20 +57,24 @@ private:
         auto const found = std::ranges::find(awaited_, completed.command_id, &Awaited::id);
         if (found == awaited_.end()) return;
         auto& printer = context_.printer();
-        if (printer.form() == Form::human) {
-            auto const colour = completed.status == CompletedStatus::ok ? Colour::good : Colour::bad;
-            printer.text(painted(found->label, Colour::none, false) + "  " +
-                         painted(to_text(completed.status), colour, printer.coloured()) + "\n");
-        } else {
-            printer.notification(news.notification, news.sequence);
-        }
-        if (completed.status != CompletedStatus::ok && !worst_) worst_ = completed.status;
+        bool const good = completed.status == CompletedStatus::ok;
+        bool const human = printer.form() == Form::human;
+        if (!human) printer.notification(news.notification, news.sequence);
+        auto const reason = good ? std::string{} : reason_of(context_, completed.command_id);
+        auto const separated = [&](char const* separator) { return reason.empty() ? "" : separator + reason; };
+        auto const status = std::string{to_text(completed.status)};
+        if (human)
+            printer.text(found->label + "  " + painted(status, good ? Colour::good : Colour::bad, printer.coloured()) +
+                         separated("  ") + "\n");
+        // People have been told by the line above. The other forms show the notification, which has no reason.
+        if (!good && !failure_)
+            failure_.emplace(exit_of(completed.status), human ? "" : found->label + ": " + status + separated(": "));
         awaited_.erase(found);
     }
 
     Context& context_;
     std::vector<Awaited> awaited_;
-    std::optional<CompletedStatus> worst_;
+    std::optional<Trouble> failure_;  // of the first command that failed
 };
 
 }  // namespace
@@ -92,6 +96,14 @@ CommandId fresh_command_id() {
     return CommandId{process + "-" + std::to_string(++number)};
 }
 
+std::string reason_of(Context& context, CommandId const& id) {
+    auto const answer = context.session().request(GetCommandResult{id, {}});
+    auto const* const reply = std::get_if<Reply>(&answer);
+    auto const* const results = reply != nullptr ? std::get_if<GetCommandResult::Reply>(reply) : nullptr;
+    auto const* const reason = results != nullptr ? find(results->results.parameters, "reason") : nullptr;
+    return reason != nullptr && !reason->values.empty() ? harmless(reason->values.front()) : std::string{};
+}
+
 Trouble ended_with_session() { return Trouble{Exit::aborted, "the session has ended, and its commands with it"}; }
 
 void wait_for(Context& context, std::vector<Awaited> awaited) {
@@ -105,7 +117,7 @@ void run(Context& context, CommandUnitSequence sequence) {
     for (auto* const message : messages_of(sequence)) {
         if (message->command_id.text.empty()) message->command_id = fresh_command_id();
         awaited.push_back({message->command_id, message->command_type + " " + message->component_ref.code});
-        if (bound.insert(message->component_ref.code).second) context.ok(Bind{message->component_ref});
+        if (bound.insert(message->component_ref.code).second) context.bound(message->component_ref);
     }
     auto const& options = context.options();
     if (!options.wait) {

@@ -20,6 +20,9 @@ CommandId fresh_command_id();
 // Throws Trouble with the code of the first command that did not end with OK.
 void run(Context&, CommandUnitSequence);
 
+// Why a command failed, as the engine says it; empty if the engine gives no reason. Asks the engine.
+std::string reason_of(Context&, CommandId const&);
+
 struct Awaited {
     CommandId id;
     std::string label;  // for people: "start navigation"

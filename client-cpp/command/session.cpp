@@ -1,33 +1,64 @@
 #include "command/session.hpp"
 
+#include <algorithm>
+#include <cstdio>
+
+#include "command/http.hpp"
+#include "command/terminal.hpp"
+
 namespace rois::command {
 
 namespace {
 
+// Whether the command goes on after a request, and so keeps trying when no gateway answers.
+bool lasts(Options const& options) {
+    bool const is_shared = !options.session.empty();  // there `bind` and `subscribe` end at once
+    return options.command == "watch" || options.command == "record" || options.command == "scenario" ||
+           ((options.command == "bind" || options.command == "subscribe") && !is_shared) || options.span;
+}
+
 // Commands that are over soon do not try for long.
 Settings settings_for(Options const& options) {
+    check_ca_file({options.url, options.token, options.ca_file});
     auto settings = settings_of(options);
-    bool const lasts = options.command == "watch" || options.command == "subscribe" || options.command == "record" ||
-                       options.command == "bind" || options.command == "scenario" || options.span;
-    if (!lasts) settings.attempts = 3;
+    if (!lasts(options)) settings.attempts = 3;
     // On a WebSocket the engine says nothing of what is not UTF-8 or too long: it closes the link.
     if (options.command == "send") settings.way = Way::http;
     return settings;
 }
 
+// How long to wait for a session. A script waits for `bind` in the background and for `start`, whose --for begins later.
+std::chrono::milliseconds patience(Options const& options) {
+    bool const is_waited_for = runs_in_background(options) || options.command == "start";
+    if (!lasts(options) || is_waited_for || options.span == std::chrono::milliseconds{0}) return options.deadline;
+    auto longest = options.deadline_is_given ? options.deadline : std::chrono::milliseconds::max();
+    if (!options.span) return longest;
+    auto const left = options.started + *options.span - std::chrono::steady_clock::now();
+    return std::clamp(std::chrono::ceil<std::chrono::milliseconds>(left), std::chrono::milliseconds{1}, longest);
+}
+
 }  // namespace
 
 Session::Session(Options const& options, std::shared_ptr<RecordingWriter> recorded)
-    : joined_{!options.session.empty()}, connection_{settings_for(options), observers(std::move(recorded))} {
-    auto const none = connection_.wait(connection_.opened(options.deadline));
+    : joined_{!options.session.empty()},
+      url_{options.url},
+      reports_attempts_{!settings_for(options).attempts && !options.quiet},
+      connection_{settings_for(options), observers(std::move(recorded))} {
+    auto const none = connection_.wait(connection_.opened(patience(options)));
     if (!none) return;
     if (joined_ && id().text.empty()) throw NoSession{none->reason};
-    throw Trouble{Exit::no_answer, options.url + ": " + none->reason};
+    throw Trouble{Exit::no_answer, options.url + ": " + none->reason + hint_for_url(options.url)};
 }
 
 Observers Session::observers(std::shared_ptr<RecordingWriter> recorded) {
     Observers observers;
+    observers.attempt_failed = [this](FailedAttempt const& failed) {
+        if (!reports_attempts_ || failed.reason == reported_) return;
+        reported_ = failed.reason;
+        std::fprintf(stderr, "rois: %s: %s; trying again\n", url_.c_str(), harmless(failed.reason).c_str());
+    };
     observers.state = [this](StateChange const& change) {
+        reported_.clear();
         inbox_.put(change);
         if (change.state == State::closed) inbox_.close();
     };

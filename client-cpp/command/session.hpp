@@ -53,6 +53,9 @@ private:
     Observers observers(std::shared_ptr<RecordingWriter> recorded);
 
     bool const joined_;
+    std::string const url_;
+    bool const reports_attempts_;  // of a command that keeps trying
+    std::string reported_;         // the last reason; on the client's thread
     std::atomic<bool> interrupted_ = false;
     Inbox<Heard> inbox_;  // filled on the client's thread
     Connection connection_;

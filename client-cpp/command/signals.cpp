@@ -12,6 +12,9 @@ namespace rois::command {
 
 namespace {
 
+// One key press often arrives twice: from the terminal and from a parent process.
+constexpr std::chrono::milliseconds same_signal{500};
+
 sigset_t ends() {
     sigset_t set;
     sigemptyset(&set);
@@ -51,7 +54,7 @@ void Signals::on_first(std::function<void()> told) {
 
 bool Signals::raised() const {
     std::lock_guard const lock{mutex_};
-    return raised_;
+    return raised_.has_value();
 }
 
 void Signals::wait() {
@@ -63,8 +66,10 @@ void Signals::wait() {
             std::lock_guard const lock{mutex_};
             if (over_) return;
             if (number == SIGUSR1) continue;
+            auto const now = std::chrono::steady_clock::now();
+            if (raised_ && now - *raised_ < same_signal) continue;
             if (raised_ || !told_) _exit(static_cast<int>(Exit::interrupted));
-            raised_ = true;
+            raised_ = now;
         }
         std::lock_guard const telling{telling_};
         std::unique_lock lock{mutex_};

@@ -1,14 +1,17 @@
 // SIGINT and SIGTERM, as something that is waited for beside other things.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace rois::command {
 
-// Made before any other thread. The first signal is told to whoever wants to know; the second one ends the program at once.
+// Made before any other thread. The first signal is reported to the callback. Another one within half a second counts as the
+// same, so that the session can still be ended properly; a later one ends the program at once.
 class Signals {
 public:
     Signals();
@@ -28,7 +31,7 @@ private:
     std::mutex telling_;  // taken before the other
     mutable std::mutex mutex_;
     std::function<void()> told_;
-    bool raised_ = false;
+    std::optional<std::chrono::steady_clock::time_point> raised_;
     bool over_ = false;
     std::thread thread_;
 };

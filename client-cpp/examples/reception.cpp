@@ -91,7 +91,7 @@ int main(int argc, char** argv) try {
     std::string const visitors = argc > 1 ? argv[1] : "1";
     if (!std::regex_match(visitors, std::regex{"[1-9][0-9]{0,5}"}))
         throw Error{ReturnCode::bad_parameter, "VISITORS is a whole number, 1 to 999999, not '" + visitors + "'"};
-    Client robot;
+    Client robot{{}, {.attempt_failed = [](auto const& one) { std::fprintf(stderr, "reception: %s\n", one.reason.c_str()); }}};
     robot.wait(receive(robot, std::stoi(visitors)));
 } catch (std::exception const& problem) {
     std::fprintf(stderr, "reception: %s\n", problem.what());

@@ -7,10 +7,12 @@
 #include <boost/asio/ssl.hpp>
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "rois/settings.hpp"
 #include "target.hpp"
+#include "types/texts.hpp"
 
 namespace rois::client {
 
@@ -19,14 +21,25 @@ using TlsSocket = asio::ssl::stream<Socket>;
 template <class Stream>
 inline constexpr bool is_tls = std::is_same_v<Stream, TlsSocket>;
 
-// What TLS trusts: the system's certificates, and the file of the settings. Throws boost::system::system_error when that cannot
-// be read.
+// What TLS trusts: the system's certificates, and the file of the settings. Throws std::runtime_error, naming the file, if it
+// cannot be read.
 inline std::unique_ptr<asio::ssl::context> trust(Settings const& settings) {
     auto context = std::make_unique<asio::ssl::context>(asio::ssl::context::tls_client);
     context->set_default_verify_paths();
-    if (!settings.ca_file.empty()) context->load_verify_file(settings.ca_file);
+    error_code error;
+    if (!settings.ca_file.empty()) context->load_verify_file(settings.ca_file, error);
+    if (error)
+        throw std::runtime_error{"the file of trusted certificates " + quoted(settings.ca_file) +
+                                 " cannot be read: " + error.message() + "; it must be a readable file in PEM format"};
     context->set_verify_mode(asio::ssl::verify_peer);
     return context;
+}
+
+// What to do about a failed TLS handshake, where that is known.
+inline std::string hint_for(error_code const& error) {
+    bool const is_plain = error.category() == asio::error::get_ssl_category() &&
+                          ERR_GET_REASON(static_cast<unsigned long>(error.value())) == SSL_R_WRONG_VERSION_NUMBER;
+    return is_plain ? "; this port speaks plain HTTP: use http: or ws: instead of https: or wss:" : "";
 }
 
 using Resolver = asio::ip::basic_resolver<asio::ip::tcp, Executor>;
@@ -52,7 +65,7 @@ asio::awaitable<std::string, Executor> connect(Stream& stream, Socket& lowest, R
         stream.set_verify_callback(asio::ssl::host_name_verification{target.host}, error);
         if (no_address) SSL_set_tlsext_host_name(stream.native_handle(), target.host.c_str());
         co_await stream.async_handshake(asio::ssl::stream_base::client, into(error));
-        if (error) co_return "no TLS with " + target.authority + ": " + error.message();
+        if (error) co_return "no TLS with " + target.authority + ": " + error.message() + hint_for(error);
     }
     co_return std::string{};
 }

@@ -8,10 +8,26 @@ using detail::asked;
 
 namespace {
 
-Task<CompletedStatus> completed_of(std::shared_ptr<detail::Core> core, std::shared_ptr<detail::Watch> watch) {
+// Why a command failed, as the engine says it, or why the engine cannot be asked; empty if the engine has no reason.
+Task<std::string> reason_of(std::shared_ptr<detail::Core> core, CommandId id) {
+    Request request{GetCommandResult{std::move(id), {}}, {}};
+    auto answer = co_await core->request(std::move(request), core->settings().deadline);
+    if (auto const* const none = std::get_if<NoAnswer>(&answer)) co_return none->reason;
+    auto const reply = reply_of<GetCommandResult>(std::move(answer));
+    auto const* const reason = find(reply.results.parameters, "reason");
+    co_return reason != nullptr && !reason->values.empty() ? reason->values.front() : std::string{};
+}
+
+Task<Completion> completed_of(std::shared_ptr<detail::Core> core, std::shared_ptr<detail::Watch> watch) {
     co_await core->here();
     while (!watch->status && !core->is_closed()) co_await watch->completed.raised();
-    co_return watch->status.value_or(CompletedStatus::abort);
+    Completion completion{watch->status.value_or(CompletedStatus::abort), watch->reason};
+    if (!watch->status) {
+        completion.reason = core->closed().reason;
+    } else if (completion.status != CompletedStatus::ok && watch->reason.empty()) {
+        completion.reason = co_await reason_of(core, watch->id);
+    }
+    co_return completion;
 }
 
 Task<Results> results_of(std::shared_ptr<detail::Core> core, CommandId id) {
@@ -37,11 +53,11 @@ Task<Command> begun(std::shared_ptr<detail::Core> core, Identifier ref, std::str
     co_return Command{core, watches.front()};
 }
 
-Task<CompletedStatus> run_to_the_end(std::shared_ptr<detail::Core> core, Identifier ref, std::string command_type,
-                                     ParameterList arguments) {
+Task<Completion> run_to_the_end(std::shared_ptr<detail::Core> core, Identifier ref, std::string command_type,
+                                ParameterList arguments) {
     auto const command = co_await begun(std::move(core), std::move(ref), std::move(command_type), std::move(arguments));
-    auto const status = co_await command.completed();
-    co_return status;
+    auto completion = co_await command.completed();
+    co_return completion;
 }
 
 Task<Results> queried(std::shared_ptr<detail::Core> core, Identifier ref, std::string query_type) {
@@ -81,18 +97,22 @@ Task<> released(std::shared_ptr<detail::Core> core, Identifier ref) {
 
 }  // namespace
 
+std::string to_text(Completion const& completion) {
+    return std::string{to_text(completion.status)} + (completion.reason.empty() ? "" : ": " + completion.reason);
+}
+
 Command::Command(std::shared_ptr<detail::Core> core, std::shared_ptr<detail::Watch> watch)
     : core_{std::move(core)}, watch_{std::move(watch)} {}
 
 CommandId const& Command::id() const { return watch_->id; }
 
-Task<CompletedStatus> Command::completed() const { return completed_of(core_, watch_); }
+Task<Completion> Command::completed() const { return completed_of(core_, watch_); }
 
 Task<Results> Command::results() const { return results_of(core_, watch_->id); }
 
 Component::Component(std::shared_ptr<detail::Core> core, Identifier ref) : core_{std::move(core)}, ref_{std::move(ref)} {}
 
-Task<CompletedStatus> Component::run(std::string command_type, ParameterList arguments) const {
+Task<Completion> Component::run(std::string command_type, ParameterList arguments) const {
     return run_to_the_end(core_, ref_, std::move(command_type), std::move(arguments));
 }
 

@@ -84,7 +84,7 @@ PersonLocalized PersonLocalized::from(ReceiveEvent const& event) { return locali
 FaceLocalized FaceLocalized::from(ReceiveEvent const& event) { return localized<FaceLocalized>(event, "face_ref"); }
 SoundLocalized SoundLocalized::from(ReceiveEvent const& event) { return localized<SoundLocalized>(event, "sound_ref"); }
 
-Task<CompletedStatus> Localization::set(LocalizationParameters parameters) const {
+Task<Completion> Localization::set(LocalizationParameters parameters) const {
     return set_parameter(Arguments{}
                              .integer("detection_threshold", rounded(parameters.detection_threshold))
                              .milliseconds("minimum_interval", parameters.minimum_interval)
@@ -120,7 +120,7 @@ SpeechInputFinished SpeechInputFinished::from(ReceiveEvent const& event) {
     return {Reading{results_of(event)}.time("timestamp").value_or(Utc{})};
 }
 
-Task<CompletedStatus> SpeechRecognition::set(SpeechRecognitionParameters parameters) const {
+Task<Completion> SpeechRecognition::set(SpeechRecognitionParameters parameters) const {
     return set_parameter(Arguments{}
                              .texts("languages", parameters.languages)
                              .text("grammar", parameters.grammar)
@@ -164,13 +164,13 @@ ParameterList arguments_of(Speech const& speech) {
 
 }  // namespace
 
-Task<CompletedStatus> SpeechSynthesis::say(std::string speech_text) const {
+Task<Completion> SpeechSynthesis::say(std::string speech_text) const {
     return start(Arguments{}.text("speech_text", std::move(speech_text)).list());
 }
 
-Task<CompletedStatus> SpeechSynthesis::say(Speech speech) const { return start(arguments_of(speech)); }
+Task<Completion> SpeechSynthesis::say(Speech speech) const { return start(arguments_of(speech)); }
 
-Task<CompletedStatus> SpeechSynthesis::set(Speech speech) const { return set_parameter(arguments_of(speech)); }
+Task<Completion> SpeechSynthesis::set(Speech speech) const { return set_parameter(arguments_of(speech)); }
 
 Task<Speech> SpeechSynthesis::parameters() const {
     return read_parameters<Speech>(*this, [](Reading const& read) {
@@ -186,7 +186,7 @@ Task<Speech> SpeechSynthesis::parameters() const {
     });
 }
 
-Task<CompletedStatus> Reaction::react(std::string reaction_ref) const {
+Task<Completion> Reaction::react(std::string reaction_ref) const {
     return start({reference("reaction_ref", std::move(reaction_ref))});
 }
 
@@ -205,6 +205,7 @@ namespace {
 
 ParameterList arguments_of(NavigationParameters const& parameters) {
     std::vector<std::string> places;
+    places.reserve(parameters.target_position.size());
     for (auto const& target : parameters.target_position) places.push_back(target.text);
     std::optional<std::string> policy;
     if (parameters.routing_policy) policy = *parameters.routing_policy == RoutingPolicy::time ? "time" : "distance";
@@ -234,15 +235,15 @@ ParameterList arguments_of(MoveParameters const& parameters) {
 
 }  // namespace
 
-Task<CompletedStatus> Navigation::go_to(Target target, std::optional<Milliseconds> time_limit) const {
+Task<Completion> Navigation::go_to(Target target, std::optional<Milliseconds> time_limit) const {
     auto parameters = NavigationParameters{}.with_target_position(std::move(target));
     parameters.time_limit = time_limit;
     return go(std::move(parameters));
 }
 
-Task<CompletedStatus> Navigation::go(NavigationParameters parameters) const { return start(arguments_of(parameters)); }
+Task<Completion> Navigation::go(NavigationParameters parameters) const { return start(arguments_of(parameters)); }
 
-Task<CompletedStatus> Navigation::set(NavigationParameters parameters) const { return set_parameter(arguments_of(parameters)); }
+Task<Completion> Navigation::set(NavigationParameters parameters) const { return set_parameter(arguments_of(parameters)); }
 
 Task<NavigationParameters> Navigation::parameters() const {
     return read_parameters<NavigationParameters>(*this, [](Reading const& read) {
@@ -255,11 +256,11 @@ Task<NavigationParameters> Navigation::parameters() const {
     });
 }
 
-Task<CompletedStatus> Follow::follow(FollowParameters parameters) const { return start(arguments_of(parameters)); }
+Task<Completion> Follow::follow(FollowParameters parameters) const { return start(arguments_of(parameters)); }
 
 Task<Command> Follow::begin_following(FollowParameters parameters) const { return begin("start", arguments_of(parameters)); }
 
-Task<CompletedStatus> Follow::set(FollowParameters parameters) const { return set_parameter(arguments_of(parameters)); }
+Task<Completion> Follow::set(FollowParameters parameters) const { return set_parameter(arguments_of(parameters)); }
 
 Task<FollowParameters> Follow::parameters() const {
     return read_parameters<FollowParameters>(*this, [](Reading const& read) {
@@ -271,19 +272,19 @@ Task<FollowParameters> Follow::parameters() const {
     });
 }
 
-Task<CompletedStatus> Move::move(Line line, std::optional<Milliseconds> time) const {
+Task<Completion> Move::move(Line line, std::optional<Milliseconds> time) const {
     auto parameters = MoveParameters{}.with_line(line);
     parameters.time = time;
     return start(arguments_of(parameters));
 }
 
-Task<CompletedStatus> Move::move(Curve curve, std::optional<Milliseconds> time) const {
+Task<Completion> Move::move(Curve curve, std::optional<Milliseconds> time) const {
     auto parameters = MoveParameters{}.with_curve(curve);
     parameters.time = time;
     return start(arguments_of(parameters));
 }
 
-Task<CompletedStatus> Move::set(MoveParameters parameters) const { return set_parameter(arguments_of(parameters)); }
+Task<Completion> Move::set(MoveParameters parameters) const { return set_parameter(arguments_of(parameters)); }
 
 Task<MoveParameters> Move::parameters() const {
     return read_parameters<MoveParameters>(*this, [](Reading const& read) {
@@ -310,11 +311,10 @@ namespace {
 
 Task<StreamOffer> connect_stream_of(Component component) {
     auto const command = co_await component.begin("connect_stream");
-    auto const status = co_await command.completed();
+    auto const completion = co_await command.completed();
+    if (completion != CompletedStatus::ok)
+        throw Error{ReturnCode::error, "connect_stream of " + component.ref().code + ": " + to_text(completion)};
     auto const results = co_await command.results();
-    if (status != CompletedStatus::ok)
-        throw Error{ReturnCode::error,
-                    "connect_stream of " + component.ref().code + " completed with " + std::string{to_text(status)}};
     Reading const read{results};
     StreamOffer offer{read.text("stream_id").value_or(""), read.text("encoding_parameters").value_or(""),
                       read.text("transport_parameters").value_or("")};
@@ -334,21 +334,21 @@ ParameterList stream(std::string stream_id) { return {text("stream_id", std::mov
 
 Task<StreamOffer> Streaming::connect_stream() const { return connect_stream_of(*this); }
 
-Task<CompletedStatus> Streaming::disconnect_stream(std::string stream_id) const {
+Task<Completion> Streaming::disconnect_stream(std::string stream_id) const {
     return run("disconnect_stream", stream(std::move(stream_id)));
 }
 
-Task<CompletedStatus> Streaming::suspend_stream(std::string stream_id) const {
+Task<Completion> Streaming::suspend_stream(std::string stream_id) const {
     return run("suspend_stream", stream(std::move(stream_id)));
 }
 
-Task<CompletedStatus> Streaming::resume_stream(std::string stream_id) const {
+Task<Completion> Streaming::resume_stream(std::string stream_id) const {
     return run("resume_stream", stream(std::move(stream_id)));
 }
 
 Task<StreamStatus> Streaming::get_stream_status() const { return stream_status_of(*this); }
 
-Task<CompletedStatus> Streaming::set(StreamParameters parameters) const {
+Task<Completion> Streaming::set(StreamParameters parameters) const {
     return set_parameter(Arguments{}
                              .text("encoding_parameters", parameters.encoding_parameters)
                              .text("transport_parameters", parameters.transport_parameters)

@@ -157,7 +157,7 @@ void Core::take_answer(std::string_view document, std::optional<xml::Heard>& hea
         if (!heard) give_up_misunderstood();
         return;
     }
-    auto const call = *first;
+    auto const call = *first;  // NOLINT(performance-unnecessary-copy-initialization): calls_ lets go of it below
     auto const take_first = [&] {
         calls_.erase(first);
         failures_ = 0;
@@ -205,7 +205,7 @@ void Core::begin_close(Farewell farewell) {
     loop_.cancel(attempt_);
     for (auto const& call : std::exchange(calls_, {})) call->give(closed());
     for (auto const& stream : subscriptions_.streams()) stream->end();
-    for (auto const& [id, watch] : std::exchange(watches_, {})) watch->complete(CompletedStatus::abort);
+    for (auto const& [id, watch] : std::exchange(watches_, {})) watch->abort(closed().reason);
     for (auto const& sleeper : std::exchange(sleeping_, {}))
         if (auto const flag = sleeper.lock()) flag->raise();
     if (!says_it && !hears_more) {

@@ -106,7 +106,7 @@ private:
     void tell_held();
     void tell_first_held();
     void tell(xml::Told);
-    void tell_gap(Gap);
+    void tell_gap(Gap const&);
     void complete(CommandId const&, CompletedStatus);
 
     // --- core_operations.cpp ---
@@ -143,7 +143,9 @@ private:
     bool had_session_ = false;
     std::uint64_t last_sequence_ = 0;
     unsigned attempts_ = 0;  // in a row that have led to no session
-    unsigned failures_ = 0;  // in a row without a link that was good
+    // Links in a row that failed, since one delivered an answer or a notification or lasted for longest_pause. A link with a
+    // session leaves at most one, which stands for the attempt without a pause.
+    unsigned failures_ = 0;
     client::Steady opened_at_;
     client::Loop::Ticket attempt_ = 0;
     std::string last_reason_;

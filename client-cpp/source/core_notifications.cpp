@@ -8,6 +8,7 @@ namespace rois::detail {
 // The link may break at any time: what was received counts as heard, even if it waits here.
 void Core::take(xml::Told told) {
     if (told.sequence <= last_sequence_) return;
+    failures_ = 0;
     auto const missing = told.sequence - last_sequence_ - 1;
     last_sequence_ = told.sequence;
     if (auto* const lost = std::get_if<Lost>(&told.notification)) {
@@ -43,7 +44,7 @@ void Core::tell(xml::Told told) {
         complete(completed->command_id, completed->status);
 }
 
-void Core::tell_gap(Gap gap) {
+void Core::tell_gap(Gap const& gap) {
     for (auto const& stream : subscriptions_.streams()) stream->take_gap();
     if (observers_.gap && !muted_) observers_.gap(gap);
 }

@@ -158,14 +158,16 @@ void Core::give_up_link(std::string const& reason, Failure failure) {
     if (was_open) change(State::lost, reason);
     if (was_open && opened_at_ + settings_.longest_pause <= std::chrono::steady_clock::now()) failures_ = 0;
     ++failures_;
-    ++attempts_;
+    if (!was_open) ++attempts_;
     if (failure == Failure::lasting || (settings_.attempts && attempts_ >= *settings_.attempts && !was_open)) {
         begin_close(Farewell::said);
         return;
     }
     if (refused) refuse_too_large(*refused, reason);
     if (is_closed()) return;  // who was told has closed it
-    attempt_ = loop_.in(pause(), [this] { attempt(); });
+    auto const retry_in = pause();
+    attempt_ = loop_.in(retry_in, [this] { attempt(); });
+    if (!was_open && observers_.attempt_failed && !muted_) observers_.attempt_failed({attempts_, reason, retry_in});
 }
 
 // The largest that is on its way, which the gateway did not take: it would break the next link, too. Null when there is none.
@@ -201,12 +203,12 @@ void Core::leave_session() {
 
 void Core::give_up_misunderstood() { give_up_link("what the gateway says is not understood", Failure::passing); }
 
-// At once after a link that was good, on which something was answered or which has held for as long as the longest pause; then
-// twice as long each time, cut by up to a half.
+// See Settings::first_pause.
 std::chrono::milliseconds Core::pause() {
-    if (failures_ <= 1 && had_session_) return std::chrono::milliseconds{0};
+    auto const pauses = had_session_ ? failures_ - 1 : failures_;
+    if (pauses == 0) return std::chrono::milliseconds{0};
     auto longest = settings_.first_pause;
-    for (auto i = 1U; i < failures_ && longest < settings_.longest_pause; ++i) longest *= 2;
+    for (auto i = 1U; i < pauses && longest < settings_.longest_pause; ++i) longest *= 2;
     longest = std::min(longest, settings_.longest_pause);
     dice_ = dice_ * 6'364'136'223'846'793'005U + 1'442'695'040'888'963'407U;
     auto const cut = static_cast<std::int64_t>(dice_ >> 33U) % (longest.count() / 2 + 1);
@@ -280,6 +282,7 @@ void Core::become_open() {
     bool const same = !gap_ && state_ == State::lost;
     loop_.cancel(attempt_);
     attempts_ = 0;
+    failures_ = std::min(failures_, 1U);
     opened_at_ = std::chrono::steady_clock::now();
     phase_ = Phase::open;
     std::erase_if(calls_, [](auto const& call) { return call->is_over(); });
@@ -297,7 +300,7 @@ void Core::become_open() {
     flush();
     change(same ? State::resumed : State::open);
     if (gap) {
-        for (auto const& [id, watch] : std::exchange(watches_, {})) watch->complete(CompletedStatus::abort);
+        for (auto const& [id, watch] : std::exchange(watches_, {})) watch->abort("the session ended before the command");
         tell_gap(*gap);
     }
     auto const reason = std::exchange(last_reason_, {});

@@ -99,11 +99,20 @@ public:
 
     CommandId const id;
     std::optional<CompletedStatus> status;  // on the client's thread
+    std::string reason;                     // why this side ended it
     client::Flag completed;                 // raised when there is one
 
-    void complete(CompletedStatus how) {
+    // The engine has said how it ended, and knows the reason.
+    void complete(CompletedStatus how) { end(how, {}); }
+
+    // The session or the connection has ended, and the command with it. `why` is not empty.
+    void abort(std::string why) { end(CompletedStatus::abort, std::move(why)); }
+
+private:
+    void end(CompletedStatus how, std::string why) {
         if (status) return;
         status = how;
+        reason = std::move(why);
         completed.raise();
     }
 };

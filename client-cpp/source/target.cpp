@@ -18,7 +18,8 @@ namespace client {
 namespace {
 
 [[noreturn]] void complain(std::string_view url) {
-    throw std::invalid_argument{quoted(url) + " is no URL of a gateway: expected http://HOST:PORT, or https, ws, wss"};
+    throw std::invalid_argument{
+        quoted(url) + " is not a URL of a gateway: expected http://HOST:PORT (or https, ws, wss), with a port from 1 to 65535"};
 }
 
 bool is_port(std::string_view text) {

@@ -18,6 +18,8 @@ struct Tone {
     double frequency = 440;  // Hz
     std::uint32_t rate = 16'000;
     std::uint16_t channels = 1;
+    // The frequency of a tone that changes; empty: `frequency`. Called on a thread of its own, once for each piece of sound.
+    std::function<double()> current_frequency{};
 };
 
 struct Sound {

@@ -19,9 +19,11 @@ void append(std::string& bytes, std::uint32_t value, int count) {
 std::string ToneGenerator::next(std::size_t samples) {
     std::string bytes;
     bytes.reserve(samples * 2 * tone_.channels);
-    for (std::size_t i = 0; i < samples; ++i, ++position_) {
-        double const turns = tone_.frequency * static_cast<double>(position_) / tone_.rate;
-        auto const value = std::lround(amplitude * std::sin(2 * std::numbers::pi * (turns - std::floor(turns))));
+    double const turn = (tone_.current_frequency ? tone_.current_frequency() : tone_.frequency) / tone_.rate;
+    for (std::size_t i = 0; i < samples; ++i) {
+        auto const value = std::lround(amplitude * std::sin(2 * std::numbers::pi * phase_));
+        phase_ += turn;
+        phase_ -= std::floor(phase_);
         auto const low = static_cast<char>(value & 0xFF), high = static_cast<char>(value >> 8 & 0xFF);
         for (unsigned channel = 0; channel < tone_.channels; ++channel) {
             bytes.push_back(order_ == Order::little_endian ? low : high);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 
 #include "media/media.hpp"
 
@@ -14,7 +15,7 @@ class ToneGenerator {
 public:
     enum class Order : std::uint8_t { little_endian, big_endian };
 
-    ToneGenerator(Tone const& tone, Order order) : tone_{tone}, order_{order} {}
+    ToneGenerator(Tone tone, Order order) : tone_{std::move(tone)}, order_{order} {}
 
     // The next samples; all channels have the same.
     std::string next(std::size_t samples);
@@ -22,7 +23,7 @@ public:
 private:
     Tone tone_;
     Order order_;
-    std::uint64_t position_ = 0;  // in samples
+    double phase_ = 0;  // in turns, 0 to 1
 };
 
 // Of a WAV file that has no end.

@@ -32,6 +32,7 @@ std::map<std::string, Make, std::less<>> adapters(std::shared_ptr<xml::Schemas c
                 [](Fitting fitting, auto const&) { return person_gender_identification(std::move(fitting)); });
     all.emplace("person_age_recognition",
                 [](Fitting fitting, auto const&) { return person_age_recognition(std::move(fitting)); });
+    all.emplace("wheelchair_robot", [](Fitting fitting, auto const&) { return wheelchair_robot(std::move(fitting)); });
     all.emplace("stand_in", [](Fitting fitting, ComponentProfile const& whole) { return stand_in(std::move(fitting), whole); });
     return all;
 }

@@ -1,6 +1,11 @@
-// Audio streaming (RoIS 2.0): a tone of 440 Hz, which stands for what the robot's microphone hears.
+// Audio streaming (RoIS 2.0): a tone, which stands for what the robot's microphone hears. It has 440 Hz while the robot is
+// silent, and the pitch of the robot's voice while the robot speaks.
+#include <atomic>
+#include <memory>
+
 #include "simulation/basic_components.hpp"
 #include "simulation/streaming.hpp"
+#include "simulation/voice_characters.hpp"
 
 namespace rois::simulation {
 namespace {
@@ -19,7 +24,7 @@ private:
 
     std::variant<Opening, std::string> opening(MediaOffer const& encoding, MediaOffer const& transport) const override {
         MediaFields fields{encoding};
-        media::Tone tone;
+        media::Tone tone{.current_frequency = [pitch = pitch_] { return pitch->load(); }};
         tone.rate = static_cast<std::uint32_t>(fields.one_of("rate", {16'000, 8'000, 44'100, 48'000}));
         tone.channels = static_cast<std::uint16_t>(fields.one_of("channels", {1, 2}));
         if (auto problem = fields.problem()) return *problem;
@@ -35,6 +40,14 @@ private:
         return Opening{written,
                        [&media, tone, target = transport.name](media::Flow flow) { return media.send(tone, target, flow); }};
     }
+
+    void look(Instant) override {
+        auto const& speech = hall().robot(robot()).speaking;
+        *pitch_ = speech ? voice_character(speech->character).pitch : media::Tone{}.frequency;
+    }
+
+    // Written on the engine's thread and read on the media thread.
+    std::shared_ptr<std::atomic<double>> pitch_ = std::make_shared<std::atomic<double>>(media::Tone{}.frequency);
 };
 
 }  // namespace

@@ -28,8 +28,9 @@ struct Happening {
     Point place = Point::Zero();  // where they were
     std::string text;
     std::string language;
-    Seconds lasts = 0;    // speech_started of a robot: how long it takes when nothing holds it up
-    std::string prosody;  // speech_started of a robot: how its voice sounds, as a passage has it
+    Seconds lasts = 0;        // speech_started of a robot: how long it takes when nothing holds it up
+    std::string prosody;      // speech_started of a robot: how its voice sounds, as a passage has it
+    std::string character{};  // speech_started of a robot: with which voice (voice_characters.hpp)
 };
 
 // Append only; keeps the last `capacity` happenings.

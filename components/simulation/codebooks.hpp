@@ -14,6 +14,9 @@ inline constexpr std::string_view visitor = "urn:x-rois:def:codebook:simulation:
 // Names of robots.
 inline constexpr std::string_view robot = "urn:x-rois:def:codebook:simulation::robot";
 
+// Everybody who can be found in the hall: the codes of the three codebooks above together.
+inline constexpr std::string_view entity = "urn:x-rois:def:codebook:simulation::entity";
+
 // Gestures of visitors and robots: gestures().
 inline constexpr std::string_view gesture = "urn:x-rois:def:codebook:simulation::gesture";
 

@@ -6,8 +6,9 @@
 namespace rois::simulation {
 namespace {
 
-constexpr Metres at_place = 0.01;
-constexpr Radians at_heading = from_degrees(1);
+// How near to its end a motion is done: both must hold. The wheels can stop at any point, so these only keep the last steps few.
+constexpr Metres at_place = 0.0002;
+constexpr Radians at_heading = from_degrees(0.1);
 
 double braking(double left, double deceleration, Seconds dt) {
     double const one_step = deceleration * dt;
@@ -30,6 +31,13 @@ double pace(double way, double acceleration, Seconds time) {
     return (reach - std::sqrt(std::max(0.0, reach * reach - 4 * acceleration * way))) / 2;
 }
 
+MetresPerSecond paced(MetresPerSecond speed, std::optional<MetresPerSecond> const& fastest) {
+    return fastest ? std::min(speed, *fastest) : speed;
+}
+
+// Whether the robot drives at less than half the wanted speed. A slow motion, which stand() takes for standing, is not held up.
+bool is_slower_than(MetresPerSecond wanted, Wheels const& wheels) { return std::abs(wheels.twist.linear) < wanted / 2; }
+
 // Sums up how far a robot has turned, also beyond a half turn.
 class Turned {
 public:
@@ -44,7 +52,7 @@ private:
     std::optional<Radians> last_;
 };
 
-// The turn on the spot that ends a Line, and that a Curve without radius is.
+// The turn on the spot that begins a Line, and that a Curve without radius is.
 class TurnOnTheSpot {
 public:
     explicit TurnOnTheSpot(Radians turn) : turn_(turn) {}
@@ -73,23 +81,31 @@ public:
     explicit LineCourse(Line line) : line_(line), turn_(line.turn) {}
 
     Twist steer(Wheels const& wheels, Progress& progress) override {
-        if (!start_ && !wheels.stand()) return {};
-        if (!start_) {
-            start_ = wheels.pose;
-            Point const end = start_->position + line_.distance * unit(start_->heading);
-            if (line_.distance != 0 && !wheels.around.plan().can_go_straight(start_->position, end, wheels.plan.radius)) {
+        if (!track_) {
+            if (!wheels.stand()) return {};
+            track_ = Pose{wheels.pose.position, wrapped(wheels.pose.heading + line_.turn)};
+            if (!is_free(wheels)) {
                 progress.state = MotionState::unreachable;
                 return {};
             }
             if (line_.duration) take(*line_.duration, wheels.plan);
         }
-        if (!driven_) return drive(wheels, progress);
-        auto const twist = turn_.steer(wheels);
-        if (!twist) progress.state = MotionState::arrived;
-        return twist.value_or(Twist{});
+        if (!turned_) {
+            if (auto const twist = turn_.steer(wheels)) return *twist;
+            turned_ = true;
+        }
+        return drive(wheels, progress);
     }
 
 private:
+    bool is_free(Wheels const& wheels) const {
+        if (line_.distance == 0) return true;
+        Point const end = track_->position + line_.distance * unit(track_->heading);
+        Radians const heading = line_.distance < 0 ? wrapped(track_->heading + std::numbers::pi) : track_->heading;
+        return wheels.around.plan().can_go_straight(track_->position, end, wheels.plan.radius) &&
+               !wall_is_too_near(wheels.around.plan(), end, heading, wheels.plan.radius);
+    }
+
     // Both parts are slowed down alike.
     void take(Seconds time, RobotPlan const& plan) {
         Metres const way = std::abs(line_.distance);
@@ -101,21 +117,30 @@ private:
     }
 
     Twist drive(Wheels const& wheels, Progress& progress) {
-        Metres const left = line_.distance - (frame(*start_).inverse() * wheels.pose.position).x();
+        Point const gone = frame(*track_).inverse() * wheels.pose.position;
+        Metres const left = line_.distance - gone.x();
         bool const there = std::abs(left) < at_place || left * line_.distance <= 0;
-        patience_.look(wheels, !there);
+        MetresPerSecond const speed = there ? 0 : paced(wheels.speed_to_stop_in(std::abs(left)), fastest_);
+        patience_.look(wheels, is_slower_than(speed, wheels));
         progress.state = patience_.obstructed() ? MotionState::obstructed : MotionState::moving;
-        driven_ = there && wheels.stand();
+        if (there && wheels.stand()) progress.state = MotionState::arrived;
         if (there) return {};
-        MetresPerSecond const speed = std::max(wheels.speed_to_stop_in(std::abs(left)), 0.02);
-        return {sign(left) * (fastest_ ? std::min(speed, *fastest_) : speed), 0};
+        return {sign(left) * speed, back_on_track(wheels, gone.y())};
+    }
+
+    // The turn leaves the heading up to at_heading off: turns what is left of it while the robot drives, and steers back to the
+    // line.
+    RadiansPerSecond back_on_track(Wheels const& wheels, Metres aside) const {
+        Radians const off = wrapped(wheels.pose.heading - track_->heading);
+        Radians const aim = -std::clamp(aside, -0.1, 0.1) * sign(line_.distance);
+        return wheels.stand() ? 0 : 2 * (aim - off);
     }
 
     Line line_;
     TurnOnTheSpot turn_;
     std::optional<MetresPerSecond> fastest_;
-    std::optional<Pose> start_;
-    bool driven_ = false;
+    std::optional<Pose> track_;  // where the line begins, and its direction
+    bool turned_ = false;
     Patience patience_;
 };
 
@@ -157,7 +182,9 @@ private:
             Point const at = centre - curve_.radius * unit(side + sign(curve_.turn) * part);
             if (wheels.around.plan().clearance(at) < wheels.plan.radius) return false;
         }
-        return true;
+        Point const end = centre - curve_.radius * unit(side + curve_.turn);
+        Radians const heading = wheels.pose.heading + curve_.turn + (curve_.radius < 0 ? std::numbers::pi : 0);
+        return length == 0 || !wall_is_too_near(wheels.around.plan(), end, wrapped(heading), wheels.plan.radius);
     }
 
     void take(Seconds time, RobotPlan const& plan) {
@@ -174,15 +201,14 @@ private:
     Twist drive(Wheels const& wheels, Progress& progress) {
         Metres const radius = std::abs(curve_.radius);
         Radians const left = std::abs(curve_.turn) - sign(curve_.turn) * turned_.by(wheels.pose.heading);
-        bool const there = left * radius < at_place || left < from_degrees(0.2);
-        patience_.look(wheels, !there);
+        bool const there = left * radius < at_place && left < at_heading;
+        MetresPerSecond const fastest_to_stop =
+            std::min(wheels.speed_to_stop_in(left * radius), std::abs(wheels.rate_to_stop_in(left)) * radius);
+        MetresPerSecond const speed = there ? 0 : paced(fastest_to_stop, fastest_);
+        patience_.look(wheels, is_slower_than(speed, wheels));
         progress.state = patience_.obstructed() ? MotionState::obstructed : MotionState::moving;
         if (there && wheels.stand()) progress.state = MotionState::arrived;
-        if (there) return {};
-        MetresPerSecond const speed =
-            std::min(wheels.speed_to_stop_in(left * radius), std::abs(wheels.rate_to_stop_in(left)) * radius);
-        MetresPerSecond const wanted = std::max(speed, std::min(0.02, 0.1 * radius));
-        return {sign(curve_.radius) * (fastest_ ? std::min(wanted, *fastest_) : wanted), 0};
+        return {sign(curve_.radius) * speed, 0};
     }
 
     Curve curve_;

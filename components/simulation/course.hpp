@@ -29,6 +29,9 @@ struct Wheels {
 // The exact motion of a unicycle with constant twist.
 Pose moved(Pose const& from, Twist const&, Seconds);
 
+// Whether a drive does not go on along `heading` because a wall or desk ahead is too near.
+bool wall_is_too_near(FloorPlan const&, Point const& at, Radians heading, Metres radius);
+
 // The course of one motion.
 class Course {
 public:

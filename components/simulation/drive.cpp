@@ -12,19 +12,19 @@ constexpr Metres squeezing = 0.008;  // within which the robot can stop while it
 constexpr Metres look_ahead = 2.0;   // bodies farther away are of no account; more than any stopping distance within the limits
 constexpr std::size_t remembered = 16;
 
-// How far the robot can go along `heading` before a wall or desk is too near.
-Metres free_of_walls(FloorPlan const& plan, Point const& from, Radians heading, Metres radius) {
+// How far the robot can go along `heading`, up to `most`, before a wall or desk is too near.
+Metres free_of_walls(FloorPlan const& plan, Point const& from, Radians heading, Metres radius, Metres most = look_ahead) {
     Point const ahead = unit(heading);
     bool const passes_by = plan.clearance(from) - plan.clearance(from + 0.01 * ahead) < 0.005;
     Metres const gap = passes_by ? std::clamp(plan.clearance(from) - radius - 0.001, 0.003, wall_gap) : wall_gap;
     Metres gone = 0;
-    while (gone < look_ahead) {
+    while (gone < most) {
         Point const at = from + gone * ahead;
         Metres const free = plan.clearance(at) - radius - gap;
         if (free <= 0.0005 && plan.clearance(at + 0.01 * ahead) < plan.clearance(at)) return gone;
         gone += std::max(free, 0.005);
     }
-    return look_ahead;
+    return most;
 }
 
 Metres free_of_bodies(std::vector<Disc> const& others, Point const& from, Radians heading, Metres radius) {
@@ -41,9 +41,15 @@ Metres free_of_bodies(std::vector<Disc> const& others, Point const& from, Radian
 
 }  // namespace
 
+bool wall_is_too_near(FloorPlan const& plan, Point const& at, Radians heading, Metres radius) {
+    constexpr Metres next_step = 0.001;
+    return free_of_walls(plan, at, heading, radius, next_step) == 0;
+}
+
 Drive::Drive(RobotId robot, RobotPlan const& robot_plan, FloorPlan const& floor)
     : robot_(robot),
       plan_(robot_plan),
+      fastest_(robot_plan.max_speed),
       planner_(std::make_unique<Planner>(floor, robot_plan.radius, robot_plan.agility())),
       pose_(robot_plan.start) {}
 Drive::~Drive() = default;
@@ -79,6 +85,7 @@ Progress Drive::progress(MotionId id) const {
 
 void Drive::finish(MotionState state) {
     current_->progress.state = state;
+    last_outcome_ = state;
     finished_.emplace_back(current_->id, current_->progress);
     if (finished_.size() > remembered) finished_.pop_front();
     current_.reset();
@@ -95,6 +102,8 @@ void Drive::hold(MotionId id) {
 void Drive::go_on(MotionId id) {
     if (is_current(id)) current_->held = false;
 }
+
+void Drive::limit_speed(std::optional<MetresPerSecond> speed) { plan_.max_speed = std::min(fastest_, speed.value_or(fastest_)); }
 
 Disc Drive::stopping_disc() const {
     Metres const braking = twist_.linear * std::abs(twist_.linear) / (2 * plan_.max_acceleration);
@@ -119,7 +128,7 @@ void Drive::step(Surroundings const& around, Seconds dt) {
 }
 
 Twist Drive::steer(Surroundings const& around, Seconds dt) {
-    if (!current_ || current_->held) return {};
+    if (!current_ || current_->held || brakes_) return {};
     Twist const wanted = current_->course->steer(wheels(around, dt), current_->progress);
     if (over(current_->progress.state)) finish(current_->progress.state);
     return wanted;

@@ -30,6 +30,12 @@ public:
     // How far a motion is. That of the last 16 motions is remembered; older ones are `ended`.
     Progress progress(MotionId) const;
 
+    // How the last motion that is over ended; nothing before the first one.
+    std::optional<MotionState> last_outcome() const { return last_outcome_; }
+
+    // Makes last_outcome() `unreachable`, for a target that was rejected without a motion.
+    void reject_target() { last_outcome_ = MotionState::unreachable; }
+
     // How far the motion under way is; nothing when there is none.
     std::optional<Progress> current() const;
 
@@ -38,10 +44,21 @@ public:
     void hold(MotionId);
     void go_on(MotionId);
 
+    // Puts the brakes on or off. While they are on, the robot brakes to a stand and stays there. A motion, whoever owns it, waits
+    // for them to be put off.
+    void brake(bool on) { brakes_ = on; }
+    bool brakes_are_on() const { return brakes_; }
+
+    // Keeps all motions below this speed; nothing: up to that of the robot's plan, which is never exceeded.
+    void limit_speed(std::optional<MetresPerSecond>);
+
+    // Whether the robot neither drives nor turns.
+    bool stands() const { return twist_.linear == 0 && twist_.angular == 0; }
+
     RobotId robot() const { return robot_; }
     Pose const& pose() const { return pose_; }
     Twist const& twist() const { return twist_; }
-    RobotPlan const& plan() const { return plan_; }
+    RobotPlan const& plan() const { return plan_; }  // max_speed is the one that counts now
 
     // The floor that the robot takes up until it could stand still.
     Disc stopping_disc() const;
@@ -67,12 +84,15 @@ private:
 
     RobotId robot_;
     RobotPlan plan_;
+    MetresPerSecond fastest_;  // of the robot's plan
+    bool brakes_ = false;
     std::unique_ptr<Planner> planner_;
     Pose pose_;
     Twist twist_;
     std::optional<Current> current_;
     std::uint64_t last_id_ = 0;
     std::deque<std::pair<MotionId, Progress>> finished_;
+    std::optional<MotionState> last_outcome_;
 };
 
 }  // namespace rois::simulation

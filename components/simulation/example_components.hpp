@@ -13,6 +13,9 @@ std::unique_ptr<Component> srgs_speech_recognition(Fitting, std::shared_ptr<xml:
 std::unique_ptr<Component> person_gender_identification(Fitting);
 std::unique_ptr<Component> person_age_recognition(Fitting);
 
+// Navigation of a wheelchair, with its brakes and its state.
+std::unique_ptr<Component> wheelchair_robot(Fitting);
+
 // Does nothing, and says it as the profile has it: commands complete at once and queries are answered, both with the default
 // values of their results. `whole` has the messages of the sub components.
 std::unique_ptr<Component> stand_in(Fitting, ComponentProfile whole);

@@ -1,5 +1,6 @@
 // Follow (7.6.14): stays with somebody until it is stopped.
 #include "simulation/basic_components.hpp"
+#include "simulation/codebooks.hpp"
 #include "simulation/parameter_reading.hpp"
 #include "simulation/wheels.hpp"
 #include "types/texts.hpp"
@@ -7,9 +8,17 @@
 namespace rois::simulation {
 namespace {
 
+// How long Follow waits for a target that is not there, in the world's time.
+constexpr WorldTime patience{30'000};
+// How long Follow waits for an unknown target, in real time. `patience` applies too and ends first if the world runs fast.
+constexpr std::chrono::milliseconds time_to_be_known{5'000};
+
 class Follow final : public WheelAction {
 public:
-    explicit Follow(Fitting fitting) : WheelAction{std::move(fitting), "follow"} {}
+    explicit Follow(Fitting fitting)
+        : WheelAction{taking_identifiers(std::move(fitting), "target_object_ref",
+                                         {codebook::entity, codebook::track, codebook::visitor, codebook::robot}),
+                      "follow"} {}
 
     CompletedStatus status_when_stopped() const override { return CompletedStatus::ok; }
 
@@ -17,7 +26,9 @@ private:
     std::optional<std::string> unfit(ParameterList const& parameters) const override {
         if (auto problem = negative(parameters, "distance")) return problem;
         if (auto problem = negative(parameters, "time_limit")) return problem;
-        if (hall().find_robot(text_of(parameters, "target_object_ref")) != robot()) return {};
+        auto const ref = text_of(parameters, "target_object_ref");
+        auto const whom = hall().find(ref, codebook_of(parameters, "target_object_ref"));
+        if (whom != Entity{robot()}) return {};
         return "parameter 'target_object_ref': the robot cannot follow itself";
     }
 
@@ -29,23 +40,50 @@ private:
 
     void begin(ParameterList const& parameters) override {
         ref_ = text_of(parameters, "target_object_ref");
+        codebook_ = codebook_of(parameters, "target_object_ref");
         distance_ = *integer_of(parameters, "distance") / 1000.0;
         limit_ = WorldTime{integer_of(parameters, "time_limit").value_or(0)};
         whom_.reset();
         waits_ = false;
+        waited_ = {};
         if (wheels_are_anothers()) return end(CompletedStatus::out_of_resources, busy_wheels());
         look();
     }
 
     void act() override {
-        if (limit_.count() == 0 || elapsed() < limit_) return look();
+        if (limit_.count() > 0 && elapsed() >= limit_)
+            return give_up(CompletedStatus::timeout, (waits_ ? target_is_not_there() + " within" : "the follow has lasted for") +
+                                                         " time_limit, " + std::to_string(limit_.count()) + " ms");
+        look();
+        waited_ = waits_ ? waited_ + Hall::step_length : WorldTime{};
+        if (waited_ >= patience && !hall().knows(ref_)) return give_up(CompletedStatus::error, target_is_unknown());
+        if (waited_ >= patience)
+            give_up(CompletedStatus::error, target_is_not_there() + " for " + std::to_string(patience.count()) + " ms");
+    }
+
+    // An unknown target may never come, at any speed of the world's time.
+    void time_passed(Instant now) override {
+        if (!waits_ || held_ || hall().knows(ref_)) return unknown_since_.reset();
+        if (!unknown_since_) unknown_since_ = now.steady;
+        if (now.steady - *unknown_since_ < time_to_be_known) return;
+        give_up(CompletedStatus::error, target_is_unknown());
+    }
+
+    std::string target_is_unknown() const {
+        return "parameter 'target_object_ref': " + quoted(ref_) +
+               " is unknown: no robot has this name, and no person has been seen by it";
+    }
+
+    std::string target_is_not_there() const { return quoted(ref_) + " has not been seen"; }
+
+    void give_up(CompletedStatus status, std::string reason) {
         cease();
-        end(CompletedStatus::timeout, "time_limit has passed");
+        end(status, std::move(reason));
     }
 
     // Keeps the distance to the target, or stands and waits until it is found.
     void look() {
-        auto found = hall().find(ref_);
+        auto found = hall().find(ref_, codebook_);
         if (found && !hall().pose_of(*found)) found.reset();
         if (found ? whom_ == found && !over(progress().state) : waits_) return;
         whom_ = found;
@@ -57,15 +95,30 @@ private:
     ComponentStatus condition() const override { return waits_ ? ComponentStatus::warning : WheelAction::condition(); }
 
     void cease() override {
-        waits_ = false;
+        waits_ = held_ = false;
+        unknown_since_.reset();
         WheelAction::cease();
     }
 
+    void hold() override {
+        held_ = true;
+        WheelAction::hold();
+    }
+
+    void go_on() override {
+        held_ = false;
+        WheelAction::go_on();
+    }
+
     std::string ref_;
+    std::string codebook_;  // from which ref_ is; empty: from any
     Metres distance_ = 0;
     WorldTime limit_{};  // 0: none
     std::optional<Entity> whom_;
     bool waits_ = false;  // for the target to be found
+    bool held_ = false;
+    WorldTime waited_{};                   // for so long, without a break
+    std::optional<Steady> unknown_since_;  // waits for an unknown target
 };
 
 }  // namespace

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "simulation/codebooks.hpp"
 #include "simulation/world.hpp"
+#include "types/texts.hpp"
 
 namespace rois::simulation {
 namespace {
@@ -48,14 +50,22 @@ Chronicle const& Hall::chronicle() const { return world_->chronicle; }
 
 std::optional<std::string> Hall::track(PersonId id) const { return world_->tracks.name(id); }
 
-std::optional<Entity> Hall::find(std::string_view ref) const {
-    if (auto robot = find_robot(ref)) return *robot;
-    if (auto person = world_->tracks.find(ref)) return *person;
+std::optional<Entity> Hall::find(std::string_view ref) const { return find(ref, {}); }
+
+std::optional<Entity> Hall::find(std::string_view ref, std::string_view codebook) const {
+    auto const is_from = [&](std::string_view names) {
+        return codebook.empty() || equal_ignoring_case(codebook, codebook::entity) || equal_ignoring_case(codebook, names);
+    };
+    if (auto robot = find_robot(ref); robot && is_from(codebook::robot)) return *robot;
+    if (auto person = world_->tracks.find(ref); person && is_from(codebook::track)) return *person;
+    if (!is_from(codebook::visitor)) return std::nullopt;
     for (Person const& person : people()) {
         if (person.known && person.role == ref && world_->tracks.identified(person.id)) return person.id;
     }
     return std::nullopt;
 }
+
+bool Hall::knows(std::string_view ref) const { return find_robot(ref) || world_->tracks.was_given(ref) || world_->is_known(ref); }
 
 std::optional<Pose> Hall::pose_of(Entity entity) const { return world_->pose_of(entity); }
 

@@ -56,7 +56,14 @@ public:
     // Whom a reference names that a service application holds: a robot's name, a temporary name, or the permanent id of a known
     // person whom a robot has identified, for as long as they keep their temporary name.
     std::optional<Entity> find(std::string_view ref) const;
+
+    // The same, but only among the names of this codebook (codebooks.hpp); an empty one means all names.
+    std::optional<Entity> find(std::string_view ref, std::string_view codebook) const;
     std::optional<Pose> pose_of(Entity) const;
+
+    // Whether a reference has ever named anybody, or will: a robot's name, a temporary name that was given, or the permanent id
+    // of a known person of the scenario or of a known visitor who has been in the hall.
+    bool knows(std::string_view ref) const;
 
     // Reads a target: "x, y, th" or "x, y" in mm and degrees, or the name of a place. Nothing when it is none of them.
     std::optional<Target> target(std::string_view) const;

@@ -1,5 +1,6 @@
 // Person, face and sound localization (7.6.3, 7.6.6, 7.6.8): where they are, told when somebody is new or has moved.
 #include <algorithm>
+#include <cmath>
 #include <ranges>
 #include <span>
 
@@ -8,6 +9,7 @@
 #include "simulation/movement.hpp"
 #include "simulation/parameter_reading.hpp"
 #include "simulation/senses.hpp"
+#include "types/texts.hpp"
 
 namespace rois::simulation {
 namespace {
@@ -28,7 +30,34 @@ struct Kind {
     std::string_view refs;
     Heading heading;
     std::vector<Sighting> (*sense)(Hall const&, RobotId);
+    Metres (*sigma)(Sensors const&);  // of the sensor's noise, for each axis
 };
+
+constexpr std::string_view threshold_name = "detection_threshold";
+constexpr std::int32_t usual_threshold = 200;   // mm, where the sensor's noise allows it
+constexpr std::int32_t default_interval = 250;  // ms
+
+// The lowest detection_threshold that the sensor of a robot can keep, in mm.
+std::int32_t lowest_threshold(Kind const& kind, Fitting const& fitting) {
+    auto const& robot = fitting.simulation->hall().plan().robots.at(static_cast<std::size_t>(fitting.robot));
+    return static_cast<std::int32_t>(std::ceil(millimetres(Movement::least_movement(kind.sigma(robot.sensors)))));
+}
+
+// A profile says how low the threshold may be with this robot's sensor, and what it is when it is not set.
+void tell_threshold(ParameterProfile& parameter, std::int32_t lowest) {
+    if (!equal_ignoring_case(parameter.name, threshold_name)) return;
+    parameter.default_value = std::to_string(std::max(usual_threshold, lowest));
+    parameter.description += " At least " + std::to_string(lowest) + ": less is the noise of this robot's sensor.";
+}
+
+Fitting with_threshold(Fitting fitting, std::int32_t lowest) {
+    auto profile = std::make_shared<ComponentProfile>(*fitting.description.profile);
+    for (auto& message : profile->messages)
+        for (auto& argument : message.arguments) tell_threshold(argument, lowest);
+    for (auto& parameter : profile->parameters) tell_threshold(parameter, lowest);
+    fitting.description.profile = std::move(profile);
+    return fitting;
+}
 
 // A person is where they stand: on the floor.
 std::vector<Sighting> people(Hall const& hall, RobotId robot) {
@@ -63,19 +92,21 @@ Located without_orientation(Located entity) {
 
 class Localization final : public ContinuousFunction {
 public:
-    static constexpr std::int32_t default_threshold = 200;  // mm
-    static constexpr std::int32_t default_interval = 250;   // ms
-
-    Localization(Fitting fitting, Kind const& kind) : ContinuousFunction{std::move(fitting)}, kind_{kind} {}
+    Localization(Fitting fitting, Kind const& kind) : Localization{lowest_threshold(kind, fitting), std::move(fitting), kind} {}
 
 private:
+    Localization(std::int32_t lowest, Fitting fitting, Kind const& kind)
+        : ContinuousFunction{with_threshold(std::move(fitting), lowest)}, kind_{kind}, lowest_{lowest} {}
+
     std::optional<std::string> unfit(ParameterList const& parameters) const override {
-        if (auto problem = negative(parameters, "detection_threshold")) return problem;
+        if (auto const threshold = integer_of(parameters, threshold_name); threshold && *threshold < lowest_)
+            return "parameter 'detection_threshold': " + std::to_string(*threshold) + " mm is less than the lowest that works, " +
+                   std::to_string(lowest_) + " mm: this robot's sensor does not tell a smaller movement from its noise";
         return negative(parameters, "minimum_interval");
     }
 
     void apply(ParameterList const& parameters) override {
-        threshold_ = integer_of(parameters, "detection_threshold").value_or(default_threshold) / 1000.0;
+        threshold_ = integer_of(parameters, threshold_name).value_or(std::max(usual_threshold, lowest_)) / 1000.0;
         interval_ = WorldTime{integer_of(parameters, "minimum_interval").value_or(default_interval)};
     }
 
@@ -115,6 +146,7 @@ private:
     }
 
     Kind kind_;
+    std::int32_t lowest_;  // mm
     Metres threshold_ = 0;
     WorldTime interval_{};
     Movement movement_;
@@ -125,17 +157,20 @@ private:
 
 std::unique_ptr<Component> person_localization(Fitting fitting) {
     return std::make_unique<Localization>(std::move(fitting),
-                                          Kind{"person_localized", "person_ref", Kind::Heading::orientation, people});
+                                          Kind{"person_localized", "person_ref", Kind::Heading::orientation, people,
+                                               [](Sensors const& sensors) { return sensors.people.sigma; }});
 }
 
 std::unique_ptr<Component> face_localization(Fitting fitting) {
     return std::make_unique<Localization>(std::move(fitting),
-                                          Kind{"face_localized", "face_ref", Kind::Heading::orientation, faces});
+                                          Kind{"face_localized", "face_ref", Kind::Heading::orientation, faces,
+                                               [](Sensors const& sensors) { return sensors.faces.sigma; }});
 }
 
 std::unique_ptr<Component> sound_localization(Fitting fitting) {
     return std::make_unique<Localization>(std::move(fitting),
-                                          Kind{"sound_localized", "sound_ref", Kind::Heading::direction, sounds});
+                                          Kind{"sound_localized", "sound_ref", Kind::Heading::direction, sounds,
+                                               [](Sensors const& sensors) { return sensors.sound.sigma; }});
 }
 
 }  // namespace rois::simulation

@@ -28,7 +28,8 @@ struct KeepDistance {
     Metres distance = polite_distance;
 };
 
-// Straight on (backwards when negative), then a turn on the spot, relative to the heading before.
+// Turns on the spot by `turn`, relative to the heading before and to the left when positive. Then drives `distance` straight
+// along the new heading, backwards when negative.
 struct Line {
     Metres distance = 0;
     Radians turn = 0;
@@ -36,8 +37,9 @@ struct Line {
         std::nullopt;  // of the whole motion: slower than usual, but never faster than the limits allow
 };
 
-// Along a circle until the heading has changed by `turn`, to the left when positive. A negative radius goes backwards; 0 turns on
-// the spot.
+// Drives along a circle until the heading has changed by `turn`, to the left when positive. A negative radius drives backwards; 0
+// turns on the spot. The centre is `radius` to the left of the robot when `turn` is positive, to its right when negative; a
+// negative radius swaps the sides.
 struct Curve {
     Metres radius = 0;
     Radians turn = 0;

@@ -7,7 +7,7 @@
 namespace rois::simulation {
 namespace {
 
-// For how long somebody may be in the way.
+// For how long the way may be blocked.
 constexpr WorldTime patience{10'000};
 
 class Move final : public WheelAction {
@@ -57,8 +57,9 @@ private:
         if (state == MotionState::arrived) return end(CompletedStatus::ok);
         if (over(state)) return end(CompletedStatus::error, "a wall or something else that does not move is in the way");
         if (blocked(state) < patience) return;
+        std::string const reason = what_blocks();
         cease();
-        end(CompletedStatus::error, "somebody is in the way and does not move");
+        end(CompletedStatus::error, reason);
     }
 };
 

@@ -14,6 +14,8 @@ constexpr double noise = 2.5;
 
 }  // namespace
 
+Metres Movement::least_movement(Metres sigma) { return noise * sigma; }
+
 void Movement::measured(std::string const& ref, Point const& position, Covariance const& covariance, WorldTime now) {
     Track& track = tracks_[ref];
     track.measurements = std::min(track.measurements + 1, settling);
@@ -27,7 +29,7 @@ bool Movement::worth_telling(std::string const& ref, Metres threshold) const {
     auto const found = tracks_.find(ref);
     if (found == tracks_.end() || !found->second.told) return true;
     Track const& track = found->second;
-    return distance(track.smoothed, *track.told) > std::max(threshold, noise * track.sigma);
+    return distance(track.smoothed, *track.told) > std::max(threshold, least_movement(track.sigma));
 }
 
 void Movement::told(std::string const& ref) {

@@ -16,10 +16,13 @@ public:
     // Who is not measured for this long is forgotten, and new when they come back.
     static constexpr WorldTime memory{5'000};
 
+    // The shortest movement that a sensor with this standard deviation tells from its noise.
+    static Metres least_movement(Metres sigma);
+
     void measured(std::string const& ref, Point const& position, Covariance const&, WorldTime now);
 
-    // Whether one who was measured now is new, or has moved further than `threshold` since they were told of; less than what the
-    // sensor cannot tell from its noise is no movement.
+    // Whether one who was measured now is new, or has moved further than `threshold` since they were told of. A threshold below
+    // least_movement() counts as that.
     bool worth_telling(std::string const& ref, Metres threshold) const;
 
     void told(std::string const& ref);

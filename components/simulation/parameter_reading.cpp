@@ -20,6 +20,16 @@ std::string_view text_of(ParameterList const& parameters, std::string_view name)
     return trimmed(parameter->values.front());
 }
 
+bool is_true(ParameterList const& parameters, std::string_view name) {
+    auto const text = text_of(parameters, name);
+    return text == "true" || text == "1";
+}
+
+std::string_view codebook_of(ParameterList const& parameters, std::string_view name) {
+    auto const* parameter = find(parameters, name);
+    return parameter == nullptr ? std::string_view{} : std::string_view{parameter->data_type_ref.codebook_ref};
+}
+
 std::vector<std::int32_t> integers_of(ParameterList const& parameters, std::string_view name) {
     std::vector<std::int32_t> numbers;
     for (std::string_view rest = text_of(parameters, name); !rest.empty();) {

@@ -19,6 +19,12 @@ std::optional<std::int32_t> integer_of(ParameterList const&, std::string_view na
 // Without white space at the ends; empty when the parameter is not there.
 std::string_view text_of(ParameterList const&, std::string_view name);
 
+// False when the parameter is not there.
+bool is_true(ParameterList const&, std::string_view name);
+
+// The codebook of a parameter of type RoISIdentifier; empty when the parameter or its codebook is not there.
+std::string_view codebook_of(ParameterList const&, std::string_view name);
+
 // Of a list of numbers; empty when the parameter is not there.
 std::vector<std::int32_t> integers_of(ParameterList const&, std::string_view name);
 

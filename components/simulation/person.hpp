@@ -17,6 +17,7 @@ struct Speech {
     std::string language;  // ISO 639-1
     WorldTime began{};
     WorldTime ends{};
+    std::string character{};  // of a robot's voice (voice_characters.hpp); a person has none
 };
 
 // A gesture being made.

@@ -12,7 +12,7 @@ namespace {
 
 class Reaction final : public Action {
 public:
-    using Action::Action;
+    explicit Reaction(Fitting fitting) : Action{taking_identifiers(std::move(fitting), "reaction_ref", {codebook::reaction})} {}
 
     ParameterList readable_parameters() const override {
         std::vector<std::string> codes;

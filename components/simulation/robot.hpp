@@ -9,18 +9,20 @@
 
 #include "simulation/drive.hpp"
 #include "simulation/person.hpp"
+#include "simulation/voice_characters.hpp"
 
 namespace rois::simulation {
 
 // Names one utterance of one robot.
 enum class UtteranceId : std::uint64_t {};
 
-// Some of what a robot says, in one language and with one prosody.
+// Some of what a robot says, in one language, with one voice and one prosody.
 struct Passage {
     std::string text;      // plain
     std::string language;  // ISO 639-1
     Seconds duration = 0;  // with its pauses
     std::string prosody;   // how the voice sounds, "pitch high, volume loud"; empty: as usual
+    std::string character{default_character};
 
     bool operator==(Passage const&) const = default;
 };
@@ -28,10 +30,11 @@ struct Passage {
 struct Utterance {
     std::string text;  // plain
     std::string language = "en";
-    double loudness = 0.5;            // 0 to 1: visitors hear 0.5 at 5 m
-    std::optional<Seconds> duration;  // absent: speech_duration(text)
-    std::string prosody;              // of `text`, as a passage has it
-    std::vector<Passage> further;     // said after it, each heard as speech of its own
+    double loudness = 0.5;                     // 0 to 1: visitors hear 0.5 at 5 m
+    std::optional<Seconds> duration;           // absent: speech_duration(text) at the pace of the character
+    std::string prosody{};                     // of `text`, as a passage has it
+    std::string character{default_character};  // of `text`: with which voice it is said
+    std::vector<Passage> further{};            // said after it, each heard as speech of its own
 };
 
 enum class SpeechState : std::uint8_t {

@@ -23,8 +23,7 @@ Pose moved(Pose const& pose, Eigen::Isometry2d const& by, Radians turn) {
 Fitting fitting(std::shared_ptr<Simulation> const& simulation, std::shared_ptr<media::Media> const& media, Robot const& robot,
                 std::string_view name, std::shared_ptr<ComponentProfile const> profile) {
     bool const first = robot.id == simulation->hall().robots().front().id;
-    std::string const engine = first ? "" : robot.name;
-    Identifier const identifier{.code = component_ref(name, engine),
+    Identifier const identifier{.code = component_ref(name, first ? "" : robot.name),
                                 .authority = profile->object.code_space,
                                 .codebook_ref = profile->object.identifier,
                                 .version = {}};
@@ -32,15 +31,21 @@ Fitting fitting(std::shared_ptr<Simulation> const& simulation, std::shared_ptr<m
     return {.simulation = simulation,
             .robot = robot.id,
             .description = {.ref = identifier,
-                            .engine = engine,
+                            .engine = robot.name,
                             .profile = std::move(profile),
                             .crs = frame == nullptr ? "" : frame->crs,
-                            .positions = {}},
+                            .positions = {},
+                            .codebooks = {}},
             .media = media};
 }
 
 Fitting taking_positions(Fitting fitting, std::string parameter) {
     fitting.description.positions.push_back(std::move(parameter));
+    return fitting;
+}
+
+Fitting taking_identifiers(Fitting fitting, std::string parameter, std::vector<std::string_view> const& codebooks) {
+    fitting.description.codebooks.push_back({std::move(parameter), {codebooks.begin(), codebooks.end()}});
     return fitting;
 }
 
@@ -105,6 +110,7 @@ std::optional<Target> RobotComponent::target(std::string_view text) const {
 
 void RobotComponent::observe(Instant when) {
     last_step_ = when;
+    watch(when);
     stepped(when);
 }
 

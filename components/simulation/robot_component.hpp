@@ -25,6 +25,9 @@ struct Fitting {
 // Of a component that takes positions as values of this parameter (decision 27).
 Fitting taking_positions(Fitting, std::string parameter);
 
+// Of a component that takes identifiers from these codebooks as values of this parameter; the first codebook is the default.
+Fitting taking_identifiers(Fitting, std::string parameter, std::vector<std::string_view> const& codebooks);
+
 // Of a component of the robot that is named `name`, or with the robot's name before it (component_refs.hpp).
 Fitting fitting(std::shared_ptr<Simulation> const&, std::shared_ptr<media::Media> const&, Robot const&, std::string_view name,
                 std::shared_ptr<ComponentProfile const>);
@@ -61,6 +64,8 @@ protected:
     std::optional<Target> target(std::string_view text) const;
 
     virtual void stepped(Instant when) = 0;
+    // The same for what goes on whether the component is active or not; called before stepped().
+    virtual void watch(Instant) {}
     void time_passed(Instant) override {}
     // Once the world has begun: READY or WARNING.
     virtual ComponentStatus condition() const { return ComponentStatus::ready; }

@@ -21,8 +21,6 @@ namespace {
 constexpr std::size_t longest_name = 64, longest_text = 16'384;  // bytes
 constexpr WorldTime most_to_pass = std::chrono::hours{1};
 
-bool is_true(std::string_view text) { return text == "true" || text == "1"; }
-
 // Of each person, as a list of truth values is written.
 template <class Is>
 Parameter truths(std::string name, std::span<Person const> people, Is is) {
@@ -163,7 +161,7 @@ private:
 
     SharedDeed order(std::string_view command_type, ParameterList const& arguments) {
         std::string const visitor{text_of(arguments, "visitor_ref")}, language{text_of(arguments, "language")};
-        if (command_type == "enter") return enter(visitor, language, is_true(text_of(arguments, "known")));
+        if (command_type == "enter") return enter(visitor, language, is_true(arguments, "known"));
         if (command_type == "say") return hall().steer(visitor, Say{language, std::string{text_of(arguments, "text")}});
         if (command_type == "gesture") return hall().steer(visitor, Gesture{std::string{text_of(arguments, "gesture")}});
         if (command_type == "leave") return hall().steer(visitor, Leave{});

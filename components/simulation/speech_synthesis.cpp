@@ -1,11 +1,11 @@
 // Speech synthesis (7.6.11): the robot's voice.
 #include <algorithm>
-#include <array>
 
 #include "simulation/basic_components.hpp"
 #include "simulation/languages.hpp"
 #include "simulation/parameter_reading.hpp"
 #include "simulation/ssml.hpp"
+#include "simulation/voice_characters.hpp"
 #include "types/listing.hpp"
 #include "types/texts.hpp"
 
@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::int32_t default_volume = 50;
 constexpr std::size_t longest_text = 16'384;  // bytes
-constexpr std::array<std::string_view, 5> characters{"default", "female", "male", "child", "robot"};
 
 std::optional<std::string> too_long(ParameterList const& parameters, std::string_view name) {
     if (text_of(parameters, name).size() <= longest_text) return {};
@@ -41,7 +40,7 @@ public:
 
     ParameterList readable_parameters() const override {
         return {texts("synthesizable_languages", {languages.begin(), languages.end()}),
-                texts("synthesizable_characters", {characters.begin(), characters.end()})};
+                texts("synthesizable_characters", names_of_voice_characters())};
     }
 
 private:
@@ -49,23 +48,23 @@ private:
         if (auto problem = not_between(parameters, "volume", 0, 100)) return problem;
         if (auto problem = unknown_language(text_of(parameters, "language"))) return problem;
         auto const character = text_of(parameters, "character");
-        if (!character.empty() && std::ranges::find(characters, character) == characters.end())
-            return "parameter 'character': " + quoted(character) + " is unknown; known are " + listed(characters);
+        if (!character.empty() && find_voice_character(character) == nullptr)
+            return "parameter 'character': " + quoted(character) +
+                   " is not one of the synthesizable_characters: " + listed(names_of_voice_characters());
         if (auto problem = too_long(parameters, "speech_text")) return problem;
         if (auto problem = too_long(parameters, "SSML_text")) return problem;
         auto const document = text_of(parameters, "SSML_text");
         if (document.empty()) return {};
         if (!text_of(parameters, "speech_text").empty()) return "either 'speech_text' or 'SSML_text' can be said, not both";
-        auto const& read = marked_up(document);
+        auto const& read = marked_up(parameters);
         if (auto const* bad = std::get_if<BadSsml>(&read)) return "parameter 'SSML_text': " + bad->reason;
         return {};
     }
 
     std::optional<std::string> missing(ParameterList const& parameters) const override {
         if (!text_of(parameters, "speech_text").empty()) return {};
-        auto const document = text_of(parameters, "SSML_text");
-        if (document.empty()) return "there is nothing to say: 'speech_text' or 'SSML_text' is mandatory";
-        auto const& passages = std::get<SpokenText>(marked_up(document)).passages;
+        if (text_of(parameters, "SSML_text").empty()) return "there is nothing to say: 'speech_text' or 'SSML_text' is mandatory";
+        auto const& passages = std::get<SpokenText>(marked_up(parameters)).passages;
         auto const takes_time = [](Passage const& passage) { return passage.duration > 0; };
         if (std::ranges::none_of(passages, takes_time)) return "there is nothing to say in 'SSML_text'";
         return {};
@@ -78,14 +77,16 @@ private:
         utterance.loudness = integer_of(parameters, "volume").value_or(default_volume) / 100.0;
         if (auto const language = text_of(parameters, "language"); !language.empty()) utterance.language = language;
         utterance.text = text_of(parameters, "speech_text");
+        utterance.character = character_of(parameters);
         if (!utterance.text.empty()) return utterance;
-        utterance.further = std::get<SpokenText>(marked_up(text_of(parameters, "SSML_text"))).passages;
+        utterance.further = std::get<SpokenText>(marked_up(parameters)).passages;
         for (auto& passage : utterance.further)
             if (passage.language.empty()) passage.language = utterance.language;
         utterance.text = std::move(utterance.further.front().text);
         utterance.language = std::move(utterance.further.front().language);
         utterance.duration = utterance.further.front().duration;
         utterance.prosody = std::move(utterance.further.front().prosody);
+        utterance.character = std::move(utterance.further.front().character);
         utterance.further.erase(utterance.further.begin());
         return utterance;
     }
@@ -106,17 +107,23 @@ private:
     void hold() override { hall().hold_speech(robot(), utterance_); }
     void go_on() override { hall().go_on_speaking(robot(), utterance_); }
 
-    // The document read; the last one is kept, since each command of a sequence asks for it.
-    std::variant<SpokenText, BadSsml> const& marked_up(std::string_view document) const {
-        if (document != document_) {
-            read_ = read_ssml(document);
+    static std::string_view character_of(ParameterList const& parameters) {
+        return voice_character(text_of(parameters, "character")).name;
+    }
+
+    // SSML_text, read; the last one is kept, since each command of a sequence asks for it.
+    std::variant<SpokenText, BadSsml> const& marked_up(ParameterList const& parameters) const {
+        auto const document = text_of(parameters, "SSML_text"), character = character_of(parameters);
+        if (document != document_ || character != character_) {
+            read_ = read_ssml(document, character);
             document_ = document;
+            character_ = character;
         }
         return read_;
     }
 
     UtteranceId utterance_{};
-    mutable std::string document_;
+    mutable std::string document_, character_;
     mutable std::variant<SpokenText, BadSsml> read_;
 };
 

@@ -22,7 +22,9 @@ BadSsml bad(rois::Place place, std::string const& reason) {
 // Tells what an element says, and all in it, as deep as the limit of documents lets it be.
 class Reading {
 public:
-    explicit Reading(xml::Element const& root) : root_namespace_{root.name_space()} { element(root); }
+    Reading(xml::Element const& root, std::string_view character) : root_namespace_{root.name_space()}, meaning_{character} {
+        element(root);
+    }
 
     std::variant<SpokenText, BadSsml> outcome() const {
         if (flaw_) return *flaw_;
@@ -65,7 +67,7 @@ private:
 
 }  // namespace
 
-std::variant<SpokenText, BadSsml> read_ssml(std::string_view document) {
+std::variant<SpokenText, BadSsml> read_ssml(std::string_view document, std::string_view character) {
     auto const read = xml::Document::read_well_formed(std::string{document});
     if (auto const* fault = std::get_if<rois::Fault>(&read)) return bad(fault->place.value_or(rois::Place{}), fault->reason);
     auto const root = std::get<xml::Document>(read).root();
@@ -74,7 +76,7 @@ std::variant<SpokenText, BadSsml> read_ssml(std::string_view document) {
         auto const of = root.name_space().empty() ? "" : " of the namespace " + quoted(root.name_space());
         return bad(root.place(), "the root element is " + quoted(root.name()) + of + ", not SSML's 'speak'");
     }
-    return Reading{root}.outcome();
+    return Reading{root, character}.outcome();
 }
 
 }  // namespace rois::simulation

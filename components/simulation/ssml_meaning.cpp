@@ -16,6 +16,7 @@ constexpr Seconds longest_duration = 600;
 constexpr Seconds shortest_speech = 0.5;
 constexpr double least_rate = 0.2;
 constexpr double greatest_rate = 5;
+constexpr int grown_up = 14;  // years: a younger `voice` is a child's
 
 struct Word {
     std::string_view name;
@@ -101,6 +102,16 @@ std::optional<std::string_view> value_of(std::span<SsmlAttribute const> attribut
     return trimmed(found->value);
 }
 
+// The first character that a list of names names; null when it names none.
+VoiceCharacter const* named_voice(std::string_view names) {
+    while (!names.empty()) {
+        auto const end = std::min(names.find_first_of(" \t\r\n"), names.size());
+        if (auto const* found = find_voice_character(names.substr(0, end))) return found;
+        names = trimmed(names.substr(end));
+    }
+    return nullptr;
+}
+
 Seconds break_time(std::span<SsmlAttribute const> attributes) {
     if (auto const time = value_of(attributes, "time"))
         if (auto const seconds = time_of(*time, longest_break)) return *seconds;
@@ -111,12 +122,18 @@ Seconds break_time(std::span<SsmlAttribute const> attributes) {
 }  // namespace
 
 std::optional<std::string> SsmlMeaning::begin(std::string_view kind, std::span<SsmlAttribute const> attributes) {
-    Element element = open_.empty() ? Element{} : open_.back();
+    Element element;
+    if (open_.empty()) {
+        element.character = character_;
+    } else {
+        element = open_.back();
+    }
     element.kind = kind;
     element.duration.reset();
     element.first_piece = pieces_.size();
     if (is_one_of(silent_kinds, kind)) element.silent = true;
     auto in_vain = speak_language(element, attributes);
+    set_voice(element, attributes);
     set_pace(element, attributes);
     set_sound(element, attributes);
     part_words(kind);
@@ -148,6 +165,23 @@ std::optional<std::string> SsmlMeaning::speak_language(Element& element, std::sp
     if (element.in_vain == InVain::refuse) return std::string{*said};
     element.silent = element.in_vain == InVain::say_nothing;
     return {};
+}
+
+// The voice stays as it is where no character matches, as `onvoicefailure="keepexisting"` of SSML 1.1 asks.
+void SsmlMeaning::set_voice(Element& element, std::span<SsmlAttribute const> attributes) {
+    if (element.kind != "voice") return;
+    if (auto const* named = named_voice(value_of(attributes, "name").value_or(""))) {
+        element.character = named;
+        return;
+    }
+    auto const years = value_of(attributes, "age");
+    auto const age = years ? to_int(*years) : std::nullopt;
+    auto const gender = value_of(attributes, "gender").value_or("");
+    auto const* const meant = find_voice_character(age && *age >= 0 && *age < grown_up      ? "child"
+                                                   : gender == "female" || gender == "male" ? gender
+                                                   : gender == "neutral"                    ? default_character
+                                                                                            : "");
+    if (meant != nullptr) element.character = meant;
 }
 
 void SsmlMeaning::set_pace(Element& element, std::span<SsmlAttribute const> attributes) {
@@ -187,16 +221,19 @@ void SsmlMeaning::end() {
 
 void SsmlMeaning::part_words(std::string_view kind) { gap_ = gap_ || is_one_of(word_ends, kind); }
 
-// Another language begins another passage, and so does another sound of the voice.
+// Another language begins another passage, and so does another voice or another sound of it.
 std::size_t SsmlMeaning::passage_of(Element const& element) {
     std::string prosody;
     for (std::size_t i = 0; i < sounds.size(); ++i)
         if (!element.sound[i].empty())
             prosody += std::string{prosody.empty() ? "" : ", "} + std::string{sounds[i]} + ' ' + element.sound[i];
-    bool const another = passages_.empty() || (!passages_.back().text.empty() && (passages_.back().language != element.language ||
-                                                                                  passages_.back().prosody != prosody));
+    auto const differs = [&](Passage const& last) {
+        return last.language != element.language || last.prosody != prosody || last.character != element.character->name;
+    };
+    bool const another = passages_.empty() || (!passages_.back().text.empty() && differs(passages_.back()));
     if (another) passages_.emplace_back();
     passages_.back().language = element.language;
+    passages_.back().character = element.character->name;
     passages_.back().prosody = std::move(prosody);
     return passages_.size() - 1;
 }
@@ -217,9 +254,8 @@ void SsmlMeaning::say(std::string_view content) {
     }
     if (passage == nullptr) return;
     passage->text += said;
-    pieces_.push_back({passages_.size() - 1,
-                       spoken_seconds(said) / std::clamp(element.rate * element.stress, least_rate, greatest_rate),
-                       Piece::Of::words});
+    double const rate = std::clamp(element.rate * element.stress, least_rate, greatest_rate) * element.character->pace;
+    pieces_.push_back({passages_.size() - 1, spoken_seconds(said) / rate, Piece::Of::words});
 }
 
 std::vector<Passage> SsmlMeaning::passages() const {

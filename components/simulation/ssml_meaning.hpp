@@ -1,5 +1,5 @@
-// What the markup of W3C SSML means: words, languages, time, and how the voice is to sound. Who walks through the document
-// (ssml.cpp) feeds it.
+// What the markup of W3C SSML means: words, languages, voices, time, and how the voice is to sound. Who walks through the
+// document (ssml.cpp) feeds it.
 #pragma once
 
 #include <array>
@@ -21,6 +21,9 @@ struct SsmlAttribute {
 
 class SsmlMeaning {
 public:
+    // `character`: the voice of what is in no `voice` element.
+    explicit SsmlMeaning(std::string_view character) : character_{&voice_character(character)} {}
+
     // An element begins: the local name of one of SSML's own, else empty. Says which language it asks for in vain, when that is
     // to be refused.
     std::optional<std::string> begin(std::string_view kind, std::span<SsmlAttribute const>);
@@ -44,6 +47,7 @@ private:
         double stress = 1;     // how emphasis changes it
         bool silent = false;   // what is in it is not spoken
         std::string language;  // empty: not said
+        VoiceCharacter const* character = nullptr;
         InVain in_vain = InVain::refuse;
         Sound sound;
         std::optional<Seconds> duration;  // in which all that is in it is to be said
@@ -58,11 +62,13 @@ private:
     };
 
     std::optional<std::string> speak_language(Element&, std::span<SsmlAttribute const>);
+    static void set_voice(Element&, std::span<SsmlAttribute const>);
     static void set_pace(Element&, std::span<SsmlAttribute const>);
     static void set_sound(Element&, std::span<SsmlAttribute const>);
     void part_words(std::string_view kind);
     std::size_t passage_of(Element const&);
 
+    VoiceCharacter const* character_;  // of the document
     std::vector<Element> open_;
     std::vector<Passage> passages_;
     std::vector<Piece> pieces_;

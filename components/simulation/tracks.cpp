@@ -1,5 +1,7 @@
 #include "simulation/tracks.hpp"
 
+#include "types/texts.hpp"
+
 namespace rois::simulation {
 
 void Tracks::see(PersonId person, WorldTime now) {
@@ -31,6 +33,13 @@ std::optional<PersonId> Tracks::find(std::string_view wanted) const {
         if (name(person) == wanted) return person;
     }
     return std::nullopt;
+}
+
+bool Tracks::was_given(std::string_view name) const {
+    constexpr std::string_view prefix = "person-";
+    if (!name.starts_with(prefix)) return false;
+    auto const number = to_int(name.substr(prefix.size()));
+    return number && *number > 0 && static_cast<std::uint64_t>(*number) <= last_number_;
 }
 
 bool Tracks::identified(PersonId person) const {

@@ -23,6 +23,7 @@ public:
     std::optional<std::string> name(PersonId) const;
     std::optional<PersonId> find(std::string_view name) const;
     bool identified(PersonId) const;
+    bool was_given(std::string_view name) const;  // to anybody, at any time
 
 private:
     struct Track {

@@ -26,17 +26,20 @@ UtteranceId Voice::speak(Utterance utterance, WorldTime now, Point const& place,
     last_ = UtteranceId{static_cast<std::uint64_t>(last_) + 1};
     state_ = SpeechState::speaking;
     loudness_ = std::clamp(utterance.loudness, 0.0, 1.0);
-    Seconds const length = utterance.duration.value_or(speech_duration(utterance.text));
+    double const pace = voice_character(utterance.character).pace;
+    Seconds const length = utterance.duration.value_or(speech_duration(utterance.text) / pace);
     further_.assign(std::make_move_iterator(utterance.further.begin()), std::make_move_iterator(utterance.further.end()));
-    begin({std::move(utterance.text), std::move(utterance.language), length, std::move(utterance.prosody)}, now, place,
-          chronicle);
+    begin({std::move(utterance.text), std::move(utterance.language), length, std::move(utterance.prosody),
+           std::move(utterance.character)},
+          now, place, chronicle);
     return last_;
 }
 
 void Voice::begin(Passage passage, WorldTime now, Point const& place, Chronicle& chronicle) {
-    speech_ = {std::move(passage.text), std::move(passage.language), now, now + world_time(passage.duration)};
+    speech_ = {std::move(passage.text), std::move(passage.language), now, now + world_time(passage.duration),
+               std::move(passage.character)};
     chronicle.add({0, now, Happening::Kind::speech_started, robot_, place, speech_.text, speech_.language, passage.duration,
-                   std::move(passage.prosody)});
+                   std::move(passage.prosody), speech_.character});
 }
 
 SpeechState Voice::state(UtteranceId id) const {

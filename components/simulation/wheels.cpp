@@ -13,8 +13,13 @@ void WheelAction::drive(Motion motion) {
 Progress WheelAction::progress() const { return motion_ ? hall().drive(robot()).progress(*motion_) : Progress{}; }
 
 WorldTime WheelAction::blocked(MotionState state) {
-    blocked_ = state == MotionState::obstructed ? blocked_ + Hall::step_length : WorldTime{};
+    bool const is_blocked = state == MotionState::obstructed || hall().drive(robot()).brakes_are_on();
+    blocked_ = is_blocked ? blocked_ + Hall::step_length : WorldTime{};
     return blocked_;
+}
+
+std::string WheelAction::what_blocks() const {
+    return hall().drive(robot()).brakes_are_on() ? "the brakes of the robot are on" : "somebody is in the way and does not move";
 }
 
 std::string WheelAction::busy_wheels() const { return "the wheels are busy with " + std::string{hall().drive(robot()).owner()}; }
@@ -25,7 +30,9 @@ bool WheelAction::wheels_are_anothers() const {
 }
 
 ComponentStatus WheelAction::condition() const {
-    return progress().state == MotionState::obstructed ? ComponentStatus::warning : ComponentStatus::ready;
+    auto const state = progress().state;
+    bool const is_braked = !over(state) && hall().drive(robot()).brakes_are_on();
+    return state == MotionState::obstructed || is_braked ? ComponentStatus::warning : ComponentStatus::ready;
 }
 
 void WheelAction::cease() {

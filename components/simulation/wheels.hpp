@@ -17,14 +17,17 @@ protected:
     void drive(Motion);
     // How the motion goes; `ended` when there is none.
     Progress progress() const;
-    // For how long the way has been blocked by somebody without a break; asked once a step.
+    // For how long the robot has been kept from moving without a break, by somebody in the way or by its brakes; asked once a
+    // step.
     WorldTime blocked(MotionState);
+    // By what, for people.
+    std::string what_blocks() const;
 
     bool wheels_are_anothers() const;
     // Why they cannot be had.
     std::string busy_wheels() const;
 
-    // WARNING while somebody is in the way.
+    // WARNING while somebody is in the way, or a motion waits for the brakes to be put off.
     ComponentStatus condition() const override;
     void cease() override;
     void hold() override;

@@ -17,6 +17,13 @@ FloorPlan checked(FloorPlan plan) {
     return plan;
 }
 
+std::set<std::string, std::less<>> known_roles(Scenario const& scenario) {
+    std::set<std::string, std::less<>> known;
+    for (Role const& role : scenario.roles)
+        if (role.known) known.insert(role.id);
+    return known;
+}
+
 std::string already_inside(std::string const& visitor) { return visitor + " is in the hall already"; }
 
 bool is_for_visitors(Happening const& happening) {
@@ -30,6 +37,7 @@ Hall::World::World(FloorPlan plan, Scenario scenario, std::uint64_t hall_seed)
     : seed(hall_seed),
       plan_(checked(std::move(plan))),
       walkways_(plan_, person_radius, on_foot),
+      known_(known_roles(scenario)),
       crowd_(std::move(scenario), plan_, mixed({hall_seed, 1})) {
     for (std::size_t i = 0; i < plan_.robots.size(); ++i) {
         RobotId const id{static_cast<std::uint32_t>(i)};
@@ -122,6 +130,7 @@ void Hall::World::admit_steered(Pose const& entrance) {
 
 void Hall::World::enter(std::unique_ptr<Visitor> visitor) {
     auto const& person = people.emplace_back(visitor->person());
+    if (person.known) known_.insert(person.role);
     chronicle.add({0, now, Happening::Kind::entered, person.id, person.pose.position, {}, {}, 0, {}});
     visitors_.push_back(std::move(visitor));
 }

@@ -2,7 +2,11 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <memory>
+#include <set>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "simulation/crowd.hpp"
@@ -32,6 +36,7 @@ public:
     SteeredVisitor* steered(std::string_view ref);  // null when no steered visitor of this name is in the hall
     void stop_steering();
     bool is_inside(std::string_view role) const;
+    bool is_known(std::string_view role) const { return known_.contains(role); }  // those of the scenario, before they come, too
 
     std::uint64_t seed;
     WorldTime now{0};
@@ -61,6 +66,7 @@ private:
 
     FloorPlan plan_;
     Planner walkways_;
+    std::set<std::string, std::less<>> known_;  // the roles of known people
     Crowd crowd_;
     std::vector<std::unique_ptr<Visitor>> visitors_;
     std::uint32_t last_person_ = 0;  // of those who are not steered

@@ -95,18 +95,24 @@ execute() {
 
 # --- Hearing from the engine ----------------------------------------------------------------------------------------
 
-# fetch SECONDS: adds the notifications that are there, or come within that time, to the news.
+# fetch SECONDS: adds the notifications that are there, or come within that time, to the news. An answer that breaks off has delivered
+# those that are complete in it; the next call asks for the rest.
 fetch() {
-    fetched=$(curl -sS -m $(($1 + 10)) -H "RoIS-Session: $session" "$url/rois/notifications?after=$after&wait=$1") || { pause; return; }
-    broken=
-    case $fetched in *'<fault '*) answer=$fetched; refused notifications ;; esac
+    whole=yes
+    fetched=$(curl -sS -m $(($1 + 10)) -H "RoIS-Session: $session" "$url/rois/notifications?after=$after&wait=$1") || whole=
+    case $fetched in
+        *'</fault>'*) answer=$fetched; refused notifications ;;
+        *'<notifications '*) ;;
+        *) whole= ;;
+    esac
     printf '%s' "$fetched" | tr '\n' ' ' |
         sed 's/<receive_event /\
 &/g; s/<receive_error /\
 &/g; s/<completed /\
 &/g; s/<lost /\
 &/g; s/<profile_changed /\
-&/g' | sed -n '/^<[a-z_]* sequence=/p' >"$news"
+&/g' | sed -n '/^<\([a-z_]*\) sequence=.*<\/\1>/p; /^<[a-z_]* [^<>]*\/>/p' >"$news"
+    if [ -n "$whole" ] || [ -s "$news" ]; then broken=; else pause; fi
 }
 
 # next_notification SECONDS: takes the next one into $notification; fails when none comes within that time.
@@ -130,13 +136,15 @@ wait_for() {
     return 1
 }
 
-# run COMPONENT TYPE [PARAMETERS]: executes one command and waits until it has completed; its status is in $status.
+# run COMPONENT TYPE [PARAMETERS]: executes one command and waits until it has completed; $status is its status, $why the same with the reason.
 commands=0
 run() {
     commands=$((commands + 1))
     execute "step-$commands" "$(command "step-$commands" "$1" "$2" "${3:-}")"
     wait_for "*<command_id>step-$commands</command_id>*" 120 || { tell "$1 $2 did not complete within two minutes"; exit 1; }
     status=$(text_of status "$notification")
+    why=$status  # with the engine's reason, if it has one
+    [ "$status" = OK ] || ! ask get_command_result "<command_id>step-$commands</command_id>" || why=$why$(values_of reason "$answer" | sed '1s/^/: /')
 }
 
 say() {
@@ -219,7 +227,7 @@ go_there() {
     tell "$person is at $position (mm, mm, degree); going there."
     for try in 1 2 3 4 5; do
         aim=$position
-        go_before "$aim" || { tell "No way leads to $person ($status)."; return 1; }
+        go_before "$aim" || { tell "No way leads to $person ($why)."; return 1; }
         look
         is=$(position_of "$person" "$seen")
         [ -n "$is" ] && near "$aim" "$is" 600 && { tell "Arrived at $person."; return 0; }
@@ -286,7 +294,7 @@ receive() {
 go_back() {
     tell 'Going back to the start.'
     go_to "$start"
-    [ "$status" = OK ] || tell "The way back ended with $status."
+    [ "$status" = OK ] || tell "The way back ended with $why."
 }
 
 leave() {

@@ -21,6 +21,12 @@ class NoAnswer(Exception):
     """The gateway did not answer within the deadline. Whether it did what it was asked is not known."""
 
 
+class Status(str):
+    """How a command ended: OK, ERROR, ABORT, OUT_OF_RESOURCES or TIMEOUT. If it is not OK, `reason` says why, as the engine does."""
+
+    reason = ""
+
+
 class Engine:
     """A session. What gets lost on the way is asked for again, for as long as `deadline` seconds; commands have names, so that none
     is executed twice."""
@@ -68,7 +74,7 @@ class Engine:
         return results_of(self.request("query", f"<query_type>{query_type}</query_type>"))
 
     def run(self, component, command="start", **arguments):
-        """Executes one command, waits for its end, and says how that was. An argument is a list: its type and its texts."""
+        """Executes one command, waits for its end and returns its Status. An argument is a list: its type and its texts."""
         name, given = next(self.names), ""
         for argument, (kind, *texts) in arguments.items():
             values = "".join(f"<rois:value>{escape(text)}</rois:value>" for text in texts)
@@ -83,7 +89,14 @@ class Engine:
                 self.request("get_command_result", f"<command_id>{name}</command_id>")
             except Refused:
                 raise refused from None
-        return self.next(lambda one: one.findtext(M + "command_id") == name, math.inf).findtext(M + "status")
+        status = Status(self.next(lambda one: one.findtext(M + "command_id") == name, math.inf).findtext(M + "status"))
+        if status != "OK":
+            try:
+                results = results_of(self.request("get_command_result", f"<command_id>{name}</command_id>"))
+                status.reason = results.get("reason", [""])[0]
+            except Refused:  # the session has ended
+                pass
+        return status
 
     def event(self, event_type, seconds, wanted=lambda results: True):
         """The results of the first event of this type that `wanted` says yes to, also of those that came while something else was
@@ -127,12 +140,17 @@ class Engine:
         headers = {"Content-Type": "application/xml", "RoIS-Session": self.session}
         end = None  # of asking again
         for pause in itertools.chain((0.01, 0.1), itertools.repeat(1)):
+            came = b""
             try:
                 with urllib.request.urlopen(urllib.request.Request(self.url + path, body, headers), timeout=patience) as answer:
-                    return ElementTree.fromstring(answer.read())
+                    while piece := answer.read1():
+                        came += piece
+                    return ElementTree.fromstring(came)
             except urllib.error.HTTPError as fault:
                 raise Refused(reason_of(fault)) from None
             except (OSError, http.client.HTTPException, ElementTree.ParseError) as trouble:  # the last: cut off in its head
+                if body is None and (news := whole_children_of(came)):
+                    return news  # notifications that arrived before the link broke; the next request asks for the rest
                 end = end or time.monotonic() + self.deadline
                 if time.monotonic() >= end:
                     raise NoAnswer(f"{self.url} does not answer: {trouble}") from None
@@ -147,6 +165,20 @@ def reason_of(error):
     except (OSError, http.client.HTTPException, ElementTree.ParseError):
         return str(error)
     return f"{fault.get('code')}: {fault.findtext(M + 'reason')}" if fault.tag == M + "fault" else str(error)
+
+
+def whole_children_of(text):
+    """The root's children that are complete in a document whose end is missing."""
+    parser, depth, children = ElementTree.XMLPullParser(("start", "end")), 0, []
+    try:
+        parser.feed(text)
+        for event, element in parser.read_events():
+            depth += 1 if event == "start" else -1
+            if event == "end" and depth == 1:
+                children.append(element)
+    except ElementTree.ParseError:  # not a document of XML
+        pass
+    return children
 
 
 def results_of(document):

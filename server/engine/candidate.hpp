@@ -1,6 +1,7 @@
 // What a condition is held against: a component, an event of one, or the results of something.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,6 +18,20 @@ enum class Match : std::uint8_t { no, maybe, yes };
 
 using Texts = std::vector<std::string>;
 using Positions = std::vector<Geometry>;
+
+class Candidate;
+
+// Who has bound a component, as seen by the condition's asker; in the order in which the asker gets the component most easily.
+enum class Holder : std::uint8_t { asker, nobody, another_session };
+
+// What a condition on a group makes of one robot.
+struct GroupVerdict {
+    Match match = Match::no;
+    // How the asker gets the group's components from this robot; set if the robot matches.
+    std::size_t bound = 0;                  // those that the asker has bound
+    std::vector<Candidate const*> to_bind;  // those that it lacks and that are free
+    Candidate const* held = nullptr;        // one that it lacks and that only other sessions have; null if there is none
+};
 
 class Candidate {
 public:
@@ -35,9 +50,12 @@ public:
     // All components of its robot (its engine); none for what belongs to none.
     virtual std::vector<Candidate const*> robot() const = 0;
 
-    // Where it is kept what a condition on a group makes of this one's robot, for as long as the robots are looked at; null for
-    // what belongs to none.
-    virtual std::optional<Match>* verdict(void const* group) const = 0;
+    // Where the verdict of a condition on a group about this candidate's robot is kept, for as long as the robots are looked at;
+    // null for what belongs to no robot.
+    virtual std::optional<GroupVerdict>* verdict(void const* group) const = 0;
+
+    // Nobody can bind what is not a component.
+    virtual Holder holder() const { return Holder::nobody; }
 };
 
 // A component together with the results of an event of it, or of its answer to a query. What it refers to lives longer.
@@ -50,7 +68,8 @@ public:
     bool has(Reference const&) const override;
     std::string_view rid() const override { return component_.rid(); }
     std::vector<Candidate const*> robot() const override { return component_.robot(); }
-    std::optional<Match>* verdict(void const* group) const override { return component_.verdict(group); }
+    std::optional<GroupVerdict>* verdict(void const* group) const override { return component_.verdict(group); }
+    Holder holder() const override { return component_.holder(); }
 
 private:
     Candidate const& component_;
@@ -67,7 +86,7 @@ public:
     bool has(Reference const&) const override;
     std::string_view rid() const override { return id_; }
     std::vector<Candidate const*> robot() const override { return {}; }
-    std::optional<Match>* verdict(void const*) const override { return nullptr; }
+    std::optional<GroupVerdict>* verdict(void const*) const override { return nullptr; }
 
 private:
     Results const& results_;

@@ -10,7 +10,11 @@ namespace rois {
 
 namespace {
 
-std::string unknown_component(std::string const& ref) { return "unknown component " + quoted(ref); }
+// Names the holder by the number of its session, which the log and the metrics show, and never by its id.
+std::string held(RegisteredComponent const& component) {
+    return "the component " + quoted(component.ref().code) + " is bound by another session, number " +
+           std::to_string(component.bound_to->number);
+}
 
 std::string not_bound(std::string const& ref) { return "the component " + quoted(ref) + " is not bound by this session"; }
 
@@ -52,42 +56,47 @@ Reply Engine::Core::perform(Session& session, Search const& search, Instant) {
     return reply;
 }
 
-Reply Engine::Core::perform(Session& session, Bind const& bind, Instant) {
-    auto* component = registry_.find(bind.component_ref.code);
-    if (component == nullptr) return refused<Bind::Reply>(ReturnCode::bad_parameter, unknown_component(bind.component_ref.code));
-    switch (Registry::bind(*component, session)) {
+Reply Engine::Core::perform(Session& session, Bind const& bind, Instant now) {
+    auto [component, problem] = registry_.meant(bind.component_ref);
+    if (component == nullptr) return refused<Bind::Reply>(ReturnCode::bad_parameter, std::move(problem));
+    bool const mine = component->bound_to == &session;
+    switch (Registry::bind(*component, session, now)) {
         case Registry::Bound::ok:
+            if (!mine) journal_->bound(session.number, component->ref().code);
             return Bind::Reply{};
         case Registry::Bound::taken:
             break;
     }
-    return refused<Bind::Reply>(ReturnCode::out_of_resources,
-                                "the component " + quoted(component->ref().code) + " is bound by another session");
+    return refused<Bind::Reply>(ReturnCode::out_of_resources, held(*component));
 }
 
-// Decisions 4 and 6: the first free match, else one that is already mine.
-Reply Engine::Core::perform(Session& session, BindAny const& bind, Instant) {
+// Decisions 4 and 6: the first free match in the order of preference, else one that is already mine.
+Reply Engine::Core::perform(Session& session, BindAny const& bind, Instant now) {
     auto compiled = Selection::compile(bind.condition, vocabulary());
     if (auto* problem = std::get_if<std::string>(&compiled))
         return refused<BindAny::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto const& selection = std::get<Selection>(compiled);
     if (!may_ever_match(selection.filter(), registry_.possible(selection.filter().demand()), session))
         return refused<BindAny::Reply>(ReturnCode::unsupported, "no component of this engine can match the condition");
-    auto const matches = select(selection, session, [](auto const& component) { return component.bound_to == nullptr; });
+    auto const [matches, held_of_group] = select_to_bind(selection, session);
     auto found = std::ranges::find(matches, nullptr, &RegisteredComponent::bound_to);
     if (found == matches.end()) found = std::ranges::find(matches, &session, &RegisteredComponent::bound_to);
+    if (found == matches.end() && held_of_group != nullptr)
+        return refused<BindAny::Reply>(ReturnCode::out_of_resources,
+                                       "no robot can give all components of the group now; " + held(*held_of_group));
     if (found == matches.end())
-        return refused<BindAny::Reply>(ReturnCode::out_of_resources, "no component that matches the condition is free now");
-    Registry::bind(**found, session);
+        return refused<BindAny::Reply>(ReturnCode::out_of_resources, "no component that matches the condition is free now" +
+                                                                         (matches.empty() ? "" : "; " + held(*matches.front())));
+    if ((*found)->bound_to == nullptr) journal_->bound(session.number, (*found)->ref().code);
+    Registry::bind(**found, session, now);
     BindAny::Reply reply;
     reply.component_ref = (*found)->ref();
     return reply;
 }
 
 Reply Engine::Core::perform(Session& session, Release const& release_, Instant now) {
-    auto* component = registry_.find(release_.component_ref.code);
-    if (component == nullptr)
-        return refused<Release::Reply>(ReturnCode::bad_parameter, unknown_component(release_.component_ref.code));
+    auto [component, problem] = registry_.meant(release_.component_ref);
+    if (component == nullptr) return refused<Release::Reply>(ReturnCode::bad_parameter, std::move(problem));
     if (component->bound_to == &session) release(session, *component, now);
     return Release::Reply{};
 }
@@ -96,15 +105,16 @@ void Engine::Core::release(Session& session, RegisteredComponent& component, Ins
     executor_.release(session, component, now);
     session.bound.erase(&component);
     component.bound_to = nullptr;
+    component.restore_defaults(now);
+    journal_->released(session.number, component.ref().code);
 }
 
 Reply Engine::Core::perform(Session& session, GetParameter const& get, Instant) {
-    auto* component = registry_.find(get.component_ref.code);
-    if (component == nullptr)
-        return refused<GetParameter::Reply>(ReturnCode::bad_parameter, unknown_component(get.component_ref.code));
+    auto [component, problem] = registry_.meant(get.component_ref);
+    if (component == nullptr) return refused<GetParameter::Reply>(ReturnCode::bad_parameter, std::move(problem));
     if (component->bound_to != &session) return refused<GetParameter::Reply>(ReturnCode::error, not_bound(component->ref().code));
     GetParameter::Reply reply;
-    auto parameters = component->all_parameters();
+    auto parameters = component->all_parameters(&session);
     if (!parameters)
         return refused<GetParameter::Reply>(ReturnCode::error, "the component " + quoted(component->ref().code) + " failed");
     reply.parameters = std::move(*parameters);

@@ -18,6 +18,12 @@ namespace rois {
 // Names a command between the engine and a component: unique for the engine's life, unlike a command_id.
 enum class CommandHandle : std::uint64_t {};
 
+// The codebooks of one parameter of type RoISIdentifier (decision 31).
+struct Codebooks {
+    std::string parameter;
+    std::vector<std::string> known;  // the first one is the default
+};
+
 // What the engine knows of a component from the beginning.
 struct ComponentDescription {
     Identifier ref;                                   // code = the instance's name, unique in the engine (decision 25)
@@ -29,6 +35,9 @@ struct ComponentDescription {
     // Which of its parameters are positions (located data, decision 27): in the engine's frame when they do not say another, and
     // refused when they say one that nobody knows. Others are positions when they say a known frame.
     std::vector<std::string> positions;
+    // From which codebooks its parameters take identifiers. The engine rejects all others. A codebook that the profile declares
+    // for the parameter (codebook_ref of data_type_ref) is known, too, and comes first.
+    std::vector<Codebooks> codebooks{};
 };
 
 // What becomes of a component when a command of it has completed.
@@ -99,7 +108,7 @@ public:
     virtual void suspend(Instant now) = 0;
     virtual void resume(Instant now) = 0;
 
-    // Parameters have been stored while the component may be running.
+    // Parameters have been stored, or are the defaults again because a binding ended; the component may be running.
     virtual void parameters_changed(ParameterList const& parameters, Instant now);
 
     // A command of the component's own profile (none of the five common types). Completes through the port.

@@ -89,8 +89,13 @@ std::string_view ComponentCandidate::rid() const { return component_.entry().ref
 
 std::vector<Candidate const*> ComponentCandidate::robot() const { return perspective_.robot(component_.entry().engine); }
 
-std::optional<Match>* ComponentCandidate::verdict(void const* group) const {
+std::optional<GroupVerdict>* ComponentCandidate::verdict(void const* group) const {
     return &perspective_.verdicts_[{group, component_.entry().engine}];
+}
+
+Holder ComponentCandidate::holder() const {
+    if (component_.bound_to == nullptr) return Holder::nobody;
+    return component_.bound_to == perspective_.asker() ? Holder::asker : Holder::another_session;
 }
 
 Texts ComponentCandidate::identifier_texts(Part part) const {
@@ -110,14 +115,14 @@ Texts ComponentCandidate::location_texts(Part part) const {
     Texts names;
     auto const here = point(*location());
     for (auto const& place : perspective_.places().all)
-        if (share_a_frame(here, place.area) && is_within(here, place.area)) names.push_back(place.name);
+        if (share_a_frame(here, place.area) && holds(SpatialRelation::within, here, place.area)) names.push_back(place.name);
     return names;
 }
 
 Parameter const* ComponentCandidate::parameter(std::string_view name) const {
-    if (auto const* stored = find(component_.parameters, name)) return stored;
+    if (auto const* stored = find(component_.parameters_for(perspective_.asker()), name)) return stored;
     if (!component_.has_parameter(name)) return nullptr;
-    if (!all_parameters_) all_parameters_ = component_.all_parameters().value_or(ParameterList{});
+    if (!all_parameters_) all_parameters_ = component_.all_parameters(perspective_.asker()).value_or(ParameterList{});
     return find(*all_parameters_, name);
 }
 

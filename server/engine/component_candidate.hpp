@@ -21,7 +21,8 @@ public:
     bool has(Reference const&) const override;
     std::string_view rid() const override;
     std::vector<Candidate const*> robot() const override;
-    std::optional<Match>* verdict(void const* group) const override;
+    std::optional<GroupVerdict>* verdict(void const* group) const override;
+    Holder holder() const override;
 
 private:
     bool is_open(Reference const&) const;

@@ -40,6 +40,12 @@ RegisteredComponent* ComponentsInOrder::next() {
     return lowest;
 }
 
+std::vector<RegisteredComponent*> ComponentsInOrder::rest() {
+    std::vector<RegisteredComponent*> components;
+    while (auto* component = next()) components.push_back(component);
+    return components;
+}
+
 void ComponentIndex::add(RegisteredComponent& component) {
     add_to(all_, component);
     add_to(by_type_[component.type_key()], component);

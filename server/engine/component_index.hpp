@@ -26,6 +26,8 @@ public:
 
     // Null when there is no other.
     RegisteredComponent* next();
+    // All that are left.
+    std::vector<RegisteredComponent*> rest();
 
 private:
     std::vector<RegisteredComponent*> own_;

@@ -61,7 +61,10 @@ void Engine::Core::enter(SharedComponent component) {
 
 void Engine::Core::leave(RegisteredComponent& component, Instant now) {
     executor_.part(component, now);
-    if (auto* session = std::exchange(component.bound_to, nullptr)) session->bound.erase(&component);
+    if (auto* session = std::exchange(component.bound_to, nullptr)) {
+        session->bound.erase(&component);
+        journal_->released(session->number, component.ref().code);
+    }
     settle(now);
     auto const last = component.shared_from_this();
     registry_.remove(component);

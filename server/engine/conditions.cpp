@@ -1,7 +1,10 @@
 // What operations do with their conditions (decisions 4, 18, 19).
+#include <algorithm>
 #include <utility>
 
 #include "engine/core.hpp"
+#include "engine/entries.hpp"
+#include "engine/preference.hpp"
 
 namespace rois {
 
@@ -12,30 +15,72 @@ bool Engine::Core::may_ever_match(Filter const& filter, ComponentsInOrder possib
     return false;
 }
 
-std::vector<RegisteredComponent*> Engine::Core::select(Selection const& selection, Session const& asker, IsEnough enough) const {
-    Perspective present{registry_, places_, &asker, Perspective::Of::present};
-    std::vector<RegisteredComponent*> components;
+namespace {
+
+// Sorts `components` as the selection says; components that it does not tell apart keep their order.
+void sort(std::vector<RegisteredComponent*>& components, Selection const& selection, Perspective& looked_at) {
     std::vector<Candidate const*> candidates;
-    auto possible = registry_.possible(selection.filter().demand());
-    while (auto* component = possible.next()) {
-        auto const& candidate = present.candidate(*component);
-        if (selection.match(candidate) != Match::yes) continue;
-        components.push_back(component);
-        candidates.push_back(&candidate);
-        if (enough != nullptr && !selection.sorts() && enough(*component)) break;
+    candidates.reserve(components.size());
+    for (auto const* component : components) candidates.push_back(&looked_at.candidate(*component));
+    std::vector<RegisteredComponent*> sorted;
+    sorted.reserve(components.size());
+    for (auto const place : selection.order(candidates)) sorted.push_back(components[place]);
+    components = std::move(sorted);
+}
+
+}  // namespace
+
+std::vector<RegisteredComponent*> Engine::Core::select(Selection const& selection, Session const& asker) const {
+    Perspective present{registry_, places_, &asker, Perspective::Of::present};
+    auto const does_not_match = [&](auto const* component) {
+        return selection.match(present.candidate(*component)) != Match::yes;
+    };
+    auto found = registry_.possible(selection.filter().demand()).rest();
+    std::erase_if(found, does_not_match);
+    if (present.knows_groups()) {
+        auto preferred = found;
+        Preference const preference{asker};
+        preference.order(preferred);
+        if (selection.sorts()) {
+            sort(preferred, selection, present);
+            preference.bring_forward(preferred);
+        }
+        present.keep_one_robot(preferred);
+        std::erase_if(found, does_not_match);
     }
-    if (!selection.sorts()) return components;
-    std::vector<RegisteredComponent*> found;
-    found.reserve(components.size());
-    for (auto const place : selection.order(candidates)) found.push_back(components[place]);
+    if (selection.sorts()) sort(found, selection, present);
     return found;
+}
+
+Engine::Core::ToBind Engine::Core::select_to_bind(Selection const& selection, Session const& asker) const {
+    Perspective present{registry_, places_, &asker, Perspective::Of::present};
+    Preference const preference{asker};
+    auto possible = registry_.possible(selection.filter().demand()).rest();
+    preference.order(possible);
+    ToBind to_bind;
+    auto& found = to_bind.components;
+    for (auto* component : possible) {
+        if (selection.match(present.candidate(*component)) != Match::yes) continue;
+        found.push_back(component);
+        if (!selection.sorts() && !present.knows_groups() && component->bound_to == nullptr) break;
+    }
+    if (selection.sorts()) {
+        sort(found, selection, present);
+        preference.bring_forward(found);
+    }
+    if (!present.knows_groups()) return to_bind;
+    present.keep_one_robot(found);
+    if (auto const held = present.drop_held_robots()) to_bind.held_of_group = registry_.find(*held);
+    std::erase_if(found, [&](auto const* component) { return selection.match(present.candidate(*component)) != Match::yes; });
+    std::ranges::stable_partition(found, [&](auto const* component) { return present.is_lacked(*component); });
+    return to_bind;
 }
 
 std::optional<std::string> Engine::Core::choose(Results& results, QueryExpression const& condition, Declarations const& known,
                                                 std::string_view id) const {
     auto filter = Filter::compile(condition, {.places = &places_, .parameters = nullptr, .results = &known});
     if (auto* problem = std::get_if<std::string>(&filter)) return std::move(*problem);
-    if (std::get<Filter>(filter).match(ResultsCandidate{results, id}) != Match::yes) results = {};
+    keep_matching(results, std::get<Filter>(filter), id);
     return {};
 }
 

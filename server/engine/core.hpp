@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "engine/engine.hpp"
 #include "engine/executor.hpp"
 #include "engine/filter.hpp"
+#include "engine/journal.hpp"
 #include "engine/notifier.hpp"
 #include "engine/perspective.hpp"
 #include "engine/registry.hpp"
@@ -26,6 +28,7 @@ public:
     Core(EngineProfile profile, std::vector<ComponentProfile> known_profiles, EngineSettings const& settings, Outbox& outbox,
          FreshSecret fresh_secret);
 
+    void report_to(Journal& journal) { journal_ = &journal; }
     void add(std::unique_ptr<Component>);
     void change(ComponentChange, Instant now);
     void add(std::shared_ptr<Device> device) { devices_.push_back(std::move(device)); }
@@ -73,6 +76,7 @@ private:
 
     // Query interface (query_interface.cpp)
     Reply perform(Session&, Query const&, Instant now);
+    Reply answer_of_whole_engine(Session const&, std::string const& query_type, Instant now);
     static std::vector<Results> answers(Session const&, RegisteredComponent&, std::string const& query_type, Instant now);
 
     // Event interface (event_interface.cpp)
@@ -83,17 +87,28 @@ private:
     void publish(ErrorOccurred, Instant now);
 
     // Conditions (conditions.cpp)
-    Vocabulary vocabulary(Declarations const* results = nullptr) const { return {&places_, &registry_.parameters(), results}; }
+    Vocabulary vocabulary(Declarations const* results = nullptr) const {
+        return {
+            .places = &places_, .parameters = &registry_.parameters(), .results = results, .main_engine = profile_.object.name};
+    }
     // Whether one of these may meet it, whatever becomes of them.
     bool may_ever_match(Filter const&, ComponentsInOrder possible, Session const& asker) const;
-    // Those that the selection lets through, in its order; when it does not sort, nobody behind the first that is enough.
-    using IsEnough = bool (*)(RegisteredComponent const&);
-    std::vector<RegisteredComponent*> select(Selection const&, Session const& asker, IsEnough = nullptr) const;
-    // Leaves all results or none. Why the condition cannot be used, or nothing.
+    // The components that match, in the order of the selection, else by ref. A group condition selects components of one robot:
+    // the one that the asker would get (engine/preference.hpp).
+    std::vector<RegisteredComponent*> select(Selection const&, Session const& asker) const;
+    struct ToBind {
+        std::vector<RegisteredComponent*> components;  // in the order in which one is taken
+        // Set if a robot met a group condition, but another session holds this component, which the asker lacks.
+        RegisteredComponent const* held_of_group = nullptr;
+    };
+    // The components that match. Unless the selection sorts or has a group, stops behind the first free one. A group condition
+    // selects components of one robot, if the asker has bound or can bind all that the group looks for.
+    ToBind select_to_bind(Selection const&, Session const& asker) const;
+    // Leaves the results that match (decision 19). Returns why the condition cannot be used, or nothing.
     std::optional<std::string> choose(Results&, QueryExpression const&, Declarations const& known, std::string_view id) const;
 
     // Sessions (engine.cpp)
-    void end(Session&, Instant now);
+    void end(Session&, std::string_view why, Instant now);
     static SessionStatistics statistics(Session const&);
     void await_end_of_window(Session&);
     void end_if_lost(SessionId const&, Instant now);
@@ -101,6 +116,8 @@ private:
     void advance_devices(Instant now);
     void release(Session&, RegisteredComponent&, Instant now);
 
+    Journal nobody_;
+    Journal* journal_ = &nobody_;  // never null
     EngineSettings settings_;
     FreshSecret fresh_secret_;
     std::vector<ComponentProfile> known_profiles_;

@@ -17,7 +17,7 @@ Engine::Core::Core(EngineProfile profile, std::vector<ComponentProfile> known_pr
       known_profiles_{std::move(known_profiles)},
       profile_{std::move(profile)},
       notifier_{outbox},
-      executor_{settings_, registry_, agenda_, deadlines_, notifier_},
+      executor_{settings_, registry_, agenda_, deadlines_, notifier_, journal_},
       events_{"e-", settings_.event_details},
       errors_{"x-", settings_.error_details} {}
 
@@ -28,7 +28,10 @@ std::variant<Reply, Refusal> Engine::Core::handle(SessionId const& id, Operation
     auto const* resumed = std::get_if<Resume>(&operation);
     auto* session = find(resumed != nullptr ? resumed->session : id);
     if (session == nullptr) return Refusal::no_session;
+    auto const number = session->number;
     Reply reply = std::visit([&](auto const& known) { return perform(*session, known, now); }, operation);
+    auto const& outcome = std::visit([](Outcome const& each) -> Outcome const& { return each; }, reply);
+    if (outcome.return_code != ReturnCode::ok) journal_->refused(number, operation, outcome);
     settle(now);
     return reply;
 }
@@ -83,7 +86,7 @@ void Engine::Core::settle(Instant now) {
         auto const overflowed = notifier_.take_overflowed();
         if (overflowed.empty()) return;
         for (auto const& id : overflowed)
-            if (auto* session = find(id)) end(*session, now);
+            if (auto* session = find(id)) end(*session, "too many notifications waited for it", now);
     }
 }
 
@@ -95,29 +98,30 @@ Session* Engine::Core::find(SessionId const& id) const {
 void Engine::Core::end(SessionId const& id, Instant now) {
     auto* session = find(id);
     if (session == nullptr) return;
-    end(*session, now);
+    end(*session, "the gateway ended it", now);
     settle(now);
 }
 
 // Decision 3. The last notifications are in the queue before it is closed.
-void Engine::Core::end(Session& session, Instant now) {
+void Engine::Core::end(Session& session, std::string_view why, Instant now) {
     if (settings_.on_session_end == OnSessionEnd::continue_) {
         executor_.let_run_on(session);
     } else {
         executor_.abort_all(session, now);
-        for (auto* component : session.bound) executor_.release(session, *component, now);
+        while (!session.bound.empty()) release(session, **session.bound.begin(), now);
     }
     for (auto* component : session.bound) component->bound_to = nullptr;
     subscriptions_.remove_all(session);
     executor_.forget(session);
     notifier_.close(session);
+    journal_->session_ended(session.number, why);
     sessions_.erase(SessionId{session.id});
 }
 
 void Engine::Core::shut_down(Instant now) {
     shutting_down_ = true;
     settings_.on_session_end = OnSessionEnd::stop;
-    while (!sessions_.empty()) end(*sessions_.begin()->second, now);
+    while (!sessions_.empty()) end(*sessions_.begin()->second, "the gateway is shutting down", now);
     executor_.stop_all(now);
     settle(now);
 }
@@ -151,7 +155,7 @@ void Engine::Core::end_if_lost(SessionId const& id, Instant now) {
     auto* session = find(id);
     if (session == nullptr || session->open_links > 0) return;
     if (session->quiet_until + settings_.resume_window <= now.steady) {
-        end(*session, now);
+        end(*session, "its link was lost and it was not resumed in time", now);
     } else {
         await_end_of_window(*session);
     }
@@ -202,6 +206,7 @@ Engine::Engine(EngineProfile profile, std::vector<ComponentProfile> known_profil
 
 Engine::~Engine() = default;
 
+void Engine::report_to(Journal& journal) { core_->report_to(journal); }
 void Engine::add(std::unique_ptr<Component> component) { core_->add(std::move(component)); }
 void Engine::change(ComponentChange change, Instant now) { core_->change(std::move(change), now); }
 void Engine::add(std::shared_ptr<Device> device) { core_->add(std::move(device)); }

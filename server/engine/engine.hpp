@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/component.hpp"
+#include "engine/journal.hpp"
 #include "engine/notification_queue.hpp"
 #include "engine/places.hpp"
 #include "engine/settings.hpp"
@@ -81,6 +82,9 @@ public:
     ~Engine();
     Engine(Engine const&) = delete;
     Engine& operator=(Engine const&) = delete;
+
+    // Reports to this journal from now on; without one, to nobody. It must live until the last call of the engine.
+    void report_to(Journal&);
 
     // Before the first session. Throws std::runtime_error for a ref that is taken or a sub component profile that is unknown.
     void add(std::unique_ptr<Component>);

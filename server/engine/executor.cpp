@@ -102,6 +102,7 @@ void Executor::run(SharedCommand const& command, Instant now) {
     if (command->binding_lost || command->component->bound_to != command->session)
         return end(command, CompletedStatus::abort, "its component was released before its turn came", now);
     command->state = Command::State::running;
+    journal_->command_begun(*command);
     if (command->type == "set_parameter") return run_set_parameter(command, now);
     if (command->type == "start") return run_start(command, now);
     if (command->type == "stop") return run_stop(command, now);
@@ -267,6 +268,7 @@ void Executor::end(SharedCommand const& command, CompletedStatus status, std::st
     if (command->start_deadline) deadlines_.cancel(*command->start_deadline);
     live_.erase(static_cast<std::uint64_t>(command->handle));
     ++completed_by_status_.at(static_cast<std::size_t>(status));
+    journal_->command_ended(*command);
     if (command->session != nullptr) {
         notifier_.tell(*command->session, Completed{command->id, status});
         remember(command, now);

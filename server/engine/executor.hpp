@@ -14,6 +14,7 @@
 
 #include "engine/deadlines.hpp"
 #include "engine/execution.hpp"
+#include "engine/journal.hpp"
 #include "engine/notifier.hpp"
 #include "engine/registry.hpp"
 #include "engine/settings.hpp"
@@ -22,8 +23,14 @@ namespace rois {
 
 class Executor {
 public:
-    Executor(EngineSettings const& settings, Registry const& registry, Agenda& agenda, Deadlines& deadlines, Notifier& notifier)
-        : settings_{settings}, registry_{registry}, agenda_{agenda}, deadlines_{deadlines}, notifier_{notifier} {}
+    Executor(EngineSettings const& settings, Registry const& registry, Agenda& agenda, Deadlines& deadlines, Notifier& notifier,
+             Journal* const& journal)
+        : settings_{settings},
+          registry_{registry},
+          agenda_{agenda},
+          deadlines_{deadlines},
+          notifier_{notifier},
+          journal_{journal} {}
     ~Executor();
     Executor(Executor const&) = delete;
     Executor& operator=(Executor const&) = delete;
@@ -98,7 +105,8 @@ private:
     Agenda& agenda_;
     Deadlines& deadlines_;
     Notifier& notifier_;
-    std::unordered_map<std::uint64_t, SharedCommand> live_;                 // waiting or running, by handle
+    Journal* const& journal_;                                // the engine's, which may be replaced before the first session
+    std::unordered_map<std::uint64_t, SharedCommand> live_;  // waiting or running, by handle
     std::deque<std::pair<std::shared_ptr<Execution>, std::size_t>> ready_;  // units whose turn has come
     bool running_ready_ = false;
     std::set<std::pair<Steady, Session*>> by_age_;  // the sessions that keep results, by when their oldest one ended

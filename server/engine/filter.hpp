@@ -34,6 +34,9 @@ public:
 
     Match match(Candidate const&) const;
 
+    // Whether there is anything that it does not let through.
+    bool restricts() const { return predicate_ != nullptr; }
+
     // The condition's canonical text: the same for conditions that mean the same (decision 20). Made anew each time.
     std::string meaning() const;
 
@@ -44,7 +47,10 @@ public:
     // How many predicates it is made of: what it costs to hold it against something.
     std::size_t predicates() const { return predicates_; }
 
-    // Whether the answer may differ from asker to asker (`status` does, decision 7).
+    // The references to results, in the order of the condition.
+    std::vector<Reference> const& results() const { return results_; }
+
+    // Whether the answer may differ from asker to asker (`status` and parameters do, decisions 7 and 30).
     bool depends_on_asker() const { return depends_on_asker_; }
 
 private:
@@ -53,6 +59,7 @@ private:
 
     std::unique_ptr<Predicate const> predicate_;  // null: restricts nothing
     std::size_t predicates_ = 0;
+    std::vector<Reference> results_;
     bool depends_on_asker_ = false;
 };
 

@@ -141,6 +141,11 @@ public:
                (reference->part == Reference::Part::value || reference->part == Reference::Part::code);
     }
 
+    bool is_engine() const {
+        auto const* reference = std::get_if<Reference>(&what_);
+        return reference != nullptr && reference->to == Reference::To::engine;
+    }
+
     bool is_component_type() const {
         auto const* reference = std::get_if<Reference>(&what_);
         return reference != nullptr && reference->to == Reference::To::component_type;
@@ -262,6 +267,14 @@ public:
                (by_letters && manner_.letters == Case::ignored ? "~" : "") + "(" + left + "," + right + ")";
     }
 
+    // Decision 32: it says that the engine is the main engine (by name, or left empty), which has every component.
+    bool speaks_of_main_engine(std::string_view name) const {
+        auto const* literal = literal_beside(&Side::is_engine);
+        if (literal == nullptr || name.empty()) return false;
+        auto const manner = Manner{.kind = ValueKind::text, .letters = manner_.letters};
+        return literal->empty() || manner.read(*literal).text == manner.read(name).text;
+    }
+
     std::optional<Demand> demand() const override {
         if (named_ != nullptr) return Demand{.refs = {*named_}, .types = {}};
         if (type_ != nullptr) return Demand{.refs = {}, .types = {*type_}};
@@ -321,7 +334,10 @@ private:
 PredicatePtr FilterCompiler::operator()(PropertyComparison const& comparison) {
     auto made = std::make_unique<Comparison>(*this, comparison);
     if (problem_) return nullptr;
-    return made;
+    bool const equal = comparison.comparator == Comparator::equal;
+    bool const equality = equal || comparison.comparator == Comparator::not_equal;
+    if (!equality || !made->speaks_of_main_engine(vocabulary_.main_engine)) return made;
+    return equal ? (*this)(And{}) : (*this)(Not{{Condition{And{}}}});
 }
 
 PredicatePtr FilterCompiler::operator()(PropertyIsBetween const& between) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/referred.hpp"
+#include "engine/shapes.hpp"
 #include "engine/space.hpp"
 #include "types/listing.hpp"
 #include "types/texts.hpp"
@@ -13,6 +15,17 @@ namespace {
 std::string names_of(Places const& places) {
     auto const names = listed(places.all, [](auto const& place) { return quoted(place.name); });
     return names.empty() ? "none are" : names;
+}
+
+// "1 2" as "1,2".
+std::string with_commas(std::string_view text) {
+    std::string commas;
+    for (; !text.empty(); text = trimmed(text)) {
+        auto const word = text.substr(0, text.find_first_of(" \t\r\n"));
+        commas.append(commas.empty() ? "" : ",").append(word);
+        text.remove_prefix(word.size());
+    }
+    return commas;
 }
 
 bool may_be_a_position(Reference const& reference) {
@@ -68,7 +81,9 @@ std::optional<Reference> FilterCompiler::resolve(std::string_view path) {
     auto resolved = vocabulary_.resolve(path, aliases_);
     if (auto* problem = std::get_if<std::string>(&resolved)) return refuse(std::move(*problem));
     auto& reference = std::get<Reference>(resolved);
-    depends_on_asker_ = depends_on_asker_ || reference.to == Reference::To::status;
+    using To = Reference::To;
+    depends_on_asker_ = depends_on_asker_ || reference.to == To::status || reference.to == To::parameter;
+    if (speaks_of_results(reference)) results_.push_back(reference);
     return std::move(reference);
 }
 
@@ -78,6 +93,12 @@ std::optional<Whereabouts> FilterCompiler::whereabouts(Expression const& express
     if (auto const* geometry = std::get_if<Geometry>(&expression.value)) {
         auto const& frames = places.frames;
         Geometry here = *geometry;
+        for (auto const& path : here.paths) predicates_ += path.size() / points_of_a_predicate;
+        if (predicates_ > most_predicates)
+            return refuse("the condition has more than " + std::to_string(most_predicates) + " predicates, of which " +
+                          std::to_string(points_of_a_predicate) + " points of a line or polygon count as one");
+        if (auto const problem = here.shape == Geometry::Shape::box ? std::nullopt : why_invalid(here))
+            return refuse("the condition has a " + *problem);
         if (here.crs.empty()) here.crs = frames.own();
         if (!frames.own().empty() && !frames.know(here.crs))
             return refuse("the condition has the frame " + quoted(here.crs, 200) + ", which is not known here; known are " +
@@ -97,6 +118,8 @@ std::optional<Whereabouts> FilterCompiler::whereabouts(Expression const& express
     auto const text = trimmed(literal->text);
     if (auto const* place = places.find(text)) return place->area;
     if (auto read = point(text, places.frames.own())) return std::move(*read);
+    if (point(with_commas(text), {}))
+        return refuse("the condition has the position " + quoted(text) + ", which has no commas; write 'x, y' or 'x, y, th'");
     return refuse("the condition has the place " + quoted(text) + ", which is not known here; known are " + names_of(places));
 }
 
@@ -109,7 +132,7 @@ std::optional<Distance> FilterCompiler::distance(Function const& function) {
     return Distance{std::move(both->first), std::move(both->second), &vocabulary_.places->frames};
 }
 
-// Two boxes have to be in one frame: turned into another, a box is none.
+// Two boxes have to be in one frame: a box that is turned into another frame is not a box there.
 std::optional<std::pair<Whereabouts, Whereabouts>> FilterCompiler::related(Expression const& one, Expression const& other) {
     auto first = whereabouts(one);
     auto second = first ? whereabouts(other) : std::nullopt;
@@ -117,8 +140,8 @@ std::optional<std::pair<Whereabouts, Whereabouts>> FilterCompiler::related(Expre
     auto const nothing = [](auto const&...) { return true; };
     auto const *a = first->known(), *b = second->known();
     if (a != nullptr && b != nullptr && !in_one_frame(vocabulary_.places->frames, *a, *b, nothing))
-        return refuse("the condition relates a box in the frame " + quoted(a->crs, 200) + " to one in " + quoted(b->crs, 200) +
-                      ": tell both in the same frame");
+        return refuse("the condition relates a geometry in the frame " + quoted(a->crs, 200) + " to one in " +
+                      quoted(b->crs, 200) + ": tell both in the same frame");
     return std::pair{std::move(*first), std::move(*second)};
 }
 

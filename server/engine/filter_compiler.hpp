@@ -66,7 +66,8 @@ bool make_too_many_pairs(One const& one, Other const& other) {
 // means nothing.
 class FilterCompiler {
 public:
-    static constexpr std::size_t most_predicates = 256;  // in one condition
+    static constexpr std::size_t most_predicates = 256;      // in one condition
+    static constexpr std::size_t points_of_a_predicate = 8;  // so many points of a line or polygon cost as much as a predicate
 
     explicit FilterCompiler(Vocabulary vocabulary) : vocabulary_{vocabulary} {}
 
@@ -86,6 +87,7 @@ public:
     std::optional<std::string> const& problem() const { return problem_; }
     bool depends_on_asker() const { return depends_on_asker_; }
     std::size_t predicates() const { return predicates_; }
+    std::vector<Reference> const& results() const { return results_; }
     Vocabulary const& vocabulary() const { return vocabulary_; }
 
     PredicatePtr operator()(PropertyComparison const&);
@@ -106,7 +108,9 @@ public:
 private:
     Vocabulary vocabulary_;
     std::vector<std::string> aliases_;  // of the group whose filter is compiled
+    bool in_and_ = false;               // where a group is the type of a unr:ComponentCondition (types/condition.hpp)
     std::optional<std::string> problem_;
+    std::vector<Reference> results_;  // the references to results, so far
     bool depends_on_asker_ = false;
     std::size_t predicates_ = 0;
 };

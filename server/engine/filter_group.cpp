@@ -25,8 +25,10 @@ bool is_robot(std::string_view type, std::string_view engine, std::string_view r
     return equal_ignoring_case(name, engine) || equal_ignoring_case(name.substr(name.rfind('.') + 1), engine);
 }
 
-// Whether a component is of the type, or of a robot that is.
-bool is_of(std::string_view type, Candidate const& component) {
+// Whether a component is of the type, or of a robot that is. Every robot is of the main engine.
+bool is_of(std::string_view type, Candidate const& component, std::string_view main_engine) {
+    if (!main_engine.empty() && (equal_ignoring_case(type, main_engine) || equal_ignoring_case(last_part(type), main_engine)))
+        return true;
     auto const own = text_of(component, Reference::To::component_type);
     if (equal_ignoring_case(type, own) || equal_ignoring_case(type, last_part(own))) return true;
     return is_robot(type, text_of(component, Reference::To::engine), text_of(component, Reference::To::robot_id));
@@ -36,15 +38,15 @@ bool is_of(std::string_view type, Candidate const& component) {
 // alias for those of one type.
 class Robot final : public Candidate {
 public:
-    Robot(Members const& all, std::vector<std::string> const& types) {
+    Robot(Members const& all, std::vector<std::string> const& types, std::string_view main_engine) {
         for (auto const& type : types) {
             auto& holders = by_type_.emplace_back();
             std::ranges::copy_if(all, std::back_inserter(holders),
-                                 [&](auto const* component) { return is_of(type, *component); });
+                                 [&](auto const* component) { return is_of(type, *component, main_engine); });
         }
         for (auto const* component : all) {
-            bool const meant =
-                types.empty() || std::ranges::any_of(types, [&](auto const& type) { return is_of(type, *component); });
+            bool const meant = types.empty() ||
+                               std::ranges::any_of(types, [&](auto const& type) { return is_of(type, *component, main_engine); });
             if (meant) members_.push_back(component);
         }
     }
@@ -64,7 +66,7 @@ public:
     }
     std::string_view rid() const override { return {}; }
     std::vector<Candidate const*> robot() const override { return members_; }
-    std::optional<Match>* verdict(void const*) const override { return nullptr; }
+    std::optional<GroupVerdict>* verdict(void const*) const override { return nullptr; }
 
 private:
     Members const& meant(Reference const& reference) const {
@@ -87,18 +89,33 @@ private:
     Members members_;
 };
 
+// The type of a unr:ComponentCondition: a component of it, whatever else its robot has.
+class OfType final : public Predicate {
+public:
+    OfType(std::string type, std::string_view main_engine) : type_{std::move(type)}, main_engine_{main_engine} {}
+
+    Match match(Candidate const& candidate) const override {
+        return is_of(type_, candidate, main_engine_) ? Match::yes : Match::no;
+    }
+    std::string canonical() const override { return "type(" + lower_case(type_) + ")"; }
+
+private:
+    std::string type_;
+    std::string main_engine_;
+};
+
 class Group final : public Predicate {
 public:
-    Group(std::vector<std::string> types, PredicatePtr filter, std::vector<PredicatePtr> members)
-        : types_{std::move(types)}, filter_{std::move(filter)}, members_{std::move(members)} {}
+    Group(std::vector<std::string> types, PredicatePtr filter, std::vector<PredicatePtr> members, std::string_view main_engine)
+        : types_{std::move(types)}, filter_{std::move(filter)}, members_{std::move(members)}, main_engine_{main_engine} {}
 
     Match match(Candidate const& candidate) const override {
         auto const own = match_itself(candidate);
         if (own == Match::no) return own;
         auto* verdict = candidate.verdict(this);
         if (verdict == nullptr) return Match::no;
-        if (!*verdict) *verdict = match_robot(candidate.robot());
-        return std::min(own, **verdict);
+        if (!*verdict) *verdict = judge(candidate.robot());
+        return std::min(own, (*verdict)->match);
     }
 
     std::string canonical() const override {
@@ -114,13 +131,13 @@ private:
     Match match_itself(Candidate const& candidate) const {
         if (!members_.empty()) return best(members_, candidate);
         bool const meant =
-            types_.empty() || std::ranges::any_of(types_, [&](auto const& type) { return is_of(type, candidate); });
+            types_.empty() || std::ranges::any_of(types_, [&](auto const& type) { return is_of(type, candidate, main_engine_); });
         return meant ? Match::yes : Match::no;
     }
 
     // Each member is there, each type is, and the whole meets the filter.
     Match match_robot(Members const& all) const {
-        Robot const robot{all, types_};
+        Robot const robot{all, types_, main_engine_};
         if (!robot.has_all_types()) return Match::no;
         auto worst = filter_ ? filter_->match(robot) : Match::yes;
         for (auto const& member : members_) {
@@ -129,6 +146,39 @@ private:
             worst = std::min(worst, met);
         }
         return worst;
+    }
+
+    GroupVerdict judge(Members const& all) const {
+        GroupVerdict verdict;
+        verdict.match = match_robot(all);
+        if (verdict.match != Match::yes) return verdict;
+        for (auto const& member : members_)
+            add(verdict, all, [&](Candidate const& component) { return member->match(component) == Match::yes; });
+        if (!members_.empty()) return verdict;
+        for (auto const& type : types_)
+            add(verdict, all, [&](Candidate const& component) { return is_of(type, component, main_engine_); });
+        if (types_.empty()) add(verdict, all, [](Candidate const&) { return true; });
+        return verdict;
+    }
+
+    // Adds the component that the asker gets most easily of those that the group looks for under one type or as one member.
+    template <class IsMeant>
+    static void add(GroupVerdict& verdict, Members const& all, IsMeant const& is_meant) {
+        Candidate const* found = nullptr;
+        for (auto const* component : all)
+            if (is_meant(*component) && (found == nullptr || component->holder() < found->holder())) found = component;
+        if (found == nullptr) return;
+        switch (found->holder()) {
+            case Holder::asker:
+                ++verdict.bound;
+                break;
+            case Holder::nobody:
+                verdict.to_bind.push_back(found);
+                break;
+            case Holder::another_session:
+                verdict.held = found;
+                break;
+        }
     }
 
     static Match best(std::vector<PredicatePtr> const& predicates, Candidate const& candidate) {
@@ -140,6 +190,7 @@ private:
     std::vector<std::string> types_;
     PredicatePtr filter_;
     std::vector<PredicatePtr> members_;
+    std::string main_engine_;
 };
 
 }  // namespace
@@ -152,6 +203,8 @@ PredicatePtr FilterCompiler::operator()(ComponentGroup const& group) {
             "are chosen");
         return nullptr;
     }
+    bool const is_type = in_and_ && group.types.size() == 1 && group.members.empty() && group.filter.empty();
+    if (is_type) return std::make_unique<OfType>(group.types.front(), vocabulary_.main_engine);
     auto const around = vocabulary_;
     vocabulary_.results = nullptr;
     std::vector<PredicatePtr> members;
@@ -163,7 +216,7 @@ PredicatePtr FilterCompiler::operator()(ComponentGroup const& group) {
     vocabulary_ = around;
     if (problem_) return nullptr;
     if (group.types.empty() && members.empty() && filter == nullptr) return (*this)(And{});
-    return std::make_unique<Group>(group.types, std::move(filter), std::move(members));
+    return std::make_unique<Group>(group.types, std::move(filter), std::move(members), vocabulary_.main_engine);
 }
 
 }  // namespace rois

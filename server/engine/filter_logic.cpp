@@ -1,6 +1,7 @@
 // And, Or and Not (ISO 19143, Minimum Standard Filter) in three values.
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "engine/filter_compiler.hpp"
 
@@ -92,11 +93,13 @@ private:
     PredicatePtr operand_;
 };
 
-// And or Or with one operand stands for that operand.
+// And or Or with one operand stands for that operand, except And around a group: that is a unr:ComponentCondition.
 Condition const* innermost(Condition const* condition) {
     auto const* all = std::get_if<And>(&condition->predicate);
     auto const* any = std::get_if<Or>(&condition->predicate);
-    if (all != nullptr && all->operands.size() == 1) return innermost(&all->operands.front());
+    bool const one_of_all = all != nullptr && all->operands.size() == 1;
+    if (one_of_all && !std::holds_alternative<ComponentGroup>(all->operands.front().predicate))
+        return innermost(&all->operands.front());
     if (any != nullptr && any->operands.size() == 1) return innermost(&any->operands.front());
     return condition;
 }
@@ -137,20 +140,26 @@ private:
 
 PredicatePtr FilterCompiler::operator()(And const& both) {
     Flattened<And> flattened{*this};
+    auto const around = std::exchange(in_and_, true);
     flattened.add(both);
+    in_and_ = around;
     return std::move(flattened).made<All>();
 }
 
 PredicatePtr FilterCompiler::operator()(Or const& either) {
     Flattened<Or> flattened{*this};
+    auto const around = std::exchange(in_and_, false);
     flattened.add(either);
+    in_and_ = around;
     return std::move(flattened).made<Any>();
 }
 
 PredicatePtr FilterCompiler::operator()(Not const& contrary) {
     auto const& operand = *innermost(&contrary.operand.front());
     if (auto const* twice = std::get_if<Not>(&operand.predicate)) return compile(twice->operand.front());
+    auto const around = std::exchange(in_and_, false);
     auto predicate = compile(operand);
+    in_and_ = around;
     return predicate ? std::make_unique<Contrary>(std::move(predicate)) : nullptr;
 }
 

@@ -1,6 +1,6 @@
 // The temporal operators (ISO 19143, Temporal Filter) over moments and periods.
-#include <algorithm>
-#include <array>
+#include <optional>
+#include <variant>
 
 #include "engine/filter_compiler.hpp"
 #include "types/texts.hpp"
@@ -39,27 +39,61 @@ private:
     std::variant<Period, Reference> when_;
 };
 
+// A relation that is told as its converse: "before" as "after" with the operands exchanged.
+std::optional<TemporalRelation> converse(TemporalRelation relation) {
+    switch (relation) {
+        case TemporalRelation::before:
+            return TemporalRelation::after;
+        case TemporalRelation::begun_by:
+            return TemporalRelation::begins;
+        case TemporalRelation::t_contains:
+            return TemporalRelation::during;
+        case TemporalRelation::ended_by:
+            return TemporalRelation::ends;
+        case TemporalRelation::met_by:
+            return TemporalRelation::meets;
+        case TemporalRelation::overlapped_by:
+            return TemporalRelation::t_overlaps;
+        default:
+            return {};
+    }
+}
+
+bool is_moment(Period const& period) { return period.begin == period.end; }
+
+bool meets(Period const& a, Period const& b) { return a.end == b.begin && !is_moment(a) && !is_moment(b); }
+
+// ISO 19108, TM_RelativePosition. Never called for a relation that has a converse.
 bool holds(TemporalRelation relation, Period const& a, Period const& b) {
     switch (relation) {
         case TemporalRelation::after:
             return a.begin > b.end;
-        case TemporalRelation::before:
-            return a.end < b.begin;
         case TemporalRelation::during:
             return a.begin > b.begin && a.end < b.end;
-        case TemporalRelation::t_equals:
+        case TemporalRelation::begins:
+            return a.begin == b.begin && a.end < b.end;
+        case TemporalRelation::ends:
+            return a.begin > b.begin && a.end == b.end;
+        case TemporalRelation::meets:
+            return meets(a, b);
+        case TemporalRelation::t_overlaps:
+            return a.begin < b.begin && a.end > b.begin && a.end < b.end;
+        case TemporalRelation::any_interacts:
+            return a.begin <= b.end && b.begin <= a.end && !meets(a, b) && !meets(b, a);
+        default:
             break;
     }
     return a == b;
 }
 
-// One of several times must meet it. "Before" is "after" with the operands exchanged.
+// One of several times must meet it.
 class Temporal final : public Predicate {
 public:
     Temporal(TemporalRelation relation, When left, When right)
         : relation_{relation}, left_{std::move(left)}, right_{std::move(right)} {
-        if (relation_ != TemporalRelation::before) return;
-        relation_ = TemporalRelation::after;
+        auto const other = converse(relation_);
+        if (!other) return;
+        relation_ = *other;
         std::swap(left_, right_);
     }
 
@@ -75,10 +109,10 @@ public:
     }
 
     std::string canonical() const override {
-        static constexpr std::array<std::string_view, 4> names{"after", "before", "during", "at"};
+        bool const symmetric = relation_ == TemporalRelation::t_equals || relation_ == TemporalRelation::any_interacts;
         auto one = left_.canonical(), other = right_.canonical();
-        if (relation_ == TemporalRelation::t_equals && other < one) std::swap(one, other);
-        return std::string{names.at(static_cast<std::size_t>(relation_))} + "(" + one + "," + other + ")";
+        if (symmetric && other < one) std::swap(one, other);
+        return "time " + std::to_string(static_cast<int>(relation_)) + "(" + one + "," + other + ")";
     }
 
 private:

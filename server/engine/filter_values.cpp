@@ -114,6 +114,12 @@ PredicatePtr FilterCompiler::operator()(PropertyIsLike const& like) {
         refuse(std::move(*problem));
         return nullptr;
     }
+    auto const& compiled = std::get<LikePattern>(pattern);
+    auto const main_engine = std::string{vocabulary_.main_engine};
+    bool const of_engine = resolved->to == Reference::To::engine && !main_engine.empty();
+    // The main engine has every component (decision 32).
+    if (of_engine && (compiled.matches("") || compiled.matches(characters.match_case ? main_engine : folded_case(main_engine))))
+        return (*this)(And{});
     return std::make_unique<Like>(std::move(*resolved), std::get<LikePattern>(std::move(pattern)),
                                   characters.match_case ? Like::Case::matched : Like::Case::ignored);
 }

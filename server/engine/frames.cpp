@@ -84,6 +84,8 @@ struct Frames::Step {
     Whereat (*take)(Whereat const&, Placement const&);
     Placed const* placed;
 
+    bool tilts() const { return placed->placement.turned.x() != 0 || placed->placement.turned.y() != 0; }
+
     static Whereat all(Whereat where, std::vector<Step> const& way) {
         for (auto const& step : way) where = step.take(where, step.placed->placement);
         return where;
@@ -210,15 +212,30 @@ bool Frames::share(Geometry const& a, Geometry const& b) const {
 }
 
 std::optional<Geometry> Frames::moved(Geometry const& geometry, std::string_view to) const {
-    if (are_one() || geometry.low != geometry.high) return {};
+    bool const point = geometry.shape == Geometry::Shape::box && geometry.low == geometry.high;
+    if (are_one() || (geometry.shape == Geometry::Shape::box && !point)) return {};
     auto const steps = way(geometry.crs, to);
-    if (!steps) return {};
-    auto const where =
-        Step::all({.position = vector_of(geometry.low), .turned = Eigen::Vector3d::Zero(), .covariance = {}}, *steps);
+    if (!steps || (!point && std::ranges::any_of(*steps, &Step::tilts))) return {};
+    auto const moved_point = [&](std::array<double, 3> const& from) {
+        return array_of(
+            Step::all({.position = vector_of(from), .turned = Eigen::Vector3d::Zero(), .covariance = {}}, *steps).position,
+            Rounding::millionth);
+    };
     auto there = geometry;
     there.crs = to.empty() ? own_ : std::string{to};
-    there.low = there.high = array_of(where.position, Rounding::millionth);
-    if (there.dimensions < 3) there.low[2] = there.high[2] = 0;
+    if (point) {
+        there.low = there.high = moved_point(geometry.low);
+        if (there.dimensions < 3) there.low[2] = there.high[2] = 0;
+        return there;
+    }
+    for (auto& path : there.paths) {
+        for (auto& [x, y] : path) {
+            auto const here = moved_point({x, y, 0});
+            x = here[0];
+            y = here[1];
+        }
+    }
+    there.fit_corners();
     return there;
 }
 

@@ -67,8 +67,9 @@ public:
     // Whether coordinates of the two may be compared as they are.
     bool share(Geometry const& a, Geometry const& b) const;
 
-    // The point in the frame `to`; nothing for a box, which may not be one there, and for a frame that is not known.
-    std::optional<Geometry> moved(Geometry const& point, std::string_view to) const;
+    // The geometry in the frame `to`; nothing for a frame that is not known, for a box, which may not be a box there, and for a
+    // line, circle or polygon when the frames are tilted against each other.
+    std::optional<Geometry> moved(Geometry const&, std::string_view to) const;
 
 private:
     struct Placed;

@@ -12,13 +12,15 @@ namespace rois {
 
 namespace {
 
-// How published profiles spell what the seed names otherwise.
+// Spellings of published profiles, and the names that the engine uses.
 struct Spelling {
     std::string_view published;
     std::string_view seed;
 };
-constexpr std::array<Spelling, 3> spellings{
-    {{"target_positions", "target_position"}, {"grammer", "grammar"}, {"languages", "language"}}};
+constexpr std::array<Spelling, 4> spellings{{{"target_positions", "target_position"},
+                                             {"grammer", "grammar"},
+                                             {"languages", "language"},
+                                             {"behavior_tag", "behaviour_tag"}}};
 
 std::string names_of(std::vector<ParameterProfile> const& profiles) {
     auto const names = listed(profiles, &ParameterProfile::name);
@@ -91,6 +93,8 @@ ParameterList normalized(std::vector<ParameterProfile> const& profiles, Paramete
         parameter.name = profile->name;
         parameter.data_type_ref.code = profile->data_type_ref.code;
         auto const type = DataType::of(profile->data_type_ref);
+        auto& codebook = parameter.data_type_ref.codebook_ref;
+        if (type.base == BaseType::identifier && codebook.empty()) codebook = profile->data_type_ref.codebook_ref;
         if (type.base != BaseType::date_time) continue;
         for (auto& value : parameter.values) value = as_told(type, value);
     }

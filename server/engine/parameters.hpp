@@ -34,7 +34,8 @@ private:
     std::vector<DataType> types_;
 };
 
-// The same parameters under the profiles' names and type codes, times in UTC; `list` was checked.
+// The same parameters under the profiles' names and type codes, times in UTC, identifiers without a codebook with that of the
+// profile (decision 31); `list` was checked.
 ParameterList normalized(std::vector<ParameterProfile> const&, ParameterList const& list);
 
 // Why a command cannot do with these arguments: one that has no default value is not there. Nothing when it can.

@@ -33,6 +33,17 @@ public:
     Session const* asker() const { return asker_; }
     Of of() const { return of_; }
 
+    // Whether a condition on a group was held against a component.
+    bool knows_groups() const { return !verdicts_.empty(); }
+    // From now on each group is met by one robot only. Of the robots of the components in `found`: one of which no other session
+    // holds what the asker lacks; of these, the one of which the asker has bound most of the group; then the first in `found`.
+    void keep_one_robot(std::vector<RegisteredComponent*> const& found);
+    // From now on no group is met by a robot of which another session holds what the asker lacks. Returns the name of such a
+    // component, or nothing if there is none.
+    std::optional<std::string_view> drop_held_robots();
+    // Whether the asker lacks this free component of a group.
+    bool is_lacked(RegisteredComponent const&);
+
 private:
     friend class ComponentCandidate;
     std::vector<Candidate const*> const& robot(std::string_view engine);
@@ -43,7 +54,7 @@ private:
     Of of_;
     std::map<RegisteredComponent const*, ComponentCandidate> components_;
     std::map<std::string, std::vector<Candidate const*>, std::less<>> robots_;
-    std::map<std::pair<void const*, std::string>, std::optional<Match>> verdicts_;  // of groups on robots
+    std::map<std::pair<void const*, std::string>, std::optional<GroupVerdict>> verdicts_;  // of groups on robots
 };
 
 }  // namespace rois

@@ -1,9 +1,13 @@
 // Query interface (7.4.2, table 4).
 #include <algorithm>
+#include <array>
+#include <map>
 #include <memory>
 #include <utility>
 
 #include "engine/core.hpp"
+#include "engine/preference.hpp"
+#include "types/data_type.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -28,10 +32,10 @@ constexpr std::size_t few = 4;
 // A component is asked only when the condition or SortBy may depend on what it answers; and nobody behind the one that will be
 // chosen when nothing is sorted.
 template <class RowsOf>
-std::vector<Possible> who_may_answer(ComponentsInOrder able, Selection const& selection, Perspective& looked_at,
-                                     RowsOf const& rows_of) {
+std::vector<Possible> who_may_answer(std::vector<RegisteredComponent*> const& able, Selection const& selection,
+                                     Perspective& looked_at, RowsOf const& rows_of) {
     std::vector<Possible> found;
-    while (auto* component = able.next()) {
+    for (auto* component : able) {
         auto const& candidate = looked_at.candidate(*component);
         auto const match = selection.match(candidate);
         if (match == Match::no) continue;
@@ -62,10 +66,45 @@ std::vector<Possible> in_order(Selection const& selection, std::vector<Possible>
     return ordered;
 }
 
+// The queries of System Information: it "belongs to the HRI engine" (7.6.1).
+bool is_about_the_engine(std::string_view query_type) { return query_type == "robot_position" || query_type == "engine_status"; }
+
+// How bad a status is.
+std::ptrdiff_t badness(std::string_view status) {
+    static constexpr std::array<std::string_view, 5> from_good_to_bad{"READY", "BUSY", "WARNING", "UNINITIALIZED", "ERROR"};
+    return std::ranges::find(from_good_to_bad, status) - from_good_to_bad.begin();
+}
+
+std::string const& first_value(Parameter const& parameter) {
+    static std::string const none;
+    return parameter.values.empty() ? none : parameter.values.front();
+}
+
+// Adds what another engine answers: entries to the lists; of single values, the worst status, the earliest time of measurement
+// and the time since when all of them operate.
+void join(Results& whole, Results part) {
+    auto const operates = [](Results const& results) { return find(results.parameters, "operable_time") != nullptr; };
+    bool const all_operate = operates(whole) && operates(part);
+    for (auto& added : part.parameters) {
+        auto const known = std::ranges::find(whole.parameters, added.name, &Parameter::name);
+        if (known == whole.parameters.end()) {
+            whole.parameters.push_back(std::move(added));
+        } else if (DataType::of(known->data_type_ref).list) {
+            known->values.insert(known->values.end(), added.values.begin(), added.values.end());
+        } else if (known->name == "status"      ? badness(first_value(*known)) < badness(first_value(added))
+                   : known->name == "timestamp" ? first_value(added) < first_value(*known)
+                                                : first_value(*known) < first_value(added)) {
+            known->values = std::move(added.values);
+        }
+    }
+    if (!all_operate) std::erase_if(whole.parameters, [](Parameter const& each) { return each.name == "operable_time"; });
+    whole.located.insert(whole.located.end(), part.located.begin(), part.located.end());
+}
+
 }  // namespace
 
-// Decision 18: the one component that knows the query type, preferring READY, then the lowest ref or what SortBy says; of its
-// rows, the first that matches.
+// Decision 18: the one component that knows the query type, preferring READY, then the robot that the session works with, then
+// what SortBy says or the lowest code; of its rows, the first that matches.
 Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
     auto vocabulary = this->vocabulary(&registry_.results(MessageKind::query, query.query_type));
     vocabulary.first = Vocabulary::First::parameters;
@@ -73,16 +112,23 @@ Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
     if (auto* problem = std::get_if<std::string>(&compiled))
         return refused<Query::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     auto const& selection = std::get<Selection>(compiled);
-    Perspective looked_at{registry_, places_, &session, Perspective::Of::present};
     auto const& able = registry_.with(MessageKind::query, query.query_type);
-    auto meant = able.possible(able.all().size() > few ? selection.filter().demand() : std::nullopt);
-    auto found = who_may_answer(std::move(meant), selection, looked_at, [&](RegisteredComponent& component) {
+    bool const of_whole_engine = !selection.filter().restricts() && !selection.sorts() && !able.all().empty();
+    if (of_whole_engine && is_about_the_engine(query.query_type)) return answer_of_whole_engine(session, query.query_type, now);
+    Perspective looked_at{registry_, places_, &session, Perspective::Of::present};
+    Preference const preference{session};
+    auto meant = able.possible(able.all().size() > few ? selection.filter().demand() : std::nullopt).rest();
+    preference.order(meant);
+    auto found = who_may_answer(meant, selection, looked_at, [&](RegisteredComponent& component) {
         return answers(session, component, query.query_type, now);
     });
     if (found.empty())
         return refused<Query::Reply>(ReturnCode::unsupported,
-                                     "nothing that matches is answered to queries of the type " + quoted(query.query_type));
-    if (selection.sorts()) found = in_order(selection, std::move(found), looked_at);
+                                     "no component that matches the condition answers query " + quoted(query.query_type));
+    if (selection.sorts()) {
+        found = in_order(selection, std::move(found), looked_at);
+        preference.bring_forward(found, &Possible::component);
+    }
     auto const ready = std::ranges::find_if(found, [&](Possible& possible) { return is_ready(possible, session); });
     auto& chosen = ready == found.end() ? found.front() : *ready;
     if (!chosen.row) {
@@ -98,6 +144,44 @@ Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
     return reply;
 }
 
+// One component answers for each engine, by the engine's name: READY, then the lowest code. An engine that cannot answer has no
+// position, and its status is ERROR. The answer names the component of the first engine.
+Reply Engine::Core::answer_of_whole_engine(Session const& session, std::string const& query_type, Instant now) {
+    using Choice = std::pair<bool, RegisteredComponent*>;  // whether it is not READY
+    std::map<std::string_view, Choice> chosen;             // by engine
+    for (auto* component : registry_.with(MessageKind::query, query_type).all()) {
+        Choice const choice{component->status_for(&session) != ComponentStatus::ready, component};
+        auto const [place, added] = chosen.try_emplace(component->entry().engine, choice);
+        if (!added && choice.first < place->second.first) place->second = choice;
+    }
+    Query::Reply reply;
+    bool has_failed = false, has_answered = false;
+    for (auto const& [engine, choice] : chosen) {
+        auto* component = choice.second;
+        auto rows = answers(session, *component, query_type, now);
+        if (rows.empty()) {
+            has_failed = true;
+            continue;
+        }
+        if (!has_answered) {
+            reply.component_ref = component->ref();
+            reply.results = std::move(rows.front());
+        } else {
+            join(reply.results, std::move(rows.front()));
+        }
+        has_answered = true;
+    }
+    if (!has_answered)
+        return refused<Query::Reply>(ReturnCode::error,
+                                     "the component " + quoted(chosen.begin()->second.second->ref().code) + " could not answer");
+    if (has_failed && query_type == "engine_status") {
+        Results failed;
+        failed.parameters.push_back(status_of("status", ComponentStatus::error));
+        join(reply.results, std::move(failed));
+    }
+    return reply;
+}
+
 // Rows of results; none when it could not answer.
 std::vector<Results> Engine::Core::answers(Session const& session, RegisteredComponent& component, std::string const& query_type,
                                            Instant now) {
@@ -108,7 +192,7 @@ std::vector<Results> Engine::Core::answers(Session const& session, RegisteredCom
     }
     std::vector<Results> rows;
     if (query_type == "get_parameter") {
-        if (auto parameters = component.all_parameters()) rows.push_back({std::move(*parameters), {}});
+        if (auto parameters = component.all_parameters(&session)) rows.push_back({std::move(*parameters), {}});
     } else {
         rows = component.answer(query_type, now);
     }

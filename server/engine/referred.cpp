@@ -19,19 +19,6 @@ Parameter const* bearable(Parameter const* parameter) {
     return length <= longest_value ? parameter : nullptr;
 }
 
-Texts items_of(Parameter const& parameter, Reference const& reference) {
-    if (reference.items == Reference::Items::one_each) return parameter.values;
-    Texts items;
-    for (auto const& value : parameter.values) {
-        for (auto rest = trimmed(value); !rest.empty();) {
-            auto const item = rest.substr(0, rest.find_first_of(" \t\r\n"));
-            items.emplace_back(item);
-            rest = trimmed(rest.substr(item.size()));
-        }
-    }
-    return items;
-}
-
 bool is_meant(Located const& located, Reference const& reference) {
     bool const of = reference.name.empty() || equal_ignoring_case(located.of, reference.name);
     return of && (reference.entity.empty() || located.ref == reference.entity);
@@ -64,6 +51,19 @@ Texts texts_of(std::vector<Located const*> const& all, Reference const& referenc
 
 }  // namespace
 
+Texts items_of(Parameter const& parameter, Reference::Items kept) {
+    if (kept == Reference::Items::one_each) return parameter.values;
+    Texts items;
+    for (auto const& value : parameter.values) {
+        for (auto rest = trimmed(value); !rest.empty();) {
+            auto const item = rest.substr(0, rest.find_first_of(" \t\r\n"));
+            items.emplace_back(item);
+            rest = trimmed(rest.substr(item.size()));
+        }
+    }
+    return items;
+}
+
 bool speaks_of_results(Reference const& reference) {
     return reference.to == Reference::To::result || reference.to == Reference::To::located;
 }
@@ -81,7 +81,7 @@ Texts texts_in(Parameter const* parameter, Reference const& reference) {
             break;
     }
     parameter = bearable(parameter);
-    return parameter == nullptr ? Texts{} : at_its_place(items_of(*parameter, reference), reference);
+    return parameter == nullptr ? Texts{} : at_its_place(items_of(*parameter, reference.items), reference);
 }
 
 Positions positions_in(Parameter const* parameter, Reference const& reference) {
@@ -98,7 +98,7 @@ Texts texts_in(Results const& results, Reference const& reference) {
         return at_its_place(texts_of(located_in(results, reference), reference), reference);
     auto const* parameter = bearable(find(results.parameters, reference.name));
     if (parameter == nullptr || reference.entity.empty()) return texts_in(parameter, reference);
-    return at_its_place(texts_of_entity(items_of(*parameter, reference), results, reference), reference);
+    return at_its_place(texts_of_entity(items_of(*parameter, reference.items), results, reference), reference);
 }
 
 // The structured form where there is one, else the text form.

@@ -12,6 +12,9 @@ inline constexpr std::size_t longest_value = 64 * 1024;  // bytes
 
 bool speaks_of_results(Reference const&);
 
+// The items of a list; the value of what is not a list.
+Texts items_of(Parameter const&, Reference::Items);
+
 // Of one parameter or result; null when it is not there.
 Texts texts_in(Parameter const*, Reference const&);
 Positions positions_in(Parameter const*, Reference const&);

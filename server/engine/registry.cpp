@@ -67,6 +67,38 @@ std::vector<ParameterProfile> start_arguments_of(ComponentProfile const& profile
     return arguments;
 }
 
+Codebooks const* codebooks_for(std::vector<Codebooks> const& all, std::string_view parameter) {
+    auto const found =
+        std::ranges::find_if(all, [&](Codebooks const& each) { return equal_ignoring_case(each.parameter, parameter); });
+    return found == all.end() ? nullptr : &*found;
+}
+
+// Declares the default codebook of each identifier whose profile declares none.
+void declare_codebooks(std::vector<ParameterProfile>& profiles, std::vector<Codebooks> const& codebooks) {
+    for (auto& profile : profiles) {
+        auto const* found = codebooks_for(codebooks, profile.name);
+        auto& declared = profile.data_type_ref.codebook_ref;
+        if (found != nullptr && !found->known.empty() && declared.empty()) declared = found->known.front();
+    }
+}
+
+void declare_codebooks(ComponentProfile& profile, std::vector<Codebooks> const& codebooks) {
+    declare_codebooks(profile.parameters, codebooks);
+    for (auto& message : profile.messages) {
+        declare_codebooks(message.arguments, codebooks);
+        if (message.kind == MessageKind::query && message.name == "get_parameter") declare_codebooks(message.results, codebooks);
+    }
+}
+
+bool is_among(std::vector<std::string> const& known, std::string_view name) {
+    return std::ranges::any_of(known, [&](std::string const& each) { return equal_ignoring_case(each, name); });
+}
+
+// The published examples' component_ref names this codebook, whatever the component: "urn:...:ComponentType" (Annex B.2).
+bool is_codebook_of_all_components(std::string_view codebook) {
+    return equal_ignoring_case(codebook.substr(codebook.rfind(':') + 1), "ComponentType");
+}
+
 std::vector<ParameterProfile> results_of_get_parameter(ComponentProfile const& profile) {
     auto const* message = find_message(profile, MessageKind::query, "get_parameter");
     return message == nullptr ? std::vector<ParameterProfile>{} : message->results;
@@ -76,13 +108,18 @@ std::vector<ParameterProfile> results_of_get_parameter(ComponentProfile const& p
 
 RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, ComponentProfile profile, std::string engine,
                                          Agenda& agenda, Frames const& frames)
-    : component_{std::move(component)}, settable_{settable_of(profile)}, agenda_{agenda}, frames_{frames} {
+    : component_{std::move(component)}, agenda_{agenda}, frames_{frames} {
+    auto const& description = component_->description();
+    codebooks_ = description.codebooks;
+    declare_codebooks(profile, codebooks_);
+    settable_ = settable_of(profile);
     add_parameter_messages(profile, settable_);
     start_arguments_ = start_arguments_of(profile, settable_);
     startable_ = with_others(start_arguments_, settable_);
     readable_ = with_others(settable_, results_of_get_parameter(profile));
-    auto const& description = component_->description();
     ref_ = description.ref;
+    auto const prefix = description.engine + ".";
+    if (prefix.size() > 1 && ref_.code.starts_with(prefix)) code_begin_ = prefix.size();
     crs_ = description.crs;
     positions_ = description.positions;
     auto type = profile.object.identifier;
@@ -92,10 +129,8 @@ RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, C
               .engine = std::move(engine),
               .profile = std::make_shared<ComponentProfile const>(std::move(profile))};
     for (auto const& message : entry_.profile->messages) results_.emplace_back(message.results);
-    for (auto const& parameter : settable_)
-        if (parameter.default_value)
-            parameters.push_back(
-                {parameter.name, parameter.data_type_ref, default_values(parameter.data_type_ref, *parameter.default_value)});
+    defaults_ = with_defaults(settable_, {});
+    parameters = defaults_;
     component_->attach(*this);
 }
 
@@ -147,12 +182,26 @@ std::vector<Results> RegisteredComponent::answer(std::string_view query_type, In
     return rows;
 }
 
-std::optional<ParameterList> RegisteredComponent::all_parameters() const {
+ParameterList const& RegisteredComponent::parameters_for(Session const* asker) const {
+    return asker != nullptr && asker == bound_to ? parameters : defaults_;
+}
+
+void RegisteredComponent::restore_defaults(Instant now) {
+    if (parameters == defaults_) return;
+    parameters = defaults_;
+    auto const changed = in_own_frame(parameters);
+    call([&](Component& c) { c.parameters_changed(changed ? *changed : parameters, now); });
+}
+
+std::optional<ParameterList> RegisteredComponent::all_parameters(Session const* asker) const {
+    auto const& stored = parameters_for(asker);
+    bool const bound_by_asker = &stored == &parameters;
     Results readable;
     if (call([&](Component& c) { readable.parameters = c.readable_parameters(); }, Report::once) == Called::failed) return {};
     std::erase_if(readable.parameters, [&](Parameter const& each) {
         auto const* const known = profile_for(readable_, each.name);
-        return known == nullptr || find(parameters, known->name) != nullptr;
+        if (known == nullptr || find(stored, known->name) != nullptr) return true;
+        return !bound_by_asker && find_parameter(settable_, known->name) != nullptr;
     });
     if (auto const problem = why_not(readable_, readable.parameters)) {
         report_failure("wrong parameters: " + *problem, Report::once);
@@ -161,7 +210,7 @@ std::optional<ParameterList> RegisteredComponent::all_parameters() const {
     readable.parameters = normalized(readable_, readable.parameters);
     frames_.change_to_own(readable);
     auto all = std::move(readable.parameters);
-    all.insert(all.end(), parameters.begin(), parameters.end());
+    all.insert(all.end(), stored.begin(), stored.end());
     return all;
 }
 
@@ -201,6 +250,24 @@ std::optional<std::string> RegisteredComponent::why_no_frame(ParameterList const
         if (is_position(parameter.name) && !frames_.know(crs))
             return "parameter " + quoted(parameter.name) + ": the frame " + quoted(crs, 200) + " is not known here; known are " +
                    listed(frames_.names());
+    }
+    return {};
+}
+
+std::optional<std::string> RegisteredComponent::why_no_codebook(std::vector<ParameterProfile> const& profiles,
+                                                                ParameterList const& normalized) const {
+    for (auto const& parameter : normalized) {
+        auto const* profile = find_parameter(profiles, parameter.name);
+        auto const& codebook = parameter.data_type_ref.codebook_ref;
+        if (codebook.empty() || DataType::of(profile->data_type_ref).base != BaseType::identifier) continue;
+        auto const* described = codebooks_for(codebooks_, parameter.name);
+        auto known = described == nullptr ? std::vector<std::string>{} : described->known;
+        auto const& declared = profile->data_type_ref.codebook_ref;
+        if (!declared.empty() && !is_among(known, declared)) known.insert(known.begin(), declared);
+        if (is_among(known, codebook)) continue;
+        return "parameter " + quoted(parameter.name) + ": " + quoted(listed(parameter.values), 100) + " is from the codebook " +
+               quoted(codebook, 200) + ", which is unknown here; " +
+               (known.empty() ? "the component has no codebook for it: leave codebook_ref out" : "known are " + listed(known));
     }
     return {};
 }
@@ -313,6 +380,23 @@ RegisteredComponent* Registry::find(std::string_view ref) const {
     return found == components_.end() ? nullptr : found->second.get();
 }
 
+Registry::Meant Registry::meant(Identifier const& ref) const {
+    auto* const component = find(ref.code);
+    if (component == nullptr) return {nullptr, "unknown component " + quoted(ref.code)};
+    auto const& own = component->ref();
+    auto const foreign = [&](std::string_view what, std::string const& given, std::vector<std::string> const& known) {
+        return Meant{nullptr, "the component_ref " + quoted(ref.code) + " has the " + std::string{what} + " " +
+                                  quoted(given, 200) + ", which is not the component's; known are " + listed(known)};
+    };
+    std::vector<std::string> const codebooks{own.codebook_ref.empty() ? component->entry().type : own.codebook_ref};
+    bool const known_codebook = ref.codebook_ref.empty() || is_among(codebooks, ref.codebook_ref);
+    if (!known_codebook && !is_codebook_of_all_components(ref.codebook_ref))
+        return foreign("codebook_ref", ref.codebook_ref, codebooks);
+    if (ref.authority.empty() || own.authority.empty() || equal_ignoring_case(ref.authority, own.authority))
+        return {component, {}};
+    return foreign("authority", ref.authority, {own.authority});
+}
+
 Declarations const& Registry::results(MessageKind kind, std::string_view message) const {
     auto const& [components, results] = tellers(kind, message);
     static Declarations const none;
@@ -323,9 +407,12 @@ Declarations const& Registry::results(MessageKind kind, std::string_view message
     return gathered;
 }
 
-Registry::Bound Registry::bind(RegisteredComponent& component, Session& session) {
+Registry::Bound Registry::bind(RegisteredComponent& component, Session& session, Instant now) {
     if (component.bound_to != nullptr && component.bound_to != &session) return Bound::taken;
-    if (component.bound_to == nullptr) component.bound_anew();
+    if (component.bound_to == nullptr) {
+        component.bound_anew();
+        component.restore_defaults(now);  // what still runs for an ended session (on_session_end) left its own
+    }
     component.bound_to = &session;
     session.bound.insert(&component);
     return Bound::ok;

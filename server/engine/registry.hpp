@@ -35,6 +35,8 @@ public:
 
     Identifier const& ref() const { return ref_; }
     ComponentEntry const& entry() const { return entry_; }
+    // Its ref without the name of its sub engine: "navigation" of "robot2.navigation".
+    std::string_view code_in_engine() const { return std::string_view{ref_.code}.substr(code_begin_); }
     // Its type as conditions compare it.
     std::string const& type_key() const { return type_key_; }
     // With the messages of the sub components, and those that go without saying.
@@ -60,9 +62,14 @@ public:
 
     // What a component of this type may be told by set_parameter.
     std::vector<ParameterProfile> const& settable() const { return settable_; }
-    // What get_parameter answers: what is stored, and of what nobody has set what the component reads. Nothing when it failed, or
-    // reads what is not of the profile's type; what the profile has not is not told.
-    std::optional<ParameterList> all_parameters() const;
+    // Decision 30: what is stored, for the session that has it bound; the defaults for every other asker.
+    ParameterList const& parameters_for(Session const* asker) const;
+    // What get_parameter answers to `asker`: parameters_for(), and beside them what the component reads. A parameter that an
+    // application can set is read for the session that has the component bound only. Nothing when the component failed, or reads
+    // what is not of the profile's type; what the profile has not is not told.
+    std::optional<ParameterList> all_parameters(Session const* asker) const;
+    // The end of a binding: stores the defaults again, and tells the component if that changed anything.
+    void restore_defaults(Instant now);
 
     // What `start` takes: those, and the arguments of the profile's own `start`, which are not stored.
     std::vector<ParameterProfile> const& startable() const { return startable_; }
@@ -80,6 +87,11 @@ public:
     // Why these parameters cannot be taken: positions are in a frame that nobody knows. `normalized` ones.
     std::optional<std::string> why_no_frame(ParameterList const& normalized) const;
 
+    // Why these parameters cannot be taken: an identifier is from a codebook that the component does not know (decision 31).
+    // `profiles` are those that the parameters were checked against; `normalized` ones.
+    std::optional<std::string> why_no_codebook(std::vector<ParameterProfile> const& profiles,
+                                               ParameterList const& normalized) const;
+
     // The parameters with positions in the component's own frame; nothing when it takes them as they are.
     std::optional<ParameterList> in_own_frame(ParameterList const&) const;
 
@@ -87,7 +99,7 @@ public:
     std::optional<ParameterList> merged(ParameterList stored, ParameterList const& arrived) const;
 
     Session* bound_to = nullptr;
-    ParameterList parameters;  // stored: defaults at first
+    ParameterList parameters;  // stored for the session that has it bound; the defaults without a binding
     Activity activity = Activity::idle;
     bool suspended = false;
     std::shared_ptr<Command> start;  // whose action runs, or null
@@ -116,9 +128,11 @@ private:
     mutable bool failed_ = false;            // an exception left it
     mutable std::set<ErrorType> told_once_;  // and not to be told so again
     Identifier ref_;
+    std::size_t code_begin_ = 0;  // of its code within its engine
     ComponentEntry entry_;
     std::string type_key_;
     std::vector<ParameterProfile> settable_;
+    ParameterList defaults_;                         // of these
     std::vector<ParameterProfile> start_arguments_;  // of the profile's own `start`, beside them
     std::vector<ParameterProfile> startable_;        // both
     std::vector<ParameterProfile> readable_;         // by get_parameter
@@ -127,6 +141,7 @@ private:
     Frames const& frames_;
     std::string crs_;
     std::vector<std::string> positions_;
+    std::vector<Codebooks> codebooks_;
 };
 
 template <class What>
@@ -155,6 +170,15 @@ public:
     void remove(RegisteredComponent const&);
 
     RegisteredComponent* find(std::string_view ref) const;  // null when unknown
+
+    // The component that an application means. Else `component` is null and `problem` says why: no component has this code, or
+    // the code is from the codebook or of the authority of something else (decision 31).
+    struct Meant {
+        RegisteredComponent* component = nullptr;
+        std::string problem;
+    };
+    Meant meant(Identifier const& component_ref) const;
+
     Components const& all() const { return components_; }
 
     // The components that alone can meet the demand; all when there is none.
@@ -170,7 +194,7 @@ public:
     Declarations const& parameters() const;
 
     enum class Bound : std::uint8_t { ok, taken };
-    static Bound bind(RegisteredComponent&, Session&);
+    static Bound bind(RegisteredComponent&, Session&, Instant now);
 
 private:
     // Who has a message, and what they tell with it: nothing when that is to be gathered anew.

@@ -44,9 +44,14 @@ std::optional<Objection> SequenceCheck::objection(CommandUnitSequence const& seq
 
 std::optional<Objection> SequenceCheck::in_list(std::vector<CommandUnit> const& units, std::string const& path,
                                                 std::string_view name) {
-    if (units.empty()) return bad_parameter((path.empty() ? "" : path + ": ") + std::string{"there is no "} + std::string{name});
+    auto const around = path.empty() ? "" : path + ": ";
+    if (units.empty()) return bad_parameter(around + "there is no " + std::string{name});
+    auto const before = commands_;
     for (std::size_t i = 0; i < units.size(); ++i)
         if (auto problem = in_unit(units[i], element(path, name, i))) return problem;
+    if (commands_ == before)  // tables 10 and 13
+        return bad_parameter(around + "there is no command message in the " + std::string{name} +
+                             ", only delays; at least one is expected");
     return {};
 }
 
@@ -80,8 +85,8 @@ std::optional<Objection> SequenceCheck::in_branches(ConcurrentCommands const& co
 
 std::optional<Objection> SequenceCheck::objection(CommandMessage const& message) {
     ++commands_;
-    auto* component = registry_.find(message.component_ref.code);
-    if (component == nullptr) return bad_parameter("unknown component " + quoted(message.component_ref.code));
+    auto [component, problem_of_ref] = registry_.meant(message.component_ref);
+    if (component == nullptr) return bad_parameter(std::move(problem_of_ref));
     if (component->bound_to != &session_)
         return Objection{ReturnCode::error, "the component " + quoted(component->ref().code) + " is not bound by this session"};
     if (auto problem = values(message, *component)) return problem;
@@ -96,6 +101,7 @@ std::optional<Objection> SequenceCheck::values(CommandMessage const& message, Re
     if (auto problem = why_not(*profiles, message.arguments)) return bad_parameter(std::move(*problem));
     auto parameters = normalized(*profiles, message.arguments);
     if (auto problem = component.why_no_frame(parameters)) return bad_parameter(std::move(*problem));
+    if (auto problem = component.why_no_codebook(*profiles, parameters)) return bad_parameter(std::move(*problem));
     if (stores_arguments(message.command_type)) {
         bool const starts = message.command_type == "start";
         if (auto problem = starts ? component.why_no_start(parameters) : std::nullopt) return bad_parameter(std::move(*problem));

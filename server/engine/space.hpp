@@ -1,5 +1,5 @@
-// How points and boxes lie to each other (ISO 19143, spatial operators). Edges belong to a box. Where one of two is in the plane
-// only, both are taken so.
+// How geometries lie to each other (ISO 19143, spatial operators; OGC Simple Features). Edges belong to a geometry, for `within`
+// and `contains` as well. Where one of two is in the plane only, both are taken so.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,7 @@ namespace rois {
 // Whether coordinates of the two may be compared: frames are the same, or one says none.
 bool share_a_frame(Geometry const&, Geometry const&);
 
-bool is_within(Geometry const& inner, Geometry const& outer);
-bool intersect(Geometry const&, Geometry const&);
+bool holds(SpatialRelation, Geometry const&, Geometry const&);
 double distance(Geometry const&, Geometry const&);  // mm, from edge to edge; 0 when they intersect
 
 Geometry point(Located const&);

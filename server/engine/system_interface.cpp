@@ -21,6 +21,7 @@ std::variant<Reply, Refusal> Engine::Core::connect(SessionId const& id, Instant 
     session->quiet_until = now.steady;
     auto& opened = *sessions_.emplace(session->id, std::move(session)).first->second;
     await_end_of_window(opened);
+    journal_->session_opened(opened.number);
     return perform(opened, Connect{}, now);
 }
 
@@ -31,13 +32,16 @@ Reply Engine::Core::perform(Session& session, Connect const&, Instant) {
 }
 
 Reply Engine::Core::perform(Session& session, Resume const& resume, Instant) {
-    if (resume.last_sequence <= session.notifications->last_sequence()) return Resume::Reply{};
+    if (resume.last_sequence <= session.notifications->last_sequence()) {
+        journal_->session_resumed(session.number);
+        return Resume::Reply{};
+    }
     return refused<Resume::Reply>(ReturnCode::bad_parameter, "last_sequence is above the last one that was given, " +
                                                                  std::to_string(session.notifications->last_sequence()));
 }
 
 Reply Engine::Core::perform(Session& session, Disconnect const&, Instant now) {
-    end(session, now);
+    end(session, "it disconnected", now);
     return Disconnect::Reply{};
 }
 
@@ -62,8 +66,9 @@ Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
     if (auto* problem = std::get_if<std::string>(&selection))
         return refused<GetProfile::Reply>(ReturnCode::bad_parameter, std::move(*problem));
     GetProfile::Reply reply;
-    for (auto const* component : select(std::get<Selection>(selection), session)) reply.components.push_back(component->entry());
-    reply.profile = profile_of_those(profile(), reply.components);
+    auto const& selected = std::get<Selection>(selection);
+    for (auto const* component : select(selected, session)) reply.components.push_back(component->entry());
+    reply.profile = selected.filter().restricts() ? profile_of_those(profile(), reply.components) : profile();
     return reply;
 }
 
@@ -97,7 +102,8 @@ Reply Engine::Core::perform(Session&, GetErrorDetail const& get, Instant now) {
 void Engine::Core::publish(ErrorOccurred said, Instant now) {
     ++errors_published_;
     auto results = std::make_shared<Results>();
-    if (said.component != nullptr) results->parameters.push_back(reference("component_ref", said.component->ref().code));
+    if (said.component != nullptr)
+        results->parameters.push_back(reference("component_ref", said.component->ref().code, said.component->ref().codebook_ref));
     results->parameters.push_back(date_time("time", now.utc));
     results->parameters.push_back(text("text", std::move(said.text)));
     ReceiveError error{.error_id = {errors_.add(std::move(results), nullptr, now)}, .error_type = said.type, .component_ref = {}};

@@ -87,6 +87,7 @@ struct Vocabulary {
     Declarations const* parameters = nullptr;
     Declarations const* results = nullptr;
     First first = First::results;
+    std::string_view main_engine{};  // the name of the engine that has all components and sub engines
 
     // The reference, or why there is none. An alias is the first of several steps.
     std::variant<Reference, std::string> resolve(std::string_view path, std::span<std::string const> aliases = {}) const;

@@ -1,6 +1,10 @@
 #include "main/command_line.hpp"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <map>
 
@@ -39,6 +43,11 @@ struct Flags {
     std::map<std::string, std::string> values;  // by key
 };
 
+// CLI11 would take the next flag for the value of one that has none.
+std::string is_a_value(std::string const& text) {
+    return text.starts_with("--") ? "a value is missing before " + rois::quoted(text) : "";
+}
+
 void declare(CLI::App& app, Flags& flags) {
     app.set_help_flag("-h,--help", "say this");
     app.add_option("--check-profiles", flags.check_profiles, "say what is in a folder of component profiles, and stop")
@@ -51,7 +60,9 @@ void declare(CLI::App& app, Flags& flags) {
     for (auto const& key : keys()) {
         auto const now = key.show(Settings{});
         app.add_option(flag_of(key), flags.values[key.name], key.help)
-            ->option_text(key.value + (now.empty() ? "" : " [" + now + "]"));
+            ->option_text(key.value + (now.empty() ? "" : " [" + now + "]"))
+            ->type_name(key.value)
+            ->check(is_a_value);
     }
     app.footer(examples);
 }
@@ -64,6 +75,14 @@ std::string variable(std::string const& name) {
 void set(Settings& settings, Key const& key, std::string const& where, std::string const& value) {
     if (key.set(settings, value)) return;
     throw BadSettings{where + " must be " + key.must_be + ", not " + rois::quoted(value)};
+}
+
+// The gateway and its media are two servers.
+void check_ports(Settings const& settings) {
+    bool const same = !settings.media.host.empty() && settings.media.port != 0 && settings.media.port == settings.net.port;
+    if (same)
+        throw BadSettings{"media and listen must not have the same port, " + std::to_string(settings.net.port) +
+                          ": give media a port of its own"};
 }
 
 Settings gather(CLI::App const& app, Flags const& flags) {
@@ -79,10 +98,35 @@ Settings gather(CLI::App const& app, Flags const& flags) {
             set(settings, key, variable_of(key), value);
         }
     }
+    check_ports(settings);
     return settings;
 }
 
-CommandLine say(std::string words) { return {CommandLine::Wish::say, std::move(words), {}, {}}; }
+// Beside the keys: the file, and what the project's other programs, its tests and a cluster with a service called rois-gateway
+// set.
+bool is_of_others(std::string_view name) {
+    constexpr std::array<std::string_view, 8> names{"ROIS_CONFIG", "ROIS_URL",     "ROIS_SESSION", "ROIS_SESSION_FILE",
+                                                    "ROIS_TOKEN",  "ROIS_CA_FILE", "ROIS_JOBS",    "ROIS_ENDURANCE"};
+    constexpr std::array<std::string_view, 4> beginnings{"ROIS_GATEWAY_", "ROIS_TEST_", "ROIS_BINARY_", "ROIS_PICTURES"};
+    return std::ranges::find(names, name) != names.end() ||
+           std::ranges::any_of(beginnings, [&](auto each) { return name.starts_with(each); });
+}
+
+// A misspelt variable would have no effect, and nobody would know.
+std::vector<std::string> unknown_variables() {
+    std::vector<std::string> warnings;
+    for (auto const* const* each = environ; *each != nullptr; ++each) {
+        std::string_view const variable{*each};
+        auto const name = variable.substr(0, variable.find('='));
+        if (!name.starts_with("ROIS_") || is_of_others(name) || std::ranges::find(keys(), name, variable_of) != keys().end())
+            continue;
+        warnings.push_back("the environment variable " + rois::quoted(name) + " is unknown and ignored; --help lists the keys");
+    }
+    std::ranges::sort(warnings);
+    return warnings;
+}
+
+CommandLine say(std::string words) { return {CommandLine::Wish::say, std::move(words), {}, {}, {}}; }
 
 }  // namespace
 
@@ -100,11 +144,11 @@ CommandLine read_command_line(int argc, char const* const* argv) {
     if (flags.version) return say("rois-gateway " ROIS_VERSION "\n");
     auto settings = gather(app, flags);
     if (app.count("--check-profiles") > 0)
-        return {CommandLine::Wish::check_profiles, {}, std::move(flags.check_profiles), std::move(settings)};
+        return {CommandLine::Wish::check_profiles, {}, std::move(flags.check_profiles), {}, std::move(settings)};
     if (flags.print_config) return say(commented_configuration(settings));
-    if (flags.check_config) return {CommandLine::Wish::check_config, {}, {}, std::move(settings)};
-    if (flags.check_health) return {CommandLine::Wish::check_health, {}, {}, std::move(settings)};
-    return {CommandLine::Wish::serve, {}, {}, std::move(settings)};
+    if (flags.check_config) return {CommandLine::Wish::check_config, {}, {}, unknown_variables(), std::move(settings)};
+    if (flags.check_health) return {CommandLine::Wish::check_health, {}, {}, {}, std::move(settings)};
+    return {CommandLine::Wish::serve, {}, {}, unknown_variables(), std::move(settings)};
 }
 
 }  // namespace rois

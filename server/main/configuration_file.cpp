@@ -18,21 +18,47 @@ namespace {
 
 using nlohmann::json;
 
-std::size_t line_at(std::string const& text, std::size_t position) {
-    auto const end = text.begin() + static_cast<std::ptrdiff_t>(std::min(position, text.size()));
-    return 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));
+// "LINE:COLUMN", both from 1; columns count characters.
+std::string place_of(std::string_view text, std::size_t position) {
+    auto const before = text.substr(0, position);
+    auto const line = 1 + std::ranges::count(before, '\n');
+    auto const begin = before.rfind('\n') + 1;  // npos + 1 is the beginning
+    auto const column = 1 + std::ranges::count_if(before.substr(begin), [](char c) { return (c & 0xC0) != 0x80; });
+    return std::to_string(line) + ":" + std::to_string(column);
 }
 
-// The line on which the key is set; comments do not count.
-std::size_t line_of(std::string const& text, std::string const& key) {
+// Where the key is set, first or last; comments do not count.
+enum class Which : std::uint8_t { first, last };
+std::string place_of_key(std::string const& text, std::string const& key, Which which = Which::first) {
     auto const quoted_key = json(key).dump();
+    std::size_t found = 0;
     for (auto at = text.find(quoted_key); at != std::string::npos; at = text.find(quoted_key, at + 1)) {
-        auto const begin = text.rfind('\n', at) + 1;  // npos + 1 is the beginning
+        auto const begin = text.rfind('\n', at) + 1;
         bool const comment = trimmed(std::string_view{text}.substr(begin, at - begin)).starts_with("//");
         auto const next = text.find_first_not_of(" \t\r\n", at + quoted_key.size());
-        if (!comment && next != std::string::npos && text[next] == ':') return line_at(text, at);
+        if (comment || next == std::string::npos || text[next] != ':') continue;
+        found = at;
+        if (which == Which::first) break;
     }
-    return 1;
+    return place_of(text, found);
+}
+
+// What the library says after its own name, the place and what it was parsing: "unexpected number literal; expected ':'".
+std::string cause_of(json::exception const& error) {
+    std::string_view words = error.what();
+    for (std::string_view const end : {"] ", "column ", ": ", " - "})
+        if (auto const at = words.find(end); at != std::string_view::npos) words.remove_prefix(at + end.size());
+    constexpr std::size_t longest = 160;
+    auto const with_quotes = rois::quoted(words, longest);
+    return with_quotes.substr(1, with_quotes.size() - 2);
+}
+
+// Where the number stands that is too large; the library says which one it is.
+std::string place_of_number(std::string const& text, json::out_of_range const& error) {
+    std::string_view const words = error.what();
+    auto const begin = std::min(words.find('\''), words.size() - 1) + 1;
+    auto const number = words.substr(begin, words.find('\'', begin) - begin);
+    return place_of(text, std::min(text.find(number), text.size()));
 }
 
 json parse(std::string const& file, std::string const& text) {
@@ -45,14 +71,16 @@ json parse(std::string const& file, std::string const& text) {
     try {
         auto parsed = json::parse(text, note, true, true);
         if (!twice.empty())
-            throw BadSettings{file + ":" + std::to_string(line_of(text, twice)) + ": " + rois::quoted(twice) + " is there twice"};
+            throw BadSettings{file + ":" + place_of_key(text, twice, Which::last) + ": " + rois::quoted(twice) +
+                              " is there twice"};
         if (parsed.is_object()) return parsed;
     } catch (json::parse_error const& error) {
-        throw BadSettings{file + ":" + std::to_string(line_at(text, error.byte)) + ": this is not JSON"};
-    } catch (json::out_of_range const&) {
-        throw BadSettings{file + ": a number in it is too large for any key"};
+        auto const position = std::min(error.byte - std::min<std::size_t>(error.byte, 1), text.size());
+        throw BadSettings{file + ":" + place_of(text, position) + ": this is not JSON: " + cause_of(error)};
+    } catch (json::out_of_range const& error) {
+        throw BadSettings{file + ":" + place_of_number(text, error) + ": the number is too large for any key"};
     }
-    throw BadSettings{file + ":1: the file must hold one object, { ... }"};
+    throw BadSettings{file + ":1:1: the file must hold one object, { ... }"};
 }
 
 void set(Settings& settings, std::string const& name, json const& value, std::string const& where) {
@@ -79,7 +107,7 @@ void read_configuration_file(std::string const& file, Settings& settings) {
     auto const text = text_of_file(file);
     auto const object = parse(file, text);
     for (auto const& [name, value] : object.items()) {
-        set(settings, name, value, file + ":" + std::to_string(line_of(text, name)) + ": ");
+        set(settings, name, value, file + ":" + place_of_key(text, name) + ": ");
     }
 }
 

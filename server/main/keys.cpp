@@ -101,6 +101,7 @@ std::optional<Address> read_address(std::string const& text) {
     auto const colon = text.rfind(':');
     if (colon == std::string::npos || colon == 0) return {};
     auto host = text.substr(0, colon);
+    if (host == "*") return {};  // some systems take it for any address
     bool const bracketed = host.size() > 2 && host.front() == '[' && host.back() == ']';
     if (bracketed) host = host.substr(1, host.size() - 2);
     if (!bracketed && host.find(':') != std::string::npos) return {};
@@ -154,6 +155,18 @@ bool set_engine_name(Settings& settings, std::string const& text) {
     return true;
 }
 
+// As browsers write them, "http://console.example:8081": small letters, no path, no port that the scheme implies.
+bool is_origin(std::string const& text) {
+    auto const after = text.find("://");
+    if (after == std::string::npos || after == 0) return false;
+    auto const host = text.substr(after + 3);
+    auto const fits = [](char c) { return c > ' ' && c < 0x7F && !(c >= 'A' && c <= 'Z'); };
+    if (host.empty() || host.find_first_of("/?#@,\"<>") != std::string::npos || !std::ranges::all_of(text, fits)) return false;
+    bool const default_port =
+        (text.starts_with("http://") && host.ends_with(":80")) || (text.starts_with("https://") && host.ends_with(":443"));
+    return !default_port;
+}
+
 bool set_origins(Settings& settings, std::string const& text) {
     std::vector<std::string> origins;
     for (std::size_t begin = 0; begin < text.size();) {
@@ -161,7 +174,7 @@ bool set_origins(Settings& settings, std::string const& text) {
         if (end > begin) origins.push_back(text.substr(begin, end - begin));
         begin = end + 1;
     }
-    if (!std::ranges::all_of(origins, [](auto const& one) { return one.find("://") != std::string::npos; })) return false;
+    if (!std::ranges::all_of(origins, is_origin)) return false;
     settings.net.allowed_origins = std::move(origins);
     return true;
 }
@@ -181,8 +194,9 @@ bool set_sim_speed(Settings& settings, std::string const& text) {
 
 std::vector<Key> general_keys() {
     return {
-        {"listen", "address and port; port 0 takes any free one", "HOST:PORT", "HOST:PORT, such as 127.0.0.1:8080 or [::1]:8080",
-         Key::Kind::text, set_listen, show_listen},
+        {"listen", "address and port; port 0 takes any free one", "HOST:PORT",
+         "HOST:PORT, such as 127.0.0.1:8080, [::1]:8080, or 0.0.0.0:8080 for every address of this machine", Key::Kind::text,
+         set_listen, show_listen},
         whole_number<std::size_t>(
             "threads", "I/O threads", [](Settings & s) -> auto& { return s.net.threads; }, 1, 256),
         choice<LogFormat>("log_format", "how the log looks", [](Settings & s) -> auto& { return s.log_format; },
@@ -210,8 +224,9 @@ std::vector<Key> general_keys() {
         {"profiles", "folder of component profiles that make components, re-read after SIGHUP; empty: none", "DIR", "a text",
          Key::Kind::text, [](Settings& s, std::string const& text) { return s.profiles = text, true; },
          [](Settings const& s) { return s.profiles; }},
-        {"allowed_origins", "web pages that may open WebSockets beside this server's own, separated by blanks", "ORIGINS",
-         "origins such as https://console.example, separated by blanks", Key::Kind::text, set_origins, show_origins},
+        {"allowed_origins", "web pages that may open WebSockets beside this server's own, separated by spaces", "ORIGINS",
+         "origins such as https://console.example, in small letters and without a path, separated by spaces", Key::Kind::text,
+         set_origins, show_origins},
     };
 }
 

@@ -75,6 +75,11 @@ std::shared_ptr<simulation::Simulation> make_simulation(std::shared_ptr<xml::Sch
     auto scenario =
         simulation::read_scenario(schemas, named(settings.scenario, "reception-day.xml"),
                                   chosen(settings.scenario, "reception-day.xml"), plan, user_names(schemas, settings, profiles));
+    auto const robot = std::ranges::find(plan.robots, settings.engine_name, &simulation::RobotPlan::name);
+    if (robot != plan.robots.end())
+        throw BadSettings("engine_name: '" + settings.engine_name +
+                          "' is the name of a robot of the floor plan; choose another name, so that conditions and profiles tell "
+                          "the whole engine from its robot");
     return std::make_shared<simulation::Simulation>(std::move(plan), std::move(scenario), settings.seed, settings.sim_speed);
 }
 
@@ -139,10 +144,12 @@ int serve(CommandLine const& command) {
     auto const profiles = read_profiles(schemas);
     auto const simulation = make_simulation(schemas, settings, profiles);
     if (command.wish == CommandLine::Wish::check_config) {
+        for (auto const& warning : command.warnings) std::fprintf(stderr, "rois-gateway: warning: %s\n", warning.c_str());
         std::puts("configuration ok");
         return done;
     }
     set_up_logging(settings.log_format, settings.log_level);
+    for (auto const& warning : command.warnings) spdlog::warn("{}", warning);
     auto const media = make_media(settings.media);
     net::Readers readers;
     Engine engine{engine_profile(settings, simulation->hall().plan()), profiles, settings.engine, readers, net::fresh_secret};

@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "simulation/voice_characters.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -16,9 +17,13 @@ constexpr std::size_t shown = 200;  // bytes of what is said
 using simulation::Happening;
 
 void log(Happening const& happening, std::string const& robot) {
-    if (happening.kind == Happening::Kind::speech_started)
-        spdlog::info("{} says in {}, {:.2f} s{}{}: {}", robot, happening.language, happening.lasts,
-                     happening.prosody.empty() ? "" : ", ", happening.prosody, quoted(happening.text, shown));
+    if (happening.kind == Happening::Kind::speech_started) {
+        std::string voice;
+        if (happening.character != simulation::default_character) voice += ", voice " + happening.character;
+        if (!happening.prosody.empty()) voice += ", " + happening.prosody;
+        spdlog::info("{} says in {}, {:.2f} s{}: {}", robot, happening.language, happening.lasts, voice,
+                     quoted(happening.text, shown));
+    }
     if (happening.kind == Happening::Kind::speech_broken) spdlog::info("{} breaks off: {}", robot, quoted(happening.text, shown));
 }
 

@@ -98,9 +98,8 @@ Connection::Then Connection::take_head() {
     if (size == 0 && wire_.received().size() <= settings.max_header) return Then::receive;
     if (size == 0 || size > settings.max_header) return refuse(overlong_head(wire_.text(), settings));
     searched_ = 0;
-    auto const fault = heads_->read(wire_.text().substr(0, size), settings);
+    if (auto const fault = heads_->read(wire_.text().substr(0, size), settings)) return refuse(*fault);
     wire_.use(size);
-    if (fault) return refuse(*fault);
     if (!heads_->repeated()) session_.text.assign(head().field("RoIS-Session").value_or(""));
     return Then::next;
 }
@@ -151,8 +150,15 @@ Answer Connection::operate() {
 Connection::Then Connection::reply(Answer&& answer) {
     HttpAnswer http;
     http.body = std::move(answer.document);
-    if (answer.fault) http.status = status_of(*answer.fault);
+    if (answer.fault) {
+        http.status = status_of(answer.fault->code);
+        log(*answer.fault, request_line());
+    }
     if (answer.turn == Answer::Turn::connected) http.set("RoIS-Session", answer.session.text);
+    if (answer.session_number != 0) {
+        http.set("RoIS-Session-Number", std::to_string(answer.session_number));
+        log_joined(answer.session_number, "opened over HTTP", wire_.peer());
+    }
     holds_.push_back(std::move(answer.hold));
     return reply(http);
 }
@@ -207,18 +213,31 @@ Task<Connection::Then> Connection::serve_notifications() {
 }
 
 Connection::Then Connection::reply(HttpAnswer const& answer, Framed framed) {
-    if (answer.fault) loop_.shared().telemetry.faulted(*answer.fault);
+    if (answer.fault) {
+        loop_.shared().telemetry.faulted(answer.fault->code);
+        log(*answer.fault, request_line());
+    }
     bool const close = framed == Framed::last || !head().keep_alive() || loop_.draining();
     append(out_, answer, {.body = head().method != "HEAD", .close = close});
     return close ? Then::linger : Then::next;
 }
 
-// For a request whose end cannot be told: the connection ends with the answer.
+// For a request whose end cannot be told: the connection ends with the answer. Unless the head was accepted, it is still among
+// the received bytes, and `head()` may be that of an earlier request.
 Connection::Then Connection::refuse(Fault const& fault) {
     loop_.shared().telemetry.faulted(fault.code);
-    append(out_, answer_of(fault), {.body = true, .close = true});
+    log(fault, has_head_ ? request_line() : wire_.text().substr(0, wire_.text().find_first_of("\r\n")));
+    bool const asks_for_head = has_head_ ? head().method == "HEAD" : wire_.text().starts_with("HEAD ");
+    append(out_, answer_of(fault), {.body = !asks_for_head, .close = true});
     return Then::linger;
 }
+
+void Connection::log(Fault const& fault, std::string_view request) {
+    if (is_logged(fault.code)) log_fault(fault, request, wire_.peer());
+}
+
+// Of the request whose head was accepted last, without the query.
+std::string Connection::request_line() const { return std::string{head().method}.append(" ").append(head().path); }
 
 bool Connection::flush_at_once() {
     out_.erase(0, wire_.send_now(out_));

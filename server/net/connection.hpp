@@ -53,6 +53,8 @@ private:
     enum class Framed : std::uint8_t { as_asked, last };
     Then reply(HttpAnswer const&, Framed = Framed::as_asked);
     Then refuse(Fault const&);
+    void log(Fault const&, std::string_view request);
+    std::string request_line() const;
     // False when the socket takes only a part at once: then `flush` goes on.
     bool flush_at_once();
     Task<> flush();

@@ -92,15 +92,20 @@ void NotificationDocument::append_to(std::string& out) const {
     out.append(before_).append(digits_.data(), digits_size_).append(after_);
 }
 
+Gateway::Gateway(Engine& engine, Readers& readers, Telemetry& telemetry)
+    : engine_{engine}, readers_{readers}, telemetry_{telemetry} {
+    engine_.report_to(log_);
+}
+
 Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std::string_view text, Via via,
                        Reading const* reading) {
     auto const begun = present();
     Answer answer;
     auto const refuse = [&](Fault fault, std::string const& request_id) {
         fault.request_id = request_id;
-        answer.fault = fault.code;
         answer.document = xml::encode(fault);
         telemetry_.faulted(fault.code);
+        answer.fault = std::move(fault);
     };
     auto const read = reader.read(text);
     if (auto const way = reader.checked()) telemetry_.checked(*way);
@@ -113,7 +118,7 @@ Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std
         return answer;
     }
 
-    auto const said = perform(session, request.operation, via, reading, begun, answer.hold);
+    auto const said = perform(session, request.operation, via, reading, begun, answer);
     if (auto const* refusal = std::get_if<Refusal>(&said))
         return refuse(fault_of(*refusal), request.request_id), std::move(answer);
     auto const& reply = std::get<Reply>(said);
@@ -125,14 +130,15 @@ Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std
 }
 
 std::variant<Reply, Refusal> Gateway::perform(SessionId const& session, Operation const& operation, Via via,
-                                              Reading const* reading, Instant now, Hold& hold) {
+                                              Reading const* reading, Instant now, Answer& answer) {
     std::lock_guard const lock{mutex_};
     auto queue = reading != nullptr ? reading->queue_ : engine_.notifications(session);
     bool const known = queue != nullptr;
     // The readers of a session that disconnects hear the last of it before the answer (decision 3): then nothing is held.
-    if (known && !std::holds_alternative<Disconnect>(operation)) hold = Hold{*this, std::move(queue)};
+    if (known && !std::holds_alternative<Disconnect>(operation)) answer.hold = Hold{*this, std::move(queue)};
     if (via == Via::http) engine_.heard_from(session, now);
     auto handled = engine_.handle(session, operation, now);
+    answer.session_number = log_.take_joined();
     if (via == Via::http && !known) heard_from_opened(handled, now);
     return handled;
 }

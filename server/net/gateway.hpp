@@ -15,6 +15,7 @@
 
 #include "engine/engine.hpp"
 #include "engine/prefetch.hpp"
+#include "net/log.hpp"
 #include "net/readers.hpp"
 #include "net/telemetry.hpp"
 #include "xml/codec.hpp"
@@ -98,17 +99,18 @@ enum class Via : std::uint8_t { http, websocket };
 // What an operation's request is answered with, and what it means for the connection that it came by.
 struct Answer {
     std::string document;
-    std::optional<FaultCode> fault;  // the document is a fault; no operation ran
+    std::optional<Fault> fault;  // which the document is; no operation ran
     enum class Turn : std::uint8_t { stays, connected, resumed, disconnected } turn = Turn::stays;
-    SessionId session;                // connected, resumed: which the connection speaks for from now on
-    std::uint64_t last_sequence = 0;  // resumed: where its notifications go on
+    SessionId session;                 // connected, resumed: which the connection speaks for from now on
+    std::uint64_t session_number = 0;  // of it, if it was opened or resumed now
+    std::uint64_t last_sequence = 0;   // resumed: where its notifications go on
     Hold hold;
 };
 
 class Gateway {
 public:
     // All three must outlive the gateway; `readers` is the engine's outbox.
-    Gateway(Engine& engine, Readers& readers, Telemetry& telemetry) : engine_{engine}, readers_{readers}, telemetry_{telemetry} {}
+    Gateway(Engine&, Readers& readers, Telemetry&);
 
     // Reads the request's text, performs the operation for the session (an empty id: for nobody yet) and encodes the answer.
     // Only the operation itself is done with the engine locked. `reading`: of the session, if there is one, which spares a
@@ -137,13 +139,14 @@ private:
     friend class Hold;
     friend class Reading;
 
-    std::variant<Reply, Refusal> perform(SessionId const&, Operation const&, Via, Reading const*, Instant now, Hold&);
+    std::variant<Reply, Refusal> perform(SessionId const&, Operation const&, Via, Reading const*, Instant now, Answer&);
     void heard_from_opened(std::variant<Reply, Refusal> const&, Instant now);
 
     Engine& engine_;
     Readers& readers_;
     Telemetry& telemetry_;
     mutable std::mutex mutex_;  // guards the engine and the readers
+    EngineLog log_;
     std::atomic<bool> shutting_down_ = false;
 };
 

@@ -127,7 +127,7 @@ HttpAnswer answer_of(Fault const& fault) {
     HttpAnswer answer;
     answer.status = status_of(fault.code);
     answer.body = xml::encode(fault);
-    answer.fault = fault.code;
+    answer.fault = fault;
     return answer;
 }
 

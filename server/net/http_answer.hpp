@@ -17,7 +17,7 @@ struct HttpAnswer {
     std::string_view content_type = "application/xml; charset=utf-8";  // this and the next are texts of the program
     std::string_view cache_control = "no-store";
     std::string body;
-    std::optional<FaultCode> fault;  // what the body says, when it is a fault
+    std::optional<Fault> fault;  // which the body is
 
     // Adds a header field. Control characters in the value are left out, so that nothing can break out of its line.
     void set(std::string_view name, std::string_view value);

@@ -52,18 +52,26 @@ Fault no_transfer_encoding() {
     return {FaultCode::length_required, "send the body with a Content-Length; Transfer-Encoding is not taken", {}, {}};
 }
 
-// Splits "http://host/path?query" or "/path?query"; both are allowed (RFC 9112, 3.2).
+// Splits "http://host:80/path?query" or "/path?query"; both are allowed (RFC 9112, 3.2).
 bool read_target(std::string_view target, RequestHead& head) {
-    if (!target.starts_with('/') &&
-        (equal_ignoring_case(target.substr(0, 7), "http://") || equal_ignoring_case(target.substr(0, 8), "https://"))) {
-        auto const path = target.find('/', target.find("//") + 2);
-        target = path == std::string_view::npos ? std::string_view{"/"} : target.substr(path);
+    bool const absolute =
+        equal_ignoring_case(target.substr(0, 7), "http://") || equal_ignoring_case(target.substr(0, 8), "https://");
+    head.target_authority = {};
+    if (absolute) {
+        target.remove_prefix(target.find("//") + 2);
+        head.target_authority = target.substr(0, target.find_first_of("/?"));
+        target.remove_prefix(head.target_authority.size());
     }
     auto const question = std::min(target.find('?'), target.size());
     head.path = target.substr(0, question);
     head.query = target.substr(std::min(question + 1, target.size()));
+    if (absolute && head.path.empty()) head.path = "/";
+    if (absolute) return !head.target_authority.empty();
     return head.path.starts_with('/') || head.path == "*" || head.method == "CONNECT";
 }
+
+// Whether the text may be a host with or without a port. The same check for the Host field and for the authority of a target.
+bool may_be_authority(std::string_view text) { return text.find_first_of(" \t,/\\@\"<>?#") == std::string_view::npos; }
 
 namespace http = boost::beast::http;
 using boost::beast::error_code;
@@ -95,7 +103,8 @@ private:
         head_.method = view(method);
         head_.http_1_0 = version == 10;
         if (target.size() > settings_.max_target) return refuse(overlong_target(settings_), problem);
-        if (!read_target(view(target), head_)) refuse(broken("the target does not begin with '/'"), problem);
+        if (!read_target(view(target), head_))
+            refuse(broken("the target is neither a path nor an http URL with a host"), problem);
     }
 
     void on_field_impl(http::field field, string_view name, string_view value, error_code& problem) override {
@@ -123,8 +132,10 @@ private:
         if (text.find("\r\n ") != std::string_view::npos || text.find("\r\n\t") != std::string_view::npos)
             return broken("a folded header line");
         if (hosts_ > 1 || (hosts_ == 0 && !head_.http_1_0)) return broken("exactly one Host header is needed");
-        if (head_.field("Host").value_or("").find_first_of(" \t,/\\@\"<>") != std::string_view::npos)
-            return broken("Host is no name or address, perhaps with a port");
+        if (!may_be_authority(head_.field("Host").value_or("")))
+            return broken("Host is not a name or an address with an optional port");
+        if (!may_be_authority(head_.target_authority))
+            return broken("the target's host is not a name or an address with an optional port");
         if (transfer_encoded_) return no_transfer_encoding();
         bool const two_in_one = lengths_ == 1 && head_.field("Content-Length").value_or("").find(',') != std::string_view::npos;
         if (lengths_ > 1 || two_in_one) return broken("two lengths in Content-Length");
@@ -199,8 +210,12 @@ bool RequestHead::takes_gzip() const {
     return taken.second;
 }
 
+std::string_view RequestHead::authority() const {
+    return target_authority.empty() ? field("Host").value_or("") : target_authority;
+}
+
 std::string_view RequestHead::host() const {
-    auto const said = field("Host").value_or("");
+    auto const said = authority();
     bool const harmless = std::ranges::all_of(said, [](char c) {
         return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
                std::string_view{".:-_[]"}.find(c) != std::string_view::npos;

@@ -22,8 +22,9 @@ struct Field {
 // All views point into the text that was read.
 struct RequestHead {
     std::string_view method;
-    std::string_view path;   // as sent, without the query
-    std::string_view query;  // what follows '?'
+    std::string_view target_authority;  // of a target in absolute form (RFC 9112, 3.2.2); else empty
+    std::string_view path;              // as sent, without the query
+    std::string_view query;             // what follows '?'
     bool http_1_0 = false;
     std::vector<Field> fields;
     std::uint64_t content_length = 0;
@@ -40,7 +41,9 @@ struct RequestHead {
     bool knows(std::string_view etag) const;
     // Whether it takes a compressed body (RFC 9110, 12.5.3).
     bool takes_gzip() const;
-    // The host by which it reached us, fit to be shown; "localhost" when it says none that is.
+    // The host and port that the client asked for: those of the target, else those of the Host field (RFC 9112, 3.2.2).
+    std::string_view authority() const;
+    // The authority, fit to be shown; "localhost" when it is empty or has characters that are not.
     std::string_view host() const;
     // Whether another request may follow on this connection.
     bool keep_alive() const { return !http_1_0 && !lists("Connection", "close"); }

@@ -62,6 +62,8 @@ double open_descriptors() {
 
 }  // namespace
 
+std::string_view operation_name(Operation const& operation) { return operation_names.at(operation.index()); }
+
 // The families of one scrape.
 class Exposition {
 public:

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "engine/engine.hpp"
@@ -13,6 +14,9 @@
 #include "xml/codec.hpp"
 
 namespace rois::net {
+
+// "bind_any", for example.
+std::string_view operation_name(Operation const&);
 
 class Telemetry {
 public:

@@ -53,8 +53,12 @@ HttpAnswer upgrade(RequestHead const& head, Settings const& settings) {
         return broken("ask for the subprotocol rois.xml.v1");
     if (head.count("Origin") > 0) {
         auto const origin = head.field("Origin");
-        if (!origin || !is_welcome(*origin, head.field("Host").value_or(""), settings)) {
-            return answer_of({FaultCode::not_allowed, "pages of this origin are not allowed here", {}, {}});
+        if (!origin || !is_welcome(*origin, head.authority(), settings)) {
+            return answer_of(
+                {FaultCode::not_allowed,
+                 "pages of the origin " + quoted(origin.value_or("")) + " are not allowed here; allowed_origins can name it",
+                 {},
+                 {}});
         }
     }
     HttpAnswer answer;

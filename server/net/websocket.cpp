@@ -79,7 +79,7 @@ void WebSocket::take(MessageReader::Heard const& heard) {
                                   say(answer);
                               }
                           },
-                          [&](MessageReader::Ping ping) { pong_ = std::string{ping.payload}; },
+                          [&](MessageReader::Ping ping) { say_pong(ping.payload); },
                           [&](MessageReader::Closed closed) {
                               close({closed.code, ""});
                           },
@@ -94,7 +94,16 @@ void WebSocket::say(Answer const& answer) {
     append_frame(answers_, Opcode::text, answer.document);
     ++answers_waiting_;
     join(answer);
-    if (answer.fault == FaultCode::too_many) close({CloseCode::policy_violation, "too many sessions"});
+    if (!answer.fault) return;
+    if (is_logged(answer.fault->code)) log_fault(*answer.fault, "a message on a WebSocket", wire_->peer());
+    if (answer.fault->code == FaultCode::too_many) close({CloseCode::policy_violation, "too many sessions"});
+}
+
+// Pongs wait among the answers, in the order of what they answer, and count as answers: a peer that sends pings and reads nothing
+// is not read any more.
+void WebSocket::say_pong(std::string_view payload) {
+    append_frame(answers_, Opcode::pong, payload);
+    ++answers_waiting_;
 }
 
 // Until the next frame may be taken.
@@ -115,6 +124,10 @@ Task<> WebSocket::say_farewell() {
 // Follows the answer to the session that it opened, took over or left.
 void WebSocket::join(Answer const& answer) {
     if (answer.turn == Answer::Turn::stays) return;
+    if (answer.session_number != 0) {
+        bool const resumed = answer.turn == Answer::Turn::resumed;
+        log_joined(answer.session_number, resumed ? "resumed over a WebSocket" : "opened over a WebSocket", wire_->peer());
+    }
     bool const same = answer.session == session_ && reading_;
     session_ = answer.session;
     if (answer.turn == Answer::Turn::disconnected) return;
@@ -211,7 +224,6 @@ bool WebSocket::gather(std::string& out) {
     out.append(answers_);
     answers_.clear();
     answers_in_out_ = std::exchange(answers_waiting_, 0);
-    if (pong_) append_frame(out, Opcode::pong, *std::exchange(pong_, {}));
     if (std::exchange(ping_due_, false)) append_frame(out, Opcode::ping, "");
     bool const more = (!ending_ || ending_->code == CloseCode::going_away) && gather_notifications(out);
     if (ending_ && !more) {

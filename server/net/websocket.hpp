@@ -41,6 +41,7 @@ private:
     bool take_frames();
     void take(MessageReader::Heard const&);
     void say(Answer const&);
+    void say_pong(std::string_view payload);
     void join(Answer const&);
     bool full() const { return answers_waiting_ >= settings_.max_requests_in_flight; }
     Task<> pause();
@@ -62,7 +63,7 @@ private:
     Telemetry& telemetry_;
     std::unique_ptr<Reading> reading_;  // of the session, until its last notification was written
     std::string answers_;               // frames that wait for the next write
-    std::size_t answers_waiting_ = 0;
+    std::size_t answers_waiting_ = 0;   // among them, pongs too
     std::size_t answers_in_out_ = 0;
     std::shared_ptr<Signal> room_;  // raised when output was written; null while nobody waits for that
     bool session_over_ = false;     // reading_ has given its last
@@ -71,7 +72,6 @@ private:
     bool broken_ = false;
     bool close_gathered_ = false;   // the close frame is in out_; nothing follows
     std::optional<Ending> ending_;  // decided: the close frame goes out behind what was said before
-    std::optional<std::string> pong_;
     Steady close_due_ = Steady::max();
 
     bool heard_something_ = false;        // from the peer, since the last sweep

@@ -47,6 +47,15 @@ Wire::Wire(Socket socket, Poller& poller, std::chrono::milliseconds write_timeou
     if (socket_ >= 0 && !poller_.add(socket_, *this)) cut();
 }
 
+std::string Wire::peer() const {
+    asio::ip::tcp::endpoint endpoint;
+    auto size = static_cast<socklen_t>(endpoint.capacity());
+    if (::getpeername(socket_, endpoint.data(), &size) != 0) return "a client that has gone";
+    endpoint.resize(size);
+    auto const address = endpoint.address().to_string();
+    return (endpoint.address().is_v6() ? "[" + address + "]" : address) + ":" + std::to_string(endpoint.port());
+}
+
 Task<> Wire::until_resumed(Waiter& waiter) {
     Token token;
     return asio::async_initiate<Token, void()>([&waiter]<class H>(H&& handler) { waiter.emplace(std::forward<H>(handler)); },

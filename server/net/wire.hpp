@@ -25,6 +25,9 @@ public:
 
     Executor const& executor() const { return executor_; }
 
+    // The peer's address and port, for the log.
+    std::string peer() const;
+
     // What was received and not yet used. Good until the next receive.
     std::span<char> received() { return {input_.data() + used_, input_.size() - used_}; }
     std::string_view text() { return {input_.data() + used_, input_.size() - used_}; }

@@ -31,13 +31,25 @@ struct Literal {
     bool operator==(Literal const&) const = default;
 };
 
-// A point, or a box along the axes of its frame; coordinates in mm. A point has two equal corners.
+// A point, a box along the axes of its frame, a line, a circle or a polygon; coordinates in mm. A point is a box with two equal
+// corners. Lines, circles and polygons are in the plane.
 struct Geometry {
+    enum class Shape : std::uint8_t { box, line, circle, polygon };
+    using Point = std::array<double, 2>;
+    using Points = std::vector<Point>;
+
     std::string crs;  // empty: the frame of whatever it is related to
     std::array<double, 3> low{};
     std::array<double, 3> high{};
     std::uint8_t dimensions = 2;  // 2 or 3; in the plane, z is 0 and means nothing
+    Shape shape = Shape::box;
+    std::vector<Points> paths{};  // of a line: itself; of a circle: its centre; of a polygon: its border, then those of its
+                                  // holes, the last point of each being its first
+    double radius = 0;            // of a circle
     bool operator==(Geometry const&) const = default;
+
+    // Sets `low` and `high` to the corners of the smallest box around a line, circle or polygon.
+    void fit_corners();
 };
 
 struct Expression;
@@ -101,7 +113,7 @@ struct PropertyIsBetween {
 };
 
 // BBOX says what Intersects says.
-enum class SpatialRelation : std::uint8_t { within, intersects, disjoint };
+enum class SpatialRelation : std::uint8_t { within, intersects, disjoint, equals, touches, overlaps, crosses, contains };
 
 struct SpatialComparison {
     SpatialRelation relation = SpatialRelation::within;
@@ -119,7 +131,22 @@ struct DistanceComparison {
     bool operator==(DistanceComparison const&) const = default;
 };
 
-enum class TemporalRelation : std::uint8_t { after, before, during, t_equals };
+enum class TemporalRelation : std::uint8_t {
+    after,
+    before,
+    during,
+    t_equals,
+    begins,
+    begun_by,
+    t_contains,
+    ended_by,
+    ends,
+    meets,
+    met_by,
+    t_overlaps,
+    overlapped_by,
+    any_interacts
+};
 
 struct TemporalComparison {
     TemporalRelation relation = TemporalRelation::after;

@@ -20,6 +20,12 @@ std::string_view without_plus(std::string_view text) {
 
 constexpr bool between(char32_t c, char32_t first, char32_t last) { return c >= first && c <= last; }
 
+// Control characters, separators of lines and paragraphs, and marks of writing direction.
+constexpr bool disturbs_a_line(char32_t c) {
+    return c < 0x20 || between(c, 0x7F, 0x9F) || between(c, 0x200E, 0x200F) || between(c, 0x2028, 0x202E) ||
+           between(c, 0x2066, 0x2069);
+}
+
 // In these blocks capital and small letters take turns, capitals on even places or on odd ones.
 constexpr bool alternates_from_even(char32_t c) {
     return between(c, 0x100, 0x137) || between(c, 0x14A, 0x177) || between(c, 0x460, 0x481) || between(c, 0x48A, 0x4BF) ||
@@ -139,12 +145,17 @@ std::optional<std::int32_t> to_int(std::string_view text) {
 }
 
 std::string quoted(std::string_view text, std::size_t longest) {
-    auto const length = whole_characters(text, longest);
-    std::string shown{text.substr(0, length)};
-    std::ranges::replace_if(
-        shown, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
-    if (length < text.size()) shown += "...";
-    return "'" + shown + "'";
+    auto rest = text.substr(0, whole_characters(text, longest));
+    bool const cut = rest.size() < text.size();
+    std::string shown = "'";
+    while (!rest.empty()) {
+        auto const start = rest;
+        auto const character = *take_character(rest);
+        auto const bytes = start.substr(0, start.size() - rest.size());
+        bool const stray = bytes.size() == 1 && character >= 0x80;
+        shown += stray ? "?" : disturbs_a_line(character) ? " " : bytes;
+    }
+    return shown + (cut ? "...'" : "'");
 }
 
 }  // namespace rois

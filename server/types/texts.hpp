@@ -27,7 +27,8 @@ std::string_view trimmed(std::string_view);
 std::optional<double> to_double(std::string_view);
 std::optional<std::int32_t> to_int(std::string_view);
 
-// A text from outside, cut to a bearable length and with control characters replaced, fit for a reason or a log line.
+// A text from outside, fit for a reason or a line of the log: cut to a bearable length, with spaces for control characters, for
+// separators of lines and for marks of writing direction, and valid UTF-8.
 std::string quoted(std::string_view, std::size_t longest = 80);
 
 }  // namespace rois

@@ -22,16 +22,31 @@ constexpr Names<Comparator, 6> comparators{{{"PropertyIsEqualTo", Comparator::eq
                                             {"PropertyIsGreaterThan", Comparator::greater},
                                             {"PropertyIsLessThanOrEqualTo", Comparator::less_or_equal},
                                             {"PropertyIsGreaterThanOrEqualTo", Comparator::greater_or_equal}}};
-constexpr Names<SpatialRelation, 4> spatial_relations{{{"BBOX", SpatialRelation::intersects},
+constexpr Names<SpatialRelation, 9> spatial_relations{{{"BBOX", SpatialRelation::intersects},
                                                        {"Within", SpatialRelation::within},
                                                        {"Intersects", SpatialRelation::intersects},
-                                                       {"Disjoint", SpatialRelation::disjoint}}};
+                                                       {"Disjoint", SpatialRelation::disjoint},
+                                                       {"Equals", SpatialRelation::equals},
+                                                       {"Touches", SpatialRelation::touches},
+                                                       {"Overlaps", SpatialRelation::overlaps},
+                                                       {"Crosses", SpatialRelation::crosses},
+                                                       {"Contains", SpatialRelation::contains}}};
 constexpr Names<DistanceRelation, 2> distance_relations{
     {{"DWithin", DistanceRelation::d_within}, {"Beyond", DistanceRelation::beyond}}};
-constexpr Names<TemporalRelation, 4> temporal_relations{{{"After", TemporalRelation::after},
-                                                         {"Before", TemporalRelation::before},
-                                                         {"During", TemporalRelation::during},
-                                                         {"TEquals", TemporalRelation::t_equals}}};
+constexpr Names<TemporalRelation, 14> temporal_relations{{{"After", TemporalRelation::after},
+                                                          {"Before", TemporalRelation::before},
+                                                          {"During", TemporalRelation::during},
+                                                          {"TEquals", TemporalRelation::t_equals},
+                                                          {"Begins", TemporalRelation::begins},
+                                                          {"BegunBy", TemporalRelation::begun_by},
+                                                          {"TContains", TemporalRelation::t_contains},
+                                                          {"EndedBy", TemporalRelation::ended_by},
+                                                          {"Ends", TemporalRelation::ends},
+                                                          {"Meets", TemporalRelation::meets},
+                                                          {"MetBy", TemporalRelation::met_by},
+                                                          {"TOverlaps", TemporalRelation::t_overlaps},
+                                                          {"OverlappedBy", TemporalRelation::overlapped_by},
+                                                          {"AnyInteracts", TemporalRelation::any_interacts}}};
 
 template <class Value, std::size_t size>
 Value const* find(Names<Value, size> const& names, std::string_view name) {
@@ -116,6 +131,9 @@ Condition decode_predicate(Node node) {
     if (name == "And") return {And{decode_predicates(node)}};
     if (name == "Or") return {Or{decode_predicates(node)}};
     if (name == "Not") return {Not{decode_predicates(node)}};
+    if (name == "Function")
+        return {NotUnderstood{"the condition has the function " + quoted(node.attribute_text("name")) +
+                              " as a predicate; no function is true or false here, and distance is a length: compare it"}};
     return {not_understood(name)};
 }
 

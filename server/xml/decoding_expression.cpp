@@ -5,9 +5,11 @@
 #include <optional>
 #include <string>
 
+#include "types/length_units.hpp"
 #include "types/texts.hpp"
 #include "xml/decoding.hpp"
 #include "xml/numbers.hpp"
+#include "xml/writer.hpp"
 
 namespace rois::xml {
 
@@ -43,40 +45,132 @@ struct Frame {
     }
 };
 
-// Two points of the same frame are the opposite corners of a box; one point is its own.
-Expression decode_corners(Frame frame, MessageTree::Children corners) {
-    Geometry geometry;
-    std::vector<std::vector<double>> points;
-    for (auto const corner : corners) {
+using Points = std::vector<std::vector<double>>;
+
+// Takes the points of these elements: pos, posList and corners. Returns why they cannot be used.
+std::optional<NotUnderstood> read_points(Frame& frame, MessageTree::Children elements, Points& points) {
+    for (auto const each : elements) {
         auto const crs = frame.crs;
-        frame.read(corner);
-        if (!crs.empty() && frame.crs != crs) return {not_understood("corners in two frames")};
-        points.push_back(decode_numbers(corner.text()));
+        frame.read(each);
+        if (!crs.empty() && frame.crs != crs) return not_understood("points of one geometry in two frames");
+        auto numbers = decode_numbers(each.text());
+        if (std::ranges::any_of(numbers, [](double number) { return std::isnan(number); }))
+            return NotUnderstood{"a coordinate of the condition is NaN or beyond what a double can hold"};
+        if (each.name() != "posList") {
+            points.push_back(std::move(numbers));
+            continue;
+        }
+        auto const each_has = frame.dimensions == 0 ? 2 : frame.dimensions;
+        if (numbers.size() % each_has != 0)
+            return NotUnderstood{"a posList of the condition has " + std::to_string(numbers.size()) +
+                                 " numbers, which are not points of " + std::to_string(each_has) + " coordinates each"};
+        for (auto from = numbers.begin(); from != numbers.end(); from += static_cast<std::ptrdiff_t>(each_has))
+            points.emplace_back(from, from + static_cast<std::ptrdiff_t>(each_has));
     }
-    if (frame.problem) return {*frame.problem};
+    return frame.problem;
+}
+
+std::optional<NotUnderstood> wrong_dimensions(Frame const& frame, Points const& points) {
     auto const dimensions = points.front().size();
     for (auto const& point : points) {
         if (point.size() != dimensions || dimensions < 2 || dimensions > 3)
-            return {NotUnderstood{"a position of the condition has neither two nor three coordinates"}};
+            return NotUnderstood{"a position of the condition has neither two nor three coordinates"};
         if (frame.dimensions != 0 && frame.dimensions != dimensions)
-            return {NotUnderstood{"a position of the condition has other than the " + std::to_string(frame.dimensions) +
-                                  " coordinates of its srsDimension"}};
-        if (std::ranges::any_of(point, [](double number) { return std::isnan(number); }))
-            return {NotUnderstood{"a coordinate of the condition is NaN or beyond what a double can hold"}};
+            return NotUnderstood{"a position of the condition has other than the " + std::to_string(frame.dimensions) +
+                                 " coordinates of its srsDimension"};
     }
+    return {};
+}
+
+// One point is its own two corners. Two positions may be any two opposite corners, but a lower corner is not above the upper one.
+Expression decode_corners(Frame frame, MessageTree::Children corners) {
+    Points points;
+    if (auto problem = read_points(frame, corners, points)) return {std::move(*problem)};
+    if (auto problem = wrong_dimensions(frame, points)) return {std::move(*problem)};
+    auto const dimensions = points.front().size();
+    bool const ordered = (*corners.begin()).name() == "lowerCorner";
+    Geometry geometry;
     geometry.crs = frame.crs;
     geometry.dimensions = static_cast<std::uint8_t>(dimensions);
     for (std::size_t axis = 0; axis < dimensions; ++axis) {
-        geometry.low[axis] = std::min(points.front()[axis], points.back()[axis]);
-        geometry.high[axis] = std::max(points.front()[axis], points.back()[axis]);
+        auto const first = points.front()[axis], last = points.back()[axis];
+        if (ordered && first > last)
+            return {NotUnderstood{"the condition has an Envelope whose lowerCorner is above its upperCorner (" +
+                                  number_text(first) + " and " + number_text(last) + ")"}};
+        geometry.low[axis] = std::min(first, last);
+        geometry.high[axis] = std::max(first, last);
     }
     return {geometry};
 }
 
+// Adds a line, the border of an area, or the centre of a circle to the geometry. Returns why it cannot be used.
+std::optional<NotUnderstood> add_path(Geometry& geometry, Frame& frame, MessageTree::Children elements) {
+    Points points;
+    if (auto problem = read_points(frame, elements, points)) return problem;
+    if (auto problem = wrong_dimensions(frame, points)) return problem;
+    if (points.front().size() != 2)
+        return NotUnderstood{
+            "the condition has a line, circle or polygon of points with three coordinates; it has to be in the plane"};
+    auto& path = geometry.paths.emplace_back();
+    for (auto const& point : points) path.push_back({point[0], point[1]});
+    return {};
+}
+
+Expression finished(Geometry geometry, Frame const& frame) {
+    geometry.crs = frame.crs;
+    geometry.fit_corners();
+    return {std::move(geometry)};
+}
+
+Expression decode_line(Frame frame, Node node) {
+    Geometry line;
+    line.shape = Geometry::Shape::line;
+    if (auto problem = add_path(line, frame, node.children())) return {std::move(*problem)};
+    if (line.paths.front().size() < 2) return {NotUnderstood{"the condition has a line of one point; it needs two or more"}};
+    return finished(std::move(line), frame);
+}
+
+Expression decode_polygon(Frame frame, Node node) {
+    Geometry polygon;
+    polygon.shape = Geometry::Shape::polygon;
+    for (auto const border : node.children()) {
+        auto const ring = border.first_child();
+        frame.read(ring);
+        if (auto problem = add_path(polygon, frame, ring.children())) return {std::move(*problem)};
+        auto const& path = polygon.paths.back();
+        if (path.size() < 4 || path.front() != path.back())
+            return {NotUnderstood{"the condition has a LinearRing of " + std::to_string(path.size()) +
+                                  " points that is not closed; it needs four or more, the last one like the first"}};
+    }
+    return finished(std::move(polygon), frame);
+}
+
+Expression decode_circle(Frame frame, Node node) {
+    Geometry circle;
+    circle.shape = Geometry::Shape::circle;
+    auto const centre = node.first_child();
+    auto const radius = node.child("radius");
+    frame.read(centre);
+    auto const numbers = decode_numbers(centre.text());
+    if (frame.problem) return {*frame.problem};
+    if (numbers.size() != 2 || std::isnan(numbers[0]) || std::isnan(numbers[1]))
+        return {NotUnderstood{"the centre of a circle of the condition does not have two coordinates"}};
+    auto const unit = millimetres_in(radius.attribute_text("uom"));
+    if (!unit)
+        return {NotUnderstood{"the condition has the unit " + quoted(radius.attribute_text("uom")) +
+                              ", which is not known here; known are mm, cm, m, km"}};
+    circle.paths = {{{numbers[0], numbers[1]}}};
+    circle.radius = to_double(radius.text()).value_or(0) * *unit;
+    return finished(std::move(circle), frame);
+}
+
 Expression decode_geometry(Node node) {
-    if (node.name() != "Envelope" && node.name() != "Point") return {not_understood(node.name())};
     Frame frame;
     frame.read(node);
+    auto const name = node.name();
+    if (name == "LineString") return decode_line(std::move(frame), node);
+    if (name == "Polygon") return decode_polygon(std::move(frame), node);
+    if (name == "CircleByCenterPoint") return decode_circle(std::move(frame), node);
     return decode_corners(std::move(frame), node.children());
 }
 

@@ -29,15 +29,36 @@ void write_time(Writer& out, Period const& period) {
     out.element("gml:endPosition", to_text(period.end)).end();
 }
 
-void write_geometry(Writer& out, Geometry const& geometry) {
-    bool const point = geometry.low == geometry.high;
-    out.start(point ? "gml:Point" : "gml:Envelope").attribute_unless_empty("srsName", geometry.crs);
+void write_box(Writer& out, Geometry const& box) {
+    bool const point = box.low == box.high;
+    out.start(point ? "gml:Point" : "gml:Envelope").attribute_unless_empty("srsName", box.crs);
     if (point) {
-        write_corner(out, "gml:pos", geometry.low, geometry.dimensions);
+        write_corner(out, "gml:pos", box.low, box.dimensions);
     } else {
-        write_corner(out, "gml:lowerCorner", geometry.low, geometry.dimensions);
-        write_corner(out, "gml:upperCorner", geometry.high, geometry.dimensions);
+        write_corner(out, "gml:lowerCorner", box.low, box.dimensions);
+        write_corner(out, "gml:upperCorner", box.high, box.dimensions);
     }
+    out.end();
+}
+
+void write_points(Writer& out, Geometry::Points const& points) {
+    std::vector<double> numbers;
+    for (auto const& point : points) numbers.insert(numbers.end(), point.begin(), point.end());
+    out.element(points.size() == 1 ? "gml:pos" : "gml:posList", numbers_text(numbers));
+}
+
+void write_geometry(Writer& out, Geometry const& geometry) {
+    static constexpr std::array<std::string_view, 4> names{"", "gml:LineString", "gml:CircleByCenterPoint", "gml:Polygon"};
+    if (geometry.shape == Geometry::Shape::box) return write_box(out, geometry);
+    out.start(names.at(static_cast<std::size_t>(geometry.shape))).attribute_unless_empty("srsName", geometry.crs);
+    for (auto const& path : geometry.paths) {
+        bool const border = geometry.shape == Geometry::Shape::polygon;
+        if (border) out.start(&path == geometry.paths.data() ? "gml:exterior" : "gml:interior").start("gml:LinearRing");
+        write_points(out, path);
+        if (border) out.end().end();
+    }
+    if (geometry.shape == Geometry::Shape::circle)
+        out.start("gml:radius").attribute("uom", "mm").text(number_text(geometry.radius)).end();
     out.end();
 }
 
@@ -90,7 +111,8 @@ constexpr std::string_view name_of(Comparator comparator) {
 }
 
 constexpr std::string_view name_of(SpatialRelation relation) {
-    constexpr std::array<std::string_view, 3> names{"fes:Within", "fes:Intersects", "fes:Disjoint"};
+    constexpr std::array<std::string_view, 8> names{"fes:Within",  "fes:Intersects", "fes:Disjoint", "fes:Equals",
+                                                    "fes:Touches", "fes:Overlaps",   "fes:Crosses",  "fes:Contains"};
     return names.at(static_cast<std::size_t>(relation));
 }
 
@@ -99,7 +121,9 @@ constexpr std::string_view name_of(DistanceRelation relation) {
 }
 
 constexpr std::string_view name_of(TemporalRelation relation) {
-    constexpr std::array<std::string_view, 4> names{"fes:After", "fes:Before", "fes:During", "fes:TEquals"};
+    constexpr std::array<std::string_view, 14> names{
+        "fes:After",   "fes:Before", "fes:During", "fes:TEquals", "fes:Begins",    "fes:BegunBy",      "fes:TContains",
+        "fes:EndedBy", "fes:Ends",   "fes:Meets",  "fes:MetBy",   "fes:TOverlaps", "fes:OverlappedBy", "fes:AnyInteracts"};
     return names.at(static_cast<std::size_t>(relation));
 }
 

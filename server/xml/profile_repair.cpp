@@ -134,10 +134,6 @@ private:
             if (local_name(child) == "ParameterProfile") parameter(child);
             if (local_name(child) == "SubProfile") engine(child);
         }
-        if (child(profile, "SubProfile") && !child(profile, "HRIComponent")) {
-            note(profile, "the engine has sub engines and no HRIComponent of its own");
-            profile.append_child((rois_prefix_of(profile) + "HRIComponent").c_str());
-        }
         put_in_order(profile, after_object({"SubProfile", "HRIComponent", "ParameterProfile"}));
     }
 

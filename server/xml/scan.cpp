@@ -16,6 +16,8 @@ namespace rois::xml {
 namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+constexpr std::string_view cdata_begin = "<![CDATA[";
+constexpr std::string_view cdata_end = "]]>";
 
 std::string limit(std::string_view what, std::size_t size) {
     return std::string{what} + ": the limit is " + std::to_string(size);
@@ -37,6 +39,7 @@ private:
     void declaration(std::size_t end);
     Next markup();
     Next skip_to(std::string_view end);
+    Next cdata_section();
     Next end_tag();
     Next start_tag();
     void end_list();
@@ -101,7 +104,7 @@ Scan::Next Scan::markup() {
         at_ += 4;
         return skip_to("-->");
     }
-    if (rest.starts_with("<![CDATA[")) return skip_to("]]>");
+    if (rest.starts_with(cdata_begin)) return cdata_section();
     if (rest.starts_with("<!DOCTYPE")) {
         refuse(FaultCode::forbidden_xml, "a document type is not allowed", at_);
         return Next::nothing;
@@ -123,6 +126,26 @@ Scan::Next Scan::skip_to(std::string_view end) {
     auto const found = text_.find(end, at_);
     if (found == text_.npos) return Next::nothing;
     at_ = found + end.size();
+    return Next::markup;
+}
+
+// Between elements XSD allows a CDATA section of white space alone; xerces-c rejects every section there. Such a section becomes
+// a comment of the same size as its markup, with the white space behind it. This means the same in every content, and moves no
+// tag.
+Scan::Next Scan::cdata_section() {
+    constexpr std::string_view comment = "<!--CDATA-->";
+    static_assert(comment.size() == cdata_begin.size() + cdata_end.size());
+    auto const begin = at_;
+    if (skip_to(cdata_end) == Next::nothing) return Next::nothing;
+    auto const section = document_.subspan(begin, at_ - begin);
+    auto const text = section.subspan(cdata_begin.size(), section.size() - comment.size());
+    bool const blank = std::ranges::all_of(text, [](char c) { return white_space.find(c) != white_space.npos; });
+    if (depth_ == 0 || !blank) return Next::markup;
+    // A line end that is '\r' alone becomes '\n', which it means, so that it does not pair with a '\n' behind the section.
+    for (std::size_t i = 0; i < text.size(); ++i)
+        if (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n')) text[i] = '\n';
+    std::ranges::copy_backward(text, section.end());
+    std::ranges::copy(comment, section.begin());
     return Next::markup;
 }
 

@@ -37,8 +37,9 @@ struct Scanned {
 bool holds_list_of_numbers(std::string_view local_name);
 inline constexpr std::size_t longest_list = 8 << 10;  // bytes
 
-// `namespaces` are those that may be declared. Declarations of the RoIS namespace of 2015 are written over with that of 2024.
-// Passing says nothing yet of well-formedness beyond characters and start tags.
+// `namespaces` are those that may be declared. Declarations of the RoIS namespace of 2015 are written over with that of 2024, and
+// CDATA sections that are empty or hold white space alone with a comment and that white space: xerces-c takes them in values
+// only. Passing says nothing yet of well-formedness beyond characters and start tags.
 std::variant<Scanned, Refusal> scan(std::span<char> document, DocumentLimits const&, std::span<std::string const> namespaces);
 
 // The offset of the start tag of the innermost element that is open at `offset`; nothing when none is.

@@ -10,6 +10,11 @@ bool is(std::string const& document, std::string const& name) {
            std::string{" />"}.find(document[after]) != std::string::npos;
 }
 
+void replace_all(std::string& text, std::string_view part, std::string_view by) {
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + by.size()))
+        text.replace(at, part.size(), by);
+}
+
 std::string edited(std::string const& document, Edit const& edit) {
     pugi::xml_document parsed;
     if (!parsed.load_buffer(document.data(), document.size(), pugi::parse_default | pugi::parse_ws_pcdata)) return document;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <pugixml.hpp>
 #include <string>
+#include <string_view>
 
 #include "broken/proxy.hpp"
 
@@ -12,6 +13,7 @@ namespace rois::broken {
 using Edit = std::function<void(pugi::xml_node root)>;
 
 bool is(std::string const& document, std::string const& name);  // its root is <name>
+void replace_all(std::string& text, std::string_view part, std::string_view by);
 std::string edited(std::string const& document, Edit const&);
 // A response to this request.
 std::string response(std::string const& request, std::string const& return_code, std::string const& children = "");

@@ -18,17 +18,13 @@
 #include "broken/breaking.hpp"
 #include "broken/judging.hpp"
 #include "broken/proxy.hpp"
+#include "broken/variants.hpp"
 #include "server/profile_folder.hpp"
 
 namespace rois::broken {
 namespace {
 
 using test::GatewayProcess;
-
-void replace_all(std::string& text, std::string_view part, std::string_view by) {
-    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + by.size()))
-        text.replace(at, part.size(), by);
-}
 
 std::string const common = "<rois:SubComponentProfile>urn:x-rois:def:component:OMG::RoISCommon</rois:SubComponentProfile>";
 
@@ -53,10 +49,10 @@ TEST(Conformance, OfOurGatewayIsWholeWhenItValidatesInFull) {
 
 // Each robot is asked where it is itself: a robot that is sent to the place of the other one needs longer than this patience.
 TEST(Conformance, OfOurGatewayIsWholeWhenItHasTwoRobots) {
-    EmptyHall gateway{{"--floor-plan", ROIS_SOURCE_DIR "/components/simulation/data/two-robots.xml", "--sim-speed", "1"}};
-    auto const judged = judge(url(gateway.port()) + " --patience 3");
+    EmptyHall gateway{{"--floor-plan", ROIS_SOURCE_DIR "/components/simulation/data/two-robots.xml", "--sim-speed", "2"}};
+    auto const judged = judge(url(gateway.port()) + " --patience 3 --room 0");
     EXPECT_EQ(judged.exit_code, 0) << judged.text;
-    EXPECT_THAT(judged.text, testing::HasSubstr("  holds      events_of_an_action_come_before_its_end over HTTP "));
+    EXPECT_THAT(judged.text, testing::HasSubstr("  holds          events_of_an_action_come_before_its_end over HTTP "));
 }
 
 TEST(Conformance, OfOurGatewayIsWholeWithComponentsOfItsUser) {
@@ -146,27 +142,9 @@ TEST(Conformance, OfOurGatewayIsWholeWhateverItsComponentsTell) {
     EXPECT_EQ(judged.exit_code, 0) << judged.text;
 }
 
-// Ids are what the gateway calls things: with what must be escaped in XML, too.
-Breaking gives_other_ids() {
-    static std::string const strange = "&amp;&lt;";
-    static std::array<std::string, 4> const ids{"s-", "e-", "x-", "c-"};
-    auto const renamed = [](std::string document) {
-        for (auto const& id : ids)
-            for (std::string const before : {">", "\""}) replace_all(document, before + id, before + strange + id);
-        return document;
-    };
-    return {.request =
-                [](std::string request) {
-                    for (auto const& id : ids) replace_all(request, strange + id, id);
-                    return request;
-                },
-            .answer = [=](std::string const&, std::string const& answer, Link&) -> Documents { return {renamed(answer)}; },
-            .notification = [=](std::string const& notification) -> Documents { return {renamed(notification)}; }};
-}
-
 TEST(Conformance, OfAGatewayWithOtherIdsIsWhole) {
     EmptyHall gateway;
-    Proxy const proxy{gateway.port(), gives_other_ids};
+    Proxy const proxy{gateway.port(), has_other_ids};
     auto const judged = judge(url(proxy.port()) + " --over websocket");
     EXPECT_EQ(judged.exit_code, 0) << judged.text;
 }
@@ -177,7 +155,10 @@ TEST(Conformance, OfAGatewayInUseFindsNothingElse) {
     EXPECT_EQ(again().exit_code, 0);
     auto const second = again(), third = again();
     EXPECT_EQ(second.exit_code, 0) << second.text;
-    EXPECT_EQ(second.text, third.text) << "it leaves nothing behind but the parameters that it has set";
+    // At this speed, whether an effect can be seen is a matter of luck.
+    auto const without_effects = [](std::string const& text) { return text.substr(0, text.find("\nEffects: ")); };
+    EXPECT_EQ(without_effects(second.text), without_effects(third.text))
+        << "it leaves nothing behind but the parameters that it has set";
 }
 
 TEST(Conformance, NeedsAGateway) {

@@ -11,11 +11,21 @@ namespace rois::broken {
 namespace {
 
 std::vector<std::string> with_usual(std::vector<std::string> settings) {
-    std::vector<std::string> const usual{
-        "--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--seed", "1", "--media", "127.0.0.1:0"};
-    if (std::ranges::find(settings, "--sim-speed") == settings.end()) settings.insert(settings.end(), {"--sim-speed", "20"});
-    settings.insert(settings.end(), usual.begin(), usual.end());
+    std::vector<std::string> const usual{"--sim-speed", "20", "--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml",
+                                         "--seed",      "1",  "--media",    "127.0.0.1:0"};
+    for (std::size_t i = 0; i < usual.size(); i += 2)
+        if (std::ranges::find(settings, usual[i]) == settings.end()) settings.insert(settings.end(), {usual[i], usual[i + 1]});
     return settings;
+}
+
+std::set<std::string> marked_in(std::string const& report, std::string const& word) {
+    auto const mark = "\n  " + word;
+    std::set<std::string> names;
+    for (auto at = report.find(mark); at != std::string::npos; at = report.find(mark, at + 1)) {
+        auto const begin = at + mark.size();
+        names.insert(report.substr(begin, report.find(' ', begin) - begin));
+    }
+    return names;
 }
 
 }  // namespace
@@ -32,15 +42,9 @@ Judged judge(std::string const& arguments) {
     return judged;
 }
 
-std::set<std::string> broken_in(std::string const& report) {
-    static std::string const mark = "\n  BROKEN     ";
-    std::set<std::string> names;
-    for (auto at = report.find(mark); at != std::string::npos; at = report.find(mark, at + 1)) {
-        auto const begin = at + mark.size();
-        names.insert(report.substr(begin, report.find(' ', begin) - begin));
-    }
-    return names;
-}
+std::set<std::string> broken_in(std::string const& report) { return marked_in(report, "BROKEN         "); }
+
+std::set<std::string> held_in(std::string const& report) { return marked_in(report, "holds          "); }
 
 EmptyHall::EmptyHall(std::vector<std::string> const& settings) : GatewayProcess{with_usual(settings)} {}
 

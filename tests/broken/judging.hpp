@@ -18,8 +18,9 @@ struct Judged {
 // Runs rois-conformance with these arguments.
 Judged judge(std::string const& arguments);
 
-// The names of the checks that found a broken rule.
+// The names of the checks that found a broken rule, or that held.
 std::set<std::string> broken_in(std::string const& report);
+std::set<std::string> held_in(std::string const& report);
 
 // Our gateway with nobody in its hall, twenty times as fast as the clock unless the settings say otherwise.
 struct EmptyHall : test::GatewayProcess {

@@ -81,8 +81,18 @@ private:
         gateway_.send(text);
     }
 
-    void say(Documents const& documents) {
-        for (auto const& document : documents) application_.send(frame_of(document, Masked::no));
+    void say(std::string const& document) { application_.send(frame_of(document, Masked::no)); }
+
+    // What the proxy says of itself: its notifications come between those of the gateway.
+    void say_more(Documents const& documents) {
+        for (auto const& document : documents) {
+            if (sequence_of(document) == 0) {
+                say(document);
+            } else {
+                ++shift_;
+                say(with_sequence(document, ++last_sequence_));
+            }
+        }
     }
 
     void take_requests() {
@@ -93,7 +103,7 @@ private:
             }
             std::lock_guard const lock{breaking_mutex_};
             auto const instead = breaking_.instead ? breaking_.instead(frame->payload) : Documents{};
-            say(instead);
+            say_more(instead);
             if (!instead.empty()) continue;
             ask({breaking_.request ? breaking_.request(frame->payload) : frame->payload, false});
         }
@@ -115,12 +125,14 @@ private:
 
     void notify(std::string const& notification) {
         auto documents = breaking_.notification ? breaking_.notification(notification) : Documents{notification};
-        if (documents.size() == 1 && shift_ == 0) return say(documents);
         auto sequence = sequence_of(notification) + shift_;
-        for (auto& document : documents)
-            if (sequence_of(document) > 0) document = with_sequence(document, sequence++);
-        shift_ = sequence - sequence_of(notification) - 1;
-        say(documents);
+        if (documents.size() != 1 || shift_ != 0) {
+            for (auto& document : documents)
+                if (sequence_of(document) > 0) document = with_sequence(document, sequence++);
+            shift_ = sequence - sequence_of(notification) - 1;
+        }
+        last_sequence_ = sequence_of(notification) + shift_;
+        for (auto const& document : documents) say(document);
     }
 
     void answer(std::string const& document) {
@@ -133,15 +145,16 @@ private:
             }
         }
         if (request.is_aside) return;
-        if (document.starts_with("<connect_response")) shift_ = 0;
-        say(breaking_.answer ? breaking_.answer(request.document, document, *this) : Documents{document});
+        if (document.starts_with("<connect_response")) shift_ = last_sequence_ = 0;
+        say_more(breaking_.answer ? breaking_.answer(request.document, document, *this) : Documents{document});
     }
 
     Socket& application_;
     Socket& gateway_;
     std::mutex breaking_mutex_;
     Breaking& breaking_;
-    long shift_ = 0;  // of the sequence, since notifications were added or left out
+    long shift_ = 0;          // of the sequence, since notifications were added or left out
+    long last_sequence_ = 0;  // said to the application
     std::mutex asked_mutex_;
     std::deque<Request> asked_;
 };

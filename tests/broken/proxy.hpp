@@ -38,7 +38,7 @@ struct Breaking {
     std::function<Documents(std::string const& request)> instead{};
     // What is asked of the gateway.
     std::function<std::string(std::string request)> request{};
-    // What is said instead of this answer.
+    // What is said instead of this answer. Notifications among them, over a WebSocket, are counted in.
     std::function<Documents(std::string const& request, std::string answer, Link&)> answer{};
     // What is said instead of this notification, over a WebSocket; those that are more or fewer than one are counted anew.
     std::function<Documents(std::string notification)> notification{};

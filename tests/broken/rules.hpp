@@ -12,19 +12,43 @@ namespace rois::broken {
 
 enum class Over { websocket, http };
 
+// Where rules can be seen.
+enum class World {
+    empty_hall,    // twenty times as fast as the clock
+    calm_hall,     // three times as fast: a motion takes a while
+    slow_hall,     // as fast as the clock
+    visitor,       // who stands
+    strollers,     // visitors who walk
+    two_robots,    // in one hall
+    unwell,        // functions that have failed
+    short_memory,  // details expire after a second
+};
+
 struct BrokenRule {
     std::string name;      // what the gateway does wrong
     std::string found_by;  // the name of a check of rois-conformance
     std::function<Breaking()> breaking;
     Over over = Over::websocket;
+    World world = World::empty_hall;
 };
+
+// What the gateway and rois-conformance are told for it.
+struct Settings {
+    std::vector<std::string> gateway;
+    std::string judge;
+};
+Settings settings_of(World);
 
 std::vector<BrokenRule> rules_of_sessions();
 std::vector<BrokenRule> rules_of_commands();
 std::vector<BrokenRule> rules_of_information();  // queries, events, profiles
 std::vector<BrokenRule> rules_of_conditions();
 std::vector<BrokenRule> rules_of_http();
-std::vector<BrokenRule> rules_of_gaps();  // what is left out, or empty
+std::vector<BrokenRule> rules_of_gaps();    // what is left out, or empty
+std::vector<BrokenRule> rules_of_motion();  // from here on: what components do in the world
+std::vector<BrokenRule> rules_of_actions();
+std::vector<BrokenRule> rules_of_people();
+std::vector<BrokenRule> rules_of_systems();
 
 // The rules in parts.
 struct Part {
@@ -33,7 +57,9 @@ struct Part {
 };
 inline constexpr Part all_parts[] = {
     {"Sessions", rules_of_sessions},     {"Commands", rules_of_commands}, {"Information", rules_of_information},
-    {"Conditions", rules_of_conditions}, {"Http", rules_of_http},         {"Gaps", rules_of_gaps}};
+    {"Conditions", rules_of_conditions}, {"Http", rules_of_http},         {"Gaps", rules_of_gaps},
+    {"Motion", rules_of_motion},         {"Actions", rules_of_actions},   {"People", rules_of_people},
+    {"Systems", rules_of_systems}};
 
 inline std::ostream& operator<<(std::ostream& out, Part const& part) { return out << part.name; }
 

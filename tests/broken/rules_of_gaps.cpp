@@ -53,7 +53,10 @@ Breaking calls_positions_numbers() {
 }
 
 Breaking hides_a_component_of_the_engine() {
-    return tells_profiles([](pugi::xml_node root) { root.child("rois:HRIEngineProfile").remove_child("rois:HRIComponent"); });
+    return tells_profiles([](pugi::xml_node root) {
+        auto const first = root.select_node("rois:HRIEngineProfile//rois:HRIComponent").node();
+        first.parent().remove_child(first);
+    });
 }
 
 Breaking has_purple_defaults() {

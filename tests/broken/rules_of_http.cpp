@@ -54,7 +54,10 @@ Breaking names_profiles_otherwise() {
 Breaking tells_less_in_documents(std::string const& document, std::string const& element) {
     return {.http_reply = [=](Message const& request, Message& reply) {
         if (!request.first_line.starts_with("GET " + document + " ")) return;
-        reply.body = edited(reply.body, [&](pugi::xml_node root) { root.remove_child(element.c_str()); });
+        reply.body = edited(reply.body, [&](pugi::xml_node root) {
+            auto const first = root.select_node((".//" + element).c_str()).node();
+            first.parent().remove_child(first);
+        });
     }};
 }
 

@@ -16,8 +16,17 @@ public:
 
     std::string ask(std::string const& request, std::vector<std::string>&) override { return client_.post(request).body; }
 
-    void wait(std::vector<std::string>& news) override {
-        auto const reply = poll();
+    void wait(std::vector<std::string>& news) override { take(poll(), news); }
+
+    void look(std::vector<std::string>& news) override { take(client_.notifications(last_, 0), news); }
+
+    void use(std::string const& session) override {
+        if (client_.session != session) last_ = 0;
+        client_.session = session;
+    }
+
+private:
+    void take(HttpReply const& reply, std::vector<std::string>& news) {
         pugi::xml_document as_written;
         as_written.load_buffer(reply.body.data(), reply.body.size());
         for (auto const notification : as_written.document_element().children()) {
@@ -26,12 +35,6 @@ public:
         }
     }
 
-    void use(std::string const& session) override {
-        if (client_.session != session) last_ = 0;
-        client_.session = session;
-    }
-
-private:
     // The answer of the first long poll that has anything; as many as the patience takes.
     HttpReply poll() {
         using Clock = std::chrono::steady_clock;
@@ -80,6 +83,8 @@ public:
     }
 
     void wait(std::vector<std::string>& news) override { news.push_back(next_text()); }
+
+    void look(std::vector<std::string>&) override {}  // they come with the answers
 
     void use(std::string const&) override {}  // the session is the socket's
 
@@ -185,6 +190,16 @@ Document Application::hear() {
     history_.push_back(waiting_.front());
     waiting_.erase(waiting_.begin());
     return history_.back();
+}
+
+std::optional<Document> Application::hear_now() {
+    if (waiting_.empty()) {
+        std::vector<std::string> news;
+        wire_->look(news);
+        take(news);
+    }
+    if (waiting_.empty()) return {};
+    return hear();
 }
 
 Document Application::hear_event(std::string const& type) {

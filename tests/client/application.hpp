@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -26,6 +27,8 @@ public:
     virtual std::string ask(std::string const& request, std::vector<std::string>& news) = 0;
     // Waits until there is at least one notification; throws LineEnded when none comes for very long.
     virtual void wait(std::vector<std::string>& news) = 0;
+    // Puts into `news` what has arrived, without waiting.
+    virtual void look(std::vector<std::string>& news) = 0;
     // The session in which requests are made from now on.
     virtual void use(std::string const& session) = 0;
 };
@@ -61,6 +64,8 @@ public:
 
     // The next notification.
     Document hear();
+    // The next notification if one has arrived. Over a WebSocket, those that came before the last answer have.
+    std::optional<Document> hear_now();
     // Passes over others until it comes.
     Document hear_event(std::string const& type);
     // The status with which a command completes; passes over others until then.

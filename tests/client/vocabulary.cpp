@@ -119,7 +119,7 @@ Xml distance(std::string const& length, std::string const& unit) {
     return element("fes:Distance", {{"uom", unit}}, characters(length));
 }
 
-Xml touching(std::string const& path) { return related("Touches", path, place("desk")); }
+Xml undefined_function(std::string const& path) { return element("fes:Function", {{"name", "is_free"}}, reference(path)); }
 
 Xml nearest(std::string const& name) {
     auto const far = element("fes:Function", {{"name", "distance"}}, reference("location") + place(name));

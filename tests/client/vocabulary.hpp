@@ -54,8 +54,8 @@ Xml related(std::string const& relation, std::string const& reference, Xml const
 Xml box(std::string const& lower, std::string const& upper, std::string const& frame = "");
 Xml place(std::string const& name);
 Xml distance(std::string const& length, std::string const& unit = "mm");
-Xml touching(std::string const& reference);  // nothing that a gateway understands
-Xml nearest(std::string const& place);       // `<fes:SortBy>`, by the component's distance to it
+Xml undefined_function(std::string const& reference);  // a predicate that no gateway understands: is_free(reference)
+Xml nearest(std::string const& place);                 // `<fes:SortBy>`, by the component's distance to it
 Xml sorted_by(std::string const& reference, std::string const& order);
 Xml ordered(Xml const& filter, Xml const& sort_by);  // `<condition>`; the filter may be empty
 Xml where(Xml const& filter);                        // `<condition>`

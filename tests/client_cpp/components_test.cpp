@@ -78,7 +78,7 @@ protected:
         EXPECT_THROW(robot(streaming.suspend_stream(stream.stream_id)), Error);
     }
 
-    void expect_ok(Task<CompletedStatus> command) { EXPECT_EQ(robot(std::move(command)), CompletedStatus::ok); }
+    void expect_ok(Task<Completion> command) { EXPECT_EQ(robot(std::move(command)), CompletedStatus::ok); }
 
     Blocking robot;
 };
@@ -102,6 +102,35 @@ TEST_F(TheFacades, SystemInformation) {
     EXPECT_LT(distance(position.robots[0].pose, Pose{6_m, 6_m}), 200_mm);
     EXPECT_EQ(robot(system.engine_status()).status, ComponentStatus::ready);
     EXPECT_LE(robot(system.engine_status()).operable_time.value(), position.timestamp);
+}
+
+// The engine's reason comes with the status, for commands of every kind.
+TEST_F(TheFacadesThatMove, SayWhyACommandFailed) {
+    auto const navigation = robot.bind<Navigation>("navigation");
+    auto const unreachable = robot(navigation.go_to(Pose{-5_m, -5_m}));
+    EXPECT_EQ(unreachable, CompletedStatus::error);
+    EXPECT_THAT(unreachable.reason, testing::Not(testing::IsEmpty()));
+    EXPECT_EQ(to_text(unreachable), "ERROR: " + unreachable.reason);
+    auto const late = robot(navigation.go_to("desk", 1ms));
+    EXPECT_EQ(late, CompletedStatus::timeout);
+    EXPECT_THAT(late.reason, testing::Not(testing::IsEmpty()));
+    EXPECT_THAT(robot(navigation.resume()).reason, testing::Not(testing::IsEmpty()));
+    auto const good = robot(navigation.go_to(Pose{6_m, 6_m, 0_deg}, 0ms));
+    EXPECT_EQ(to_text(good), "OK");
+    auto going = begun(robot.client(), navigation.go_to(Pose{9_m, 6_m, 0_deg}));
+    EXPECT_EQ(robot(navigation.stop()), CompletedStatus::ok);
+    auto const stopped = going.get();
+    EXPECT_EQ(stopped, CompletedStatus::abort);
+    EXPECT_THAT(stopped.reason, testing::Not(testing::IsEmpty()));
+}
+
+TEST_F(TheFacadesThatMove, SayThatTheEndOfTheConnectionEndedACommand) {
+    auto const follow = robot.bind<Follow>("follow");
+    auto following = begun(robot.client(), follow.start({reference("target_object_ref", "nobody"), integer("distance", 500)}));
+    robot.call(Disconnect{});
+    auto const ended = following.get();
+    EXPECT_EQ(ended, CompletedStatus::abort);
+    EXPECT_THAT(ended.reason, HasSubstr("the connection is closed"));
 }
 
 TEST_F(TheFacades, Detection) {

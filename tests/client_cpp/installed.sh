@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The client library as others get it: installs it, builds a program outside the tree with CMake and with pkg-config, and runs both against
-# the gateway.
+# the gateway. Does the same with the example of the C++ PSM in docs/client-cpp.md, in the older C++17.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -17,7 +17,7 @@ done
 
 sanitize=$(sed -n 's/^ROIS_SANITIZE:STRING=//p' "$build/CMakeCache.txt")
 flags="-Wall -Wextra -Wpedantic -Werror ${sanitize:+-fsanitize=$sanitize -Wno-maybe-uninitialized}"
-cmake -S "$here/outside" -B "$work/cmake" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_FLAGS="$flags" >"$work/configure.log"
+cmake -G Ninja -S "$here/outside" -B "$work/cmake" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_FLAGS="$flags" >"$work/configure.log"
 cmake --build "$work/cmake" >"$work/build.log" || { cat "$work/build.log"; exit 1; }
 
 export PKG_CONFIG_PATH
@@ -25,10 +25,19 @@ PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name rois.pc)")
 # shellcheck disable=SC2086  # flags are words
 eval "g++ -std=c++20 $flags '$here/outside/outside.cpp' -o '$work/by-pkg-config' $(pkg-config --cflags --libs rois)"
 
-"$build/bin/rois-gateway" --listen 127.0.0.1:0 2>"$work/gateway.log" &
+# shellcheck disable=SC2086
+eval "g++ -std=c++20 $flags '$here/outside/outside_psm.cpp' -o '$work/psm-by-pkg-config' $(pkg-config --cflags --libs rois-psm)"
+
+awk '/^## / { here = /The C\+\+ PSM/ } here && /^```/ { example = $0 == "```cpp"; next } here && example' "$here/../../docs/client-cpp.md" >"$work/documented.cpp"
+# shellcheck disable=SC2086
+eval "g++ -std=c++17 $flags '$work/documented.cpp' -o '$work/documented' $(pkg-config --cflags --libs rois-psm)"
+
+"$build/bin/rois-gateway" --listen 127.0.0.1:0 --sim-speed 10 2>"$work/gateway.log" &
 gateway=$!
 until url=$(grep -o 'http://127.0.0.1:[0-9]*' "$work/gateway.log"); do kill -0 "$gateway"; sleep 0.05; done
-for program in "$work/cmake/outside" "$work/by-pkg-config"; do
+for program in "$work/cmake/outside" "$work/by-pkg-config" "$work/cmake/outside_psm" "$work/psm-by-pkg-config"; do
     said=$(ROIS_URL=$url "$program")
     test "$said" = navigation || { echo "installed.sh: $program said '$said'"; exit 1; }
 done
+ROIS_URL=$url timeout 60 "$work/documented" >"$work/said"
+grep -q "welcomed visitors$" "$work/said" || { echo "installed.sh: the example in docs/client-cpp.md said:"; cat "$work/said"; exit 1; }

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <stdexcept>
 
 namespace rois::test {
@@ -75,7 +76,15 @@ void Proxy::cut_at_random(std::uint32_t seed, std::size_t longest, std::size_t t
     dice_.seed(seed);
     longest_ = longest;
     times_ = times;
-    left_ = dice_() % longest_ + 1;
+    evenly_ = false;
+    left_ = next_cut();
+}
+
+void Proxy::cut_every(std::size_t bytes) {
+    std::lock_guard const lock{mutex_};
+    longest_ = left_ = bytes;
+    times_ = std::numeric_limits<std::size_t>::max();
+    evenly_ = true;
 }
 
 void Proxy::cut_before(std::string text) {
@@ -134,7 +143,7 @@ bool Proxy::tears(std::size_t bytes) {
         return false;
     }
     --times_;
-    left_ = dice_() % longest_ + 1;
+    left_ = next_cut();
     return true;
 }
 

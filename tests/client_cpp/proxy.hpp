@@ -29,6 +29,8 @@ public:
     void cut();
     // Cuts all connections after a random number of bytes, up to `longest`; again and again, `times` in all.
     void cut_at_random(std::uint32_t seed, std::size_t longest, std::size_t times);
+    // Cuts all connections after this number of bytes, again and again.
+    void cut_every(std::size_t bytes);
     // The next time that the gateway says this, its words are lost and all connections are cut.
     void cut_before(std::string text);
     // The next time that the gateway says this, it is as if it had said that, which is as long.
@@ -68,6 +70,7 @@ private:
     int wait_time() const;
     void cut_all();
     bool tears(std::size_t bytes);
+    std::size_t next_cut() { return evenly_ ? longest_ : dice_() % longest_ + 1; }
     void wake() const;
 
     std::uint16_t port_ = 0;
@@ -88,6 +91,7 @@ private:
     std::size_t drip_ = 0;
     std::minstd_rand dice_;
     std::size_t longest_ = 0;
+    bool evenly_ = false;    // cuts after `longest_` bytes each time
     std::size_t left_ = 0;   // bytes until the next cut
     std::size_t times_ = 0;  // cuts to come
 

@@ -61,6 +61,9 @@ public:
     void await_gap() {
         await([&] { return !gaps_.empty(); });
     }
+    void await_notifications(std::size_t count) {
+        await([&] { return notifications_.size() >= count; });
+    }
     void await_states(std::vector<std::string> const& states) {
         await([&] { return states_ == states; });
     }

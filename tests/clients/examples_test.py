@@ -1,4 +1,5 @@
 """docs/examples/rois.py against the real gateway, and the receptions without one."""
+import json
 import os
 import pathlib
 import re
@@ -12,6 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "docs" / "examples"
 sys.path.insert(0, str(EXAMPLES))
 import rois  # noqa: E402
+from cutting_proxy import CuttingProxy  # noqa: E402
 
 NO_NUMBERS = ("abc", "0", "-3", "2abc", "1.5", "1_0", "1000000", "")
 PLACES = ["string[]", "4000, 5000", "4100, 5000", "4200, 5000"]
@@ -37,7 +39,7 @@ def answer_once(server):
         came.sendall(b"HTTP/1.1 200 OK\r\nContent-Length: %d\r\nConnection: close\r\n\r\n%s" % (len(body), body))
 
 
-class WithAGateway(unittest.TestCase):
+class GatewayTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         program = pathlib.Path(os.environ["ROIS_BINARY_DIR"]) / "bin" / "rois-gateway"
@@ -51,6 +53,8 @@ class WithAGateway(unittest.TestCase):
         cls.gateway.terminate()
         cls.gateway.communicate()
 
+
+class WithAGateway(GatewayTest):
     def setUp(self):
         self.engine = rois.Engine(self.url)
         self.addCleanup(self.engine.request, "disconnect")
@@ -83,7 +87,6 @@ class WithAGateway(unittest.TestCase):
         self.assertEqual([self.reached() for _ in range(3)], [PLACES[2], PLACES[3], None])
         self.assertEqual(self.engine.dropped, 1)
 
-
     def test_the_reception_says_in_a_line_what_was_refused_and_ends_its_session(self):
         end = run("python3", "-B", EXAMPLES / "reception.py", url=self.url)  # navigation is bound here
         self.assertEqual(end.returncode, 1)
@@ -94,6 +97,31 @@ class WithAGateway(unittest.TestCase):
         end = run("python3", "-B", EXAMPLES / "reception.py", url=f"{self.url}/nowhere")
         self.assertEqual(end.returncode, 1)
         self.assertRegex(end.stderr, r"\Areception\.py: not_found: .*\n\Z")
+
+
+class BehindAProxyThatCuts(GatewayTest):
+    """Notifications arrive although each connection breaks before the answer with all of them is complete."""
+
+    def setUp(self):
+        self.proxy = CuttingProxy(int(self.url.rsplit(":", 1)[1]), 4_000)
+        self.addCleanup(self.proxy.stop)
+
+    def test_the_shell_client_takes_those_that_are_complete(self):
+        end = subprocess.run(["sh", ROOT / "tests" / "clients" / "endurance.sh", "2"],  # 20 events of 800 bytes each a command
+                             env=os.environ | {"ROIS_URL": self.proxy.url}, capture_output=True, text=True)
+        self.assertEqual(end.returncode, 0, end.stderr)
+        self.assertEqual(json.loads(end.stdout), {"good": 2, "events": 40, "out_of_order": 0, "completed": 2, "completed_twice": 0,
+                                                  "twice": 0, "missed": 0, "lost": 0})
+        self.assertGreaterEqual(self.proxy.cuts, 4)
+
+    def test_the_python_client_takes_those_that_are_complete(self):
+        places = [f"4000, 5000, {i}e-9" for i in range(20)]
+        with rois.Engine(self.proxy.url) as engine:
+            engine.bind("navigation")
+            engine.subscribe("reached_target")
+            self.assertEqual(engine.run("navigation", target_position=["string[]", *places]), "OK")
+            self.assertEqual([engine.event("reached_target", 0)["target"] for _ in places], [[place] for place in places])
+        self.assertGreaterEqual(self.proxy.cuts, 2)
 
 
 class WithoutAGateway(unittest.TestCase):

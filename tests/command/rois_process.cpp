@@ -147,6 +147,15 @@ std::string RoisProcess::line_with(std::string const& text) {
     return one;
 }
 
+std::string RoisProcess::error_line() {
+    while (error_read_.find('\n') == std::string::npos)
+        if (!read_some(error_, error_read_)) throw std::runtime_error{"rois has ended: " + error_read_};
+    auto const end = error_read_.find('\n');
+    auto line = error_read_.substr(0, end);
+    error_read_.erase(0, end + 1);
+    return line;
+}
+
 void RoisProcess::stop_reading() { close(std::exchange(out_, -1)); }
 
 void RoisProcess::signal(int number) { kill(process_, number); }
@@ -154,6 +163,7 @@ void RoisProcess::signal(int number) { kill(process_, number); }
 Ended RoisProcess::wait() {
     Ended ended;
     ended.out = std::move(read_);
+    ended.error = std::move(error_read_);
     read_both(process_, out_, ended.out, error_, ended.error);
     ended.exit_code = exit_code(process_);
     process_ = 0;

@@ -26,6 +26,9 @@ public:
     // The next line that has this in it.
     std::string line_with(std::string const& text);
 
+    // The next line of its standard error, which `wait` leaves out then. Throws std::runtime_error when it has ended.
+    std::string error_line();
+
     // As `| head` does: what it writes from now on cannot be written.
     void stop_reading();
 
@@ -38,6 +41,7 @@ private:
     int out_ = -1;
     int error_ = -1;
     std::string read_;
+    std::string error_read_;
 };
 
 // A file in a folder of this test program that is removed at the end.

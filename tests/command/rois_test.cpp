@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -38,7 +39,7 @@ TEST_F(Rois, SearchesWithAConditionThatIsTypedOrInAFile) {
 
 TEST_F(Rois, ShowsProfiles) {
     EXPECT_THAT(run({"profile"}).out,
-                AllOf(HasSubstr("reception"), HasSubstr("\nspeech_synthesis       SpeechSynthesis       reception\n")));
+                AllOf(HasSubstr("reception"), HasSubstr("\nspeech_synthesis       SpeechSynthesis       robot1\n")));
     EXPECT_THAT(run({"profile", "navigation"}).out,
                 AllOf(HasSubstr("reached_target"), HasSubstr("time_limit       int       = 0")));
     EXPECT_EQ(objects({"profile", "reaction"})[0]["identifier"], "urn:x-rois:def:component:OMG::Reaction");
@@ -60,9 +61,8 @@ TEST_F(Rois, AsksInThreeForms) {
 TEST_F(Rois, SetsAndGetsParametersByTheirTypes) {
     EXPECT_EQ(run({"set", "navigation", "time_limit=7000", "target_position=desk", "target_position=start"}).out,
               "set_parameter navigation  OK\n");
-    EXPECT_EQ(objects({"get", "navigation", "time_limit"})[0]["parameters"], (json{{"time_limit", 7000}}));
-    EXPECT_EQ(objects({"get", "navigation"})[0]["parameters"]["target_position"], (json{"desk", "start"}));
-    EXPECT_EQ(run({"set", "navigation", "time_limit=0"}).exit_code, 0);
+    EXPECT_EQ(objects({"get", "navigation"})[0]["parameters"], (json{{"routing_policy", "time"}, {"time_limit", 0}}))
+        << "the defaults again: what is set lasts as long as its binding";
     expect(2, "time_limit: 'soon' is not of the type int", {"set", "navigation", "time_limit=soon"});
     expect(2, "has no argument 'speed'; it has target_position", {"set", "navigation", "speed=1"});
     expect(3, "no parameter 'speed'", {"get", "navigation", "speed"});
@@ -73,7 +73,12 @@ TEST_F(Rois, SetsAndGetsParametersByTheirTypes) {
 TEST_F(Rois, StartsStopsAndExecutes) {
     EXPECT_EQ(run({"start", "speech_synthesis", "speech_text=Hi."}).out, "start speech_synthesis  OK\n");
     EXPECT_EQ(run({"stop", "navigation"}).out, "stop navigation  OK\n");
-    expect(1, "", {"execute", "navigation", "resume"});
+    auto const failed = run({"execute", "navigation", "resume"});
+    EXPECT_EQ(failed.exit_code, 1);
+    EXPECT_THAT(failed.out, testing::MatchesRegex("resume navigation  ERROR  .*suspend.*\n")) << "with the reason";
+    EXPECT_EQ(failed.error, "");
+    expect(1, "resume navigation: ERROR: ", {"execute", "navigation", "resume", "--json"});
+    EXPECT_THAT(run({"start", "navigation", "target_position=-5000,-5000,0"}).out, HasSubstr("start navigation  ERROR  "));
     expect(3, "has no command 'fly'", {"execute", "navigation", "fly"});
     expect(6, "", {"start", "navigation", "target_position=desk", "time_limit=1"});
     auto const sequence =
@@ -176,6 +181,10 @@ TEST_F(Rois, HoldsASessionThatOthersActIn) {
     auto const id = holding.line_with("session ").substr(8);
     expect(5, "OUT_OF_RESOURCES", {"start", "reaction", "reaction_ref=9"});
     EXPECT_EQ(run({"--session", id, "start", "reaction", "reaction_ref=9"}).out, "start reaction  OK\n");
+    EXPECT_EQ(run({"--session", id, "set", "speech_synthesis", "volume=7"}).exit_code, 0);
+    EXPECT_EQ(objects({"--session", id, "get", "speech_synthesis", "volume"})[0]["parameters"], (json{{"volume", 7}}));
+    EXPECT_EQ(objects({"get", "speech_synthesis", "volume"})[0]["parameters"], (json{{"volume", 50}}))
+        << "others read the default";
     EXPECT_EQ(run({"--session", id, "subscribe", "person_detected"}).exit_code, 0);
     EXPECT_THAT(objects({"--session", id, "start", "speech_synthesis", "speech_text=Hi.", "--no-wait"})[0]["commands"].size(), 1);
     EXPECT_THAT(run({"--session", id, "watch", "--for", "1"}).out, HasSubstr("completed"));
@@ -186,6 +195,39 @@ TEST_F(Rois, HoldsASessionThatOthersActIn) {
     expect(9, "no_session", {"--session", "nobody", "release", "reaction"});
     holding.signal(SIGINT);
     EXPECT_EQ(holding.wait().exit_code, 0);
+}
+
+TEST_F(Rois, ListsTheAlternativesToAnUnknownName) {
+    expect(3, "unknown component 'elevator'; there are face_detection, ", {"start", "elevator"});
+    expect(3, "unknown component 'elevator'; there are ", {"stop", "elevator"});
+    expect(3, "unknown component 'elevator'; there are ", {"watch", "--start", "elevator"});
+    expect(4, "; there are the queries component_status, ", {"query", "weather"});
+    expect(4, "; there are the events ", {"subscribe", "rain"});
+    expect(0, "no component meets the condition; the engine has ", {"search", "type = Elevator"});
+    expect(0, "navigation (Navigation)", {"search", "name = elevator"});
+    expect(4, "; the engine has face_detection (", {"bind", "--where", "type = Elevator"});
+    expect(4, "; move has the queries ", {"query", "robot_positio", "--of", "move"});
+    expect(4, "; the query is answered by system_information (engine robot1)",
+           {"query", "robot_position", "--where", "engine = robot7"});
+}
+
+TEST_F(Rois, SaysThatAResultIsEmpty) {
+    for (std::string const form : {"--json", "--xml"}) {
+        expect(0, "no component meets the condition; the engine has ", {"search", form, "name = elevator"});
+        expect(0, "no event came in the time of --for", {"watch", form, "gesture_recognized", "--for", "0"});
+    }
+    expect(4, "; person_detection has no parameters", {"get", "person_detection"});
+    expect(0, "no event came in the time of --for", {"watch", "gesture_recognized", "--for", "0"});
+    expect(6, "only 0 of 3 events came in the time of --for", {"watch", "gesture_recognized", "--count", "3", "--for", "0"});
+}
+
+TEST_F(Rois, EndsItsSessionWhenTwoSignalsComeAtOnce) {
+    RoisProcess holding{{"bind", "reaction"}, at()};
+    holding.line_with("session ");
+    holding.signal(SIGINT);
+    holding.signal(SIGTERM);
+    EXPECT_EQ(holding.wait().exit_code, 0);
+    EXPECT_EQ(objects({"search", "name = reaction and bound = false"})[0]["component_ref_list"], json{"reaction"});
 }
 
 TEST_F(Rois, BindsAnyThatIsMeantForSomeTime) {
@@ -236,6 +278,43 @@ TEST(AGatewayThatComesAgain, IsWatchedAgain) {
     EXPECT_THAT(ended.error, HasSubstr("the session has ended, and its commands with it"));
 }
 
+TEST(AGatewayThatIsNotThereYet, IsWaitedForAndReported) {
+    auto gateway = std::make_unique<GatewayProcess>();
+    auto const port = std::to_string(gateway->port());
+    Variables const there{{"ROIS_URL", gateway->url()}};
+    gateway.reset();
+    RoisProcess watching{{"watch", "person_detected", "--start", "person_detection", "--timeout", "60"}, there};
+    EXPECT_THAT(watching.error_line(), testing::MatchesRegex("rois: http://127.0.0.1:" + port + ": .*refused; trying again"));
+    GatewayProcess const again{{"--listen", "127.0.0.1:" + port}};
+    watching.line_with("person_detected");
+    watching.signal(SIGINT);
+    EXPECT_EQ(watching.wait().error, "") << "the reason is reported once";
+}
+
+TEST(AGatewayThatIsNotThere, IsWaitedForAsLongAsForSays) {
+    auto const seconds_of = [](std::vector<std::string> const& arguments, int exit_code) {
+        auto const begun = std::chrono::steady_clock::now();
+        auto const ended = run_rois(arguments);
+        EXPECT_EQ(ended.exit_code, exit_code) << ended.error;
+        EXPECT_THAT(ended.error, HasSubstr("refused")) << arguments.front();
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    };
+    for (std::string const command : {"watch", "subscribe"})
+        EXPECT_LT(seconds_of({command, "person_detected", "--for", "0.5"}, 8), 8) << "less than the --timeout of 10 s";
+    EXPECT_GE(seconds_of({"watch", "person_detected", "--for", "2", "--timeout", "60"}, 8), 1.9);
+    EXPECT_LT(seconds_of({"watch", "person_detected", "--timeout", "0.5"}, 8), 8);
+    EXPECT_LT(seconds_of({"bind", "navigation", "--session-file", file_named("absent"), "--timeout", "0.5"}, 8), 8);
+}
+
+TEST_F(Rois, RefusesEmptyValues) {
+    for (std::string const option : {"--url", "--ca-file", "--session", "--session-file", "--record", "--where"})
+        expect(2, option + ": the value is empty", {"search", option, ""});
+    expect(2, "--url: ", {"search", "--url="});
+    expect(2, "--start: the value is empty", {"watch", "--start", ""});
+    expect(2, "REF: the value is empty", {"profile", ""});
+    EXPECT_EQ(run_rois({"search", "--token", ""}, {}, {{"ROIS_URL", shared_gateway().url()}, {"ROIS_TOKEN", "t"}}).exit_code, 0);
+}
+
 TEST_F(Rois, SendsAnyDocumentAndUnderlinesItsMistake) {
     auto const good = file_with("good.xml", "<search " + std::string{messages} + "/>");
     EXPECT_THAT(run({"send", good}).out, AllOf(StartsWith("<search_response"), HasSubstr("\n    <component_ref ")));
@@ -283,7 +362,16 @@ TEST_F(Rois, SaysWhatIsWrongWithItsCommandLine) {
     expect(2, "no such command: subs; perhaps subscribe; ", {"--json", "subs"});
     expect(2, "--nothing", {"--nothing"});
     expect(2, "there is no file 'navigation'; of a component, say which command", {"execute", "navigation"});
-    expect(2, "URL", {"search", "--url", "ftp://there"});
+    for (std::string const url : {"ftp://there", "http://127.0.0.1:99999", "http://127.0.0.1:0"})
+        for (std::string const command : {"search", "health"})
+            expect(2, "'" + url + "' is not a URL of ", {command, "--url", url});
+    for (std::string const time : {"nan", "inf", "-1", "soon"})
+        expect(2, "--for: '" + time + "' is not a number from 0 to ", {"watch", "--for", time});
+    expect(2, "is not a number from 0.01 to 86400", {"search", "--timeout", "nan"});
+    expect(2, "--session-file (ROIS_SESSION_FILE)", {"release", "navigation"});
+    for (std::string const command : {"search", "health"})
+        EXPECT_THAT(run({command, "--url", shared_gateway().url() + "/rois/"}).error,
+                    HasSubstr("; the URL ends where /rois begins: leave it out"));
     EXPECT_EQ(run_rois({"search", "--timeout", "2"}).exit_code, 8);
     EXPECT_THAT(run({"--version"}).out, StartsWith("rois "));
     EXPECT_THAT(run({"search", "--colour", "always", "type = Move"}).out, HasSubstr("\x1b["));

@@ -86,7 +86,7 @@ TEST_F(Rois, SaysWhatIsWrongWithAScenario) {
     expect(2, "robot_scenario", {"scenario", ROIS_SOURCE_DIR "/tests/server/data/one_visitor.xml"});
     auto const unexpected =
         scenario_with("<state name='a'><command component='move' type='resume'/><completed status='OK' to='b'/></state>" + end);
-    expect(1, "ended with ERROR, and no trigger is for that", {"scenario", unexpected});
+    expect(1, "ended with ERROR, and no trigger is for that: ", {"scenario", unexpected});
 }
 
 }  // namespace

@@ -27,6 +27,25 @@ TEST_F(RoisOverTls, KnowsWhetherTheEngineIsReady) {
     EXPECT_THAT(stranger.error, HasSubstr("certificate verify failed"));
 }
 
+TEST_F(RoisOverTls, NamesTheFileOfCertificatesThatItCannotRead) {
+    for (std::string const command : {"health", "search"}) {
+        auto const missing = run_rois({command, "--ca-file", "/no/such.pem"}, {}, {{"ROIS_URL", url}});
+        EXPECT_EQ(missing.exit_code, 2) << "a file is wrong";
+        EXPECT_THAT(missing.error, HasSubstr("'/no/such.pem' cannot be read: No such file")) << command;
+        for (auto const& wrong : {file_with("garbage.pem", "a letter"), file_named("")})
+            EXPECT_EQ(run_rois({command, "--ca-file", wrong}, {}, {{"ROIS_URL", url}}).exit_code, 2) << command;
+    }
+}
+
+TEST_F(RoisOverTls, ExplainsAPortThatSpeaksPlainHttp) {
+    auto const plain = "https://127.0.0.1:" + std::to_string(shared_gateway().port());
+    for (std::string const command : {"health", "search"}) {
+        auto const refused = run_rois({command, "--url", plain});
+        EXPECT_NE(refused.exit_code, 0);
+        EXPECT_THAT(refused.error, HasSubstr("this port speaks plain HTTP: use http: or ws:")) << command;
+    }
+}
+
 TEST_F(RoisOverTls, SharesASession) {
     RoisProcess holding{{"bind", "speech_synthesis"}, trusting};
     auto const id = holding.line_with("session ").substr(8);

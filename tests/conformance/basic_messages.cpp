@@ -1,7 +1,6 @@
 #include "conformance/basic_messages.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 namespace rois::conformance {
 
@@ -19,15 +18,6 @@ BasicMessage detected(std::string const& what) {
 
 BasicMessage localized(std::string const& what) {
     return {what + "localization", what + "_localized", event, {timestamp, refs(what + "_ref"), positions}, {}};
-}
-
-// "int[]" of "urn:x-rois:def:DataType:ATR::Integer[]".
-std::string plain(std::string const& type) {
-    auto name = type.substr(type.rfind(':') + 1);
-    std::ranges::transform(name, name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (name.starts_with("integer")) name.replace(0, 7, "int");
-    if (name.starts_with("boolean")) name.replace(0, 7, "bool");
-    return name;
 }
 
 }  // namespace
@@ -60,7 +50,5 @@ BasicMessage const* basic_message(std::string const& kind, std::string const& na
     auto const found = std::ranges::find_if(all, [&](auto const& one) { return one.kind == kind && one.name == name; });
     return found == all.end() ? nullptr : &*found;
 }
-
-bool is_same_type(std::string const& one, std::string const& other) { return plain(one) == plain(other); }
 
 }  // namespace rois::conformance

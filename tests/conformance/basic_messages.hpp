@@ -20,7 +20,4 @@ std::vector<BasicMessage> const& basic_messages();
 // Of a query or an event of a component of this kind; null when no table has it.
 BasicMessage const* basic_message(std::string const& kind, std::string const& name);
 
-// Types are the same when they differ in case only, or in that one is a URN (decision 26).
-bool is_same_type(std::string const& one, std::string const& other);
-
 }  // namespace rois::conformance

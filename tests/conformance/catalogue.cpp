@@ -1,6 +1,7 @@
 #include "conformance/catalogue.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <map>
 #include <regex>
@@ -28,10 +29,11 @@ std::vector<TypedName> typed_names(pugi::xml_node parent, char const* child) {
     return names;
 }
 
+std::vector<std::string> const common_commands{"start", "stop", "suspend", "resume"};
+
 // A common command that the profile has anew, and that cannot be given without knowing what it means.
 bool needs_arguments(Message const& command) {
-    static std::vector<std::string> const common{"start", "stop", "suspend", "resume"};
-    return std::ranges::find(common, command.name) != common.end() &&
+    return std::ranges::find(common_commands, command.name) != common_commands.end() &&
            std::ranges::any_of(command.arguments, [](TypedName const& argument) { return !argument.default_value; });
 }
 
@@ -44,22 +46,74 @@ std::optional<char> escaped_byte(std::string_view text) {
     return static_cast<char>(high << 4 | low);
 }
 
-void read_profile(Component& component, pugi::xml_node profile) {
+template <typename Named>
+Named const* find_named(std::vector<Named> const& all, std::string const& name) {
+    auto const found = std::ranges::find_if(all, [&](Named const& one) { return lower(one.name) == lower(name); });
+    return found == all.end() ? nullptr : &*found;
+}
+
+// Adds those that are not there yet.
+template <typename Named>
+void add(std::vector<Named>& all, std::vector<Named> const& more) {
+    for (auto const& one : more)
+        if (!find_named(all, one.name)) all.push_back(one);
+}
+
+// Adds the messages and parameters of the profile and of the profiles in `answer` that it includes (SubComponentProfile).
+void read_profile(Component& component, pugi::xml_node profile, pugi::xml_node answer, std::set<std::string>& read_urns) {
     for (auto const message : profile.children("rois:MessageProfile")) {
         Message const read{message.attribute("rois:name").value(), typed_names(message, "rois:Results"),
                            typed_names(message, "rois:Arguments")};
         std::string_view const type = message.attribute("xsi:type").value();
-        if (type.ends_with("CommandMessageProfileType")) component.commands.push_back(read);
-        if (type.ends_with("QueryMessageProfileType")) component.queries.push_back(read);
-        if (type.ends_with("EventMessageProfileType")) component.events.push_back(read);
+        if (type.ends_with("CommandMessageProfileType")) add(component.commands, {read});
+        if (type.ends_with("QueryMessageProfileType")) add(component.queries, {read});
+        if (type.ends_with("EventMessageProfileType")) add(component.events, {read});
     }
-    component.parameters = typed_names(profile, "rois:ParameterProfile");
+    add(component.parameters, typed_names(profile, "rois:ParameterProfile"));
     for (auto const sub : profile.children("rois:SubComponentProfile")) {
-        if (!lower(sub.text().get()).ends_with("::roiscommon")) continue;
-        component.is_common = std::ranges::none_of(component.commands, needs_arguments);
-        if (!component.query("component_status"))
-            component.queries.push_back({"component_status", {{"status", "Component_Status", {}}}, {}});
+        auto const urn = lower(sub.text().get());
+        if (!read_urns.insert(urn).second) continue;
+        if (urn.ends_with("::roiscommon")) {
+            component.has_common = true;
+            add(component.queries, {{"component_status", {{"status", "Component_Status", {}}}, {}}});
+        }
+        for (auto const other : answer.children("rois:HRIComponentProfile")) {
+            if (lower(other.child("gml:identifier").text().get()) != urn) continue;
+            read_profile(component, other, answer, read_urns);
+            break;
+        }
     }
+}
+
+void read_profile(Component& component, pugi::xml_node answer) {
+    std::set<std::string> read_urns{lower(component.type)};
+    read_profile(component, profile_of(answer, component.ref), answer, read_urns);
+    component.has_common = component.has_common ||
+                           (component.query("component_status") && std::ranges::all_of(common_commands, [&](auto const& name) {
+                                return find_named(component.commands, name) != nullptr;
+                            }));
+    component.is_common = component.has_common && std::ranges::none_of(component.commands, needs_arguments);
+    // From parameter profiles alone, get_parameter follows.
+    if (!component.parameters.empty() && !component.query("get_parameter"))
+        component.queries.push_back({"get_parameter", component.parameters, {}});
+    if (auto const* const set = find_named(component.commands, "set_parameter")) add(component.parameters, set->arguments);
+}
+
+// Without gml:name, which is optional, its id: "engine." and the name.
+std::string name_of_engine(pugi::xml_node engine) {
+    static constexpr std::string_view begin = "engine.";
+    if (auto const name = engine.child("gml:name")) return name.text().get();
+    auto const id = named_by(engine.attribute("gml:id").value());
+    return id.starts_with(begin) ? id.substr(begin.size()) : id;
+}
+
+// The refs of the components of this engine and of its sub engines.
+std::set<std::string> read_engine(std::map<std::string, std::set<std::string>>& whole, pugi::xml_node engine) {
+    std::set<std::string> refs;
+    for (auto const component : engine.children("rois:HRIComponent")) refs.insert(component.text().get());
+    for (auto const sub : engine.children("rois:SubProfile")) refs.merge(read_engine(whole, sub));
+    whole[name_of_engine(engine)].insert(refs.begin(), refs.end());
+    return refs;
 }
 
 struct ReadType {
@@ -71,7 +125,8 @@ struct ReadType {
 ReadType read_type(std::string const& type) {
     static std::regex const list{"\\s*(?:(?:set|list|sequence|seq)\\s*<\\s*(.+?)\\s*>|(.*?)\\s*\\[\\])\\s*"};
     static std::map<std::string, std::string> const shorter{
-        {"integer", "int"}, {"unlimitednatural", "int"}, {"real", "double"}, {"float", "double"}, {"boolean", "bool"}};
+        {"integer", "int"}, {"unlimitednatural", "int"}, {"rois_identifier", "roisidentifier"},
+        {"real", "double"}, {"float", "double"},         {"boolean", "bool"}};
     auto name = lower(type);
     std::smatch parts;
     bool const is_list = std::regex_match(name, parts, list);
@@ -124,6 +179,12 @@ std::string Component::basic() const {
     return mark == std::string::npos ? "" : type_name.substr(mark + std::string_view{":component:omg::"}.size());
 }
 
+bool Component::is_function() const {
+    auto const kind = basic();
+    return kind.ends_with("detection") || kind.ends_with("localization") || kind == "personidentification" ||
+           kind == "speechrecognition" || kind == "gesturerecognition";
+}
+
 Message const* Component::query(std::string const& name) const {
     auto const found = std::ranges::find(queries, name, &Message::name);
     return found == queries.end() ? nullptr : &*found;
@@ -134,10 +195,18 @@ Message const* Component::event(std::string const& name) const {
     return found == events.end() ? nullptr : &*found;
 }
 
+TypedName const* Component::parameter_named(std::string const& name) const { return find_named(parameters, name); }
+
 bool Component::parameter(std::string const& name) const {
-    auto const is_named = [&](TypedName const& one) { return lower(one.name) == lower(name); };
     auto const* const read = query("get_parameter");
-    return std::ranges::any_of(parameters, is_named) || (read && std::ranges::any_of(read->results, is_named));
+    return parameter_named(name) || (read && find_named(read->results, name));
+}
+
+bool Component::can_set(TypedName const& parameter) const {
+    if (auto const* const set = find_named(commands, "set_parameter"); set && find_named(set->arguments, parameter.name))
+        return true;
+    static std::array<std::string, 3> const abilities{"available_", "recognizable_", "synthesizable_"};
+    return std::ranges::none_of(abilities, [&](auto const& begin) { return lower(parameter.name).starts_with(begin); });
 }
 
 std::string Component::detection() const {
@@ -164,13 +233,14 @@ pugi::xml_node profile_of(pugi::xml_node answer, std::string const& ref) {
 Catalogue Catalogue::read(client::Document const& answer) {
     Catalogue catalogue;
     auto const root = answer.root();
-    catalogue.engine = root.child("rois:HRIEngineProfile").child("gml:name").text().get();
+    catalogue.engine = name_of_engine(root.child("rois:HRIEngineProfile"));
+    read_engine(catalogue.whole, root.child("rois:HRIEngineProfile"));
     for (auto const node : root.child("components").children("component")) {
         Component component;
         component.ref = node.attribute("ref").value();
         component.type = node.attribute("type").value();
         component.engine = node.attribute("engine").value();
-        read_profile(component, profile_of(root, component.ref));
+        read_profile(component, root);
         catalogue.components.push_back(std::move(component));
     }
     std::ranges::sort(catalogue.components, {}, &Component::ref);
@@ -180,6 +250,11 @@ Catalogue Catalogue::read(client::Document const& answer) {
 Component const* Catalogue::find(std::string const& ref) const {
     auto const found = std::ranges::find(components, ref, &Component::ref);
     return found == components.end() ? nullptr : &*found;
+}
+
+bool is_same_type(std::string const& one, std::string const& other) {
+    auto const first = read_type(one), second = read_type(other);
+    return first.item == second.item && first.is_list == second.is_list;
 }
 
 bool is_list_of_texts(std::string const& type) {

@@ -25,6 +25,12 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+// The gateway offers no way to see the effect: nothing says where the robot is, or nobody is in front of it.
+class NotObservable : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
 struct Check {
     std::string name;    // the rule in words, with underscores
     std::string proves;  // figures, tables, decisions
@@ -53,6 +59,13 @@ Clause event_clause();
 Clause condition_clause();
 Clause component_clause();
 Clause stream_clause();
+Clause motion_clause();
+Clause action_clause();
+Clause people_clause();
+Clause system_clause();
+
+// What no gateway has: a component, a command, a query, an event or a parameter of this name.
+inline constexpr auto nobody = "conformance_nobody";
 
 std::vector<Clause> all_clauses();  // in the order in which they are played
 

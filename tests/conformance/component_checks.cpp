@@ -12,23 +12,24 @@ namespace {
 // What `start` of a basic component needs; nothing when that cannot be known here.
 std::optional<std::vector<Argument>> arguments_of_start(Guest& guest, Component const& component) {
     auto const kind = component.basic();
-    if (kind == "speechsynthesis") return {{client::speech_text("Hi.")}};
-    if (kind == "move") return {{{"line", "int[]", {"10 0"}}}};
+    if (kind == "speechsynthesis") return {{spoken(component, "Hi.")}};
+    if (kind == "move")
+        return {{component.parameter_named("line") ? straight_on(component, 10) : argument(component, "curve", {"10 10"})}};
     if (kind == "follow") {
         auto const robot = guest.robot_of(component);
         if (!robot) return {};
-        return {{{"target_object_ref", "RoISIdentifier", {robot->ref}}, {"distance", "int", {"1000"}}}};
+        return {{argument(component, "target_object_ref", {robot->ref}), argument(component, "distance", {"1000"})}};
     }
     if (kind == "navigation") {
         auto const robot = guest.robot_of(component);
         if (!robot) return {};
-        return {{client::target_position({robot->position})}};
+        return {{argument(component, "target_position", {robot->position})}};
     }
     if (kind == "reaction") {
         auto const parameters = guest.get_parameter(component.ref).values("parameters");
         auto const reactions = parameters.find("available_reactions");
         if (reactions == parameters.end() || reactions->second.empty()) return {};
-        return {{{"reaction_ref", "RoISIdentifier", {reactions->second.front()}}}};
+        return {{argument(component, "reaction_ref", {reactions->second.front()})}};
     }
     if (kind.empty()) return {};
     return std::vector<Argument>{};
@@ -77,10 +78,7 @@ void common_commands(Guest& guest, Component const& component) {
 }
 
 void hold_and_go_on(Guest& guest, Component const& component) {
-    static std::vector<std::string> const functions{"persondetection",   "personlocalization", "personidentification",
-                                                    "facedetection",     "facelocalization",   "sounddetection",
-                                                    "soundlocalization", "speechrecognition",  "gesturerecognition"};
-    if (std::ranges::find(functions, component.basic()) == functions.end()) return;
+    if (!component.is_function()) return;
     if (guest.ending(command(component, "start")) != "OK") return;  // a component that has failed
     auto const ends = [&](char const* type, char const* when, char const* status) {
         same(std::string{"the status of "} + type + " of " + component.ref + when, status,
@@ -105,7 +103,8 @@ void parameters_set_and_read(Guest& guest, Component const& component) {
     auto const values = read.values("parameters");
     std::vector<Argument> same_again;
     for (auto const& parameter : component.parameters)
-        if (auto const found = values.find(parameter.name); found != values.end() && !found->second.empty())
+        if (auto const found = values.find(parameter.name);
+            found != values.end() && !found->second.empty() && component.can_set(parameter))
             same_again.push_back({parameter.name, parameter.type, found->second});
     same("set_parameter of what was read of " + component.ref, "OK",
          guest.status_of(ok(guest.set_parameter(component.ref, same_again)).text("command_id")));
@@ -157,7 +156,7 @@ void basic_components_have_their_messages(Stage& stage) {
     };
     for (auto const& component : stage.catalogue().components) {
         if (component.basic().empty()) continue;
-        require(component.is_common || component.basic() == "systeminformation",
+        require(component.has_common || component.basic() == "systeminformation",
                 component.ref + " does not have what is common to all components (table 32)");
         auto const found = tables.find(component.basic());
         if (found == tables.end()) continue;
@@ -187,22 +186,21 @@ void basic_messages_have_their_results(Stage& stage) {
     }
 }
 
+// The mandatory ones. Of conditional ones, which exclude each other, there is one at least.
 void basic_components_have_their_parameters(Stage& stage) {
-    static std::map<std::string, std::vector<std::string>> const tables{
-        {"speechrecognition", {"languages", "grammar", "rule"}},
-        {"speechsynthesis", {"speech_text", "SSML_text", "volume", "language", "character"}},
-        {"reaction", {"reaction_ref"}},
-        {"navigation", {"target_position", "time_limit", "routing_policy"}},
-        {"follow", {"target_object_ref", "distance", "time_limit"}},
-        {"move", {"line", "curve", "time"}},
-        {"audiostreaming", {"encoding_parameters", "transport_parameters"}},
-        {"videostreaming", {"encoding_parameters", "transport_parameters"}}};
+    using Alternatives = std::vector<std::string>;
+    static std::map<std::string, std::vector<Alternatives>> const tables{{"speechrecognition", {{"languages"}}},
+                                                                         {"speechsynthesis", {{"speech_text", "SSML_text"}}},
+                                                                         {"reaction", {{"reaction_ref"}}},
+                                                                         {"navigation", {{"target_position"}}},
+                                                                         {"follow", {{"target_object_ref"}, {"distance"}}},
+                                                                         {"move", {{"line", "curve"}}}};
     for (auto const& component : stage.catalogue().components) {
         auto const found = tables.find(component.basic());
         if (found == tables.end()) continue;
-        for (auto const& name : found->second)
-            require(std::ranges::find(component.parameters, name, &TypedName::name) != component.parameters.end(),
-                    component.ref + " has no parameter " + name);
+        for (auto const& names : found->second)
+            require(std::ranges::any_of(names, [&](auto const& name) { return component.parameter_named(name) != nullptr; }),
+                    component.ref + " has no parameter " + list(names));
     }
 }
 

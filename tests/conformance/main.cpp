@@ -23,12 +23,13 @@ constexpr int all_hold = 0, a_rule_is_broken = 1, no_answer = 2;
 constexpr auto usage =
     "Usage: rois-conformance URL [OPTION...]\n"
     "Plays every rule of RoIS that can be seen from outside against the gateway at URL (http://HOST:PORT), and reports.\n"
-    "It starts every component that no other application uses, and may make a robot speak and move by some centimetres.\n\n"
+    "It starts every component that no other application uses, and makes robots speak, gesture and move; see --room.\n\n"
     "  --report FILE        write the report as JUnit XML, too\n"
     "  --over http          over HTTP only; or websocket\n"
     "  --only TEXT          only checks whose name has TEXT within\n"
     "  --token TOKEN        the bearer token that the gateway asks for\n"
     "  --patience SECONDS   how long one thing is waited for [10]\n"
+    "  --room MILLIMETRES   how far a robot may move from where it stands; 0: not at all [300]\n"
     "  --limit SECONDS      how long all may take [600]\n\n"
     "Exit codes: 0 all rules hold, 1 a rule is broken, 2 bad usage or no gateway there\n";
 
@@ -37,12 +38,12 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-unsigned whole_number(std::string_view name, std::string_view text, unsigned most) {
+unsigned whole_number(std::string_view name, std::string_view text, unsigned most, unsigned least = 1) {
     unsigned number = 0;
     auto const read = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (read.ec != std::errc{} || read.ptr != text.data() + text.size() || number == 0 || number > most)
-        throw BadUsage{std::string{name} + " must be a whole number from 1 to " + std::to_string(most) + ", not " +
-                       std::string{text}};
+    if (read.ec != std::errc{} || read.ptr != text.data() + text.size() || number < least || number > most)
+        throw BadUsage{std::string{name} + " must be a whole number from " + std::to_string(least) + " to " +
+                       std::to_string(most) + ", not " + std::string{text}};
     return number;
 }
 
@@ -93,6 +94,8 @@ std::optional<CommandLine> read_command_line(std::span<char* const> arguments) {
             line.order.address.token = value;
         } else if (name == "--patience") {
             line.order.address.patience = std::chrono::seconds{whole_number(name, value, 3'600)};
+        } else if (name == "--room") {
+            line.order.room = whole_number(name, value, 10'000, 0);
         } else if (name == "--limit") {
             line.order.limit = std::chrono::seconds{whole_number(name, value, 86'400)};
         } else {

@@ -13,11 +13,12 @@ using client::HttpReply;
 class Inbox {
 public:
     explicit Inbox(Stage& stage) : client{stage.address()} {
-        auto const& component = *dial_of(stage).component;
+        auto const dial = dial_of(stage);
+        auto const& component = *dial.component;
         client.call("connect");
         auto const bound = client.call("bind", client::component_ref(component.ref)).return_code();
         if (bound == "OUT_OF_RESOURCES") throw NotPlayed{"another application uses " + component.ref};
-        auto const set = client::component_ref(component.ref) + client::parameters({});
+        auto const set = client::component_ref(component.ref) + client::parameters({turned(dial, 50)});
         for (int i = 0; i < 3; ++i) ids.push_back(client.call("set_parameter", set).text("command_id"));
     }
 

@@ -25,6 +25,7 @@ public:
         auto const found = values.find(dial.parameter);
         return found == values.end() || found->second.empty() ? "" : found->second.front();
     }
+    std::string text(int value) const { return dial.text(value); }
     Document set(std::vector<Argument> const& arguments) { return guest.set_parameter(dial.component->ref, arguments); }
 
     Dial dial;
@@ -36,10 +37,10 @@ void set_parameter_completes_once_and_stores(Stage& stage) {
     auto const id = ok(turning.set({turned(turning.dial, 41)})).text("command_id");
     require(!id.empty(), "set_parameter should answer with a command_id");
     same("the status of set_parameter", "OK", turning.guest.status_of(id));
-    same(turning.dial.parameter, "41", turning.value());
+    same(turning.dial.parameter, turning.text(41), turning.value());
     ok(turning.set({turned(turning.dial, 42)}));
     turning.guest.settle(*turning.dial.component);
-    same(turning.dial.parameter, "42", turning.value());
+    same(turning.dial.parameter, turning.text(42), turning.value());
     require(turning.guest.endings(id).size() == 1, "set_parameter completed more than once");
 }
 
@@ -48,19 +49,19 @@ void execute_of_set_parameter_does_the_same(Stage& stage) {
     same("the status", "OK",
          turning.guest.ending(
              {.component = turning.dial.component->ref, .type = "set_parameter", .arguments = {turned(turning.dial, 43)}}));
-    same(turning.dial.parameter, "43", turning.value());
+    same(turning.dial.parameter, turning.text(43), turning.value());
 }
 
 void parameters_are_named_ignoring_case(Stage& stage) {
     Turning turning{stage};
-    ok(turning.set({{upper(turning.dial.parameter), "INT", {"44"}}}));
-    same(turning.dial.parameter, "44", turning.value());
+    ok(turning.set({{upper(turning.dial.parameter), upper(turning.dial.type), {turning.text(44)}}}));
+    same(turning.dial.parameter, turning.text(44), turning.value());
 }
 
 void data_types_may_be_urns(Stage& stage) {
     Turning turning{stage};
-    ok(turning.set({{turning.dial.parameter, "urn:x-rois:def:DataType:ATR::Integer", {"49"}}}));
-    same(turning.dial.parameter, "49", turning.value());
+    ok(turning.set({{turning.dial.parameter, "urn:x-rois:def:DataType:ATR::Integer", {turning.text(49)}}}));
+    same(turning.dial.parameter, turning.text(49), turning.value());
 }
 
 // As the later published profiles spell them.
@@ -119,15 +120,15 @@ void languages_are_iso_639_1(Stage& stage) {
 
 void bad_parameters_are_refused(Stage& stage) {
     Turning turning{stage};
-    auto const& name = turning.dial.parameter;
+    auto const& [component, name, type, base] = turning.dial;
     ok(turning.set({turned(turning.dial, 45)}));
-    refused(turning.set({{"colour", "string", {"red"}}}), "BAD_PARAMETER", "colour");
-    refused(turning.set({{name, "int", {"soon"}}}), "BAD_PARAMETER", name);
-    refused(turning.set({{name, "int", {"46", "47"}}}), "BAD_PARAMETER", name);
-    refused(turning.set({{name, "string", {"46"}}}), "BAD_PARAMETER", name);
-    refused(turning.set({{name, "int", {"99999999999"}}}), "BAD_PARAMETER", name);
-    refused(turning.set({turned(turning.dial, 46), {"colour", "string", {"red"}}}), "BAD_PARAMETER", "colour");
-    same(name + " after what was refused", "45", turning.value());
+    refused(turning.set({{nobody, "string", {"red"}}}), "BAD_PARAMETER", nobody);
+    refused(turning.set({{name, type, {"soon"}}}), "BAD_PARAMETER", name);
+    refused(turning.set({{name, type, {turning.text(46), turning.text(47)}}}), "BAD_PARAMETER", name);
+    refused(turning.set({{name, "string", {turning.text(46)}}}), "BAD_PARAMETER", name);
+    refused(turning.set({{name, type, {"99999999999"}}}), "BAD_PARAMETER", name);
+    refused(turning.set({turned(turning.dial, 46), {nobody, "string", {"red"}}}), "BAD_PARAMETER", nobody);
+    same(name + " after what was refused", turning.text(45), turning.value());
 }
 
 // Of all components that are free: names and types are those of the profile.
@@ -157,8 +158,44 @@ void parameters_are_read_without_a_binding_by_query(Stage& stage) {
     Guest other{stage};
     auto const values = ok(other.query("get_parameter", only(*turning.dial.component))).values();
     auto const found = values.find(turning.dial.parameter);
-    require(found != values.end() && found->second == std::vector<std::string>{"48"},
-            "the query get_parameter does not tell that " + turning.dial.parameter + " is 48");
+    require(found == values.end() || found->second != std::vector{turning.text(48)},
+            "the query get_parameter tells others that " + turning.dial.parameter + " was set to " + turning.text(48));
+}
+
+void parameters_end_with_the_binding(Stage& stage) {
+    Turning turning{stage};
+    auto const& ref = turning.dial.component->ref;
+    ok(turning.set({turned(turning.dial, 47)}));
+    same(turning.dial.parameter, turning.text(47), turning.value());
+    ok(turning.guest.release(ref));
+    auto const answer = turning.guest.bind(ref);
+    if (answer.return_code() == "OUT_OF_RESOURCES") throw NotPlayed{"another application uses " + ref};
+    ok(answer);
+    require(turning.value() != turning.text(47),
+            turning.dial.parameter + " of " + ref + " is still " + turning.text(47) + ", which was set before release");
+}
+
+// The code of a reaction that the component has. Nothing is started.
+void identifiers_of_a_foreign_codebook_are_refused(Stage& stage) {
+    auto const& reaction = stage.one_of({"reaction"});
+    Guest guest{stage};
+    guest.take(reaction);
+    auto const answer = ok(guest.get_parameter(reaction.ref));
+    auto const parameters = answer.values("parameters");
+    auto const reactions = parameters.find("available_reactions");
+    if (reactions == parameters.end() || reactions->second.empty()) throw NotPlayed{reaction.ref + " has no reactions"};
+    auto const due = argument(reaction, "reaction_ref", {reactions->second.front()});
+    auto const set = [&](client::Attributes type_ref) {
+        type_ref.insert(type_ref.begin(), {"rois:code", due.type});
+        auto const content =
+            client::element("rois:data_type_ref", type_ref) + client::text_element("rois:value", due.values.front());
+        auto const parameter = client::element("parameter", {{"rois:name", due.name}}, content);
+        return guest.ask("set_parameter", client::component_ref(reaction.ref) + client::element("parameters", parameter));
+    };
+    ok(set({}));
+    auto const told = answer.root().child("parameters").find_child_by_attribute("rois:name", "available_reactions");
+    std::string const known = told.child("rois:data_type_ref").attribute("rois:codebook_ref").value();
+    refused(set({{"rois:codebook_ref", "urn:x-conformance:codebook:nowhere"}}), "BAD_PARAMETER", known);
 }
 
 }  // namespace
@@ -174,7 +211,10 @@ Clause parameter_clause() {
              {"languages_are_iso_639_1", "tables 42, 44; decision 28", languages_are_iso_639_1},
              {"bad_parameters_are_refused", "table 1; decision 26", bad_parameters_are_refused},
              {"parameters_are_those_of_the_profile", "figure 9; tables 16, 19; decision 26", parameters_are_those_of_the_profile},
-             {"parameters_are_read_without_a_binding_by_query", "decision 18", parameters_are_read_without_a_binding_by_query}}};
+             {"parameters_are_read_without_a_binding_by_query", "decision 18", parameters_are_read_without_a_binding_by_query},
+             {"parameters_end_with_the_binding", "figure 11; decision 30", parameters_end_with_the_binding},
+             {"identifiers_of_a_foreign_codebook_are_refused", "table 45; decision 31",
+              identifiers_of_a_foreign_codebook_are_refused}}};
 }
 
 }  // namespace rois::conformance

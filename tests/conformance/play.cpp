@@ -33,6 +33,8 @@ void judge(Finding& finding, Check const& check, Stage& stage) {
         check.play(stage);
     } catch (NotPlayed const& reason) {
         found(Outcome::not_played, reason.what());
+    } catch (NotObservable const& reason) {
+        found(Outcome::not_observable, reason.what());
     } catch (std::exception const& reason) {  // Broken, LineEnded, or a document that is none
         found(Outcome::broken, reason.what());
     } catch (...) {
@@ -84,7 +86,7 @@ Report play(Order const& order) {
                 if (!is_asked_for(order, check, way)) continue;
                 Finding finding{check.name, check.proves, name_of(way)};
                 if (Clock::now() < end) {
-                    Stage stage{order.address, way, catalogue, traffic};
+                    Stage stage{order.address, way, catalogue, traffic, order.room};
                     judge(finding, check, stage);
                 } else {
                     finding.outcome = Outcome::not_played;

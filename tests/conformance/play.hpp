@@ -15,6 +15,7 @@ struct Order {
     client::Address address;
     std::vector<client::Way> ways{client::Way::http, client::Way::websocket};
     std::string only{};               // checks whose name has this within; empty: all
+    double room = 300;                // mm that a robot may move from where it stands
     std::chrono::seconds limit{600};  // for all; when it is over, the report says so and is not good
 };
 

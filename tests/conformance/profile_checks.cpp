@@ -82,17 +82,17 @@ void get_profile_chooses_by_condition(Stage& stage) {
     auto const by_type = refs_in(ok(guest.ask("get_profile", where(equal("component_type", component.type)))));
     require(std::ranges::binary_search(by_type, component.ref),
             component.ref + " is not among those of its type: " + list(by_type));
-    require(refs_in(ok(guest.ask("get_profile", where(equal("component_ref", "nobody"))))).empty(),
+    require(refs_in(ok(guest.ask("get_profile", where(equal("component_ref", nobody))))).empty(),
             "nobody was asked for, but components are told");
 }
 
 void a_condition_that_cannot_be_read_is_refused(Stage& stage) {
     Guest guest{stage};
-    auto const unknown = where(equal("colour", "red"));
-    refused(guest.ask("get_profile", unknown), "BAD_PARAMETER", "colour");
-    refused(guest.ask("search", unknown), "BAD_PARAMETER", "colour");
-    refused(guest.ask("bind_any", unknown), "BAD_PARAMETER", "colour");
-    refused(guest.query("component_status", unknown), "BAD_PARAMETER", "colour");
+    auto const unknown = where(equal(nobody, "red"));
+    refused(guest.ask("get_profile", unknown), "BAD_PARAMETER");
+    refused(guest.ask("search", unknown), "BAD_PARAMETER");
+    refused(guest.ask("bind_any", unknown), "BAD_PARAMETER");
+    refused(guest.query("component_status", unknown), "BAD_PARAMETER");
 }
 
 // "rois:EventMessageProfileType person_detected": its messages and parameters, in order.
@@ -123,7 +123,7 @@ void profiles_are_served_as_documents(Stage& stage) {
         auto const profile = profile_of(told.root(), ref);
         same("what is at " + path, list(contents_of(profile)), list(contents_of(reply.root())));
     }
-    same("the fault at a component that is not there", "not_found", client.get("/rois/profile/nobody").fault());
+    same("the fault at a component that is not there", "not_found", client.get(std::string{"/rois/profile/"} + nobody).fault());
 }
 
 void documents_are_told_apart_by_etag(Stage& stage) {
@@ -176,7 +176,7 @@ void default_values_are_of_their_types(Stage& stage) {
 
 void details_of_an_unknown_error_are_refused(Stage& stage) {
     Guest guest{stage};
-    refused(guest.ask("get_error_detail", "<error_id>nobody</error_id>"), "BAD_PARAMETER");
+    refused(guest.ask("get_error_detail", client::text_element("error_id", nobody)), "BAD_PARAMETER");
 }
 
 }  // namespace

@@ -44,11 +44,13 @@ void add_attribute(pugi::xml_node element, char const* name, std::string const& 
 char const* word(Outcome outcome) {
     switch (outcome) {
         case Outcome::holds:
-            return "holds      ";
+            return "holds          ";
         case Outcome::broken:
-            return "BROKEN     ";
+            return "BROKEN         ";
         case Outcome::not_played:
-            return "not played ";
+            return "not played     ";
+        case Outcome::not_observable:
+            return "not observable ";
     }
     return "";
 }
@@ -70,7 +72,7 @@ void add_case(pugi::xml_node suite, Chapter const& chapter, Finding const& findi
     test.append_attribute("time") = finding.seconds;
     if (finding.outcome == Outcome::holds) return;
     add_attribute(test.append_child(finding.outcome == Outcome::broken ? "failure" : "skipped"), "message",
-                  shortened(finding.text));
+                  (finding.outcome == Outcome::not_observable ? "not observable: " : "") + shortened(finding.text));
 }
 
 }  // namespace
@@ -99,12 +101,13 @@ void write_text(std::ostream& out, Report const& report) {
         write_line(out, chapter.title);
         for (auto const& finding : chapter.findings) {
             write_line(out, "  " + std::string{word(finding.outcome)} + titled(finding) + " (" + finding.proves + ")");
-            if (finding.outcome != Outcome::holds) write_line(out, "             " + shortened(finding.text));
+            if (finding.outcome != Outcome::holds) write_line(out, "                 " + shortened(finding.text));
         }
     }
     out << "\n";
     write_line(out, number(report.count(Outcome::holds), "check") + " held, " + std::to_string(report.count(Outcome::broken)) +
-                        " found a broken rule, " + std::to_string(report.count(Outcome::not_played)) + " could not be played.");
+                        " found a broken rule, " + std::to_string(report.count(Outcome::not_played)) + " could not be played, " +
+                        std::to_string(report.count(Outcome::not_observable)) + " had an effect that cannot be observed here.");
 }
 
 void write_junit(std::ostream& out, Report const& report) {
@@ -116,7 +119,7 @@ void write_junit(std::ostream& out, Report const& report) {
         add_attribute(suite, "name", chapter.title);
         suite.append_attribute("tests") = chapter.findings.size();
         suite.append_attribute("failures") = count_in(chapter, Outcome::broken);
-        suite.append_attribute("skipped") = count_in(chapter, Outcome::not_played);
+        suite.append_attribute("skipped") = count_in(chapter, Outcome::not_played) + count_in(chapter, Outcome::not_observable);
         for (auto const& finding : chapter.findings) add_case(suite, chapter, finding);
     }
     document.save(out, "  ");

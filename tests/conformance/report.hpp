@@ -8,7 +8,7 @@
 
 namespace rois::conformance {
 
-enum class Outcome { holds, broken, not_played };
+enum class Outcome { holds, broken, not_played, not_observable };
 
 // A check over one way.
 struct Finding {

@@ -119,7 +119,7 @@ void nothing_is_heard_after_disconnect(Stage& stage) {
 
 void an_unknown_session_is_refused(Stage& stage) {
     client::HttpClient client{stage.address()};
-    client.session = "nobody";
+    client.session = nobody;
     auto const reply = client.call("search");
     same("the fault", "no_session", reply.fault());
     require(reply.status == 403, "the HTTP status should be 403, and is " + std::to_string(reply.status));
@@ -129,10 +129,10 @@ void an_unknown_session_is_refused(Stage& stage) {
 
 void connect_with_an_unknown_session_opens_a_new_one(Stage& stage) {
     client::HttpClient client{stage.address()};
-    client.session = "nobody";
+    client.session = nobody;
     auto const reply = client.call("connect");
     same("the return code", "OK", reply.return_code());
-    require(client.session != "nobody", "the session should have an id of its own");
+    require(client.session != nobody, "the session should have an id of its own");
     same("the header RoIS-Session", client.session, reply.header("RoIS-Session"));
 }
 
@@ -156,7 +156,7 @@ void a_session_can_be_resumed(Stage& stage) {
         std::string{first.call("bind", client::component_ref(dial.component->ref)).attribute("return_code").value()};
     auto const resume = [&] { return second.call("resume", {}, resuming(session)); };
     if (bound != "OK") throw NotPlayed{"another application uses " + dial.component->ref};
-    auto const set = client::component_ref(dial.component->ref) + client::parameters({});
+    auto const set = client::component_ref(dial.component->ref) + client::parameters({turned(dial, 50)});
     first.call("set_parameter", set);
     first.next_document();
     first.vanish();
@@ -171,7 +171,7 @@ void a_session_can_be_resumed(Stage& stage) {
 
 void an_unknown_session_cannot_be_resumed(Stage& stage) {
     client::WebSocketClient client{stage.address()};
-    auto const answer = client.call("resume", {}, resuming("nobody"));
+    auto const answer = client.call("resume", {}, resuming(nobody));
     same("the fault", "no_session", answer.attribute("code").value());
 }
 

@@ -10,8 +10,10 @@ namespace rois::conformance {
 
 namespace {
 
-constexpr std::chrono::seconds longest_check{60};
-constexpr std::chrono::hours clocks_differ{1};  // at most, the gateway's and this one
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds longest_check{60};  // or six times the patience, when that is longer
+constexpr std::chrono::hours clocks_differ{1};     // at most, the gateway's and this one
 
 // "2026-11-22T10:00:00", before which nothing that is still to come can be.
 std::string now_less_tolerance() {
@@ -22,14 +24,19 @@ std::string now_less_tolerance() {
     return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &utc)};
 }
 
+std::string in_ssml(std::string const& content) {
+    return R"(<speak version="1.0" xmlns="http://www.w3.org/2001/10/synthesis" xml:lang="en">)" + content + "</speak>";
+}
+
 }  // namespace
 
-Stage::Stage(client::Address address, Way way, Catalogue const& catalogue, Traffic& traffic)
+Stage::Stage(client::Address address, Way way, Catalogue const& catalogue, Traffic& traffic, double room)
     : address_{std::move(address)},
       way_{way},
       catalogue_{catalogue},
       traffic_{traffic},
-      end_{std::chrono::steady_clock::now() + longest_check} {}
+      room_{room},
+      end_{std::chrono::steady_clock::now() + std::max<Clock::duration>(longest_check, 6 * address_.patience)} {}
 
 Component const& Stage::one_of(std::vector<std::string> const& kinds) const {
     for (auto const& kind : kinds)
@@ -51,10 +58,20 @@ std::pair<Component const*, Component const*> Stage::two_common() const {
     for (auto const& component : catalogue_.components)
         if (component.is_common) common.push_back(&component);
     if (common.size() < 2) throw NotPlayed{"there are no two components with start and stop"};
+    for (auto one = common.begin(); one != common.end(); ++one)
+        for (auto other = one + 1; other != common.end(); ++other)
+            if ((*one)->engine == (*other)->engine) return {*one, *other};
     return {common[0], common[1]};
 }
 
-void Stage::mind_the_time() const { require(std::chrono::steady_clock::now() < end_, "it went on for more than a minute"); }
+double Stage::room() const {
+    if (room_ == 0) throw NotPlayed{"the robot may not move (--room 0)"};
+    return room_;
+}
+
+void Stage::mind_the_time() const {
+    require(std::chrono::steady_clock::now() < end_, "the check has taken too long (a minute, or six times the patience)");
+}
 
 Guest::Guest(Stage& stage, Comes comes) : Application{client::wire_to(stage.address(), stage.way())}, stage_{stage} {
     if (comes == Comes::connected) ok(connect());
@@ -89,9 +106,11 @@ std::string Guest::status_of(std::string const& command_id) {
 }
 
 void Guest::require_success(std::string const& command_id, Component const& component) {
-    auto const status = status_of(command_id);
+    auto const known = endings(command_id);
+    auto const status = known.empty() ? status_of(command_id) : known.front();
     if (status == "OUT_OF_RESOURCES") throw NotPlayed{"another application uses what " + component.ref + " needs"};
-    if ((status == "ERROR" || status == "TIMEOUT") && hear().name() == "receive_error")
+    auto const is_error = [](Document const& heard) { return heard.name() == "receive_error"; };
+    if ((status == "ERROR" || status == "TIMEOUT") && (std::ranges::any_of(history(), is_error) || is_error(hear())))
         throw NotPlayed{component.ref + " has failed: " + status};
     same("the status of the command of " + component.ref, "OK", status);
 }
@@ -126,13 +145,18 @@ std::string Guest::component_status(std::string const& ref) {
     return value_of(ok(query("component_status", client::where(client::equal("component_ref", ref)))).values(), "status");
 }
 
-// It is the one of which the engine of the component tells: another engine's query would be of another robot (decision 18).
-std::optional<Robot> Guest::robot_of(Component const& component) {
+Component const* Guest::teller_of(Component const& component) const {
     std::vector<Component const*> tellers;
     for (auto const& each : stage_.catalogue().components)
         if (each.engine == component.engine && each.query("robot_position")) tellers.push_back(&each);
-    if (tellers.size() != 1) return {};
-    auto const told = query("robot_position", only(*tellers.front())).values();
+    return tellers.size() == 1 ? tellers.front() : nullptr;
+}
+
+// It is the one of which the engine of the component tells: another engine's query would be of another robot (decision 18).
+std::optional<Robot> Guest::robot_of(Component const& component) {
+    auto const* const teller = teller_of(component);
+    if (!teller) return {};
+    auto const told = query("robot_position", only(*teller)).values();
     auto const refs = told.find("robot_ref"), positions = told.find("position_data");
     if (refs == told.end() || refs->second.size() != 1) return {};
     if (positions == told.end() || positions->second.size() != 1) return {};
@@ -225,31 +249,48 @@ void Guest::ask_for_details() {
     }
 }
 
+Argument argument(Component const& component, std::string const& name, std::vector<std::string> const& values) {
+    auto const* const parameter = component.parameter_named(name);
+    if (!parameter) throw NotPlayed{component.ref + " has no parameter " + name};
+    return {parameter->name, parameter->type, values};
+}
+
+Argument spoken(Component const& speaker, std::string const& text) {
+    if (speaker.parameter_named("speech_text")) return argument(speaker, "speech_text", {text});
+    return argument(speaker, "SSML_text", {in_ssml(text)});
+}
+
+Argument straight_on(Component const& move, long distance) { return argument(move, "line", {std::to_string(distance) + " 0"}); }
+
+// Most are optional; each takes a time or a length that any component can keep.
 Dial dial_of(Stage const& stage) {
-    for (auto const* const name : {"time_limit", "detection_threshold", "minimum_interval", "volume", "time", "distance"})
-        for (auto const& component : stage.catalogue().components)
-            if (!component.basic().empty() &&
-                std::ranges::find(component.parameters, name, &TypedName::name) != component.parameters.end())
-                return {&component, name};
+    constexpr int second = 1'000, metre = 1'000;
+    static std::vector<std::pair<std::string, int>> const numbers{
+        {"time_limit", second}, {"detection_threshold", metre}, {"minimum_interval", second}, {"volume", 0}, {"time", second},
+        {"distance", metre}};
+    for (auto const& [name, base] : numbers)
+        for (auto const& component : stage.catalogue().components) {
+            auto const* const parameter = component.parameter_named(name);
+            if (!component.basic().empty() && parameter && is_same_type(parameter->type, "int"))
+                return {&component, parameter->name, parameter->type, base};
+        }
     throw NotPlayed{"there is no basic component with a parameter that is a number"};
 }
 
-Argument turned(Dial const& dial, int value) { return {dial.parameter, "int", {std::to_string(value)}}; }
+Argument turned(Dial const& dial, int value) { return {dial.parameter, dial.type, {dial.text(value)}}; }
 
 Command long_speech(Component const& speaker, std::string const& id) {
-    bool const reads_ssml = std::ranges::find(speaker.parameters, "SSML_text", &TypedName::name) != speaker.parameters.end();
     std::string words, pauses;
     for (int i = 0; i < 200; ++i) {
         words += "This is a long speech. ";
         pauses += "This is it. <break time=\"60s\"/>";
     }
-    if (!reads_ssml) return {.component = speaker.ref, .id = id, .arguments = {client::speech_text(words)}};
-    auto const ssml = R"(<speak version="1.0" xmlns="http://www.w3.org/2001/10/synthesis" xml:lang="en">)" + pauses + "</speak>";
-    return {.component = speaker.ref, .id = id, .arguments = {{"SSML_text", "string", {ssml}}}};
+    if (!speaker.parameter_named("SSML_text")) return {.component = speaker.ref, .id = id, .arguments = {spoken(speaker, words)}};
+    return {.component = speaker.ref, .id = id, .arguments = {argument(speaker, "SSML_text", {in_ssml(pauses)})}};
 }
 
 Command short_speech(Component const& speaker, std::string const& id) {
-    return {.component = speaker.ref, .id = id, .arguments = {client::speech_text("Hi.")}};
+    return {.component = speaker.ref, .id = id, .arguments = {spoken(speaker, "Hi.")}};
 }
 
 Command command(Component const& component, std::string const& type, std::string const& id, std::optional<int> delay) {

@@ -23,19 +23,22 @@ using client::Way;
 
 class Stage {
 public:
-    Stage(client::Address address, Way way, Catalogue const& catalogue, Traffic& traffic);
+    Stage(client::Address address, Way way, Catalogue const& catalogue, Traffic& traffic, double room);
 
     client::Address const& address() const { return address_; }
     Way way() const { return way_; }
     Catalogue const& catalogue() const { return catalogue_; }
     Traffic& traffic() { return traffic_; }
+    // How far a robot may move from where it stands, in mm. NotPlayed when it may not move.
+    double room() const;
+    std::chrono::milliseconds patience() const { return address_.patience; }
 
     // A basic component of one of these kinds; NotPlayed when there is none.
     Component const& one_of(std::vector<std::string> const& kinds) const;
     Component const& speaker() const { return one_of({"speechsynthesis"}); }
     // Its first measurement after `start` is an event (decision 8), also when nobody is there.
     Component const& detector() const;
-    // A component with start and stop, and another one.
+    // A component with start and stop, and another one: of the same engine, if there are two in one.
     std::pair<Component const*, Component const*> two_common() const;
 
     // Throws Broken when the check goes on for too long.
@@ -46,6 +49,7 @@ private:
     Way way_;
     Catalogue const& catalogue_;
     Traffic& traffic_;
+    double room_;
     std::chrono::steady_clock::time_point end_;
 };
 
@@ -94,6 +98,8 @@ public:
     // get_command_result's `status`.
     std::string state_of(std::string const& command_id);
     std::string component_status(std::string const& ref);
+    // The one component of its engine that reports robot_position; null when that cannot be known here.
+    Component const* teller_of(Component const&) const;
     // The robot that a component is part of; nothing when that cannot be known here.
     std::optional<Robot> robot_of(Component const&);
     // Of what was heard: the statuses with which this command completed.
@@ -116,13 +122,24 @@ private:
     std::set<std::pair<std::string, std::string>> told_;  // events and subscriptions, by their ids
 };
 
-// One parameter of the component that takes any whole number from 40 to 60, if there is one.
+// This parameter with the type that the profile gives it; NotPlayed when the component has no such parameter.
+Argument argument(Component const&, std::string const& name, std::vector<std::string> const& values);
+// What a speaker has to say: plain text, or the same in SSML for one that reads SSML alone.
+Argument spoken(Component const& speaker, std::string const& text);
+// What a move of so many millimetres straight on takes.
+Argument straight_on(Component const& move, long distance);
+
+// One parameter of a basic component that takes any of some whole numbers.
 struct Dial {
     Component const* component;
     std::string parameter;
+    std::string type;
+    int base;
+
+    std::string text(int value) const { return std::to_string(base + value); }
 };
 Dial dial_of(Stage const&);
-Argument turned(Dial const&, int value);
+Argument turned(Dial const&, int value);  // 40 to 60
 
 // A speech that goes on for longer than any check.
 Command long_speech(Component const& speaker, std::string const& id);

@@ -24,7 +24,7 @@ public:
         auto const results = ok(owner.get_command_result(command)).values();
         stream = one(results, "stream_id");
         address = one(results, "transport_parameters");
-        require(!stream.empty(), "connect_stream names the stream in its result stream_id");
+        if (stream.empty()) throw NotObservable{"connect_stream of " + streamer.ref + " does not tell the stream_id"};
     }
 
     Document execute(std::string const& type, std::string const& id) {
@@ -38,7 +38,11 @@ public:
         return owner.query("get_stream_status", client::where(client::both(client::equal("component_ref", streamer.ref),
                                                                            client::equal("stream_id", stream))));
     }
-    std::string status() { return one(ok(asked()).values(), "status"); }
+    std::string status() {
+        auto const told = one(ok(asked()).values(), "status");
+        if (told.empty()) throw NotObservable{"get_stream_status of " + streamer.ref + " does not tell the status"};
+        return told;
+    }
 
     // Passes over all else that was told, or will be, after the last one of these, until the stream is told to have this status.
     void hear(std::string const& status) {

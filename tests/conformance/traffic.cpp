@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "conformance/point.hpp"
 #include "files/files.hpp"
 
 namespace rois::conformance {
@@ -16,21 +17,6 @@ namespace {
 std::shared_ptr<xml::Schemas const> schemas() {
     auto const& files = files::schemas();
     return std::make_shared<xml::Schemas const>(xml::NamedFiles{files.begin(), files.end()});
-}
-
-struct Point {
-    double x, y;
-    std::optional<double> heading;  // degrees
-};
-
-// "x, y" or "x, y, th".
-std::optional<Point> point_in(std::string text) {
-    std::ranges::replace(text, ',', ' ');
-    std::istringstream numbers{text};
-    Point point{};
-    if (!(numbers >> point.x >> point.y)) return {};
-    if (double heading = 0; numbers >> heading) point.heading = heading;
-    return point;
 }
 
 // Texts may be rounded to whole millimetres and degrees.

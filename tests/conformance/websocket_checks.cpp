@@ -54,7 +54,8 @@ void it_stays_open_after_disconnect(Stage& stage) {
 }
 
 void its_session_can_be_used_over_http(Stage& stage) {
-    auto const& component = *dial_of(stage).component;
+    auto const dial = dial_of(stage);
+    auto const& component = *dial.component;
     WebSocketClient client{stage.address()};
     client.call("connect");
     HttpClient http{stage.address()};
@@ -62,7 +63,7 @@ void its_session_can_be_used_over_http(Stage& stage) {
     auto const bound = http.call("bind", client::component_ref(component.ref)).return_code();
     if (bound == "OUT_OF_RESOURCES") throw NotPlayed{"another application uses " + component.ref};
     same("the answer of bind", "OK", bound);
-    http.call("set_parameter", client::component_ref(component.ref) + client::parameters({}));
+    http.call("set_parameter", client::component_ref(component.ref) + client::parameters({turned(dial, 50)}));
     same("what is heard", "completed", client.next_document().name());
 }
 

@@ -1,5 +1,9 @@
 // HTTP as wire.md lays it down: status codes, faults and documents; what is no XML or not valid.
 #include "client/http_client.hpp"
+
+#include <regex>
+#include <set>
+
 #include "conformance/stage.hpp"
 
 namespace rois::conformance {
@@ -80,7 +84,7 @@ void other_methods_are_refused(Stage& stage) {
 
 void unknown_paths_are_not_found(Stage& stage) {
     HttpClient client{stage.address()};
-    for (auto const* const path : {"/nowhere", "/rois/profile/nobody", "/rois/schemas/nothing.xsd"})
+    for (auto const* const path : {"/nowhere", "/rois/profile/conformance_nobody", "/rois/schemas/nothing.xsd"})
         answered(stage, client.get(path), 404, "not_found");
 }
 
@@ -113,10 +117,13 @@ void schemas_are_served(Stage& stage) {
     HttpClient client{stage.address()};
     auto const list = client.get("/rois/schemas");
     require(list.status == 200, "/rois/schemas answers with " + std::to_string(list.status));
-    for (auto const* const file : {"messages.xsd", "rois.xsd", "fes.xsd"}) {
-        auto const reply = client.get(std::string{"/rois/schemas/"} + file);
-        require(reply.status == 200 && std::string{reply.root().name()}.ends_with(":schema"),
-                std::string{file} + " is not served");
+    static std::regex const file_name{"[A-Za-z0-9_.-]+[.]xsd"};
+    std::set<std::string> const files{std::sregex_token_iterator{list.body.begin(), list.body.end(), file_name}, {}};
+    require(!files.empty(), "/rois/schemas names no schema: " + list.body);
+    for (auto const& file : files) {
+        auto const reply = client.get("/rois/schemas/" + file);
+        std::string const root = reply.root().name();
+        require(reply.status == 200 && (root == "schema" || root.ends_with(":schema")), file + " is not served");
     }
 }
 
@@ -139,7 +146,7 @@ void documents_are_application_xml(Stage& stage) {
     is_xml("the fault invalid", client.post("<connect/>"));
     is_xml("the fault not_found", client.get("/nowhere"));
     is_xml("the answer of connect", client.call("connect"));
-    is_xml("a refusal", client.call("bind", client::component_ref("nobody")));
+    is_xml("a refusal", client.call("bind", client::component_ref(nobody)));
     is_xml("the answer of search", client.call("search"));
     is_xml("a list of notifications", client.notifications(0, 0));
     is_xml("the engine's profile", client.get("/rois/profile"));
@@ -150,7 +157,7 @@ void documents_are_application_xml(Stage& stage) {
 void every_operation_is_answered_with_200(Stage& stage) {
     HttpClient client{stage.address()};
     require(client.call("connect").status == 200, "connect should be answered with 200");
-    auto const refusal = client.call("bind", client::component_ref("nobody"));
+    auto const refusal = client.call("bind", client::component_ref(nobody));
     require(refusal.status == 200 && refusal.return_code() == "BAD_PARAMETER",
             "a refusal is an answer, too: status 200, but it is " + std::to_string(refusal.status));
     same("the content type", "application/xml", refusal.header("Content-Type").substr(0, 15));

@@ -1,6 +1,8 @@
 // Decisions 4 to 7: who may command a component.
 #include <gmock/gmock.h>
 
+#include "conditions.hpp"
+#include "types/texts.hpp"
 #include "world.hpp"
 
 namespace rois {
@@ -52,6 +54,146 @@ TEST(BindAny, TakesAFreeOneBeforeOneThatIsMine) {
     EXPECT_EQ(desk.bind_any(), "speech_a");
     EXPECT_EQ(desk.bind_any(), "speech_b");
     EXPECT_EQ(desk.bind_any(), "speech_a") << "when none is free, one that is already mine";
+}
+
+TEST(BindAny, KeepsToTheRobotThatTheSessionWorksWith) {
+    World world{in_engine("robot1", navigation), in_engine("robot1", speech), in_engine("robot1", detection),
+                in_engine("robot2", navigation), in_engine("robot2", speech), in_engine("robot2", detection)};
+    auto const drives = equal("component_type", navigation.profile.object.identifier);
+    auto const speaks = equal("component_type", speech.profile.object.identifier);
+    auto const detects = equal("component_type", detection.profile.object.identifier);
+    auto desk = world.connect(), hall = world.connect();
+    EXPECT_EQ(hall.bind("robot1.navigation"), ReturnCode::ok);
+    EXPECT_EQ(desk.bind_any(drives), "robot2.navigation") << "the other one is taken";
+    EXPECT_EQ(desk.bind_any(speaks), "robot2.speech") << "of the robot that drives";
+    EXPECT_EQ(hall.bind_any(speaks), "robot1.speech");
+    EXPECT_EQ(desk.bind("robot1.detection"), ReturnCode::ok);
+    EXPECT_EQ(desk.bind_any(detects), "robot2.detection") << "two components are more than one";
+    for (auto const* ref : {"robot2.navigation", "robot2.speech", "robot2.detection"}) desk.release(ref);
+    EXPECT_EQ(desk.bind_any(speaks), "robot2.speech") << "what the other robot has is taken";
+    desk.leave();
+    hall.leave();
+    EXPECT_EQ(world.connect().bind_any(either({speaks, detects})), "robot1.detection");
+}
+
+TEST(BindAny, PutsTheRobotBeforeTheOrderOfTheCondition) {
+    World world{in_engine("robot1", navigation), in_engine("robot1", speech), in_engine("robot2", navigation),
+                in_engine("robot2", speech)};
+    auto const last_first = sorted(reference("component_ref"), SortOrder::descending);
+    auto desk = world.connect();
+    EXPECT_EQ(desk.bind_any(last_first), "robot2.speech");
+    desk.release("robot2.speech");
+    desk.bind("robot1.navigation");
+    EXPECT_EQ(desk.bind_any(last_first), "robot1.speech");
+    EXPECT_EQ(desk.bind_any(last_first), "robot2.speech") << "nothing of the first is free";
+}
+
+// "robot2.navigation" is not compared with "speech": the name of a sub engine does not belong to the code.
+TEST(BindAny, ComparesCodesWithinTheirEngines) {
+    World world{speech, in_engine("robot2", speech), in_engine("arm", named("tool", speech))};
+    auto const speaks = equal("component_type", speech.profile.object.identifier);
+    auto desk = world.connect();
+    EXPECT_EQ(desk.bind_any(speaks), "speech");
+    desk.leave();
+    desk = world.connect();
+    EXPECT_EQ(desk.query("component_status", speaks).component_ref.code, "speech");
+}
+
+TEST(Search, FindsAGroupOfOneRobot) {
+    World world{in_engine("robot1", navigation), in_engine("robot1", speech), in_engine("robot2", navigation),
+                in_engine("robot2", speech), in_engine("robot3", speech)};
+    auto const both_of_them = group({.types = {"Navigation", "SpeechSynthesis"}, .aliases = {}, .filter = {}, .members = {}});
+    auto desk = world.connect();
+    EXPECT_THAT(desk.search(both_of_them), ElementsAre("robot1.navigation", "robot1.speech"));
+    EXPECT_EQ(desk.ask(GetProfile{both_of_them}).profile->object.name, "robot1");
+    desk.bind("robot3.speech");
+    EXPECT_THAT(desk.search(both_of_them), ElementsAre("robot1.navigation", "robot1.speech")) << "robot3 has no navigation";
+    desk.bind("robot2.speech");
+    EXPECT_THAT(desk.search(both_of_them), ElementsAre("robot2.navigation", "robot2.speech"));
+    EXPECT_EQ(desk.bind_any(both_of_them), "robot2.navigation");
+    EXPECT_THAT(desk.search(either({both_of_them, equal("name", "robot3.speech")})),
+                ElementsAre("robot2.navigation", "robot2.speech", "robot3.speech"));
+    desk.subscribe("reached_target", both_of_them);
+    for (auto const* ref : {"robot1.navigation", "robot2.navigation"}) world[ref].fires("reached_target");
+    EXPECT_THAT(desk.heard(), testing::SizeIs(2)) << "events are received from each robot that meets it";
+}
+
+struct GroupsOfTwoRobots : testing::Test {
+    World world{in_engine("robot1", navigation),  in_engine("robot1", speech), in_engine("robot1", detection),
+                in_engine("robot2", navigation),  in_engine("robot2", speech), in_engine("robot2", detection),
+                in_engine("robot2", localization)};
+    Application desk = world.connect(), hall = world.connect();
+    Condition drives_and_speaks = group({.types = {"Navigation", "SpeechSynthesis"}, .aliases = {}, .filter = {}, .members = {}});
+};
+
+TEST_F(GroupsOfTwoRobots, AreBoundOfTheOneThatHasAllOfThemFree) {
+    hall.bind("robot1.speech");
+    EXPECT_THAT(desk.search(drives_and_speaks), ElementsAre("robot2.navigation", "robot2.speech")) << "what bind_any takes";
+    EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot2.navigation");
+    EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot2.speech");
+    EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot2.navigation") << "nothing of robot1: the group is complete";
+}
+
+TEST_F(GroupsOfTwoRobots, AreBoundOfOneRobotHoweverOftenTheApplicationAsks) {
+    std::vector<std::string> bound;
+    for (int i = 0; i < 4; ++i) bound.push_back(desk.bind_any(drives_and_speaks));
+    EXPECT_THAT(bound, ElementsAre("robot1.navigation", "robot1.speech", "robot1.navigation", "robot1.navigation"));
+    EXPECT_EQ(hall.bind_any(drives_and_speaks), "robot2.navigation") << "nothing of robot2 was taken";
+}
+
+TEST_F(GroupsOfTwoRobots, AreCompletedBeforeThoseOfTheRobotWithMoreOtherComponents) {
+    EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot1.navigation");
+    for (auto const* ref : {"robot2.detection", "robot2.localization", "robot2.speech"}) desk.bind(ref);
+    EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot2.navigation") << "each has one of the group, robot2 more components";
+    desk.release("robot2.navigation");
+    desk.release("robot2.speech");
+    EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot1.speech") << "one of the group is more than none";
+}
+
+TEST_F(GroupsOfTwoRobots, ThatNoneCanGiveAreRefusedWithTheHolder) {
+    hall.bind("robot1.speech");
+    hall.bind("robot2.navigation");
+    auto const refused = desk.ask(BindAny{drives_and_speaks});
+    EXPECT_EQ(refused.return_code, ReturnCode::out_of_resources);
+    EXPECT_EQ(refused.reason,
+              "no robot can give all components of the group now; the component 'robot1.speech' is bound by another session, "
+              "number 2");
+    EXPECT_THAT(desk.search(equal("bound", "true")), ElementsAre("robot1.speech", "robot2.navigation"));
+    EXPECT_EQ(desk.bind_any(either({drives_and_speaks, equal("name", "robot1.detection")})), "robot1.detection")
+        << "not of the group";
+    hall.release("robot2.navigation");
+    EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot2.navigation");
+}
+
+TEST_F(GroupsOfTwoRobots, BeginAnewWhenARobotCannotGiveTheRest) {
+    EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot1.navigation");
+    hall.bind("robot1.speech");
+    EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot2.navigation");
+    EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot2.speech");
+    EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot2.navigation");
+}
+
+TEST_F(GroupsOfTwoRobots, MustBeFreeWhateverElseTheConditionAsksFor) {
+    hall.bind("robot1.speech");
+    auto const of_type = [](Part const& part) { return equal("component_type", part.profile.object.identifier); };
+    EXPECT_EQ(desk.bind_any(both({drives_and_speaks, of_type(navigation)})), "robot2.navigation");
+    EXPECT_EQ(desk.bind_any(both({drives_and_speaks, of_type(speech)})), "robot2.speech");
+    QueryExpression last_first = sorted(reference("component_ref"), SortOrder::descending);
+    last_first.filter = drives_and_speaks;
+    EXPECT_EQ(hall.bind_any(last_first), "robot1.navigation") << "the session has the other one";
+    desk.leave();
+    EXPECT_EQ(world.connect().bind_any(last_first), "robot2.speech");
+}
+
+TEST(BindAny, OfAGroupTakesWhatTheSessionLacksFirst) {
+    World world{named("navigation_a", navigation), named("navigation_b", navigation), speech};
+    auto desk = world.connect();
+    auto const drives_and_speaks =
+        group({.types = {"Navigation", "SpeechSynthesis"}, .aliases = {}, .filter = {}, .members = {}});
+    std::vector<std::string> bound;
+    for (int i = 0; i < 4; ++i) bound.push_back(desk.bind_any(drives_and_speaks));
+    EXPECT_THAT(bound, ElementsAre("navigation_a", "speech", "navigation_b", "navigation_a"))
+        << "further ones of the same robot, then one that is mine";
 }
 
 TEST(BindAny, TellsWhatCanNeverMatchFromWhatIsTaken) {
@@ -115,7 +257,7 @@ TEST(Release, StopsWhatRunsThere) {
     desk.execute(go("go"), say("arrived"));
     desk.execute(say("meanwhile"));
     EXPECT_EQ(desk.release("navigation"), ReturnCode::ok);
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT", "2 completed arrived ABORT"));
     EXPECT_EQ(desk.result_of("meanwhile"), "RUNNING") << "what is bound still is not touched";
     EXPECT_EQ(world.connect().bind("navigation"), ReturnCode::ok);
@@ -198,9 +340,20 @@ TEST(Profile, IsThatOfTheSubEngineWhoseComponentsAreChosen) {
     EXPECT_EQ(engine(equal("engine", "sub1")), "sub1");
     EXPECT_EQ(engine(both({equal("component_type", speech.profile.object.identifier), equal("engine", "sub2")})), "sub2");
     EXPECT_EQ(engine(equal("component_type", speech.profile.object.identifier)), "main") << "two engines have one";
+    EXPECT_EQ(engine(equal("engine", "main")), "main");
+    EXPECT_EQ(engine(equal("engine", "")), "main");
     EXPECT_EQ(engine(equal("name", "navigation")), "main");
     EXPECT_EQ(engine(equal("engine", "nowhere")), "main");
     EXPECT_EQ(desk.ask(GetProfile{equal("engine", "sub1")}).profile->components.size(), 2U);
+}
+
+TEST(Profile, IsThatOfTheMainEngineAlsoWhenOneRobotHasAll) {
+    World world{in_engine("robot1", navigation), in_engine("robot1", speech)};
+    auto desk = world.connect();
+    for (auto const& whole : {QueryExpression{}, QueryExpression{equal("engine", "main")}, QueryExpression{equal("engine", "")}})
+        EXPECT_EQ(desk.ask(GetProfile{whole}).profile->object.name, "main");
+    EXPECT_EQ(desk.ask(GetProfile{equal("engine", "robot1")}).profile->object.name, "robot1");
+    EXPECT_THAT(desk.ask(GetProfile{}).profile->components, IsEmpty());
 }
 
 TEST(Profile, ListsTheChosenComponentsOnly) {
@@ -214,6 +367,34 @@ TEST(Profile, ListsTheChosenComponentsOnly) {
 
 TEST(Profile, OfTwoComponentsWithOneNameIsRefusedAtTheStart) {
     EXPECT_THROW((World{navigation, navigation}), std::runtime_error);
+}
+
+// Decision 31: what a component_ref says beside its code has to be the component's.
+TEST(ComponentRef, OfAForeignCodebookOrAuthorityIsRefusedByAllOperations) {
+    World world{named("speech_synthesis", speech)};
+    auto desk = world.connect();
+    auto ref = Application::identifier("speech_synthesis");
+    auto const bind = [&] { return desk.ask(Bind{ref}); };
+    ref.codebook_ref = "urn:x-test:Other";
+    EXPECT_EQ(bind().return_code, ReturnCode::bad_parameter);
+    EXPECT_EQ(bind().reason,
+              "the component_ref 'speech_synthesis' has the codebook_ref 'urn:x-test:Other', which is not the "
+              "component's; known are " +
+                  speech.profile.object.identifier);
+    EXPECT_EQ(desk.ask(Release{ref}).reason, bind().reason);
+    EXPECT_EQ(desk.ask(GetParameter{ref}).reason, bind().reason);
+    EXPECT_EQ(desk.ask(SetParameter{ref, {}}).reason, bind().reason);
+    auto message = start("speech_synthesis");
+    std::get<CommandMessage>(message.unit).component_ref = ref;
+    EXPECT_EQ(desk.execute(message).reason, "command_unit_list[1]: " + bind().reason);
+    ref.codebook_ref = lower_case(speech.profile.object.identifier);
+    EXPECT_EQ(bind().return_code, ReturnCode::ok);
+    ref.codebook_ref = "urn:x-rois:def:codebook:ComponentType";
+    EXPECT_EQ(bind().return_code, ReturnCode::ok) << "as Annex B.2 writes it";
+    ref.authority = "somebody";
+    EXPECT_EQ(bind().reason,
+              "the component_ref 'speech_synthesis' has the authority 'somebody', which is not the component's; "
+              "known are OMG");
 }
 
 }  // namespace rois

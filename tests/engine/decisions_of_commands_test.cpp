@@ -141,6 +141,7 @@ TEST_F(Decision14, AllFormsOfSequencesAreTaken) {
     EXPECT_EQ(running(), "") << "a unit without a type only delays";
     world.advance(100ms);
     EXPECT_EQ(running(), "ac") << "each of the flat form is a branch";
+    EXPECT_EQ(desk.execute(pause(100ms)).return_code, ReturnCode::bad_parameter) << "a sequence without a command is none";
 }
 
 TEST_F(Decision15, ADelayCountsFromTheUnitsTurn) {

@@ -18,20 +18,24 @@ ParameterList people(int number) { return {integer("number", number)}; }
 }  // namespace
 
 TEST(Decision18, TheConditionChoosesWhoAnswers) {
-    World world{named("robot_b", navigation), named("robot_a", navigation), in_engine("sub1", navigation), speech};
+    World world{named("robot_b", navigation), named("robot_a", navigation), in_engine("sub1", named("robot_c", navigation)),
+                speech};
     auto desk = world.connect(), hall = world.connect();
-    EXPECT_EQ(desk.query("route").component_ref.code, "robot_a") << "READY, then the lowest ref";
+    EXPECT_EQ(desk.query("route").component_ref.code, "robot_a") << "READY, then the lowest code within its engine";
     hall.bind("robot_a");
     EXPECT_EQ(desk.query("route").component_ref.code, "robot_b");
-    EXPECT_EQ(desk.query("route", equal("engine", "sub1")).component_ref.code, "sub1.navigation");
+    desk.bind("sub1.robot_c");
+    EXPECT_EQ(desk.query("route").component_ref.code, "sub1.robot_c") << "the robot that the session works with";
+    desk.release("sub1.robot_c");
+    EXPECT_EQ(desk.query("route", equal("engine", "sub1")).component_ref.code, "sub1.robot_c");
     EXPECT_EQ(desk.query("weather").return_code, ReturnCode::unsupported);
     EXPECT_EQ(desk.query("route", equal("component_ref", "speech")).return_code, ReturnCode::unsupported);
     EXPECT_EQ(in_words(desk.query("get_parameter", equal("name", "speech")).results.parameters),
               "synthesizable_languages=en|ja volume=50 language=en")
         << "parameters are read without a binding";
     desk.subscribe("reached_target");
-    for (auto const* ref : {"robot_a", "sub1.navigation"}) world[ref].fires("reached_target");
-    EXPECT_THAT(desk.heard(), ElementsAre("1 reached_target robot_a", "2 reached_target sub1.navigation"))
+    for (auto const* ref : {"robot_a", "sub1.robot_c"}) world[ref].fires("reached_target");
+    EXPECT_THAT(desk.heard(), ElementsAre("1 reached_target robot_a", "2 reached_target sub1.robot_c"))
         << "without a condition all of them are heard";
     EXPECT_EQ(desk.subscribe("earthquake").return_code, ReturnCode::unsupported);
 }
@@ -272,6 +276,44 @@ TEST(Decision28, TimesAreUtc) {
     desk.heard();
     auto const detail = desk.detail_of(desk.last_heard<ReceiveError>().error_id);
     EXPECT_THAT(find(detail.results.parameters, "time")->values, ElementsAre("2026-11-20T12:00:00.000Z"));
+}
+
+TEST(Decision30, ParametersBelongToTheBinding) {
+    World world{speech};
+    auto desk = world.connect(), hall = world.connect();
+    auto const read = [&](Application& who) { return in_words(who.query("get_parameter").results.parameters); };
+    std::string const defaults = "synthesizable_languages=en|ja volume=50 language=en";
+    desk.bind("speech");
+    desk.set_parameter("speech", {text("speech_text", "hello"), integer("volume", 10)});
+    EXPECT_EQ(read(desk), "synthesizable_languages=en|ja speech_text=hello volume=10 language=en");
+    EXPECT_EQ(read(hall), defaults) << "what can only be read, and the defaults";
+    EXPECT_THAT(hall.search(equal("Property/speech_text", "hello")), IsEmpty());
+    desk.leave();
+    hall.bind("speech");
+    EXPECT_EQ(read(hall), defaults);
+    EXPECT_EQ(in_words(world["speech"].changed_to), "volume=50 language=en") << "the component has the defaults, too";
+    EXPECT_EQ(hall.execute(start("speech")).return_code, ReturnCode::bad_parameter) << "nothing to say is left";
+}
+
+TEST(Decision32, EachRobotIsAnEngineAndTheMainEngineIsTheWhole) {
+    World world{in_engine("robot1", navigation), in_engine("robot2", navigation), in_engine("robot2", speech), detection};
+    auto desk = world.connect();
+    EXPECT_THAT(desk.search(equal("engine", "robot1")), ElementsAre("robot1.navigation"));
+    EXPECT_THAT(desk.search(equal("engine", "robot2")), ElementsAre("robot2.navigation", "robot2.speech"));
+    for (auto const& whole :
+         {equal("engine", ""), equal("engine", "main"), equal_reversed("main", "engine"), like("engine", "*")}) {
+        EXPECT_EQ(desk.search(whole).size(), 4U);
+        EXPECT_EQ(desk.ask(GetProfile{whole}).profile->object.name, "main");
+        EXPECT_EQ(desk.bind_any(both({whole, equal("component_type", speech.profile.object.identifier)})), "robot2.speech");
+        desk.release("robot2.speech");
+        EXPECT_EQ(desk.subscribe("reached_target", whole).subscribe_id.text, desk.subscribe("reached_target").subscribe_id.text);
+    }
+    EXPECT_THAT(desk.search(not_equal("engine", "main")), IsEmpty()) << "all components are of the main engine";
+    EXPECT_THAT(desk.search(not_equal("engine", "robot2")), ElementsAre("detection", "robot1.navigation"));
+    auto const profile = [&](QueryExpression condition) { return desk.ask(GetProfile{std::move(condition)}).profile; };
+    EXPECT_EQ(profile(equal("engine", "robot1"))->components, std::vector<std::string>{"robot1.navigation"});
+    EXPECT_EQ(profile({})->components, std::vector<std::string>{"detection"}) << "what belongs to no robot";
+    EXPECT_EQ(profile({})->sub_profiles.size(), 2U);
 }
 
 }  // namespace rois

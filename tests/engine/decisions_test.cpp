@@ -96,7 +96,7 @@ TEST(Decision03, TheEndOfASessionStopsReleasesAndCancels) {
     desk.leave();
     EXPECT_THAT(desk.heard(), ElementsAre("2 completed go ABORT", "3 completed arrived ABORT"));
     EXPECT_TRUE(desk.told_of_the_end());
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
     EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt"));
     for (auto const* ref : {"navigation", "speech", "detection"}) EXPECT_EQ(hall.bind(ref), ReturnCode::ok) << ref;
     EXPECT_EQ(world.engine->statistics().subscriptions, 0U);

@@ -81,7 +81,7 @@ TEST(Notifications, ThatMustBeToldEndASessionThatNeverListens) {
     EXPECT_EQ(desk.execute(named("4", stop("speech"))).return_code, ReturnCode::ok) << "the answer is given still";
     EXPECT_TRUE(desk.told_of_the_end());
     EXPECT_EQ(desk.refusal_of(Search{}), Refusal::no_session);
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
     EXPECT_EQ(hall.bind("navigation"), ReturnCode::ok);
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed 1 OK", "2 completed 2 OK", "3 completed 3 OK", "4 completed 4 OK",
                                           "5 completed go ABORT"))

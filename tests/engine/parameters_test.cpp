@@ -1,6 +1,7 @@
 // Decisions 8 and 26: parameters are stored, by name and type.
 #include <gmock/gmock.h>
 
+#include "conditions.hpp"
 #include "world.hpp"
 
 namespace rois {
@@ -8,6 +9,8 @@ namespace rois {
 using namespace std::chrono_literals;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
 
 namespace {
 
@@ -25,6 +28,13 @@ struct Lamp : testing::Test {
     }
     std::string stored() { return in_words(desk.get_parameter("lamp").parameters); }
 };
+
+Part detection_with_threshold() {
+    auto part = detection;
+    part.profile.parameters.push_back(
+        {.name = "threshold", .data_type_ref = {"int", {}, {}, {}}, .default_value = "50", .description = {}});
+    return part;
+}
 
 }  // namespace
 
@@ -113,10 +123,73 @@ TEST_F(Lamp, StoresAllOrNothing) {
     EXPECT_EQ(stored(), "counts=1 2 labels=red|green");
 }
 
-TEST_F(Lamp, KeepsTheCodebookOfAType) {
-    auto owner = reference("owner", "visitor_1", "urn:x-test:codebook");
-    EXPECT_EQ(set(owner), "OK");
-    EXPECT_EQ(desk.get_parameter("lamp").parameters.front().data_type_ref.codebook_ref, "urn:x-test:codebook");
+TEST_F(Lamp, KeepsTheCodebookOfAnIdentifier) {
+    EXPECT_EQ(set(reference("owner", "robot_1", "urn:x-test:Robots")), "OK") << "codebooks are compared without case";
+    EXPECT_EQ(desk.get_parameter("lamp").parameters.front().data_type_ref.codebook_ref, "urn:x-test:Robots");
+}
+
+TEST_F(Lamp, TakesAnIdentifierWithoutACodebookForOneOfTheDefault) {
+    EXPECT_EQ(set(reference("owner", "visitor_1")), "OK");
+    EXPECT_EQ(desk.get_parameter("lamp").parameters.front().data_type_ref.codebook_ref, "urn:x-test:visitors");
+}
+
+TEST_F(Lamp, RefusesAnIdentifierOfAForeignCodebook) {
+    EXPECT_EQ(set(reference("Owner", "tanaka", "urn:x-test:staff")),
+              "parameter 'owner': 'tanaka' is from the codebook 'urn:x-test:staff', which is unknown here; known are "
+              "urn:x-test:visitors, urn:x-test:robots");
+    EXPECT_EQ(set(references("owners", {"tanaka", "sato"}, "urn:x-test:staff")),
+              "parameter 'owners': 'tanaka, sato' is from the codebook 'urn:x-test:staff', which is unknown here; the component "
+              "has no codebook for it: leave codebook_ref out");
+    EXPECT_EQ(set(references("owners", {"tanaka", "sato"})), "OK");
+    auto label = text("label", "x");
+    label.data_type_ref.codebook_ref = "urn:x-test:staff";
+    EXPECT_EQ(set(label), "OK") << "the codebook of what is not an identifier is not looked at";
+}
+
+TEST_F(Lamp, DeclaresTheDefaultCodebookInItsProfile) {
+    auto const reply = desk.ask(GetProfile{equal("component_ref", "lamp")});
+    auto const& profile = *reply.components.front().profile;
+    EXPECT_EQ(find_parameter(profile.parameters, "owner")->data_type_ref.codebook_ref, "urn:x-test:visitors");
+    EXPECT_EQ(find_parameter(find_message(profile, MessageKind::command, "set_parameter")->arguments, "owner")
+                  ->data_type_ref.codebook_ref,
+              "urn:x-test:visitors");
+    EXPECT_EQ(find_parameter(profile.parameters, "owners")->data_type_ref.codebook_ref, "");
+}
+
+TEST(Parameters, KnowTheCodebookThatTheProfileDeclares) {
+    auto part = desk_lamp;
+    for (auto& parameter : part.profile.parameters)
+        if (parameter.name == "owner") parameter.data_type_ref.codebook_ref = "urn:x-test:staff";
+    World world{part};
+    auto desk = world.connect();
+    desk.bind("lamp");
+    EXPECT_EQ(desk.set_parameter("lamp", {reference("owner", "tanaka")}).return_code, ReturnCode::ok);
+    EXPECT_EQ(desk.get_parameter("lamp").parameters.front().data_type_ref.codebook_ref, "urn:x-test:staff");
+    EXPECT_EQ(desk.set_parameter("lamp", {reference("owner", "r1", "urn:x-test:robots")}).return_code, ReturnCode::ok);
+    EXPECT_THAT(desk.set_parameter("lamp", {reference("owner", "x", "urn:x-test:y")}).reason,
+                HasSubstr("known are urn:x-test:staff, urn:x-test:visitors, urn:x-test:robots"));
+}
+
+// Arguments of `start` and of the component's own commands, in execute: nothing of the sequence runs.
+TEST(Parameters, OfAForeignCodebookEndASequenceBeforeItBegins) {
+    auto part = desk_lamp;
+    part.profile.messages.push_back({.kind = MessageKind::command,
+                                     .name = "give",
+                                     .results = {},
+                                     .arguments = {{"owner", {"RoISIdentifier", {}, {}, {}}, {}, {}}},
+                                     .timeout = {}});
+    World world{part};
+    auto desk = world.connect();
+    desk.bind("lamp");
+    auto const foreign = reference("owner", "tanaka", "urn:x-test:staff");
+    for (auto const* type : {"start", "give", "set_parameter"}) {
+        auto const reply = desk.execute(set("lamp", {text("label", "x")}), command(type, "lamp", {foreign}));
+        EXPECT_EQ(reply.return_code, ReturnCode::bad_parameter) << type;
+        EXPECT_THAT(reply.reason, testing::StartsWith("command_unit_list[2]: parameter 'owner': 'tanaka' is from the codebook"))
+            << type;
+    }
+    EXPECT_THAT(desk.heard(), testing::IsEmpty());
+    EXPECT_EQ(desk.execute(command("give", "lamp", {reference("owner", "tanaka")})).return_code, ReturnCode::ok);
 }
 
 TEST(Parameters, OfAStartAreStoredFirst) {
@@ -154,14 +227,101 @@ TEST(Parameters, ThatReplaceOneAnotherDoSo) {
               "synthesizable_languages=en|ja SSML_text=<speak/> volume=50 language=en");
 }
 
-TEST(Parameters, StayWhenTheComponentIsReleased) {
+TEST(Parameters, AreTheDefaultsAgainAfterARelease) {
     World world{navigation};
-    auto desk = world.connect(), hall = world.connect();
+    auto desk = world.connect();
     desk.bind("navigation");
     desk.set_parameter("navigation", {integer("time_limit", 9)});
+    desk.release("navigation");
+    EXPECT_THAT(world["navigation"].told, ElementsAre("parameters_changed", "parameters_changed"))
+        << "the component learns of the defaults";
+    EXPECT_EQ(in_words(world["navigation"].changed_to), "time_limit=0 routing_policy=time");
+    desk.bind("navigation");
+    EXPECT_EQ(in_words(desk.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time");
+    desk.release("navigation");
+    EXPECT_THAT(world["navigation"].told, SizeIs(2)) << "nothing was set, nothing is told";
+}
+
+TEST(Parameters, AreTheDefaultsAgainAfterASession) {
+    for (auto const* end : {"disconnect", "link lost", "ended by the engine"}) {
+        World world{navigation, speech};
+        auto desk = std::string{end} == "link lost" ? world.connect_without_link() : world.connect();
+        for (auto const* ref : {"navigation", "speech"}) desk.bind(ref);
+        desk.execute(go("go"), say("say"));
+        desk.set_parameter("speech", {integer("volume", 10)});
+        if (std::string{end} == "disconnect") desk.leave();
+        if (std::string{end} == "link lost") world.advance(10min);
+        if (std::string{end} == "ended by the engine") world.engine->end(desk.session, world.now);
+        EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed")) << end;
+        auto hall = world.connect();
+        for (auto const* ref : {"navigation", "speech"}) hall.bind(ref);
+        EXPECT_EQ(in_words(hall.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time") << end;
+        EXPECT_EQ(in_words(hall.get_parameter("speech").parameters), "synthesizable_languages=en|ja volume=50 language=en")
+            << end;
+        for (auto const* ref : {"navigation", "speech"})
+            EXPECT_EQ(hall.execute(start(ref)).return_code, ReturnCode::bad_parameter) << end << ": its mandatory value is unset";
+    }
+}
+
+TEST(Parameters, OfCommandsThatRunOnStayUntilTheNextBinding) {
+    EngineSettings settings;
+    settings.on_session_end = OnSessionEnd::continue_;
+    World world{{navigation, speech}, settings};
+    auto desk = world.connect();
+    for (auto const* ref : {"navigation", "speech"}) desk.bind(ref);
+    desk.execute(set("speech", {text("speech_text", "I have arrived")}), go("go"), start("speech"));
     desk.leave();
-    hall.bind("navigation");
-    EXPECT_EQ(in_words(hall.get_parameter("navigation").parameters), "time_limit=9 routing_policy=time");
+    auto hall = world.connect();
+    EXPECT_EQ(in_words(hall.query("get_parameter", equal("name", "speech")).results.parameters),
+              "synthesizable_languages=en|ja volume=50 language=en");
+    world["navigation"].finishes();
+    EXPECT_EQ(in_words(world["speech"].started_with), "speech_text=I have arrived volume=50 language=en");
+    hall.bind("speech");
+    EXPECT_EQ(in_words(hall.get_parameter("speech").parameters), "synthesizable_languages=en|ja volume=50 language=en");
+    EXPECT_EQ(hall.execute(start("speech")).return_code, ReturnCode::bad_parameter);
+}
+
+TEST(Parameters, OfAnApplicationAreReadByItAlone) {
+    World world{speech, detection};
+    auto desk = world.connect(), hall = world.connect();
+    desk.bind("speech");
+    desk.set_parameter("speech", {text("speech_text", "a secret"), integer("volume", 10)});
+    auto const read = [](Application& who) {
+        return in_words(who.query("get_parameter", equal("name", "speech")).results.parameters);
+    };
+    EXPECT_EQ(read(desk), "synthesizable_languages=en|ja speech_text=a secret volume=10 language=en");
+    EXPECT_EQ(read(hall), "synthesizable_languages=en|ja volume=50 language=en") << "what can only be read, and the defaults";
+    for (auto const& condition :
+         {equal("Property/volume", "10"), equal("Property/speech_text", "a secret"), like("Property/speech_text", "*")}) {
+        EXPECT_THAT(desk.search(condition), ElementsAre("speech"));
+        EXPECT_THAT(hall.search(condition), IsEmpty());
+        EXPECT_EQ(hall.bind_any(condition), "OUT_OF_RESOURCES");
+        EXPECT_EQ(hall.query("component_status", condition).return_code, ReturnCode::unsupported);
+        EXPECT_THAT(hall.ask(GetProfile{condition}).components, IsEmpty());
+    }
+    EXPECT_THAT(hall.search(equal("Property/volume", "50")), ElementsAre("speech"));
+}
+
+TEST(Parameters, OfAnApplicationDecideOnlyWhichEventsItReceives) {
+    World world{detection_with_threshold()};
+    auto desk = world.connect(), hall = world.connect();
+    desk.bind("detection");
+    for (auto* application : {&desk, &hall}) application->subscribe("person_detected", equal("Property/threshold", "70"), true);
+    desk.set_parameter("detection", {integer("threshold", 70)});
+    desk.heard();
+    world["detection"].fires("person_detected", {integer("number", 1)});
+    EXPECT_THAT(desk.heard(), ElementsAre("2 person_detected detection number=1"));
+    EXPECT_THAT(hall.heard(), IsEmpty());
+}
+
+// A component may read what an application has set (its volume, say) as readily as what can only be read.
+TEST(Parameters, ThatCanBeSetAreNotReadFromTheComponentForOthers) {
+    World world{speech};
+    auto desk = world.connect(), hall = world.connect();
+    world["speech"].reads = {text("speech_text", "still in memory"), texts("synthesizable_languages", {"en"})};
+    desk.bind("speech");
+    EXPECT_THAT(in_words(desk.get_parameter("speech").parameters), HasSubstr("still in memory"));
+    EXPECT_EQ(in_words(hall.query("get_parameter").results.parameters), "synthesizable_languages=en volume=50 language=en");
 }
 
 TEST(Parameters, OfAComponentThatHasNoneAreNone) {

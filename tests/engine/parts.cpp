@@ -99,7 +99,12 @@ Part const navigation{"navigation", navigation_profile(), OnStart::acts, {{"targ
 Part const speech{"speech", speech_profile(), OnStart::acts, {{"speech_text", "SSML_text"}}, CompletedStatus::abort, {}};
 Part const detection{"detection", detection_profile(), OnStart::becomes_active, {}, CompletedStatus::abort, {}};
 Part const localization{"localization", localization_profile(), OnStart::becomes_active, {}, CompletedStatus::abort, {}};
-Part const desk_lamp{"lamp", lamp_profile(), OnStart::is_done, {}, CompletedStatus::abort, {}};
+Part const desk_lamp{.ref = "lamp",
+                     .profile = lamp_profile(),
+                     .on_start = OnStart::is_done,
+                     .mandatory = {},
+                     .engine = {},
+                     .codebooks = {{"owner", {"urn:x-test:visitors", "urn:x-test:robots"}}}};
 
 Part named(std::string ref, Part part) {
     part.ref = std::move(ref);
@@ -122,6 +127,7 @@ ScriptedComponent::ScriptedComponent(Part const& part, std::function<void(std::f
     description_.engine = part.engine;
     description_.crs = part.crs;
     description_.positions = part.positions;
+    description_.codebooks = part.codebooks;
     description_.profile = std::make_shared<ComponentProfile const>(part.profile);
 }
 
@@ -207,8 +213,9 @@ void ScriptedComponent::resume(Instant) {
     called("resume");
 }
 
-void ScriptedComponent::parameters_changed(ParameterList const&, Instant) {
+void ScriptedComponent::parameters_changed(ParameterList const& parameters, Instant) {
     told.emplace_back("parameters_changed");
+    changed_to = parameters;
     called("parameters_changed");
 }
 
@@ -234,14 +241,16 @@ std::optional<Located> ScriptedComponent::location() const {
 ParameterList ScriptedComponent::readable_parameters() const {
     called("readable_parameters");
     if (throws_in.contains("more than is known")) return {texts("mood", {"good"})};
+    if (reads) return *reads;
     if (part_.ref != speech.ref) return {};
     return {texts("synthesizable_languages", {"en", "ja"})};
 }
 
 std::vector<Results> ScriptedComponent::query(std::string_view query_type, Instant now) {
     called("query");
-    if (query_type != "route" || throws_in.contains("nothing known")) return Component::query(query_type, now);
+    if (throws_in.contains("nothing known")) return Component::query(query_type, now);
     if (!knows.empty()) return knows;
+    if (query_type != "route") return Component::query(query_type, now);
     return {{{Parameter{"length", {"double", {}, {}, {}}, {throws_in.contains("nothing right") ? "far" : "2.5"}}}, {}}};
 }
 

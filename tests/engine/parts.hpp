@@ -41,6 +41,7 @@ struct Part {
     std::string engine;  // of a sub engine
     std::string crs{};   // the frame in which it takes positions, and which parameters are positions
     std::vector<std::string> positions{};
+    std::vector<Codebooks> codebooks{};  // from which it takes identifiers
 };
 
 class ScriptedComponent final : public Component {
@@ -55,8 +56,10 @@ public:
     bool throws_no_exception = false;  // but something else
     std::vector<std::string> told;     // the calls that reached it
     ParameterList started_with;
-    std::vector<Results> knows;    // rows that it answers queries with, instead of what it says otherwise
-    std::optional<Located> where;  // nothing: nobody knows
+    ParameterList changed_to;            // the last parameters_changed
+    std::optional<ParameterList> reads;  // readable_parameters, instead of what it says otherwise
+    std::vector<Results> knows;          // rows that it answers queries with, instead of what it says otherwise
+    std::optional<Located> where;        // nothing: nobody knows
 
     // What it says by itself; the engine has heard it when the call returns.
     void begins();
@@ -104,7 +107,7 @@ extern Part const speech;
 extern Part const detection;
 // Finds people, continuously; tells `person_localized` (timestamp, person_ref, position_data).
 extern Part const localization;
-// Has a parameter of each type.
+// Has a parameter of each type; knows two codebooks for `owner`, none for `owners`.
 extern Part const desk_lamp;
 
 // The same part under another name; and of a sub engine.

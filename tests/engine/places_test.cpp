@@ -293,6 +293,74 @@ TEST_F(Times, TEqualsIsTheSameMoment) {
     EXPECT_TRUE(holds(TemporalRelation::during, literal("2026-11-20"), noon));
 }
 
+// ISO 19108: the one relation of the thirteen that holds, and AnyInteracts beside it.
+TEST_F(Times, PeriodsAndMomentsHaveOneRelationEach) {
+    using enum TemporalRelation;
+    static std::vector<std::pair<TemporalRelation, std::string>> const all{{after, "after"},
+                                                                           {before, "before"},
+                                                                           {during, "during"},
+                                                                           {t_equals, "equals"},
+                                                                           {begins, "begins"},
+                                                                           {begun_by, "begun by"},
+                                                                           {t_contains, "contains"},
+                                                                           {ended_by, "ended by"},
+                                                                           {ends, "ends"},
+                                                                           {meets, "meets"},
+                                                                           {met_by, "met by"},
+                                                                           {t_overlaps, "overlaps"},
+                                                                           {overlapped_by, "overlapped by"},
+                                                                           {any_interacts, "+"}};
+    auto const at = [](std::string const& hours) {  // "9-12" or "9"
+        auto const time = [](std::string const& hour) {
+            return *to_utc("2026-11-20T" + std::string(hour.size() < 2, '0') + hour + ":00:00Z");
+        };
+        auto const dash = hours.find('-');
+        auto const begin = time(hours.substr(0, dash));
+        return Period{begin, dash == hours.npos ? begin : time(hours.substr(dash + 1))};
+    };
+    auto const relations = [&](std::string const& one, std::string const& other) {
+        std::string names;
+        for (auto const& [relation, name] : all)
+            if (!found(temporal(relation, {{at(one)}, {at(other)}})).empty()) names += (names.empty() ? "" : " ") + name;
+        return names;
+    };
+    EXPECT_EQ(relations("9-12", "13-15"), "before");
+    EXPECT_EQ(relations("13-15", "9-12"), "after");
+    EXPECT_EQ(relations("9-12", "12-15"), "meets");
+    EXPECT_EQ(relations("12-15", "9-12"), "met by");
+    EXPECT_EQ(relations("9-12", "10-15"), "overlaps +");
+    EXPECT_EQ(relations("10-15", "9-12"), "overlapped by +");
+    EXPECT_EQ(relations("9-12", "9-15"), "begins +");
+    EXPECT_EQ(relations("9-15", "9-12"), "begun by +");
+    EXPECT_EQ(relations("12-15", "9-15"), "ends +");
+    EXPECT_EQ(relations("9-15", "12-15"), "ended by +");
+    EXPECT_EQ(relations("10-12", "9-15"), "during +");
+    EXPECT_EQ(relations("9-15", "10-12"), "contains +");
+    EXPECT_EQ(relations("9-15", "9-15"), "equals +");
+    EXPECT_EQ(relations("8", "9-12"), "before");
+    EXPECT_EQ(relations("9", "9-12"), "begins +");
+    EXPECT_EQ(relations("10", "9-12"), "during +");
+    EXPECT_EQ(relations("12", "9-12"), "ends +");
+    EXPECT_EQ(relations("13", "9-12"), "after");
+    EXPECT_EQ(relations("9-12", "8"), "after");
+    EXPECT_EQ(relations("9-12", "9"), "begun by +");
+    EXPECT_EQ(relations("9-12", "10"), "contains +");
+    EXPECT_EQ(relations("9-12", "12"), "ended by +");
+    EXPECT_EQ(relations("9", "9"), "equals +");
+    EXPECT_EQ(relations("9", "10"), "before");
+}
+
+TEST_F(Times, OfEventsMeetEachOperator) {
+    EXPECT_TRUE(holds(TemporalRelation::begins, {morning}, "2026-11-20T09:00:00Z"));
+    EXPECT_TRUE(holds(TemporalRelation::ends, {morning}, noon));
+    EXPECT_TRUE(holds(TemporalRelation::any_interacts, {morning}, noon));
+    EXPECT_FALSE(holds(TemporalRelation::any_interacts, {morning}, "2026-11-20T12:00:00.001Z"));
+    EXPECT_TRUE(told(temporal(TemporalRelation::t_contains, {{morning}, reference("timestamp")}),
+                     found_people("2026-11-20T10:00:00Z", {}, {})));
+    EXPECT_FALSE(holds(TemporalRelation::t_contains, {morning}, "2026-11-20T10:00:00Z")) << "a moment contains no period";
+    EXPECT_FALSE(holds(TemporalRelation::meets, {morning}, "2026-11-20T09:00:00Z")) << "only periods meet";
+}
+
 TEST_F(Times, OneOperandIsHeldAgainstTheTimeOfTheEvent) {
     EXPECT_TRUE(told(temporal(TemporalRelation::during, {{morning}}), found_people("2026-11-20T10:00:00Z", {}, {})));
     EXPECT_THAT(reason(temporal(TemporalRelation::during, {{morning}})), HasSubstr("one operand"));

@@ -70,7 +70,7 @@ TEST(Query, IsAnsweredWithTheFirstRowThatMatches) {
               "length=9 to=door");
     auto const none = desk.query("route", equal("to", "moon"));
     EXPECT_EQ(none.return_code, ReturnCode::unsupported);
-    EXPECT_EQ(none.reason, "nothing that matches is answered to queries of the type 'route'");
+    EXPECT_EQ(none.reason, "no component that matches the condition answers query 'route'");
 }
 
 TEST(Query, FindsTheComponentThatHasTheRow) {
@@ -172,6 +172,112 @@ TEST(Query, ThatCannotBeAnsweredNowIsAnError) {
     auto const reply = world.connect().query("route");
     EXPECT_EQ(reply.return_code, ReturnCode::error);
     EXPECT_EQ(reply.reason, "the component 'navigation' could not answer");
+}
+
+// --- System information belongs to the engine (7.6.1) ---
+
+namespace {
+
+ParameterProfile result(std::string name, std::string type) {
+    return {.name = std::move(name), .data_type_ref = {std::move(type), {}, {}, {}}, .default_value = {}, .description = {}};
+}
+
+// Tells `robot_position` and `engine_status`.
+Part system_of(std::string const& robot) {
+    auto part = in_engine(robot, named("system", navigation));
+    part.profile.object.identifier = "urn:x-rois:def:component:OMG::SystemInformation";
+    auto const query = [](std::string name, std::vector<ParameterProfile> results) {
+        return MessageProfile{
+            .kind = MessageKind::query, .name = std::move(name), .results = std::move(results), .arguments = {}, .timeout = {}};
+    };
+    part.profile.messages = {query("robot_position", {result("timestamp", "DateTime"), result("robot_ref", "RoISIdentifier[]"),
+                                                      result("position_data", "string[]")}),
+                             query("engine_status", {result("status", "Component_Status"), result("operable_time", "DateTime")})};
+    part.profile.parameters.clear();
+    part.mandatory.clear();
+    return part;
+}
+
+Results position(std::string time, std::string robot, std::string where) {
+    return {{value("timestamp", "DateTime", {"2026-11-20T12:00:0" + time + ".000Z"}),
+             value("robot_ref", "RoISIdentifier[]", {robot}), value("position_data", "string[]", {std::move(where)})},
+            {Located{"position_data", robot, "", {1, 2, 0}, {}, {}}}};
+}
+
+Results engine_status(std::string status, std::string since) {
+    Results results;
+    results.parameters.push_back(value("status", "Component_Status", {std::move(status)}));
+    if (!since.empty())
+        results.parameters.push_back(value("operable_time", "DateTime", {"2026-11-20T12:00:0" + since + ".000Z"}));
+    return results;
+}
+
+struct TwoRobots : testing::Test {
+    World world{system_of("robot2"), system_of("robot1"), detection};
+    Application desk = world.connect();
+    ScriptedComponent& one = world["robot1.system"];
+    ScriptedComponent& other = world["robot2.system"];
+
+    std::string status() { return in_words(desk.query("engine_status").results.parameters); }
+};
+
+}  // namespace
+
+TEST_F(TwoRobots, TellTheirPositionsTogether) {
+    one.knows = {position("4", "robot1", "1, 2, 0")};
+    other.knows = {position("3", "robot2", "3, 4, 0")};
+    for (auto const& whole :
+         {QueryExpression{}, QueryExpression{equal("engine", "")}, QueryExpression{equal("engine", "main")}}) {
+        auto const reply = desk.query("robot_position", whole);
+        EXPECT_EQ(reply.component_ref.code, "robot1.system");
+        EXPECT_EQ(in_words(reply.results.parameters),
+                  "timestamp=2026-11-20T12:00:03.000Z robot_ref=robot1|robot2 position_data=1, 2, 0|3, 4, 0")
+            << "the time of the oldest";
+        ASSERT_EQ(reply.results.located.size(), 2U);
+        EXPECT_EQ(reply.results.located[1].ref, "robot2");
+    }
+    desk.bind("robot2.system");
+    EXPECT_EQ(desk.query("robot_position").component_ref.code, "robot1.system") << "whatever the session works with";
+}
+
+TEST_F(TwoRobots, AreChosenByACondition) {
+    one.knows = {position("4", "robot1", "1, 2, 0")};
+    other.knows = {position("3", "robot2", "3, 4, 0")};
+    auto const robots = [&](QueryExpression condition) {
+        auto const reply = desk.query("robot_position", std::move(condition));
+        return reply.component_ref.code + " " + find(reply.results.parameters, "robot_ref")->values.front();
+    };
+    EXPECT_EQ(robots(equal("engine", "robot2")), "robot2.system robot2");
+    EXPECT_EQ(robots(equal("component_ref", "robot1.system")), "robot1.system robot1");
+    EXPECT_EQ(robots(equal("Result/robot_ref", "robot2")), "robot2.system robot2");
+    EXPECT_EQ(robots(sorted(reference("component_ref"), SortOrder::descending)), "robot2.system robot2");
+}
+
+TEST_F(TwoRobots, HaveTheWorstOfTheirStatuses) {
+    one.knows = {engine_status("READY", "1")};
+    other.knows = {engine_status("READY", "2")};
+    EXPECT_EQ(status(), "READY operable_time=2026-11-20T12:00:02.000Z") << "since both of them operate";
+    one.knows = {engine_status("WARNING", "1")};
+    EXPECT_EQ(status(), "WARNING operable_time=2026-11-20T12:00:02.000Z");
+    other.knows = {engine_status("UNINITIALIZED", "")};
+    EXPECT_EQ(status(), "UNINITIALIZED") << "they do not operate both";
+    one.knows = {engine_status("ERROR", "1")};
+    EXPECT_EQ(status(), "ERROR");
+    one.knows = {engine_status("READY", "1")};
+    EXPECT_EQ(in_words(desk.query("engine_status", equal("engine", "robot1")).results.parameters),
+              "READY operable_time=2026-11-20T12:00:01.000Z");
+}
+
+TEST_F(TwoRobots, AreNotSilencedByOneThatFails) {
+    one.throws_in = {"query"};
+    other.knows = {position("3", "robot2", "3, 4, 0")};
+    auto const reply = desk.query("robot_position");
+    EXPECT_EQ(reply.component_ref.code, "robot2.system");
+    EXPECT_EQ(find(reply.results.parameters, "robot_ref")->values, std::vector<std::string>{"robot2"});
+    other.knows = {engine_status("READY", "1")};
+    EXPECT_EQ(status(), "ERROR");
+    other.throws_in = {"query"};
+    EXPECT_EQ(desk.query("robot_position").return_code, ReturnCode::error) << "nobody knows";
 }
 
 }  // namespace rois

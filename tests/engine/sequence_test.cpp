@@ -268,7 +268,22 @@ TEST_F(Sequence, MayHaveUnitsThatOnlyDelay) {
     EXPECT_EQ(desk.result_of("go"), "WAITING");
     world.advance(50ms);
     EXPECT_EQ(desk.result_of("go"), "RUNNING");
-    EXPECT_EQ(desk.execute(pause(1s)).return_code, ReturnCode::ok);
+}
+
+// Tables 10 and 13: a list of units holds at least one command message.
+TEST_F(Sequence, ThatOnlyDelaysIsRefused) {
+    auto const reason = [&](auto... units) {
+        auto const reply = desk.execute(std::move(units)...);
+        return reply.return_code == ReturnCode::bad_parameter ? reply.reason : std::string{to_text(reply.return_code)};
+    };
+    std::string const none = "there is no command message in the command_unit_list, only delays; at least one is expected";
+    EXPECT_EQ(reason(pause(1s)), none);
+    EXPECT_EQ(reason(pause(1s), CommandUnit{}), none);
+    EXPECT_EQ(reason(go("go"), in_sequence({pause(1s)})), "command_unit_list[2]: " + none);
+    EXPECT_EQ(reason(go("go"), in_parallel({say("say"), in_parallel({pause(1s), pause(2s)})})),
+              "command_unit_list[2]/command_unit_list[2]: " + none);
+    EXPECT_EQ(reason(in_parallel({say("say"), pause(1s)})), "OK") << "a branch may only delay, beside one that does not";
+    EXPECT_EQ(desk.result_of("go"), "BAD_PARAMETER") << "nothing ran of what was refused";
 }
 
 TEST_F(Sequence, ThatHasFailedDoesNotWakeAfterItsDelay) {

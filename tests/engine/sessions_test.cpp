@@ -72,7 +72,7 @@ TEST(Session, DisconnectStopsWhatItStarted) {
     desk.execute(go("go"), go("and on"));
     desk.heard();
     desk.leave();
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
     EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt")) << "a function that is active counts, too";
     EXPECT_THAT(desk.heard(), ElementsAre("2 completed go ABORT", "3 completed and on ABORT"));
     EXPECT_TRUE(desk.told_of_the_end());
@@ -96,7 +96,7 @@ TEST(Session, NothingIsToldAfterItsEnd) {
     EXPECT_THAT(desk.heard(), IsEmpty());
     EXPECT_EQ(world.notified[desk.session], notified);
     EXPECT_EQ(world.engine->statistics().subscriptions, 0U);
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
 }
 
 TEST(Session, MayLetItsCommandsRunOn) {
@@ -157,7 +157,7 @@ TEST(Link, AClientThatBindsAndVanishesIsStoppedWithinTheWindow) {
     world.advance(29s);
     EXPECT_THAT(world["navigation"].told, ElementsAre("start"));
     world.advance(1s);
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT"));
     EXPECT_EQ(world.connect().bind("navigation"), ReturnCode::ok);
 }
@@ -288,7 +288,7 @@ TEST(ShutDown, EndsAllSessionsAndRefusesNewOnes) {
     EXPECT_TRUE(hall.told_of_the_end());
     EXPECT_EQ(desk.refusal_of(Search{}), Refusal::shutting_down);
     EXPECT_EQ(std::get<Refusal>(world.say({}, Connect{})), Refusal::shutting_down);
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
 }
 
 TEST(ShutDown, StopsAlsoWhatWasLeftToRunOn) {

@@ -178,8 +178,11 @@ TEST_F(Groups, WithoutAnythingAreAllComponents) { EXPECT_THAT(found({}), SizeIs(
 TEST_F(Groups, HaveAComponentForEachOfTheirMembers) {
     EXPECT_THAT(found({.types = {}, .aliases = {}, .filter = {}, .members = {drives, speaks}}),
                 ElementsAre("navigation", "speech"));
-    EXPECT_THAT(found({.types = {}, .aliases = {}, .filter = {}, .members = {drives}}),
-                ElementsAre("navigation", "sub1.navigation"));
+    EXPECT_THAT(found({.types = {}, .aliases = {}, .filter = {}, .members = {drives}}), ElementsAre("navigation"))
+        << "of one robot";
+    Condition const component{And{{group(of_types({"Navigation"}))}}};
+    EXPECT_THAT(desk.search(component), ElementsAre("navigation", "sub1.navigation"))
+        << "a ComponentCondition is about a component, whatever its robot";
 }
 
 TEST_F(Groups, AreRobotsThatHaveAllTheTypes) {

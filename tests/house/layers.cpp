@@ -16,6 +16,7 @@ using Headers = std::vector<std::string>;  // how the names of headers begin
 Headers const xerces{"xercesc/"};
 Headers const pugixml{"pugixml.hpp", "pugiconfig.hpp"};
 Headers const boost{"boost/"};
+Headers const boost_geometry{"boost/geometry/"};
 Headers const openssl{"openssl/"};
 Headers const prometheus{"prometheus/"};
 Headers const spdlog{"spdlog/"};
@@ -43,7 +44,7 @@ struct Layer {
 std::vector<Layer> const layers{
     {"server/types/", {"types/"}, {}, Time::passed_in},
     {"server/xml/", {"xml/", "types/"}, {xerces, pugixml}, Time::passed_in},
-    {"server/engine/", {"engine/", "types/"}, {eigen}, Time::passed_in},
+    {"server/engine/", {"engine/", "types/"}, {eigen, boost_geometry}, Time::passed_in},
     {"server/files/", {"files/"}, {}, Time::passed_in},
     {"server/net/", {"net/", "engine/", "xml/", "types/"}, {boost, openssl, prometheus, spdlog, posix}, Time::read},
     {"server/main/",
@@ -55,6 +56,7 @@ std::vector<Layer> const layers{
      {"simulation/", "engine/", "types/", "media/media.hpp", "xml/document.hpp", "xml/schemas.hpp"},
      {eigen},
      Time::passed_in},
+    {"client-cpp/include/rois/psm/", {"RoIS_"}, {}, Time::passed_in},
     {"client-cpp/include/", {"rois/", "types/"}, {}, Time::passed_in},
     {"client-cpp/source/",
      {"", "rois/", "types/", "xml/codec.hpp", "xml/numbers.hpp", "xml/writer.hpp"},
@@ -65,11 +67,15 @@ std::vector<Layer> const layers{
       "xml/schemas.hpp", "files/"},
      {boost, cli11, json, pugixml, posix},
      Time::read},
-    {"client-cpp/examples/", {}, {rois}, Time::read},
+    {"client-cpp/psm/",
+     {"psm/", "rois/", "types/", "xml/codec.hpp", "xml/names.hpp", "xml/writer.hpp"},
+     {pugixml},
+     Time::passed_in},
+    {"client-cpp/examples/", {"RoIS_"}, {rois}, Time::read},
 };
 
-std::array<std::string, 5> const include_folders{"server/", "components/", "client-cpp/", "client-cpp/include/",
-                                                 "client-cpp/source/"};
+std::array<std::string, 6> const include_folders{
+    "server/", "components/", "client-cpp/", "client-cpp/include/", "client-cpp/source/", "client-cpp/include/rois/psm/"};
 std::array<std::string, 3> const layered_folders{"server/", "components/", "client-cpp/"};
 
 struct Include {

@@ -36,8 +36,8 @@ Complaints against_links(Tree const&);
 Complaints against_named_dependencies(Tree const&);
 
 // In docs/conformance*.md each row names tests and source files that there are and has a state that there is; every table, figure
-// and annex of the specification and every decision has a row, every decision a test that carries its number; the summary is
-// true.
+// and annex of the specification and every decision has a row; a decision of which something is done has a test that carries its
+// number; the summary is true.
 Complaints against_proof(Tree const&);
 
 }  // namespace rois::house

@@ -25,6 +25,18 @@ TEST(Tone, GoesOnWithoutAClick) {
     EXPECT_EQ(together, whole.next(1'000));
 }
 
+TEST(Tone, ChangesItsFrequencyWithoutAClick) {
+    double now = 300;
+    ToneGenerator generator{{.current_frequency = [&] { return now; }}, ToneGenerator::Order::little_endian};
+    auto samples = samples_of(generator.next(16'000), ByteOrder::little_endian);
+    EXPECT_GT(share_of(300, samples, 16'000), 0.999);
+    int const before = samples.back();
+    now = 120;
+    samples = samples_of(generator.next(16'000), ByteOrder::little_endian);
+    EXPECT_GT(share_of(120, samples, 16'000), 0.999);
+    EXPECT_LT(std::abs(samples.front() - before), 2'100) << "no more than a step of the sine before";
+}
+
 TEST(Tone, IsTheSameInAllChannels) {
     ToneGenerator one{{.channels = 1}, ToneGenerator::Order::little_endian};
     ToneGenerator two{{.channels = 2}, ToneGenerator::Order::little_endian};

@@ -53,7 +53,9 @@ INSTANTIATE_TEST_SUITE_P(WhoBelievesThat, Flawed,
                                          Shown{"StopCompletesStartWithOk", Flaw::stop_completes_start_with_ok, 5},
                                          Shown{"ResultsAreKeptForEver", Flaw::results_are_kept_for_ever, 10},
                                          Shown{"SubscribingTwiceIsHeardTwice", Flaw::subscribing_twice_is_heard_twice, 5},
-                                         Shown{"BadValuesAreStored", Flaw::bad_values_are_stored, 4}),
+                                         Shown{"BadValuesAreStored", Flaw::bad_values_are_stored, 4},
+                                         Shown{"ValuesOutliveTheBinding", Flaw::values_outlive_the_binding, 7},
+                                         Shown{"AnybodyReadsStoredValues", Flaw::anybody_reads_stored_values, 6}),
                          testing::PrintToStringParamName());
 
 // A counterexample is told in a few lines.

@@ -29,6 +29,8 @@ std::string Reference::take(Step const& step) {
         case Kind::get_parameter:
         case Kind::set_parameter:
             return parameters(step);
+        case Kind::query_parameters:
+            return parameters_by_query(step);
         case Kind::execute:
             answer = execute(step.session, step.plan);
             break;
@@ -76,9 +78,9 @@ std::string Reference::connect(int session) {
 std::string Reference::disconnect(int session) {
     for (auto& component : components_) {
         if (component.bound_to != session) continue;
-        auto const value = component.value;
-        component = {};
-        component.value = value;
+        component.start = nullptr;
+        component.is_active = component.is_suspended = false;
+        end_binding(component);
     }
     std::erase_if(due_, [&](Due const& due) { return due.command->session == session; });
     sessions_[at(session)].reset();
@@ -99,9 +101,22 @@ std::string Reference::release(int session, int component) {
     if (released.bound_to != session) return "OK";
     for (auto const& [name, command] : sessions_[at(session)]->known)
         if (command->component == component && command->state == "WAITING") command->binding_lost = true;
-    released.bound_to = -1;
+    end_binding(released);
     if (!is(Flaw::release_lets_run_on)) halt(released, "ABORT");
     return "OK";
+}
+
+void Reference::end_binding(Component& component) const {
+    component.bound_to = -1;
+    if (!is(Flaw::values_outlive_the_binding)) component.value = component.default_value;
+}
+
+// The query get_parameter.
+std::string Reference::parameters_by_query(Step const& step) const {
+    if (step.component == nobody || step.component == detection) return "UNSUPPORTED";
+    auto const& component = components_[at(step.component)];
+    bool const is_told = component.bound_to == step.session || is(Flaw::anybody_reads_stored_values);
+    return "OK " + (is_told ? component.value : component.default_value);
 }
 
 std::string Reference::parameters(Step const& step) {

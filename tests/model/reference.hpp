@@ -26,7 +26,9 @@ enum class Flaw : std::uint8_t {
     stop_completes_start_with_ok,      // 9
     results_are_kept_for_ever,         // 17
     subscribing_twice_is_heard_twice,  // 20
-    bad_values_are_stored              // 26
+    bad_values_are_stored,             // 26
+    values_outlive_the_binding,        // 30
+    anybody_reads_stored_values        // 30
 };
 
 // How many results of a session are kept here (decision 17).
@@ -67,7 +69,8 @@ private:
         SharedCommand start{};  // that runs
         bool is_active = false;
         bool is_suspended = false;
-        std::string value{};  // of its parameter; at first the default
+        std::string default_value{};  // of its parameter
+        std::string value = default_value;
     };
     struct Session {
         std::map<char, SharedCommand> known;
@@ -86,6 +89,8 @@ private:
     std::string bind(int session, int component);
     std::string release(int session, int component);
     std::string parameters(Step const&);
+    std::string parameters_by_query(Step const&) const;
+    void end_binding(Component&) const;
     std::string execute(int session, Plan const&);
     std::string objection(int session, Plan const&) const;
     std::string state_of(Session const&, char name) const;
@@ -105,7 +110,7 @@ private:
 
     Flaw flaw_;
     std::array<std::optional<Session>, session_count> sessions_;
-    std::array<Component, 3> components_{Component{.value = "0"}, Component{.value = "50"}, Component{}};
+    std::array<Component, 3> components_{Component{.default_value = "0"}, Component{.default_value = "50"}, Component{}};
     std::vector<std::unique_ptr<Execution>> executions_;  // all that ever were
     std::deque<SharedCommand> turns_;                     // come, and not taken yet
     std::deque<SharedCommand> activating_;                // starts of a function, which complete when all turns have been taken

@@ -64,12 +64,13 @@ std::ostream& operator<<(std::ostream& out, Plan const& plan) {
 }  // namespace
 
 std::ostream& operator<<(std::ostream& out, Step const& step) {
-    static constexpr std::array<std::string_view, 14> names{"connect",
+    static constexpr std::array<std::string_view, 15> names{"connect",
                                                             "disconnect",
                                                             "bind",
                                                             "release",
                                                             "get_parameter",
                                                             "set_parameter",
+                                                            "query get_parameter",
                                                             "execute",
                                                             "get_command_result",
                                                             "component_status",
@@ -95,6 +96,7 @@ std::ostream& operator<<(std::ostream& out, Step const& step) {
         case Kind::bind:
         case Kind::release:
         case Kind::get_parameter:
+        case Kind::query_parameters:
         case Kind::component_status:
             return out << " " << ref;
         case Kind::set_parameter:
@@ -115,7 +117,7 @@ std::string in_lines(Steps const& steps) {
 }
 
 Step random_step(std::mt19937_64& random) {
-    static constexpr std::array<Kind, 30> kinds{Kind::connect,
+    static constexpr std::array<Kind, 31> kinds{Kind::connect,
                                                 Kind::connect,
                                                 Kind::disconnect,
                                                 Kind::bind,
@@ -125,6 +127,7 @@ Step random_step(std::mt19937_64& random) {
                                                 Kind::get_parameter,
                                                 Kind::set_parameter,
                                                 Kind::set_parameter,
+                                                Kind::query_parameters,
                                                 Kind::execute,
                                                 Kind::execute,
                                                 Kind::execute,

@@ -34,6 +34,7 @@ enum class Kind : std::uint8_t {
     release,
     get_parameter,
     set_parameter,
+    query_parameters,  // the query get_parameter
     execute,
     get_command_result,
     component_status,

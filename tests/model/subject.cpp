@@ -82,6 +82,8 @@ std::string Subject::take(Step const& step) {
             auto const value = step.number < 0 ? "loud" : std::to_string(step.number);
             return answer(seat, SetParameter{component, {rois::value(parameter_of(step.component), "int", {value})}});
         }
+        case Kind::query_parameters:
+            return query_parameters(seat, step.component);
         case Kind::execute:
             return answer(seat, sequence_of(step.plan));
         case Kind::get_command_result:
@@ -133,6 +135,15 @@ std::string Subject::read_parameter(Seat& seat, int component) {
     auto const& reply = std::get<GetParameter::Reply>(std::get<Reply>(said));
     if (reply.return_code != ReturnCode::ok) return std::string{to_text(reply.return_code)};
     auto const* const found = find(reply.parameters, parameter_of(component));
+    return "OK " + (found ? found->values.front() : "");
+}
+
+std::string Subject::query_parameters(Seat& seat, int component) {
+    auto const said = say(seat, Query{"get_parameter", equal("component_ref", ref(component))});
+    if (std::holds_alternative<Refusal>(said)) return "no_session";
+    auto const& reply = std::get<Query::Reply>(std::get<Reply>(said));
+    if (reply.return_code != ReturnCode::ok) return std::string{to_text(reply.return_code)};
+    auto const* const found = find(reply.results.parameters, parameter_of(component));
     return "OK " + (found ? found->values.front() : "");
 }
 

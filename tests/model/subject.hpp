@@ -30,6 +30,7 @@ private:
     std::variant<Reply, Refusal> say(Seat const&, Operation const&);
     std::string answer(Seat&, Operation const&);
     std::string read_parameter(Seat&, int component);
+    std::string query_parameters(Seat&, int component);
     std::string result_of(Seat&, char name);
     std::string status_of(Seat&, int component);
 

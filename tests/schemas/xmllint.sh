@@ -1,7 +1,8 @@
 #!/bin/sh
 # Judges the profiles and the samples with libxml2, which knows nothing of the server: every profile and every sample in valid/ must
 # be valid, every one in invalid/ must not. Also checks that invalid/manifest.tsv (file, line of the offending start tag, what is
-# wrong; tab-separated) lists each invalid sample once and that a start tag begins on its line. Exits with 1 when anything is wrong.
+# wrong; tab-separated) lists each invalid sample once and that a start tag begins on its line. Every XML example in a document (*.md)
+# must be well-formed, with all prefixes declared: one document, or one a line. Exits with 1 when anything is wrong.
 set -u
 
 schemas=$(cd "$(dirname "$0")/../../schemas" && pwd) || exit 1
@@ -12,7 +13,8 @@ if ! command -v xmllint >/dev/null; then
 fi
 
 verdicts=$(mktemp) || exit 1
-trap 'rm -f "$verdicts"' EXIT
+examples=$(mktemp -d) || exit 1
+trap 'rm -rf "$verdicts" "$examples"' EXIT
 checked=0
 failed=0
 
@@ -55,6 +57,31 @@ done <samples/invalid/manifest.tsv
 for file in samples/invalid/*.xml; do
     listed=$(cut -f 1 samples/invalid/manifest.tsv | grep -cxF "$(basename "$file")")
     [ "$listed" -eq 1 ] || complain "manifest.tsv: $(basename "$file") is listed $listed times"
+done
+
+# What xmllint says of standard input; nothing if it is well-formed. Its exit status does not report undeclared prefixes.
+faults() { xmllint --nonet --noout - 2>&1; }
+
+# Writes each example to a file named by its line.
+examples_of() {
+    awk -v to="$examples/" '/^```/ { example = example == "" ? substr($0, 4) : ""; file = to (FNR + 1); next }
+        example == "xml" { print > file }' "$1"
+}
+
+for document in ../README.md ../docs/*.md ../web/*/README.md; do
+    examples_of "$document"
+    for example in "$examples"/*; do
+        [ -e "$example" ] || continue
+        checked=$((checked + 1))
+        where="$document, example in line $(basename "$example")"
+        wrong=$(faults <"$example")
+        [ -n "$wrong" ] || continue
+        while IFS= read -r line; do
+            printf '%s\n' "$line" | faults >"$verdicts"
+            [ ! -s "$verdicts" ] || { complain "$where: $wrong"; break; }
+        done <"$example"
+    done
+    rm -f "$examples"/*
 done
 
 echo "$checked checked, $failed failed"

@@ -52,8 +52,9 @@ TEST_P(CommandOperations, SearchByStatusIsTheAskers) {
 }
 
 TEST_P(CommandOperations, SearchRefusesWhatItCannotRead) {
-    EXPECT_THAT(desk.ask("search", where(touching("name"))), IsRefused("BAD_PARAMETER", "Touches"));
-    EXPECT_THAT(desk.ask("search", where(both(equal("name", "move"), touching("name")))), IsRefused("BAD_PARAMETER", "Touches"));
+    EXPECT_THAT(desk.ask("search", where(undefined_function("name"))), IsRefused("BAD_PARAMETER", "is_free"));
+    EXPECT_THAT(desk.ask("search", where(both(equal("name", "move"), undefined_function("name")))),
+                IsRefused("BAD_PARAMETER", "is_free"));
     EXPECT_THAT(desk.ask("search", where(equal("colour", "red"))), IsRefused("BAD_PARAMETER", "colour"));
 }
 
@@ -89,7 +90,7 @@ TEST_P(CommandOperations, BindAnyWhenAllMatchesAreTaken) {
 
 TEST_P(CommandOperations, BindAnyOfWhatCannotBe) {
     EXPECT_THAT(bind_any(desk, equal("name", "dishwasher")), IsRefused("UNSUPPORTED", "match"));
-    EXPECT_THAT(bind_any(desk, touching("name")), IsRefused("BAD_PARAMETER", "Touches"));
+    EXPECT_THAT(bind_any(desk, undefined_function("name")), IsRefused("BAD_PARAMETER", "is_free"));
     EXPECT_THAT(bind_any(desk, equal("colour", "red")), IsRefused("BAD_PARAMETER", "colour"));
 }
 
@@ -128,6 +129,34 @@ TEST_P(CommandOperations, SetParameterStoresAndCompletes) {
     EXPECT_EQ(desk.status_of(answer.text("command_id")), "OK");
     EXPECT_THAT(desk.get_parameter("navigation").values("parameters"),
                 Contains(Pair("target_position", ElementsAre("7000, 6000, 0", "desk"))));
+}
+
+TEST_P(CommandOperations, ParametersEndWithTheirBinding) {
+    auto const defaults = desk.query("get_parameter", where(equal("name", "speech_synthesis"))).values();
+    EXPECT_EQ(defaults.count("speech_text"), 0u);
+    for (auto const* end : {"release", "disconnect"}) {
+        for (auto const* ref : {"speech_synthesis", "navigation", "reaction", "follow", "move"}) desk.bind(ref);
+        desk.set_parameter("speech_synthesis", {speech_text("a secret"), {"volume", "int", {"7"}}});
+        desk.set_parameter("navigation", {target_position({"desk"})});
+        desk.set_parameter("move", {{"line", "int[]", {"1000 0"}}});
+        desk.set_parameter("reaction", {{"reaction_ref", "RoISIdentifier", {"1"}}});
+        EXPECT_THAT(desk.query("get_parameter", where(equal("name", "speech_synthesis"))).values(),
+                    Contains(Pair("speech_text", ElementsAre("a secret"))));
+        EXPECT_EQ(rival.query("get_parameter", where(equal("name", "speech_synthesis"))).values(), defaults);
+        EXPECT_THAT(rival.search(where(equal("Property/speech_text", "a secret"))), IsEmpty());
+        if (std::string{end} == "disconnect") {
+            desk.disconnect();
+            desk.connect();
+        } else {
+            for (auto const* ref : {"speech_synthesis", "navigation", "reaction", "follow", "move"}) desk.release(ref);
+        }
+        for (auto const* ref : {"speech_synthesis", "navigation", "reaction", "follow", "move"}) {
+            rival.bind(ref);
+            EXPECT_THAT(rival.execute(Command{.component = ref}), IsRefused("BAD_PARAMETER", "command_unit_list[1]")) << ref;
+            rival.release(ref);
+        }
+        EXPECT_EQ(desk.query("get_parameter", where(equal("name", "speech_synthesis"))).values(), defaults) << end;
+    }
 }
 
 TEST_P(CommandOperations, SetParameterTakesThePublishedSpellings) {

@@ -147,7 +147,7 @@ TEST_P(Completion, AConditionChoosesAmongTheResults) {
     EXPECT_THAT(none, IsOk());
     EXPECT_THAT(none.values(), IsEmpty());
     EXPECT_THAT(desk.get_command_result(id, where(equal("colour", "red"))), IsRefused("BAD_PARAMETER", "colour"));
-    EXPECT_THAT(desk.get_command_result(id, where(touching("status"))), IsRefused("BAD_PARAMETER", "Touches"));
+    EXPECT_THAT(desk.get_command_result(id, where(undefined_function("status"))), IsRefused("BAD_PARAMETER", "is_free"));
 }
 
 TEST_P(Completion, ResultsOfAnUnknownOrAnothersCommand) {

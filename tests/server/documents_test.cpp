@@ -120,7 +120,8 @@ TEST(FloorMap, OfAnEngineWithoutOneIsNotFound) {
     net::Documents const documents{gateway, telemetry, schemas, {}};
     auto const answer = documents.answer(net::route_of("/rois/map"), {});
     EXPECT_EQ(answer.status, 404);
-    EXPECT_EQ(answer.fault, FaultCode::not_found);
+    ASSERT_TRUE(answer.fault);
+    EXPECT_EQ(answer.fault->code, FaultCode::not_found);
     EXPECT_THAT(answer.body, HasSubstr("this engine has no floor map"));
 }
 

@@ -60,7 +60,7 @@ TEST_P(Errors, HaveDetails) {
     EXPECT_THAT(detail_of(id, where(equal("component_ref", "move"))).values(), IsEmpty());
     EXPECT_EQ(detail_of(id, where(like("text", "*failed*"))).values(), detail.values());
     EXPECT_THAT(detail_of(id, where(equal("colour", "red"))), IsRefused("BAD_PARAMETER", "colour"));
-    EXPECT_THAT(detail_of(id, where(touching("text"))), IsRefused("BAD_PARAMETER", "Touches"));
+    EXPECT_THAT(detail_of(id, where(undefined_function("text"))), IsRefused("BAD_PARAMETER", "is_free"));
 }
 
 TEST_P(Errors, AreHeardByThoseWhoHaveTheComponentBoundOrSubscribed) {

@@ -56,7 +56,7 @@ TEST_P(EventOperations, DetailsOfAnEvent) {
     EXPECT_THAT(none, IsOk());
     EXPECT_THAT(none.values(), IsEmpty());
     EXPECT_THAT(desk.get_event_detail(id, where(equal("colour", "red"))), IsRefused("BAD_PARAMETER", "colour"));
-    EXPECT_THAT(desk.get_event_detail(id, where(touching("number"))), IsRefused("BAD_PARAMETER", "Touches"));
+    EXPECT_THAT(desk.get_event_detail(id, where(undefined_function("number"))), IsRefused("BAD_PARAMETER", "is_free"));
 }
 
 TEST_P(EventOperations, DetailsOfAnUnknownEvent) {
@@ -115,7 +115,7 @@ TEST_P(EventOperations, SubscribeToWhatCannotHappenIsUnsupported) {
 }
 
 TEST_P(EventOperations, SubscribeWithAConditionThatCannotBeRead) {
-    EXPECT_THAT(desk.subscribe(detected, where(touching("number"))), IsRefused("BAD_PARAMETER", "Touches"));
+    EXPECT_THAT(desk.subscribe(detected, where(undefined_function("number"))), IsRefused("BAD_PARAMETER", "is_free"));
     EXPECT_THAT(desk.subscribe(detected, where(equal("colour", "red"))), IsRefused("BAD_PARAMETER", "colour"));
 }
 

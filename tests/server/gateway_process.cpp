@@ -8,10 +8,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 namespace rois::test {
 
@@ -85,16 +87,27 @@ GatewayProcess::GatewayProcess(std::vector<std::string> arguments, Variables con
     process_ = start(arguments, variables, -1, error.ends[1]);
     close(error.ends[1]);
     errors_ = error.ends[0];
+    reader_ = std::thread{[this] {
+        std::string more;
+        while (read_some(errors_, more)) {
+            std::lock_guard const lock{mutex_};
+            log_ += std::exchange(more, {});
+            news_.notify_all();
+        }
+        std::lock_guard const lock{mutex_};
+        ended_ = true;
+        news_.notify_all();
+    }};
     static std::string const mark = "listening on ";
     auto const listening = [&] {
         auto const at = log_.find(mark);
         return at != std::string::npos && log_.find_first_of("\"\n", at) != std::string::npos;
     };
-    while (!listening()) {
-        if (read_some(errors_, log_)) continue;
-        exit_code(process_);
-        process_ = 0;
-        throw std::runtime_error{"the gateway does not listen: " + log_};
+    std::unique_lock lock{mutex_};
+    news_.wait(lock, [&] { return ended_ || listening(); });
+    if (!listening()) {
+        lock.unlock();
+        throw std::runtime_error{"the gateway does not listen: " + wait().error};
     }
     auto const begin = log_.find(mark) + mark.size();
     url_ = log_.substr(begin, log_.find_first_of("\"\n", begin) - begin);
@@ -115,11 +128,16 @@ std::size_t GatewayProcess::resident_bytes() const {
     return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
+std::string GatewayProcess::log_with(std::string_view text) {
+    std::unique_lock lock{mutex_};
+    news_.wait_for(lock, std::chrono::seconds{10}, [&] { return ended_ || log_.find(text) != std::string::npos; });
+    return log_;
+}
+
 void GatewayProcess::signal(int number) { kill(process_, number); }
 
 Ended GatewayProcess::wait() {
-    while (read_some(errors_, log_)) {
-    }
+    reader_.join();
     close(errors_);
     Ended ended;
     ended.exit_code = exit_code(process_);

@@ -3,9 +3,13 @@
 
 #include <sys/types.h>
 
+#include <condition_variable>
 #include <cstdint>
 #include <map>
+#include <mutex>
 #include <string>
+#include <string_view>
+#include <thread>
 #include <vector>
 
 #include "client/address.hpp"
@@ -38,14 +42,21 @@ public:
     client::Address address() const { return {.port = port_}; }
     std::size_t resident_bytes() const;
 
+    // What it has logged, as soon as the text is in it; after ten seconds also without it.
+    std::string log_with(std::string_view text);
+
     void signal(int number);
     // Waits for its end.
     Ended wait();
 
 private:
     pid_t process_ = 0;
-    int errors_ = -1;  // its standard error
-    std::string log_;  // read from it until now
+    int errors_ = -1;  // its standard error, which the reader reads on, so that no log is too long
+    std::thread reader_;
+    std::mutex mutex_;  // guards the next two
+    std::condition_variable news_;
+    std::string log_;
+    bool ended_ = false;  // nothing more comes
     std::string url_;
     std::uint16_t port_ = 0;
 };

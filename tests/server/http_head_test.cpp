@@ -38,6 +38,11 @@ TEST(HttpHead, TakesATargetWithItsAuthority) {
     EXPECT_EQ(std::get<RequestHead>(result).path, "/healthz");
     auto const bare = read("GET http://h HTTP/1.1\r\nHost: h\r\n\r\n");
     EXPECT_EQ(std::get<RequestHead>(bare).path, "/");
+    auto const other = read("GET http://other:81?x/y HTTP/1.1\r\nHost: h\r\n\r\n");
+    EXPECT_EQ(std::get<RequestHead>(other).authority(), "other:81");
+    EXPECT_EQ(std::get<RequestHead>(other).path, "/");
+    EXPECT_EQ(std::get<RequestHead>(other).query, "x/y");
+    EXPECT_EQ(std::get<RequestHead>(read("GET / HTTP/1.1\r\nHost: h\r\n\r\n")).authority(), "h");
 }
 
 TEST(HttpHead, MayEndTheConnection) {

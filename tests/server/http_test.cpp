@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <map>
 
 #include "server/http_client.hpp"
 
@@ -105,6 +106,48 @@ TEST(Http, RefusesWhatIsNotHttp) {
     for (auto const* host : {"a b", "a,b", "user@a", "a/b"})
         expect_end("GET /healthz HTTP/1.1\r\nHost: " + std::string{host} + "\r\n\r\n", 400, "not_well_formed");
     expect_end("GET /healthz HTTP/1.1\nHost: h\n\n", 400, "not_well_formed");
+}
+
+TEST(Http, ChecksTheAuthorityOfATargetLikeHost) {
+    auto const get = [](std::string const& target) { return head("GET " + target); };
+    for (auto const* target : {"http://user@a/healthz", "http://a,b/healthz", "http://a\\b/healthz", "http:///healthz", "http://",
+                               "http://?x", "http://a#b/healthz", "HTTPS://user:secret@a"})
+        expect_end(get(target), 400, "not_well_formed");
+    HttpClient client;
+    for (auto const* target : {"http://gateway.test/healthz", "http://another.test:81/healthz", "HTTP://[::1]:8080/healthz?x"})
+        EXPECT_EQ(client.say(get(target)).status, 200) << target;
+    EXPECT_EQ(client.say(head("GET http://gateway.test")).status, 200) << "the page at /";
+}
+
+TEST(Http, TakesTheAuthorityOfATargetBeforeHost) {
+    HttpClient client;
+    EXPECT_THAT(client.say(head("GET http://another.test:81/plain")).body, HasSubstr("http://another.test:81"));
+    EXPECT_THAT(client.say(head("GET /plain")).body, HasSubstr("http://gateway.test"));
+}
+
+// An answer with a body would be read as the beginning of the next one.
+TEST(Http, RefusesHeadWithoutABody) {
+    auto const length_of = [](HttpReply const& reply) { return std::stoul(reply.header("Content-Length")); };
+    for (auto const& [bytes, status] :
+         std::map<std::string, int>{{head("HEAD /healthz", "Transfer-Encoding: chunked\r\n"), 411},
+                                    {head("HEAD /healthz", "Host: another\r\n"), 400},
+                                    {head("HEAD http://user@a/healthz"), 400},
+                                    {"HEAD /healthz HTTP/2.0\r\nHost: h\r\n\r\n", 400},
+                                    {"HEAD /healthz HTTP/1.1\r\n\r\n", 400},
+                                    {head("HEAD /healthz", "X: " + std::string(17 * 1024, 'x') + "\r\n"), 431},
+                                    {"HEAD /" + std::string(20 * 1024, 'x'), 414},
+                                    {head("HEAD /" + std::string(5 * 1024, 'x')), 414},
+                                    {head("HEAD /rois", "Content-Length: 9999999\r\n"), 413}}) {
+        HttpClient client;
+        auto const refused = client.say(bytes, "HEAD");
+        EXPECT_EQ(refused.status, status) << bytes.substr(0, 100);
+        EXPECT_GT(length_of(refused), 0u);
+        EXPECT_TRUE(client.line().ends()) << bytes.substr(0, 100);
+    }
+    HttpClient after_another;
+    EXPECT_EQ(after_another.say(head("HEAD /nowhere"), "HEAD").status, 404);
+    EXPECT_EQ(after_another.say(head("HEAD /rois"), "HEAD").status, 426);
+    EXPECT_EQ(after_another.say(head("GET /healthz", "Host: another\r\n")).fault(), "not_well_formed") << "this is not HEAD";
 }
 
 TEST(Http, RefusesADoubtfulLength) {

@@ -169,6 +169,55 @@ TEST_P(ProfilesOfUsers, MakeComponents) {
     EXPECT_EQ(desk.status_of("b"), "OK");
 }
 
+// Annex C.4 sets `behaviour_tag` and gets `behavior_tag`.
+TEST_P(ProfilesOfUsers, NameTheTagOfAWheelchairInBothPublishedSpellings) {
+    GatewayProcess gateway{{"--profiles", ROIS_SOURCE_DIR "/components/simulation/profiles", "--scenario",
+                            ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--sim-speed", "20"}};
+    Application desk{GetParam(), gateway};
+    desk.connect();
+    desk.bind("wheelchair_robot");
+    EXPECT_EQ(desk.set_parameter("wheelchair_robot", {{"behavior_tag", "string", {"desk"}}}).return_code(), "OK");
+    auto const parameters = desk.get_parameter("wheelchair_robot").values("parameters");
+    EXPECT_THAT(parameters, testing::Contains(testing::Pair("behaviour_tag", ElementsAre("desk"))));
+    EXPECT_EQ(parameters.count("behavior_tag"), 0U) << "it is told in one spelling";
+    EXPECT_EQ(desk.query("get_parameter", where(equal("Property/behavior_tag", "desk"))).ref(), "wheelchair_robot");
+    EXPECT_EQ(
+        desk.set_parameter("wheelchair_robot", {{"behaviour_tag", "string", {"start"}}, {"behavior_tag", "string", {"desk"}}})
+            .reason(),
+        "parameter 'behavior_tag' is there twice");
+}
+
+TEST_P(ProfilesOfUsers, BrakeAWheelchair) {
+    GatewayProcess gateway{{"--profiles", ROIS_SOURCE_DIR "/components/simulation/profiles", "--scenario",
+                            ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--sim-speed", "20"}};
+    Application desk{GetParam(), gateway};
+    desk.connect();
+    for (auto const* ref : {"wheelchair_robot", "speech_synthesis"}) desk.bind(ref);
+    desk.subscribe("wc_status_change", "", true);
+    auto const hear_status = [&] { return desk.hear_event("wc_status_change").values().at("wc_status").at(0); };
+    auto const brake = [&](std::string const& status) {
+        desk.execute(Command{"wheelchair_robot", "brake", "brake " + status, {{"status", "bool", {status}}}});
+        EXPECT_EQ(desk.status_of("brake " + status), "OK");
+    };
+    std::vector<std::string> there_and_back;
+    for (int i = 0; i < 25; ++i) there_and_back.insert(there_and_back.end(), {"meeting_room", "cloakroom"});
+    desk.execute(Command{"wheelchair_robot", "start", "drive", {target_position(there_and_back)}});
+    EXPECT_EQ(hear_status(), "running");
+    brake("true");
+    auto const held = desk.query("wc_status_change").values();
+    EXPECT_THAT(held.at("brake_status"), ElementsAre("true"));
+    EXPECT_THAT(held.at("wc_status"), ElementsAre("brakes"));
+    EXPECT_THAT(held.at("nav_status"), ElementsAre("running"));
+    desk.execute(Command{"speech_synthesis", "start", "time passes", {speech_text("One, two, three, four, five.")}});
+    EXPECT_EQ(desk.status_of("time passes"), "OK");
+    EXPECT_EQ(desk.query("wc_status_change").values(), held) << "it stands";
+    brake("false");
+    desk.execute(Command{"speech_synthesis", "start", "more time", {speech_text("One, two, three, four, five.")}});
+    EXPECT_EQ(desk.status_of("more time"), "OK");
+    EXPECT_NE(desk.query("wc_status_change").values().at("position"), held.at("position"));
+    EXPECT_EQ(desk.get_command_result("drive").values().at("status").at(0), "RUNNING");
+}
+
 TEST_P(ProfilesOfUsers, MakeComponentsThatAScenarioLetsFail) {
     folder_.put("fan.xml", fan());
     folder_.put("day.scenario",

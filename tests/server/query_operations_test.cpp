@@ -67,7 +67,7 @@ TEST_P(QueryOperations, ThatNobodyAnswersIsUnsupported) {
 }
 
 TEST_P(QueryOperations, WithAConditionThatCannotBeRead) {
-    EXPECT_THAT(desk.query("robot_position", where(touching("name"))), IsRefused("BAD_PARAMETER", "Touches"));
+    EXPECT_THAT(desk.query("robot_position", where(undefined_function("name"))), IsRefused("BAD_PARAMETER", "is_free"));
     EXPECT_THAT(desk.query("robot_position", where(equal("colour", "red"))), IsRefused("BAD_PARAMETER", "colour"));
 }
 

@@ -46,7 +46,37 @@ blocks sh | sed "s|^GATEWAY=.*|GATEWAY=$url|" >"$work/session.sh"
 bash "$work/session.sh" >"$work/printed" 2>&1
 blocks xml | without_numbers | sort -u >"$work/shown"
 without_numbers <"$work/printed" | sort -u >"$work/lines"
-if missing=$(comm -23 "$work/shown" "$work/lines") && [[ -z $missing && -s $work/shown ]]; then exit 0; fi
-printf 'The README shows what its session did not print:\n%s\n\nIt printed:\n' "$missing"
-cat "$work/printed"
-exit 1
+fail() {
+    printf '%s\n\nIt printed:\n' "$1"
+    cat "$work/printed"
+    exit 1
+}
+missing=$(comm -23 "$work/shown" "$work/lines")
+[[ -z $missing && -s $work/shown ]] || fail "The README shows what its session did not print: $missing"
+
+# A reader who begins again in the same terminal gets the components that the session before had bound.
+sed '/^for event/,$d' "$work/session.sh" >"$work/begin.sh"
+for _ in 1 2; do cat "$work/begin.sh"; done >"$work/twice.sh"
+bash "$work/twice.sh" >"$work/printed" 2>&1
+[[ $(grep -c '<bind_response .*return_code="OK"' "$work/printed") -eq 8 ]] || fail "A session that begins again does not bind all components."
+
+# That terminal is closed: its session lasts for another 90 s. The next walk says so at once, and ends.
+for shell in bash sh; do
+    timeout 20 "$shell" "$work/session.sh" >"$work/printed" 2>&1 || fail "In $shell, a walk after one that was broken off does not end."
+    [[ $(grep -c "^Another session holds navigation" "$work/printed") -eq 1 ]] || fail "In $shell, the walk does not say once who holds the components."
+    grep -q "^The engine refused 'execute'" "$work/printed" || fail "In $shell, the walk does not say that 'execute' was refused."
+    grep -q "^The robot has not greeted" "$work/printed" || fail "In $shell, the walk does not say that the robot has not greeted."
+done
+
+# The loop that waits, with these assignments before it; it ends and prints a line that begins like this.
+waits() {
+    { printf 'GATEWAY=%s %s\n' "$url" "$1"; sed -n '/^hear()/,/has not greeted/p' "$work/session.sh"; } >"$work/wait.sh"
+    for shell in bash sh; do
+        timeout 20 "$shell" "$work/wait.sh" >"$work/printed" 2>&1 || fail "In $shell, the loop that waits does not end with $1."
+        grep -q "^$2" "$work/printed" || fail "In $shell, the loop that waits does not say '$2' with $1."
+    done
+}
+# A reader pauses for too long; a command never ends, with 2 s in place of 90 s.
+waits "SESSION=over WAIT=90" "The session has ended"
+session=$(ask "<connect $names/>" | sed 's/.*<session>//; s/<.*//')
+waits "SESSION=$session WAIT=2" "The robot has not greeted"

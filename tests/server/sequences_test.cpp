@@ -101,7 +101,12 @@ TEST_P(Sequences, NestAsInTheSeed) {
 TEST_P(Sequences, AUnitWithoutATypeOnlyDelays) {
     desk.execute(side_by_side(one_after_another(pause(50) + unit(halt("delayed"))) + unit(halt("at-once"))));
     EXPECT_THAT(played_until("delayed"), ElementsAre("completed at-once OK", "completed delayed OK"));
-    EXPECT_THAT(desk.execute(pause(0)), IsOk()) << "nothing but a delay";
+}
+
+TEST_P(Sequences, WithoutACommandMessageAreRefused) {
+    EXPECT_THAT(desk.execute(pause(50)), IsRefused("BAD_PARAMETER", "there is no command message in the command_unit_list"));
+    refused(unit(halt("halt")) + one_after_another(pause(50) + pause(0)), "BAD_PARAMETER", "command_unit_list[2]",
+            "no command message");
 }
 
 TEST_P(Sequences, DelayTimeOfACommandCountsFromItsTurn) {

@@ -19,7 +19,8 @@ TEST(Speech, IsLoggedPassageByPassage) {
                              .arguments = {{"SSML_text",
                                             "string",
                                             {"<speak xml:lang='en'>Welcome, <lang xml:lang='ja'>ようこそ</lang> <break "
-                                             "time='1s'/><prosody pitch='high' volume='soft'>Tanaka</prosody></speak>"}}}});
+                                             "time='1s'/><prosody pitch='high' volume='soft'>Tanaka</prosody> "
+                                             "<voice name='child'>Hello</voice></speak>"}}}});
         EXPECT_EQ(desk.status_of("greet"), "OK");
     }
     gateway.signal(SIGTERM);
@@ -27,6 +28,7 @@ TEST(Speech, IsLoggedPassageByPassage) {
     EXPECT_THAT(log, HasSubstr("info robot1 says in en, 0.52 s: 'Welcome,'"));
     EXPECT_THAT(log, HasSubstr("info robot1 says in ja, 1.60 s: 'ようこそ'"));
     EXPECT_THAT(log, HasSubstr("info robot1 says in en, 0.39 s, pitch high, volume soft: 'Tanaka'"));
+    EXPECT_THAT(log, HasSubstr("info robot1 says in en, 0.27 s, voice child: 'Hello'"));
 }
 
 }  // namespace

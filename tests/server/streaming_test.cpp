@@ -110,6 +110,26 @@ TEST_P(Streaming, SoundIsServedByHttp) {
     EXPECT_THAT(Receiving{stream.transport}.head(), StartsWith("HTTP/1.1 404 "));
 }
 
+TEST_P(Streaming, SoundHasThePitchOfTheVoiceThatSpeaks) {
+    listen("audio_streaming");
+    desk.bind("speech_synthesis");
+    set("audio_streaming", "audio/wav;rate=8000", "http");
+    auto const stream = connect("audio_streaming");
+    Receiving receiving{stream.transport};
+    receiving.line().take(44);
+    for (auto const& [character, pitch] : {std::pair{"child", 300.0}, {"robot", 90.0}}) {
+        desk.execute(
+            Command{.component = "speech_synthesis",
+                    .id = std::string{"as "} + character,
+                    .arguments = {{"character", "string", {character}}, {"speech_text", "string", {std::string(600, 'a')}}}});
+        bool heard = false;
+        for (int piece = 0; piece < 100 && !heard; ++piece)
+            heard = share_of(pitch, samples_of(receiving.line().take(3'200), ByteOrder::little_endian), 8'000) > 0.999;
+        EXPECT_TRUE(heard) << character;
+    }
+    desk.execute(Command{.component = "speech_synthesis", .type = "stop"});
+}
+
 TEST_P(Streaming, SoundIsSentByRtp) {
     listen("audio_streaming");
     Mailbox mailbox;
@@ -179,7 +199,7 @@ TEST_P(Streaming, WhatCannotBeIsRefused) {
     EXPECT_THAT(desk.execute(Command{.component = "audio_streaming", .type = "disconnect_stream"}),
                 IsRefused("BAD_PARAMETER", "'stream_id' is missing"));
     EXPECT_THAT(desk.query("get_stream_status", where(equal("stream_id", "moon"))),
-                IsRefused("UNSUPPORTED", "nothing that matches is answered to queries of the type 'get_stream_status'"));
+                IsRefused("UNSUPPORTED", "no component that matches the condition answers query 'get_stream_status'"));
 }
 
 TEST_P(Streaming, TheCommonCommandsAreAboutAllStreams) {

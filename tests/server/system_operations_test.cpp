@@ -107,10 +107,13 @@ TEST_P(SystemOperations, GetProfileTellsTheEngineAndItsComponents) {
     std::vector<std::string> children{"rois:HRIEngineProfile", "components"};
     children.insert(children.end(), refs.size(), "rois:HRIComponentProfile");
     EXPECT_EQ(answer.children(), children);
-    std::vector<std::string> of_engine;
-    for (auto const component : answer.root().child("rois:HRIEngineProfile").children("rois:HRIComponent"))
-        of_engine.emplace_back(component.text().get());
-    EXPECT_THAT(of_engine, testing::UnorderedElementsAreArray(refs));
+    auto const engine = answer.root().child("rois:HRIEngineProfile");
+    EXPECT_FALSE(engine.child("rois:HRIComponent")) << "all components belong to the robot";
+    EXPECT_STREQ(engine.child("rois:SubProfile").child("gml:name").text().get(), "robot1");
+    std::vector<std::string> of_robot;
+    for (auto const component : engine.child("rois:SubProfile").children("rois:HRIComponent"))
+        of_robot.emplace_back(component.text().get());
+    EXPECT_THAT(of_robot, testing::UnorderedElementsAreArray(refs));
 }
 
 TEST_P(SystemOperations, GetProfileTellsThoseThatAreAskedFor) {
@@ -132,12 +135,26 @@ TEST_P(SystemOperations, GetProfileNamesTheEngineOfEachComponent) {
     std::vector<std::string> engines;
     for (auto const component : answer.root().child("components").children("component"))
         engines.emplace_back(component.attribute("engine").value());
-    EXPECT_THAT(engines, testing::Each(engine));
-    EXPECT_THAT(desk.search(where(equal("engine", engine))), SizeIs(15));
+    EXPECT_THAT(engines, testing::Each(std::string{"robot1"}));
+    for (auto const& whole : {engine, std::string{}, std::string{"robot1"}})
+        EXPECT_THAT(desk.search(where(equal("engine", whole))), SizeIs(15)) << whole;
+}
+
+TEST_P(SystemOperations, GetProfileOfAnEngineTellsThatEngine) {
+    auto const name = [&](Xml const& condition) {
+        auto const answer = desk.ask("get_profile", condition);
+        EXPECT_THAT(component_refs(answer), SizeIs(15));
+        return std::string{answer.root().child("rois:HRIEngineProfile").child("gml:name").text().get()};
+    };
+    auto const whole = name({});
+    EXPECT_NE(whole, "robot1");
+    EXPECT_EQ(name(where(equal("engine", ""))), whole);
+    EXPECT_EQ(name(where(equal("engine", whole))), whole);
+    EXPECT_EQ(name(where(equal("engine", "robot1"))), "robot1");
 }
 
 TEST_P(SystemOperations, GetProfileRefusesWhatItCannotRead) {
-    EXPECT_THAT(desk.ask("get_profile", where(touching("name"))), IsRefused("BAD_PARAMETER", "Touches"));
+    EXPECT_THAT(desk.ask("get_profile", where(undefined_function("name"))), IsRefused("BAD_PARAMETER", "is_free"));
     EXPECT_THAT(desk.ask("get_profile", where(equal("colour", "red"))), IsRefused("BAD_PARAMETER", "colour"));
 }
 

@@ -83,7 +83,7 @@ TEST(WebFile, IsNamedExactly) {
     for (auto const* path : {"assets/", "assets/main-1a2b.js.gz", "main-1a2b.js", "assets/../index.html", "", "INDEX.HTML"}) {
         auto const answer = get(path);
         EXPECT_EQ(answer.status, 404) << path;
-        EXPECT_EQ(answer.fault, FaultCode::not_found) << path;
+        EXPECT_EQ(answer.fault.value_or(Fault{}).code, FaultCode::not_found) << path;
     }
     EXPECT_TRUE(WebFiles{{}}.empty());
     EXPECT_FALSE(small.empty());

@@ -107,7 +107,7 @@ TEST(Drive, HoldsAndGoesOn) {
     EXPECT_NEAR(drive.pose().position.x(), 5, 0.02);
 }
 
-TEST(Drive, ALineIsADistanceAndThenATurn) {
+TEST(Drive, ALineIsATurnAndThenADistance) {
     Hall hall{plain_hall(), nobody(), 1};
     auto const line = hall.drive(robot1).begin("move", Line{-1, from_degrees(-270)});
     Radians turned = 0, before = 0;
@@ -118,8 +118,8 @@ TEST(Drive, ALineIsADistanceAndThenATurn) {
         return over(state(hall, robot1, *line));
     }));
     EXPECT_EQ(state(hall, robot1, *line), MotionState::arrived);
-    EXPECT_LT(distance(hall.robot(robot1).pose.position, Point{1, 4}), 0.02);
-    EXPECT_NEAR(to_degrees(turned), -270, 1.5);
+    EXPECT_LT(distance(hall.robot(robot1).pose.position, Point{2, 3}), 0.02);
+    EXPECT_NEAR(to_degrees(turned), -270, 0.5);
 }
 
 TEST(Drive, ALineIntoAWallIsNotEvenBegun) {
@@ -141,8 +141,8 @@ TEST_P(Curves, EndWhereTheCircleSays) {
     ASSERT_TRUE(runs_until(hall, 30, [&] { return over(state(hall, robot1, *curve)); }));
     EXPECT_EQ(state(hall, robot1, *curve), MotionState::arrived);
     Pose const pose = hall.robot(robot1).pose;
-    EXPECT_LT(distance(pose.position, GetParam().end.position), 0.03) << pose.position.transpose();
-    EXPECT_NEAR(wrapped(pose.heading - GetParam().end.heading), 0, from_degrees(2));
+    EXPECT_LT(distance(pose.position, GetParam().end.position), 0.001) << pose.position.transpose();
+    EXPECT_NEAR(wrapped(pose.heading - GetParam().end.heading), 0, from_degrees(0.2));
 }
 INSTANTIATE_TEST_SUITE_P(All, Curves,
                          testing::Values(CurveCase{{1, from_degrees(90), {}}, {Point{3, 5}, from_degrees(90)}},
@@ -151,6 +151,13 @@ INSTANTIATE_TEST_SUITE_P(All, Curves,
                                          CurveCase{{-1, from_degrees(-90), {}}, {Point{1, 5}, from_degrees(-90)}},
                                          CurveCase{{0, from_degrees(120), {}}, {Point{2, 4}, from_degrees(120)}},
                                          CurveCase{{1, from_degrees(720), {}}, {Point{2, 4}, 0}}));
+INSTANTIATE_TEST_SUITE_P(Small, Curves,
+                         testing::Values(CurveCase{{0.005, from_degrees(90), {}}, {Point{2.005, 4.005}, from_degrees(90)}},
+                                         CurveCase{{-0.005, from_degrees(90), {}}, {Point{1.995, 3.995}, from_degrees(90)}},
+                                         CurveCase{{0.01, from_degrees(-90), {}}, {Point{2.01, 3.99}, from_degrees(-90)}},
+                                         CurveCase{{0.01, from_degrees(720), {}}, {Point{2, 4}, 0}},
+                                         CurveCase{{1, from_degrees(1), {}}, {Point{2.01745, 4.00015}, from_degrees(1)}},
+                                         CurveCase{{0.01, from_degrees(90), 10.0}, {Point{2.01, 4.01}, from_degrees(90)}}));
 
 TEST(Drive, ACurveThroughAWallIsNotBegun) {
     Hall hall{plain_hall(), nobody(), 1};

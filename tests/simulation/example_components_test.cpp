@@ -152,16 +152,210 @@ TEST(AgeRecognition, SaysNothingOfThoseWithoutAge) {
 }
 
 TEST(StandIn, AnswersWithTheDefaultsOfItsProfile) {
+    ParameterProfile const colour{.name = "colour", .data_type_ref = coded("string"), .default_value = "red", .description = {}};
+    ComponentProfile profile;
+    profile.object.identifier = "urn:test::Lamp";
+    profile.object.meta_data = "urn:x-rois:def:adapter:simulation::stand_in";
+    profile.messages = {{.kind = MessageKind::command, .name = "blink", .results = {colour}, .arguments = {}, .timeout = {}},
+                        {.kind = MessageKind::query, .name = "light", .results = {colour}, .arguments = {}, .timeout = {}}};
     Stage stage;
-    auto& wheelchair = stage.add("wheelchair_robot.xml");
-    wheelchair.start();
-    EXPECT_EQ(wheelchair.ended(), "OK, active");
-    auto const status = wheelchair.query("wc_status_change");
-    EXPECT_EQ(value(status, "brake_status"), "false");
-    EXPECT_EQ(value(status, "position"), "0.0, 0.0");
-    EXPECT_EQ(value(status, "nav_status"), "stopped");
-    wheelchair.perform("brake", {boolean("status", true)});
+    auto& lamp = stage.add(profile);
+    lamp.start();
+    EXPECT_EQ(lamp.ended(), "OK, active");
+    EXPECT_EQ(value(lamp.query("light"), "colour"), "red");
+    lamp.perform("blink", {});
+    EXPECT_EQ(lamp.ended(), "OK");
+    EXPECT_EQ(value(lamp.results(), "colour"), "red");
+}
+
+Parameter number(std::string name, std::string value) { return {std::move(name), coded("double"), {std::move(value)}}; }
+
+struct Wheelchair : testing::Test {
+    Stage stage;
+    Operated& wheelchair = stage.add("wheelchair_robot.xml");
+
+    Wheelchair() { stage.step(); }
+
+    Parameter target(std::string where) { return texts("target_position", {std::move(where)}); }
+    void brake(bool on) { wheelchair.perform("brake", {boolean("status", on)}); }
+    std::string wc() { return value(wheelchair.query("wc_status_change"), "wc_status"); }
+
+    // "running false false running": wc_status, brakes, pause, navigation.
+    static std::string words(Results const& state) {
+        return value(state, "wc_status") + " " + value(state, "brake_status") + " " + value(state, "pause_status") + " " +
+               value(state, "nav_status");
+    }
+    std::string state() { return words(wheelchair.query("wc_status_change")); }
+    std::vector<std::string> told() {
+        std::vector<std::string> all;
+        for (auto const& event : wheelchair.events("wc_status_change")) all.push_back(words(event.results));
+        wheelchair.forget();
+        return all;
+    }
+};
+
+TEST_F(Wheelchair, GoesToItsTargetAndTellsEachChangeOfItsState) {
+    EXPECT_EQ(state(), "stopped false false stopped");
+    EXPECT_EQ(value(wheelchair.query("wc_status_change"), "position"), "2000.0, 4000.0");
+    wheelchair.start({target("5000, 4000")});
+    EXPECT_EQ(stage.outcome("wheelchair_robot"), "OK");
+    EXPECT_THAT(wheelchair.events("reached_target"), SizeIs(1));
+    auto const position = value(wheelchair.query("wc_status_change"), "position");
+    EXPECT_NEAR(to_double(position.substr(0, position.find(','))).value_or(0), 5000, 60);
+    stage.run(1);
+    EXPECT_THAT(told(), ElementsAre("running false false running", "stopped false false stopped"));
+}
+
+TEST_F(Wheelchair, BrakesStopItAndHoldItUntilTheyAreOff) {
+    wheelchair.allow_any_command();
+    wheelchair.start({target("9000, 4000")});
+    stage.run(3);
+    ASSERT_GT(stage.robot_state().twist.linear, 0.5);
+    wheelchair.forget();
+    brake(true);
+    EXPECT_EQ(state(), "brakes true false running");
+    ASSERT_TRUE(stage.run_until([&] { return wheelchair.ended().has_value(); }, 3));
     EXPECT_EQ(wheelchair.ended(), "OK");
+    EXPECT_EQ(stage.robot_state().twist.linear, 0) << "it completes when the wheelchair stands";
+    auto const held = stage.robot().position;
+    EXPECT_EQ(wheelchair.component().status(), ComponentStatus::warning);
+    stage.run(10);
+    EXPECT_EQ(stage.robot().position, held);
+    brake(false);
+    EXPECT_EQ(wheelchair.ended(), "OK");
+    EXPECT_EQ(state(), "running false false running");
+    ASSERT_TRUE(stage.run_until([&] { return stage.robot().position.x() > 8.9; }));
+    stage.run(3);
+    EXPECT_THAT(told(), ElementsAre("brakes true false running", "running false false running", "stopped false false stopped"));
+}
+
+TEST_F(Wheelchair, BrakesHoldItWhicheverComponentDrivesIt) {
+    brake(true);
+    EXPECT_EQ(wheelchair.ended(), "OK") << "it stood already";
+    stage["move"].start({integers("line", "1000 0")});
+    stage.run(5);
+    EXPECT_EQ(stage.robot().position, Point(2, 4));
+    EXPECT_EQ(stage["move"].component().status(), ComponentStatus::warning);
+    EXPECT_EQ(stage.outcome("move"), "ERROR");
+    EXPECT_EQ(stage["move"].reason(), "the brakes of the robot are on");
+    stage["navigation"].start({target("5000, 4000")});
+    EXPECT_EQ(stage.outcome("navigation"), "ERROR");
+    EXPECT_EQ(stage["navigation"].reason(), "the brakes of the robot are on");
+    EXPECT_EQ(stage.robot().position, Point(2, 4));
+    brake(false);
+    stage["move"].start({integers("line", "1000 0")});
+    EXPECT_EQ(stage.outcome("move"), "OK");
+}
+
+TEST_F(Wheelchair, BrakesThatArePutOffTooSoonWereNotCompleted) {
+    wheelchair.start({target("9000, 4000")});
+    stage.run(3);
+    wheelchair.forget();
+    brake(true);
+    wheelchair.allow_any_command();
+    brake(false);
+    EXPECT_THAT(wheelchair.words(), ElementsAre("started", "completed ABORT", "started", "completed OK"));
+}
+
+TEST_F(Wheelchair, TellsThatItIsPaused) {
+    wheelchair.start({target("9000, 4000")});
+    stage.run(2);
+    wheelchair.suspend();
+    EXPECT_EQ(state(), "paused false true running");
+    wheelchair.resume();
+    EXPECT_EQ(state(), "running false false running");
+    wheelchair.stop();
+    stage.run(3);
+    EXPECT_EQ(state(), "stopped false false stopped");
+}
+
+TEST_F(Wheelchair, TellsOfMotionsOfOtherComponents) {
+    stage["move"].start({integers("line", "2000 0")});
+    stage.run(1);
+    EXPECT_EQ(state(), "running false false running");
+    stage["move"].suspend();
+    EXPECT_EQ(state(), "paused false true running");
+}
+
+TEST_F(Wheelchair, TellsThatNoWayLeadsToItsTarget) {
+    for (auto const* driver : {"wheelchair_robot", "navigation"})
+        for (auto const* nowhere : {"11000, 7000", "-5000, 0", "100000, 0"}) {  // behind walls, outside
+            wheelchair.forget();
+            stage[driver].start({target(nowhere)});
+            EXPECT_EQ(stage.outcome(driver), "ERROR");
+            stage.run(2);
+            EXPECT_EQ(state(), "path_error false false stopped") << driver << " to " << nowhere;
+            auto const events = told();
+            ASSERT_FALSE(events.empty()) << driver << " to " << nowhere;
+            EXPECT_EQ(events.back(), "path_error false false stopped") << driver << " to " << nowhere;
+            stage[driver].start({target("3000, 4000")});
+            EXPECT_EQ(stage.outcome(driver), "OK");
+            stage.run(1);
+            EXPECT_EQ(wc(), "stopped");
+        }
+}
+
+TEST_F(Wheelchair, KeepsItsPathErrorUntilTheNextMotionOfAnyComponent) {
+    stage["navigation"].start({target("-5000, 0")});
+    EXPECT_EQ(stage.outcome("navigation"), "ERROR");
+    stage["move"].start({integers("line", "300 0")});
+    stage.step();
+    EXPECT_EQ(wc(), "running");
+    EXPECT_EQ(stage.outcome("move"), "OK");
+    stage.run(1);
+    EXPECT_EQ(wc(), "stopped");
+}
+
+TEST(WheelchairAmongPeople, TellsOfAnObstacle) {
+    Stage stage{{visitor("guest", {does(Walk{at(5, 4)}), does(Wait{1000})})}};
+    auto& wheelchair = stage.add("wheelchair_robot.xml");
+    stage.run(12);
+    stage["move"].start({integers("line", "6000 0")});
+    EXPECT_TRUE(stage.run_until([&] { return value(wheelchair.query("wc_status_change"), "wc_status") == "obstacle"; }));
+}
+
+TEST_F(Wheelchair, KeepsToItsPreferredSpeed) {
+    auto const fastest = [&] {
+        double most = 0;
+        stage.run_until([&] {
+            most = std::max(most, stage.robot_state().twist.linear);
+            return wheelchair.ended().has_value();
+        });
+        return most;
+    };
+    wheelchair.start({target("6000, 4000"), number("preferred_max_speed", "300")});
+    EXPECT_NEAR(fastest(), 0.3, 0.001);
+    wheelchair.start({target("2000, 4000"), number("preferred_max_speed", "99999")});
+    EXPECT_NEAR(fastest(), 0.9, 0.001) << "no faster than the wheels can";
+    wheelchair.set_parameter({number("preferred_max_speed", "200.5")});
+    stage["move"].start({integers("line", "1000 0")});
+    double most = 0;
+    while (!stage["move"].ended()) {
+        stage.step();
+        most = std::max(most, std::abs(stage.robot_state().twist.linear));
+    }
+    EXPECT_NEAR(most, 0.2005, 0.001) << "whichever component drives it";
+}
+
+TEST_F(Wheelchair, GoesToThePlaceOfItsTag) {
+    wheelchair.start({text("navigation_mode", "Tag"), text("behaviour_tag", "desk")});
+    EXPECT_EQ(stage.outcome("wheelchair_robot"), "OK");
+    EXPECT_LT(distance(stage.robot().position, Point(3, 2)), 0.1);
+    EXPECT_EQ(value(wheelchair.events("reached_target").at(0).results, "target"), "desk");
+}
+
+TEST_F(Wheelchair, RefusesWhatItCannotKeepTo) {
+    auto const refusal = [&](ParameterList const& parameters) {
+        return wheelchair.refusal("start", parameters).value_or("fine");
+    };
+    EXPECT_THAT(refusal({}), HasSubstr("'target_position' is mandatory"));
+    EXPECT_THAT(refusal({text("navigation_mode", "Tag")}), HasSubstr("'behaviour_tag' is mandatory"));
+    EXPECT_THAT(refusal({target("desk"), text("navigation_mode", "tag")}), HasSubstr("must be 'Location' or 'Tag', not 'tag'"));
+    EXPECT_THAT(refusal({target("desk"), text("behaviour_tag", "moon")}),
+                HasSubstr("'moon' is not one of the places entrance, exit, desk"));
+    for (auto const* speed : {"0", "-1", "NaN", "-INF"})
+        EXPECT_THAT(refusal({target("desk"), number("preferred_max_speed", speed)}), HasSubstr("more than 0 mm/s")) << speed;
+    EXPECT_EQ(refusal({target("desk"), number("preferred_max_speed", "0.5"), text("behaviour_tag", "exit")}), "fine");
 }
 
 TEST(Adapter, IsThatOfABasicComponentWhichTheProfileIncludes) {

@@ -1,11 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "simulation/codebooks.hpp"
 #include "simulation/component_stage.hpp"
 
 namespace rois::simulation::stage {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -52,13 +54,13 @@ TEST(Follow, TakesAnotherRobot) {
     EXPECT_NEAR(distance(stage.robot(0).position, stage.robot(1).position), 1.0, 0.4);
 }
 
-TEST(Follow, WaitsForATargetThatIsUnknown) {
-    Stage stage{{visitor("guest", {does(Walk{at(6, 4)}), does(Wait{1000})}, 20)}};
+TEST(Follow, WaitsForAKnownTargetThatIsNotThereYet) {
+    Stage stage{{known(visitor("tanaka", {does(Walk{at(4, 4)}), does(Face{at("robot")}), does(Wait{1000})}, 10))}};
     stage.step();
     auto& follow = stage["follow"];
-    follow.start({whom("person-1"), integer("distance", 1000)});
+    follow.start({whom("tanaka"), integer("distance", 1000)});
     auto const start = stage.robot().position;
-    stage.run(19);
+    stage.run(9);
     EXPECT_THAT(follow.words(), ElementsAre("started"));
     EXPECT_EQ(follow.component().status(), ComponentStatus::warning);
     EXPECT_EQ(distance(stage.robot().position, start), 0) << "it stands";
@@ -70,16 +72,63 @@ TEST(Follow, WaitsForATargetThatIsUnknown) {
     EXPECT_NEAR(distance(stage.robot().position, stage.hall().people().front().pose.position), 1.0, 0.25);
 }
 
-TEST(Follow, WaitsForATargetThatHasLeft) {
+TEST(Follow, FailsWhenNobodyKnowsItsTarget) {
+    for (auto const* nobody : {"ghost", "person-1", "person-99", "person-", "stranger-1"}) {
+        Stage stage;
+        stage.step();
+        auto& follow = stage["follow"];
+        follow.start({whom(nobody), integer("distance", 1000)});
+        stage.run(4.9);
+        EXPECT_THAT(follow.words(), ElementsAre("started")) << nobody;
+        EXPECT_EQ(follow.component().status(), ComponentStatus::warning) << nobody;
+        stage.run(0.2);
+        EXPECT_EQ(follow.ended(), "ERROR") << nobody;
+        EXPECT_THAT(follow.reason(), AllOf(HasSubstr("'target_object_ref'"), HasSubstr(nobody), HasSubstr("is unknown")));
+        EXPECT_EQ(follow.component().status(), ComponentStatus::ready) << nobody;
+        stage["move"].start({integers("line", "500 0")});
+        EXPECT_EQ(stage.outcome("move"), "OK") << "the wheels are free again";
+    }
+}
+
+TEST(Follow, FailsWhenItsTargetDoesNotComeBack) {
     Stage stage{{visitor("guest", {does(Walk{at(6, 4)}), does(Wait{3}), does(Leave{})})}};
     stage.run(6);
-    stage["follow"].start({whom("person-1"), integer("distance", 1000)});
+    auto& follow = stage["follow"];
+    follow.start({whom("person-1"), integer("distance", 1000)});
     ASSERT_TRUE(stage.run_until([&] { return stage.hall().people().empty(); }, 120));
-    stage.run(30);
-    EXPECT_THAT(stage["follow"].words(), ElementsAre("started"));
-    EXPECT_EQ(stage["follow"].component().status(), ComponentStatus::warning);
-    stage["follow"].stop();
-    EXPECT_EQ(stage["follow"].component().status(), ComponentStatus::ready);
+    stage.run(29);
+    EXPECT_THAT(follow.words(), ElementsAre("started")) << "for a while it waits";
+    EXPECT_EQ(follow.component().status(), ComponentStatus::warning);
+    stage.run(2);
+    EXPECT_EQ(follow.ended(), "ERROR");
+    EXPECT_EQ(follow.reason(), "'person-1' has not been seen for 30000 ms");
+    EXPECT_EQ(follow.component().status(), ComponentStatus::ready);
+}
+
+TEST(Follow, DoesNotGiveUpWhileSuspended) {
+    Stage stage;
+    stage["follow"].start({whom("ghost"), integer("distance", 1000)});
+    stage.run(1);
+    stage["follow"].suspend();
+    stage.run(20);
+    EXPECT_FALSE(stage["follow"].ended());
+    stage["follow"].resume();
+    stage.run(6);
+    EXPECT_EQ(stage["follow"].ended(), "ERROR");
+}
+
+// Decision 31: "robot2" is a robot, and nobody's temporary name.
+TEST(Follow, LooksForItsTargetInTheCodebookOnly) {
+    Stage stage{{}, reception_with_two_robots()};
+    auto const follow = [&](std::string_view codebook) {
+        stage["follow"].start({reference("target_object_ref", "robot2", std::string{codebook}), integer("distance", 1000)});
+        stage.step();
+        return stage["follow"].component().status();
+    };
+    EXPECT_EQ(follow(codebook::track), ComponentStatus::warning) << "it waits for such a track";
+    EXPECT_EQ(follow(codebook::robot), ComponentStatus::ready);
+    EXPECT_EQ(follow(codebook::visitor), ComponentStatus::warning);
+    EXPECT_EQ(follow(codebook::entity), ComponentStatus::ready);
 }
 
 TEST(Follow, KeepsItsTimeLimitWhileItWaits) {
@@ -87,6 +136,7 @@ TEST(Follow, KeepsItsTimeLimitWhileItWaits) {
     stage["follow"].start({whom("person-9"), integer("distance", 1000), integer("time_limit", 3000)});
     EXPECT_EQ(stage.outcome("follow"), "TIMEOUT");
     EXPECT_NEAR(in_seconds(stage.hall().now()), 3, 0.05);
+    EXPECT_EQ(stage["follow"].reason(), "'person-9' has not been seen within time_limit, 3000 ms");
 }
 
 TEST(Follow, GoesOnWithAPermanentIdThatIsIdentifiedAnew) {

@@ -14,6 +14,7 @@ using testing::AllOf;
 using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::Ge;
+using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Le;
 using testing::SizeIs;
@@ -104,7 +105,7 @@ WorldTime shortest_gap(std::string const& kind, std::int64_t minimum_interval) {
     for (int i = 0; i < 20; ++i) words += "Good morning. ";
     Stage stage{{visitor("guest", {does(Walk{at(6, 4)}), does(Face{at("robot")}), does(Say{"en", words}), does(Wait{1000})})}};
     auto& localization = stage[kind + "_localization"];
-    localization.start({integer("minimum_interval", minimum_interval), integer("detection_threshold", 0)});
+    localization.start({integer("minimum_interval", minimum_interval)});
     stage.run(20);
     auto const events = localization.events(kind + "_localized");
     EXPECT_GE(events.size(), 2U) << kind;
@@ -159,7 +160,59 @@ TEST(Localization, RefusesNegativeLimits) {
     auto& localization = stage["face_localization"];
     EXPECT_TRUE(localization.refusal("set_parameter", {integer("detection_threshold", -1)}));
     EXPECT_TRUE(localization.refusal("start", {integer("minimum_interval", -1)}));
-    EXPECT_FALSE(localization.refusal("start", {integer("minimum_interval", 0), integer("detection_threshold", 0)}));
+    EXPECT_FALSE(localization.refusal("start", {integer("minimum_interval", 0)}));
+}
+
+TEST(Localization, RefusesAThresholdBelowTheNoiseOfItsSensor) {
+    Stage stage;
+    for (auto const& [kind, lowest] : {std::pair{"person", 125}, {"face", 75}, {"sound", 625}}) {
+        auto& localization = stage[std::string{kind} + "_localization"];
+        for (auto const* command : {"set_parameter", "start"}) {
+            EXPECT_THAT(localization.refusal(command, {integer("detection_threshold", lowest - 1)}).value_or("fine"),
+                        HasSubstr("the lowest that works, " + std::to_string(lowest) + " mm"))
+                << kind;
+            EXPECT_TRUE(localization.refusal(command, {integer("detection_threshold", 0)})) << kind;
+            EXPECT_FALSE(localization.refusal(command, {integer("detection_threshold", lowest)})) << kind;
+        }
+    }
+}
+
+TEST(Localization, ItsLowestThresholdIsThatOfItsRobot) {
+    FloorPlan plan = reception_with_two_robots();
+    plan.robots[1].sensors.people.sigma = 0.2;
+    Stage stage{{}, plan};
+    EXPECT_FALSE(stage["person_localization"].refusal("start", {integer("detection_threshold", 125)}));
+    EXPECT_TRUE(stage["robot2.person_localization"].refusal("start", {integer("detection_threshold", 499)}));
+    EXPECT_FALSE(stage["robot2.person_localization"].refusal("start", {integer("detection_threshold", 500)}));
+}
+
+// Events about somebody who comes up and then talks and waves where they stand: while they come, and in a minute afterwards.
+std::pair<std::size_t, std::size_t> events_by_default(std::string const& kind, ParameterList const& parameters = {}) {
+    std::string words;
+    for (int i = 0; i < 100; ++i) words += "Good morning. ";
+    Stage stage{{visitor("guest", {does(Walk{at(4, 4)}), does(Face{at("robot")}), does(Say{"en", words}), does(Wait{1000})})}};
+    auto& localization = stage[kind + "_localization"];
+    localization.start(parameters);
+    stage.run(15);
+    auto const coming = localization.events(kind + "_localized").size();
+    stage.run(60);
+    return {coming, localization.events(kind + "_localized").size() - coming};
+}
+
+TEST(Localization, TellsEnoughAndNotTooMuchWithItsDefaults) {
+    for (auto const* kind : {"person", "face", "sound"}) {
+        auto const [coming, standing] = events_by_default(kind);
+        EXPECT_GE(coming, 1U) << kind;
+        EXPECT_LE(coming, 60U) << kind << ": at most each 250 ms";
+        EXPECT_LE(standing, 2U) << kind << ": who stands has not moved";
+    }
+    EXPECT_GE(events_by_default("person").first, 10U) << "7 m of way";
+}
+
+TEST(Localization, TellsNoNoiseAtItsLowestThreshold) {
+    for (auto const& [kind, lowest] : {std::pair{"person", 125}, {"face", 75}, {"sound", 625}})
+        EXPECT_LE(events_by_default(kind, {integer("detection_threshold", lowest), integer("minimum_interval", 0)}).second, 3U)
+            << kind;
 }
 
 TEST(Localization, OfAFaceHasItsHeight) {

@@ -30,19 +30,19 @@ TEST(Robots, TheOnlyOneHasTheFifteenBasicComponents) {
                                            "person_identification", "face_detection", "face_localization", "sound_detection",
                                            "sound_localization", "speech_recognition", "gesture_recognition", "speech_synthesis",
                                            "reaction", "navigation", "follow", "move"));
-    EXPECT_EQ(Stage{}["navigation"].component().description().engine, "");
+    EXPECT_EQ(Stage{}["navigation"].component().description().engine, "robot") << "the first robot is a sub engine, too";
 }
 
 TEST(Robots, StreamWithMedia) {
     EXPECT_THAT(Stage{}.refs(), AllOf(SizeIs(17), Contains("audio_streaming"), Contains("video_streaming")));
 }
 
-TEST(Robots, AFurtherOneIsASubEngine) {
+TEST(Robots, AreSubEngines) {
     Stage stage{{}, reception_with_two_robots()};
     EXPECT_THAT(stage.refs(), SizeIs(34));
     EXPECT_THAT(stage.refs(), Contains("robot2.navigation"));
     EXPECT_EQ(stage["robot2.navigation"].component().description().engine, "robot2");
-    EXPECT_EQ(stage["navigation"].component().description().engine, "");
+    EXPECT_EQ(stage["navigation"].component().description().engine, "robot");
 }
 
 TEST(Robots, NeedTheProfilesOfTheirComponents) {

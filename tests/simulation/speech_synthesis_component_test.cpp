@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <set>
+
 #include "simulation/component_stage.hpp"
 
 namespace rois::simulation::stage {
@@ -148,11 +151,47 @@ TEST(SpeechSynthesis, RefusesWhatItsVoiceCannotDo) {
     EXPECT_THAT(with(integer("volume", -1)), HasSubstr("volume"));
     EXPECT_THAT(with(text("language", "jp")), HasSubstr("'jp'"));
     EXPECT_THAT(with(text("language", "EN")), HasSubstr("'EN'"));
-    EXPECT_THAT(with(text("character", "ghost")), HasSubstr("'ghost'"));
+    EXPECT_THAT(with(text("character", "ghost")),
+                HasSubstr("'ghost' is not one of the synthesizable_characters: default, female, male, child, robot"));
     EXPECT_THAT(refusal({text("speech_text", std::string(20'000, 'a'))}), HasSubstr("longer than"));
     EXPECT_EQ(with(integer("volume", 0)), "fine");
     EXPECT_EQ(with(text("language", "ja")), "fine");
     EXPECT_EQ(with(text("character", "child")), "fine");
+}
+
+std::vector<std::string> characters() {
+    SpeechStage stage;
+    return find(stage["speech_synthesis"].component().readable_parameters(), "synthesizable_characters")->values;
+}
+
+TEST(SpeechSynthesis, EachCharacterSpeaksAtItsOwnPaceAndIsHeard) {
+    std::string const words(150, 'a');
+    std::set<long> durations;
+    for (auto const& character : characters()) {
+        SpeechStage stage;
+        stage["speech_synthesis"].start({text("speech_text", words), text("character", character)});
+        stage.step();
+        ASSERT_TRUE(stage.robot_state().speaking) << character;
+        EXPECT_EQ(stage.robot_state().speaking->character, character);
+        EXPECT_EQ(stage.outcome("speech_synthesis"), "OK");
+        auto const seconds = in_seconds(stage.hall().now());
+        EXPECT_NEAR(seconds, speech_duration(words) / voice_character(character).pace, 0.1) << character;
+        durations.insert(std::lround(seconds * 5));
+    }
+    EXPECT_THAT(characters(), ElementsAre("default", "female", "male", "child", "robot"));
+    EXPECT_EQ(durations.size(), characters().size()) << "they differ";
+}
+
+TEST(SpeechSynthesis, SpeaksSsmlWithItsCharacterWhereTheDocumentNamesNoVoice) {
+    SpeechStage stage;
+    auto const before = stage.hall().chronicle().last();
+    stage["speech_synthesis"].start(
+        {text("character", "male"), text("SSML_text", "<speak>One <voice name='child'>two</voice> three</speak>")});
+    EXPECT_EQ(stage.outcome("speech_synthesis"), "OK");
+    std::vector<std::string> said;
+    for (auto const& happening : stage.hall().chronicle().since(before))
+        if (happening.kind == Happening::Kind::speech_started) said.push_back(happening.character + ": " + happening.text);
+    EXPECT_THAT(said, ElementsAre("male: One", "child: two", "male: three"));
 }
 
 TEST(SpeechSynthesis, NamesItsLanguagesAndVoices) {

@@ -78,6 +78,37 @@ TEST(Ssml, HasElementsOfItsNamespaceAlone) {
     EXPECT_THAT(spoken("<x:speak>a</x:speak>"), HasSubstr("bad: line 1, column "));
 }
 
+// "female: One | child: two"
+std::string voices(std::string const& document) {
+    std::string all;
+    for (auto const& passage : passages("<speak>" + document + "</speak>"))
+        all += std::string{all.empty() ? "" : " | "} + passage.character + ": " + passage.text;
+    return all;
+}
+
+TEST(Ssml, ChoosesAVoiceByNameGenderAndAge) {
+    EXPECT_EQ(voices("One <voice name='child'>two</voice> three"), "default: One | child: two | default: three");
+    EXPECT_EQ(voices("<voice name='Kyoko Hattori robot male'>one</voice>"), "robot: one") << "the first that there is";
+    EXPECT_EQ(voices("<voice gender='female'>one</voice><voice gender='male'>two</voice>"), "female: one | male: two");
+    EXPECT_EQ(voices("<voice gender='female' age='7'>one</voice>"), "child: one");
+    EXPECT_EQ(voices("<voice gender='female' age='30'>one</voice>"), "female: one");
+    EXPECT_EQ(voices("<voice name='Kyoko' gender='female'>one</voice>"), "female: one");
+    EXPECT_EQ(voices("<voice gender='male'>one <voice gender='neutral'>two</voice> three</voice>"),
+              "male: one | default: two | male: three");
+    EXPECT_EQ(voices("<voice gender='male'>one <voice name='Kyoko' age='old'>two</voice></voice>"), "male: one two")
+        << "keeps the voice where none matches";
+    EXPECT_EQ(voices("<p name='child' gender='female'>one</p>"), "default: one");
+    EXPECT_EQ(passages("<speak><voice name='child' xml:lang='ja'>one</voice></speak>").at(0).language, "ja");
+}
+
+TEST(Ssml, HasThePaceOfItsVoice) {
+    EXPECT_NEAR(units("<voice name='robot'>aaaaaaaaaa</voice>"), 1 / 0.8, 1e-9);
+    EXPECT_NEAR(units("<prosody rate='50%'><voice name='robot'>aaaaaaaaaa</voice></prosody>"), 2 / 0.8, 1e-9);
+    EXPECT_NEAR(units("<voice name='robot'>aaaaaaaaaa<break time='1s'/></voice>"), 1 / 0.8 + 1 / spoken_seconds("aaaaaaaaaa"),
+                1e-9)
+        << "a pause is as long as it says";
+}
+
 TEST(Ssml, HasALanguage) {
     EXPECT_EQ(passages("<speak xml:lang=\"en-US\">Hi</speak>").at(0).language, "en");
     EXPECT_EQ(passages("<speak>Hi</speak>").at(0).language, "");

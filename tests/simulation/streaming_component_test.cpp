@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "simulation/component_stage.hpp"
 #include "simulation/media_offers.hpp"
 
@@ -53,6 +55,23 @@ struct AudioStreaming : testing::Test {
     Stage stage;
     Operated& audio = stage["audio_streaming"];
 };
+
+TEST_F(AudioStreaming, SoundsLikeTheVoiceThatSpeaks) {
+    connected();
+    auto const& tone = std::get<media::Sound>(offered().content).tone;
+    stage.step();
+    EXPECT_EQ(tone.current_frequency(), 440);
+    std::set<double> pitches;
+    for (auto const* character : {"default", "female", "male", "child", "robot"}) {
+        stage["speech_synthesis"].start({text("speech_text", "Good morning."), text("character", character)});
+        stage.step();
+        pitches.insert(tone.current_frequency());
+        EXPECT_EQ(stage.outcome("speech_synthesis"), "OK");
+        stage.step();
+        EXPECT_EQ(tone.current_frequency(), 440) << "when it has spoken";
+    }
+    EXPECT_THAT(pitches, ElementsAre(90, 120, 165, 210, 300));
+}
 
 TEST_F(AudioStreaming, TellsWhatWasAgreedOn) {
     auto const results = connected();

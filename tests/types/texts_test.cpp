@@ -44,6 +44,18 @@ TEST(Texts, AreQuotedWithoutControlCharacters) {
     EXPECT_EQ(quoted(std::string_view{"a\r\nb\0c\x7F\x1B[31m", 12}), "'a  b c  [31m'");
 }
 
+TEST(Texts, AreQuotedOnOneLineOfUtf8) {
+    EXPECT_EQ(quoted("a\xC2\x85"
+                     "b\xE2\x80\xA8"
+                     "c\xE2\x80\xA9"
+                     "d\xE2\x80\xAE"
+                     "e\xE2\x81\xA6"
+                     "f"),
+              "'a b c d e f'");
+    EXPECT_EQ(quoted("a\xFF\x16\x03\x80z"), "'a?  ?z'");
+    EXPECT_EQ(quoted("\xC3\xA9\xE2\x82\xAC\xF0\x9F\x99\x82"), "'\xC3\xA9\xE2\x82\xAC\xF0\x9F\x99\x82'");
+}
+
 TEST(Texts, AreQuotedAtABearableLength) {
     EXPECT_EQ(quoted("abcdef", 6), "'abcdef'");
     EXPECT_EQ(quoted("abcdefg", 6), "'abcdef...'");

@@ -122,7 +122,7 @@ TEST(AnnexA, AnEngineProfileListsItsComponents) {
     EXPECT_THAT(engine.components, ElementsAre("urn:x-rois:def:HRIComponent:ATR::PersonDetection"));
 }
 
-// Both robots have a component of the same id, and the main engine has none: neither is valid, and both are in print.
+// Both robots have a component of the same id, and the main engine has none of its own: the published schema takes neither.
 TEST(AnnexA, AnEngineProfileOfTwoRobotsHasSubProfiles) {
     std::string robots;
     for (auto const* robot : {"Robot1", "Robot2"})

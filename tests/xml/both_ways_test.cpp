@@ -96,6 +96,14 @@ TEST(BothWays, EveryPredicate) {
     Expression const where = reference("location");
     Expression const box{Geometry{.crs = "hall", .low = {0, -1, 0}, .high = {5000, 8000.5, 0}, .dimensions = 2}};
     Expression const spot{Geometry{.crs = "", .low = {1, 2, 3}, .high = {1, 2, 3}, .dimensions = 3}};
+    auto const shaped = [](Geometry::Shape shape, std::vector<Geometry::Points> paths, double radius = 0) {
+        Geometry geometry{.crs = "hall", .shape = shape, .paths = std::move(paths), .radius = radius};
+        geometry.fit_corners();
+        return Expression{geometry};
+    };
+    auto const line = shaped(Geometry::Shape::line, {{{0, 1}, {2, 3.5}, {4, 0}}});
+    auto const circle = shaped(Geometry::Shape::circle, {{{0, 1}}}, 1.25);
+    auto const polygon = shaped(Geometry::Shape::polygon, {{{0, 0}, {9, 0}, {0, 9}, {0, 0}}, {{1, 1}, {2, 1}, {1, 2}, {1, 1}}});
     Expression const day{Period{noon, noon + std::chrono::hours{24}}};
     Condition const less{PropertyComparison{Comparator::less, where, {Literal{" <5> "}}, false, MatchAction::all}};
     std::vector<Condition> const predicates{
@@ -107,9 +115,24 @@ TEST(BothWays, EveryPredicate) {
         {PropertyIsBetween{where, {Literal{"1"}}, {Function{"distance", {where, {Literal{"desk"}}}}}}},
         {SpatialComparison{SpatialRelation::within, {where, box}}},
         {SpatialComparison{SpatialRelation::disjoint, {spot}}},
+        {SpatialComparison{SpatialRelation::equals, {where, spot}}},
+        {SpatialComparison{SpatialRelation::touches, {where, box}}},
+        {SpatialComparison{SpatialRelation::overlaps, {where, polygon}}},
+        {SpatialComparison{SpatialRelation::crosses, {where, line}}},
+        {SpatialComparison{SpatialRelation::contains, {circle, where}}},
         {DistanceComparison{DistanceRelation::beyond, {where, spot}, 1.5, "m"}},
         {TemporalComparison{TemporalRelation::during, {reference("timestamp"), day}}},
         {TemporalComparison{TemporalRelation::t_equals, {{Period{noon, noon}}}}},
+        {TemporalComparison{TemporalRelation::begins, {day}}},
+        {TemporalComparison{TemporalRelation::begun_by, {day}}},
+        {TemporalComparison{TemporalRelation::t_contains, {day}}},
+        {TemporalComparison{TemporalRelation::ended_by, {day}}},
+        {TemporalComparison{TemporalRelation::ends, {day}}},
+        {TemporalComparison{TemporalRelation::meets, {day}}},
+        {TemporalComparison{TemporalRelation::met_by, {day}}},
+        {TemporalComparison{TemporalRelation::t_overlaps, {day}}},
+        {TemporalComparison{TemporalRelation::overlapped_by, {day}}},
+        {TemporalComparison{TemporalRelation::any_interacts, {day}}},
         {ResourceId{"navigation"}},
         {And{{less, less}}},
         {Or{{less, {Not{{less}}}}}},

@@ -1,6 +1,7 @@
 // What requests say, in whatever dress XML allows.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <limits>
 
 #include "speaking.hpp"
@@ -8,6 +9,7 @@
 namespace rois::xml {
 namespace {
 
+using testing::Each;
 using testing::ElementsAre;
 
 constexpr std::string_view reference =
@@ -77,9 +79,34 @@ TEST(Request, TextMeansWhatXmlSaysItMeans) {
     EXPECT_EQ(text("  \t "), "  \t ");
     EXPECT_EQ(text("<![CDATA[]]>"), "");
     EXPECT_EQ(text("<![CDATA[\r\n]]>"), "\n");
+    EXPECT_EQ(text("<![CDATA[ ]]>"), " ");
+    EXPECT_EQ(text("a<![CDATA[]]>b<![CDATA[ \t ]]>c"), "ab \t c");
+    EXPECT_EQ(text("<![CDATA[\r]]>\n"), "\n\n");
+    EXPECT_EQ(text("\r<![CDATA[\n\r\r]]>\n"), "\n\n\n\n\n");
     EXPECT_EQ(text(""), "");
     EXPECT_EQ(operation<Bind>(document("bind", "<component_ref rois:code='a\t\r\nb&#10;&#9;c  d '/>")).component_ref.code,
               "a  b\n\tc  d ");
+}
+
+// XSD 1.0, cvc-complex-type 2: white space is allowed between elements, however it is written, and no character in an empty
+// element.
+TEST(Request, MayHaveWhiteSpaceAndEmptyCdataBetweenElements) {
+    auto const is_request = [](std::string const& text) { return std::holds_alternative<Request>(read(text)); };
+    std::string const ref = "<component_ref rois:code='a'/>";
+    auto const everywhere = [&](std::string const& text) {
+        return std::array{is_request(document("bind", text + ref)), is_request(document("bind", ref + text)),
+                          is_request(document("search", text))};
+    };
+    for (auto const* blank :
+         {" ", "\r\n\t", "<![CDATA[]]>", "<![CDATA[ \r\n\t]]>", "<!-- c --> <![CDATA[]]><![CDATA[ ]]> ", "&#32;&#x9;"})
+        EXPECT_THAT(everywhere(blank), Each(true)) << blank;
+    for (auto const* text : {"x", "<![CDATA[x]]>", "<![CDATA[ x ]]>", "<![CDATA[<]]>", "<![CDATA[ <!-- -->]]>", "&#160;"})
+        EXPECT_THAT(everywhere(text), Each(false)) << text;
+    EXPECT_TRUE(is_request(document("connect", "<![CDATA[]]>")));
+    EXPECT_FALSE(is_request(document("connect", "<![CDATA[ ]]>")));
+    EXPECT_FALSE(is_request(document("connect", " ")));
+    EXPECT_FALSE(is_request("<![CDATA[]]>" + document("connect")));
+    EXPECT_FALSE(is_request(document("connect") + "<![CDATA[]]>"));
 }
 
 TEST(Request, PrefixesAreFree) {

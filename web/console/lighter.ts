@@ -46,7 +46,7 @@ export const scripts: Plugin = {
     order: 'post',
     async handler(code) {
       const properties = { regex: new RegExp(`^(${own_members(this.parse(code)).join('|')})$`) };
-      const compress = { passes: 2, inline: 1, sequences: false, lhs_constants: false } as object;
+      const compress = { passes: 3, inline: 1, sequences: false, lhs_constants: false } as object;
       const small = await minify(code.replace(/^( *)const /gm, '$1let '), { module: true, ecma: 2020, compress, mangle: { properties } });
       return { code: small.code!, map: null };
     },

@@ -17,7 +17,6 @@
 #include "rois/connection.hpp"
 #include "rois/error.hpp"
 #include "rois/events.hpp"
-#include "rois/interfaces.hpp"
 #include "rois/settings.hpp"
 #include "rois/task.hpp"
 #include "rois/units.hpp"
@@ -25,7 +24,7 @@
 namespace rois {
 
 // A connection with what applications do with one. What the engine refuses is thrown as Error; the operations themselves, with
-// their return codes as values, are Connection::call and interfaces.hpp.
+// their return codes as values, are Connection::call.
 class Client : public Connection {
 public:
     using Connection::Connection;

@@ -16,6 +16,17 @@ namespace detail {
 class Watch;
 }
 
+// How a command ended. Converts to its status: `completion == CompletedStatus::ok`.
+struct Completion {
+    CompletedStatus status = CompletedStatus::ok;
+    std::string reason{};  // why the status is not OK, as the engine says it; may be empty
+
+    operator CompletedStatus() const { return status; }
+};
+
+// "OK", or the status and the reason: "ERROR: no way leads to the target".
+std::string to_text(Completion const&);
+
 // A command that was accepted. It completes once, whatever happens: with ABORT when the session ends, or the connection closes. A
 // handle: copies are the same command.
 class Command {
@@ -23,8 +34,9 @@ public:
     Command(std::shared_ptr<detail::Core>, std::shared_ptr<detail::Watch>);
 
     CommandId const& id() const;
-    // Waits as long as it takes: components have time limits of their own.
-    Task<CompletedStatus> completed() const;
+    // Waits as long as it takes: components have time limits of their own. If the command fails, asks the engine for the reason
+    // (get_command_result).
+    Task<Completion> completed() const;
     // What it resulted in (get_command_result); `status` is among it. Throws Error.
     Task<Results> results() const;
 
@@ -41,17 +53,17 @@ public:
 
     Identifier const& ref() const { return ref_; }
 
-    Task<CompletedStatus> start(ParameterList arguments = {}) const { return run("start", std::move(arguments)); }
-    Task<CompletedStatus> stop() const { return run("stop"); }
-    Task<CompletedStatus> suspend() const { return run("suspend"); }
-    Task<CompletedStatus> resume() const { return run("resume"); }
+    Task<Completion> start(ParameterList arguments = {}) const { return run("start", std::move(arguments)); }
+    Task<Completion> stop() const { return run("stop"); }
+    Task<Completion> suspend() const { return run("suspend"); }
+    Task<Completion> resume() const { return run("resume"); }
 
     // One command: until it has completed, or only until it was accepted.
-    Task<CompletedStatus> run(std::string command_type, ParameterList arguments = {}) const;
+    Task<Completion> run(std::string command_type, ParameterList arguments = {}) const;
     Task<Command> begin(std::string command_type, ParameterList arguments = {}) const;
 
     // Stored at once, used by the next start (decision 8).
-    Task<CompletedStatus> set_parameter(ParameterList parameters) const { return run("set_parameter", std::move(parameters)); }
+    Task<Completion> set_parameter(ParameterList parameters) const { return run("set_parameter", std::move(parameters)); }
     Task<ParameterList> get_parameter() const;
 
     // Ours: BUSY means that another session has it bound.

@@ -114,7 +114,7 @@ struct SoundLocalized {
 class Localization : public Component {
 public:
     explicit Localization(Component component) : Component{std::move(component)} {}
-    Task<CompletedStatus> set(LocalizationParameters) const;
+    Task<Completion> set(LocalizationParameters) const;
     Task<LocalizationParameters> parameters() const;
 };
 
@@ -183,7 +183,7 @@ public:
     auto speech_recognized(QueryExpression condition = {}) const { return events<SpeechRecognized>(std::move(condition)); }
     auto speech_input_started(QueryExpression condition = {}) const { return events<SpeechInputStarted>(std::move(condition)); }
     auto speech_input_finished(QueryExpression condition = {}) const { return events<SpeechInputFinished>(std::move(condition)); }
-    Task<CompletedStatus> set(SpeechRecognitionParameters) const;
+    Task<Completion> set(SpeechRecognitionParameters) const;
     Task<SpeechRecognitionParameters> parameters() const;
 };
 
@@ -211,9 +211,9 @@ public:
     static constexpr std::string_view component_type = "SpeechSynthesis";
     explicit SpeechSynthesis(Component component) : Component{std::move(component)} {}
     // Until it was said.
-    Task<CompletedStatus> say(std::string speech_text) const;
-    Task<CompletedStatus> say(Speech) const;
-    Task<CompletedStatus> set(Speech) const;
+    Task<Completion> say(std::string speech_text) const;
+    Task<Completion> say(Speech) const;
+    Task<Completion> set(Speech) const;
     Task<Speech> parameters() const;
 };
 
@@ -224,7 +224,7 @@ public:
     static constexpr std::string_view component_type = "Reaction";
     explicit Reaction(Component component) : Component{std::move(component)} {}
     // Until it was performed. The code is one of `available_reactions` (annex D: "9" is a bow).
-    Task<CompletedStatus> react(std::string reaction_ref) const;
+    Task<Completion> react(std::string reaction_ref) const;
     Task<std::vector<Identifier>> available_reactions() const;
 };
 
@@ -242,10 +242,10 @@ public:
     static constexpr std::string_view component_type = "Navigation";
     explicit Navigation(Component component) : Component{std::move(component)} {}
     // Until it is there; TIMEOUT when the limit passed before.
-    Task<CompletedStatus> go_to(Target, std::optional<Milliseconds> time_limit = {}) const;
-    Task<CompletedStatus> go(NavigationParameters) const;
+    Task<Completion> go_to(Target, std::optional<Milliseconds> time_limit = {}) const;
+    Task<Completion> go(NavigationParameters) const;
     auto reached_target(QueryExpression condition = {}) const { return events<ReachedTarget>(std::move(condition)); }
-    Task<CompletedStatus> set(NavigationParameters) const;
+    Task<Completion> set(NavigationParameters) const;
     Task<NavigationParameters> parameters() const;
 };
 
@@ -256,9 +256,9 @@ public:
     static constexpr std::string_view component_type = "Follow";
     explicit Follow(Component component) : Component{std::move(component)} {}
     // Until it is stopped (OK) or the limit has passed (TIMEOUT); `begin_following` only until it follows.
-    Task<CompletedStatus> follow(FollowParameters) const;
+    Task<Completion> follow(FollowParameters) const;
     Task<Command> begin_following(FollowParameters) const;
-    Task<CompletedStatus> set(FollowParameters) const;
+    Task<Completion> set(FollowParameters) const;
     Task<FollowParameters> parameters() const;
 };
 
@@ -269,9 +269,9 @@ public:
     static constexpr std::string_view component_type = "Move";
     explicit Move(Component component) : Component{std::move(component)} {}
     // Until it has moved.
-    Task<CompletedStatus> move(Line, std::optional<Milliseconds> time = {}) const;
-    Task<CompletedStatus> move(Curve, std::optional<Milliseconds> time = {}) const;
-    Task<CompletedStatus> set(MoveParameters) const;
+    Task<Completion> move(Line, std::optional<Milliseconds> time = {}) const;
+    Task<Completion> move(Curve, std::optional<Milliseconds> time = {}) const;
+    Task<Completion> set(MoveParameters) const;
     Task<MoveParameters> parameters() const;
 };
 
@@ -296,12 +296,12 @@ public:
     explicit Streaming(Component component) : Component{std::move(component)} {}
     // Throws Error when the command does not complete with OK.
     Task<StreamOffer> connect_stream() const;
-    Task<CompletedStatus> disconnect_stream(std::string stream_id) const;
-    Task<CompletedStatus> suspend_stream(std::string stream_id) const;
-    Task<CompletedStatus> resume_stream(std::string stream_id) const;
+    Task<Completion> disconnect_stream(std::string stream_id) const;
+    Task<Completion> suspend_stream(std::string stream_id) const;
+    Task<Completion> resume_stream(std::string stream_id) const;
     Task<StreamStatus> get_stream_status() const;  // of the latest one
     auto notify_stream_status(QueryExpression condition = {}) const { return events<StreamStatusNotified>(std::move(condition)); }
-    Task<CompletedStatus> set(StreamParameters) const;
+    Task<Completion> set(StreamParameters) const;
     Task<StreamParameters> parameters() const;
 };
 

@@ -27,7 +27,7 @@
 namespace rois {
 
 namespace detail {
-class Core;
+class Core;  // NOLINT(cppcoreguidelines-virtual-class-destructor): it is final
 }
 
 // connecting: there was no session yet. open: a session was opened. lost: the link is broken, it is tried to go on; calls wait.
@@ -54,12 +54,21 @@ struct Gap {
     std::vector<std::string> not_restored{};
 };
 
+// An attempt to open a session, or to resume one, failed. The connection keeps trying.
+struct FailedAttempt {
+    unsigned count = 0;  // failed attempts in a row, this one included
+    std::string reason;
+    std::chrono::milliseconds retry_in{};  // pause before the next attempt
+};
+
 // In which direction a document goes, seen from the application.
 enum class Direction : std::uint8_t { out, in };
 
 // Called on the client's thread, in the order of what happens, and not after the connection is destroyed. They must not throw.
 struct Observers {
     std::function<void(StateChange const&)> state{};
+    // Each failed attempt, at once. The last one, after which the connection closes, is reported as the state `closed` instead.
+    std::function<void(FailedAttempt const&)> attempt_failed{};
     std::function<void(Gap const&)> gap{};
     // Each notification once. `lost` of the engine comes here, too, beside the gap.
     std::function<void(Notification const&, std::uint64_t sequence)> notification{};

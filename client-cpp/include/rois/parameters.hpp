@@ -27,11 +27,11 @@ struct LocalizationParameters {
     LocalizationParameters() = default;
     LocalizationParameters with_detection_threshold(millimetres length) && {
         detection_threshold = length;
-        return std::move(*this);
+        return *this;
     }
     LocalizationParameters with_minimum_interval(Milliseconds time) && {
         minimum_interval = time;
-        return std::move(*this);
+        return *this;
     }
 
     std::optional<millimetres> detection_threshold{};
@@ -152,14 +152,16 @@ struct FollowParameters {
     std::optional<Milliseconds> time_limit{};  // 0: none
 };
 
-// Straight on: how far, and in which direction from where the robot looks. Or around: the radius, and how far around.
+// Turns on the spot by `direction`, then drives `distance` straight along the new heading.
 struct Line {
-    millimetres distance{};
-    degrees direction{};
+    millimetres distance{};  // backwards when negative
+    degrees direction{};     // relative to the heading before; to the left when positive
 };
+
+// Drives along a circle until the heading has changed by `direction`.
 struct Curve {
-    millimetres radius{};
-    degrees direction{};
+    millimetres radius{};  // backwards when negative; 0 turns on the spot
+    degrees direction{};   // to the left, around a centre on the left, when positive
 };
 
 //     co_await move.set(MoveParameters().with_line(Line{1_m, 90_deg}).with_time(2s));
@@ -167,15 +169,15 @@ struct MoveParameters {
     MoveParameters() = default;
     MoveParameters with_line(Line motion) && {
         line = motion;
-        return std::move(*this);
+        return *this;
     }
     MoveParameters with_curve(Curve motion) && {
         curve = motion;
-        return std::move(*this);
+        return *this;
     }
     MoveParameters with_time(Milliseconds duration) && {
         time = duration;
-        return std::move(*this);
+        return *this;
     }
 
     std::optional<Line> line{};

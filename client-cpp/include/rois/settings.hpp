@@ -32,8 +32,10 @@ struct Settings {
     std::chrono::milliseconds ping_interval = std::chrono::seconds{5};
     std::chrono::milliseconds stream_silence = std::chrono::seconds{45};
 
-    // Between two attempts, but for the first one after a link that was good: the first pause, twice as long each time, the
-    // longest at most; each cut by up to a half, by chance.
+    // Pauses between two attempts. After a link that delivered an answer or a notification, or that lasted for `longest_pause`,
+    // the next attempt follows without a pause. After a link that opened or resumed a session and delivered nothing, it follows
+    // after `first_pause`. Each attempt without a session doubles the pause, up to `longest_pause`. Each pause is cut by up to a
+    // half, at random.
     std::chrono::milliseconds first_pause = std::chrono::milliseconds{100};
     std::chrono::milliseconds longest_pause = std::chrono::seconds{5};
     std::optional<unsigned> attempts{};  // in a row, after which the connection closes; none: never

@@ -40,7 +40,7 @@ async function receive(client: Client, visitors: number): Promise<void> {
     for (const side of [0, 60, -60, 120, -120].map((turn) => th + turn)) {
       const [ahead, aside] = [1000 * Math.cos((side * Math.PI) / 180), 1000 * Math.sin((side * Math.PI) / 180)];
       const place = { x: Math.round(x + ahead), y: Math.round(y + aside), th: Math.round(side + 180) };
-      if ((await navigation.go_to(place, { time_limit: 90_000 })) === 'OK') return true;
+      if ((await navigation.go_to(place, { time_limit: 90_000 })).ok) return true;
     }
     return false;
   }
@@ -90,7 +90,7 @@ async function receive(client: Client, visitors: number): Promise<void> {
 const visitors = process.argv[2] ?? '1';
 try {
   if (!/^[1-9]\d{0,5}$/.test(visitors)) throw new Error(`VISITORS is a whole number, 1 to 999999, not '${visitors}'`);
-  const client = await connect(process.env['ROIS_URL']);
+  const client = await connect(process.env['ROIS_URL'], { on_state: ({ state, reason }) => /connecting|lost/.test(state) && console.error(`reception: ${reason}`) });
   await receive(client, Number(visitors)).finally(() => client.close());
   console.log(`received ${visitors} visitors`);
 } catch (problem) {

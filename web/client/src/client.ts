@@ -2,7 +2,7 @@
 import { component_ref_of, identifier_of, parameter_of, profile_of, results_of, trouble_of } from './answers.js';
 import { type CommandUnit, commands_of, named } from './commands.js';
 import { all_of, component_type, property } from './conditions.js';
-import { RoisError } from './errors.js';
+import { type CompletedStatus, RoisError } from './errors.js';
 import { Commands, Execution } from './execution.js';
 import { Link, type LinkSettings, type State } from './link.js';
 import { Listeners } from './listeners.js';
@@ -32,6 +32,11 @@ export interface ClientOptions {
   rebind?: boolean;
   /** How many notifications wait in a stream that nobody reads: 10,000. Then the oldest go, and the gap is told. */
   buffer?: number;
+  /**
+   * Called as a listener of `on('state')`, from the first try on: each try that fails is reported at once, as `connecting` or `lost` with the
+   * reason, while `connect` keeps trying.
+   */
+  on_state?: (change: StateChange) => void;
   /** 0 to 1, for the delays. */
   random?: () => number;
 }
@@ -97,6 +102,7 @@ export class Client {
       open_socket,
     };
     if (options.token !== undefined) settings.token = options.token;
+    if (options.on_state) this.on('state', options.on_state);
     this.link = new Link(settings, {
       state_changed: (state, reason) => this.listeners.tell('state', { state, reason }),
       session_began: () => this.restore(),
@@ -217,7 +223,7 @@ export class Client {
     const list = () => element('parameters', {}, ...parameters_of(parameters).map((one) => parameter_xml(one)));
     return this.ask('set_parameter', () => component_ref_xml(component_ref) + list(), options, (answer) => {
       const id = answer.text_of('command_id');
-      return new Execution([id], [this.commands.expect(id)]);
+      return this.execution([id], [this.commands.expect(id)]);
     });
   }
 
@@ -237,7 +243,7 @@ export class Client {
       throw error;
     }
     this.commands.use(ids);
-    return new Execution(ids, ends);
+    return this.execution(ids, ends);
   }
 
   get_command_result(command_id: string, condition?: Writable, options: CallOptions = {}): Promise<Results> {
@@ -291,6 +297,15 @@ export class Client {
       return read(answer);
     };
     return this.link.ask(operation, attributes, content, { deadline, of, repeatable, read: checked });
+  }
+
+  private execution(ids: string[], ends: Promise<CompletedStatus>[]): Execution {
+    const reason_of = (id: string) =>
+      this.get_command_result(id).then(
+        (results) => results.text('reason') ?? '',
+        () => '', // the status is known, and matters more
+      );
+    return new Execution(ids, ends, reason_of);
   }
 
   // What is left of the time of a call that takes several requests.

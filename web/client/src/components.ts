@@ -3,7 +3,8 @@
 import type { Client } from './client.js';
 import { command } from './commands.js';
 import { component_ref, component_type, type Condition } from './conditions.js';
-import type { CompletedStatus, ComponentStatus } from './errors.js';
+import type { ComponentStatus } from './errors.js';
+import type { Completion } from './execution.js';
 import type { Subscription } from './subscriptions.js';
 import { type Arguments, code_of, type Pose, pose_text, type Ref, type Results, type Value, value } from './values.js';
 
@@ -49,27 +50,27 @@ export class Component {
     return this.client.release(this.component_ref);
   }
 
-  /** Executes one command and waits for its end. */
-  async run(command_type: string, named: Arguments = {}, options: ActionOptions = {}): Promise<CompletedStatus> {
+  /** Executes one command and waits for its end. A command that fails fulfils the promise, too: see `ok` and `reason`. */
+  async run(command_type: string, named: Arguments = {}, options: ActionOptions = {}): Promise<Completion> {
     const execution = await this.client.execute([command(this.component_ref, command_type, named)]);
-    return execution.status(options.deadline);
+    return execution.completion(options.deadline);
   }
 
-  start(named: Arguments = {}, options: ActionOptions = {}): Promise<CompletedStatus> {
+  start(named: Arguments = {}, options: ActionOptions = {}): Promise<Completion> {
     return this.run('start', named, options);
   }
-  stop(): Promise<CompletedStatus> {
+  stop(): Promise<Completion> {
     return this.run('stop');
   }
-  suspend(): Promise<CompletedStatus> {
+  suspend(): Promise<Completion> {
     return this.run('suspend');
   }
-  resume(): Promise<CompletedStatus> {
+  resume(): Promise<Completion> {
     return this.run('resume');
   }
 
-  async set(named: Arguments): Promise<CompletedStatus> {
-    return (await this.client.set_parameter(this.component_ref, named)).status();
+  async set(named: Arguments): Promise<Completion> {
+    return (await this.client.set_parameter(this.component_ref, named)).completion();
   }
   get(): Promise<Results> {
     return this.client.get_parameter(this.component_ref);
@@ -142,7 +143,7 @@ export class SpeechRecognition extends Component {
   static override readonly type = 'SpeechRecognition';
 
   /** Begins to listen; ends with `stop`. Languages are of ISO 639-1. */
-  listen(to: { languages?: string[]; grammar?: string; rule?: string } = {}): Promise<CompletedStatus> {
+  listen(to: { languages?: string[]; grammar?: string; rule?: string } = {}): Promise<Completion> {
     return this.start(to);
   }
 }
@@ -163,10 +164,10 @@ export class SpeechSynthesis extends Component {
   static override readonly type = 'SpeechSynthesis';
 
   /** Says a text; done when it is said. */
-  say(text: string, how: VoiceOptions = {}): Promise<CompletedStatus> {
+  say(text: string, how: VoiceOptions = {}): Promise<Completion> {
     return this.start({ speech_text: text, ...voice(how) }, how);
   }
-  say_ssml(document: string, how: VoiceOptions = {}): Promise<CompletedStatus> {
+  say_ssml(document: string, how: VoiceOptions = {}): Promise<Completion> {
     return this.start({ SSML_text: document, ...voice(how) }, how);
   }
 }
@@ -176,7 +177,7 @@ export class Reaction extends Component {
   static override readonly type = 'Reaction';
 
   /** Shows a reaction of annex D: its number or its name. */
-  react(reaction_ref: Ref | number, options: ActionOptions = {}): Promise<CompletedStatus> {
+  react(reaction_ref: Ref | number, options: ActionOptions = {}): Promise<Completion> {
     const ref = typeof reaction_ref === 'number' ? String(reaction_ref) : reaction_ref;
     return this.start({ reaction_ref: value.identifier(ref) }, options);
   }
@@ -190,7 +191,7 @@ export class Navigation extends Component {
   go_to(
     where: Pose | string | (Pose | string)[],
     how: { time_limit?: number; routing_policy?: 'time' | 'distance' } & ActionOptions = {},
-  ): Promise<CompletedStatus> {
+  ): Promise<Completion> {
     const { time_limit, routing_policy } = how;
     const targets = (Array.isArray(where) ? where : [where]).map((one) => (typeof one === 'string' ? one : pose_text(one)));
     return this.start({ target_position: value.strings(targets), time_limit: int(time_limit), routing_policy }, how);
@@ -202,7 +203,7 @@ export class Follow extends Component {
   static override readonly type = 'Follow';
 
   /** Follows somebody or something at this distance, until `stop` or until the time is over. */
-  follow(target_object_ref: Ref, distance: number, how: { time_limit?: number } & ActionOptions = {}): Promise<CompletedStatus> {
+  follow(target_object_ref: Ref, distance: number, how: { time_limit?: number } & ActionOptions = {}): Promise<Completion> {
     return this.start({ target_object_ref: value.identifier(target_object_ref), distance: value.int(distance), time_limit: int(how.time_limit) }, how);
   }
 }
@@ -211,13 +212,16 @@ export class Follow extends Component {
 export class Move extends Component {
   static override readonly type = 'Move';
 
-  /** Goes straight on, or back when negative, then turns on the spot. */
-  line(distance: number, turn: number, how: { time?: number } & ActionOptions = {}): Promise<CompletedStatus> {
+  /** Turns on the spot by `turn` degrees (to the left when positive), then drives `distance` mm straight on, backwards when negative. */
+  line(distance: number, turn: number, how: { time?: number } & ActionOptions = {}): Promise<Completion> {
     return this.start({ line: value.ints([distance, turn]), time: int(how.time) }, how);
   }
 
-  /** Goes along a circle of this radius, until the heading has changed by so much. */
-  curve(radius: number, turn: number, how: { time?: number } & ActionOptions = {}): Promise<CompletedStatus> {
+  /**
+   * Drives along a circle of `radius` mm until the heading has changed by `turn` degrees (to the left when positive). A negative
+   * radius drives backwards; 0 turns on the spot.
+   */
+  curve(radius: number, turn: number, how: { time?: number } & ActionOptions = {}): Promise<Completion> {
     return this.start({ curve: value.ints([radius, turn]), time: int(how.time) }, how);
   }
 }
@@ -230,13 +234,13 @@ export class Streaming extends Component {
     await execution.status(options.deadline);
     return this.client.get_command_result(execution.command_ids[0]!);
   }
-  disconnect_stream(stream_id: string): Promise<CompletedStatus> {
+  disconnect_stream(stream_id: string): Promise<Completion> {
     return this.run('disconnect_stream', { stream_id });
   }
-  suspend_stream(stream_id: string): Promise<CompletedStatus> {
+  suspend_stream(stream_id: string): Promise<Completion> {
     return this.run('suspend_stream', { stream_id });
   }
-  resume_stream(stream_id: string): Promise<CompletedStatus> {
+  resume_stream(stream_id: string): Promise<Completion> {
     return this.run('resume_stream', { stream_id });
   }
 }

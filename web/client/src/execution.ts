@@ -3,12 +3,31 @@ import { type CompletedStatus, RoisError } from './errors.js';
 import type { Completed } from './messages.js';
 import { for_timer } from './times.js';
 
+/** How a command ended. */
+export class Completion {
+  constructor(
+    readonly status: CompletedStatus,
+    /** Why the status is not OK, as the engine says it; may be empty. */
+    readonly reason = '',
+  ) {}
+
+  get ok(): boolean {
+    return this.status === 'OK';
+  }
+
+  /** `OK`, or the status and the reason: `ERROR: no way leads to the target`. */
+  toString(): string {
+    return this.reason === '' ? this.status : `${this.status}: ${this.reason}`;
+  }
+}
+
 /** Commands that the engine has accepted. */
 export class Execution {
   constructor(
     /** In document order. */
     readonly command_ids: string[],
     private readonly ends: Promise<CompletedStatus>[],
+    private readonly reason_of: (command_id: string) => Promise<string>,
   ) {}
 
   /**
@@ -28,6 +47,13 @@ export class Execution {
   /** OK when all of them ended so, else how the first that did not. */
   async status(deadline?: number): Promise<CompletedStatus> {
     return (await this.statuses(deadline)).find((status) => status !== 'OK') ?? 'OK';
+  }
+
+  /** The same with the reason, for which the engine is asked when a command failed. */
+  async completion(deadline?: number): Promise<Completion> {
+    const statuses = await this.statuses(deadline);
+    const failed = statuses.findIndex((status) => status !== 'OK');
+    return failed < 0 ? new Completion('OK') : new Completion(statuses[failed]!, await this.reason_of(this.command_ids[failed]!));
   }
 }
 

@@ -73,7 +73,7 @@ export class Link {
   private queue: Call[] = []; // to be sent
   private in_flight: Call[] = []; // sent, in order, without their answers
   private heard_at = 0;
-  private tries = 0; // since a link was of use
+  private tries = 0; // that have failed since a link had a session
   private next_id = 1;
   private closing: Promise<void> | undefined;
   private patience: ReturnType<typeof setTimeout> | undefined; // until the next try, or until one has failed
@@ -256,6 +256,7 @@ export class Link {
     clearInterval(this.heart);
     this.heart = setInterval(() => this.beat(), for_timer(this.settings.heartbeat / 2));
     this.ready = true;
+    this.tries = 0;
     first();
     this.flush();
     this.turn(state, '');
@@ -273,7 +274,6 @@ export class Link {
   }
 
   private beat(): void {
-    this.tries = 0; // it has lasted for a while
     const now = performance.now();
     const oldest = this.in_flight[0];
     if (oldest && now - Math.max(this.heard_at, oldest.sent_at) >= this.settings.heartbeat)
@@ -369,7 +369,6 @@ export class Link {
       return;
     }
     this.in_flight.shift();
-    if (this.ready) this.tries = 0;
     if (!call.settled) call.answered(document);
     if (document.name === 'disconnect_response' && !this.closing) this.finish(new RoisError('closed', 'the session was disconnected'));
   }

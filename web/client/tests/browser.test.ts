@@ -7,9 +7,10 @@ import { bring_client, in_chromium } from './page.js';
 
 const flags = ['--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '100'];
 
-test('a page speaks to the gateway that serves it, without a URL', () =>
+test('a page speaks to the gateway that serves it, without a URL', (t) =>
   in_chromium(async (page) => {
     const gateway = await Gateway.start(...flags);
+    t.after(() => gateway.stop());
     await bring_client(page, gateway.url);
     const came = await page.evaluate(async () => {
       const { connect, Navigation, component_type, distance }: typeof import('rois-client') = await import(`${location.origin}/dist/browser.js`);
@@ -18,7 +19,7 @@ test('a page speaks to the gateway that serves it, without a URL', () =>
       client.on('document', ({ direction, text }) => documents.push(`${direction} ${text.slice(0, 30)}`));
       const navigation = await Navigation.bind_any(client);
       const targets = await navigation.subscribe('reached_target');
-      const status = await navigation.go_to({ x: 6500, y: 6000, th: 0 });
+      const status = String(await navigation.go_to({ x: 6500, y: 6000, th: 0 }));
       const event = await targets.next(5000);
       const profile = await client.get_profile(component_type('Move').sorted_by(distance('location', 'desk')));
       const fault = await client.send('<bind').then((answer) => answer.attribute('code'));
@@ -30,17 +31,25 @@ test('a page speaks to the gateway that serves it, without a URL', () =>
     assert.deepEqual(came, {
       status: 'OK',
       target: '6500, 6000, 0',
-      components: [{ ref: 'move', type: 'urn:x-rois:def:component:OMG::Move', engine: 'reception' }],
+      components: [{ ref: 'move', type: 'urn:x-rois:def:component:OMG::Move', engine: 'robot1' }],
       fault: 'not_well_formed',
       too_large: ['too_large', true],
       refusal: ['RoisError', 'refused', 'BAD_PARAMETER'],
       state: 'closed',
       first: 'out <bind_any xmlns="urn:x-rois:ps',
     });
-    await gateway.stop();
   }));
 
-test('a page of another server needs the consent of the gateway', () =>
+test('a page is told nothing of origins when its own server does not answer', () =>
+  in_chromium(async (page) => {
+    const told = await page.evaluate(async () => {
+      const { connect } = await import('rois-client');
+      return connect(undefined, { deadline: 500 }).then(String, String); // the page's server speaks no WebSocket
+    });
+    assert.match(told, /^RoisError: no session within 500 ms: the WebSocket to ws:\/\/\S+ could not be opened; the browser's console may say why$/);
+  }));
+
+test('a page of another server needs the consent of the gateway', (t) =>
   in_chromium(async (page) => {
     const try_it = (url: string, deadline: number) =>
       page.evaluate(async ([to, within]) => {
@@ -50,13 +59,17 @@ test('a page of another server needs the consent of the gateway', () =>
             await client.close();
             return 'welcome';
           },
-          (error: { failure: string }) => error.failure,
+          (error: { failure: string; message: string }) => `${error.failure}: ${error.message}`,
         );
       }, [url, deadline] as const);
     const closed = await Gateway.start(...flags);
-    assert.equal(await try_it(closed.url, 1000), 'unreachable');
-    await closed.stop();
-    const open = await Gateway.start(...flags, '--allowed-origins', new URL(page.url()).origin);
+    t.after(() => closed.stop());
+    const { origin } = new URL(page.url());
+    const refusal = await try_it(closed.url, 1000);
+    assert.match(refusal, /^unreachable: /);
+    assert.ok(refusal.includes(closed.url.replace('http', 'ws')), refusal);
+    assert.ok(refusal.endsWith(`it may refuse pages of ${origin}: RoIS Gateway allows them with --allowed-origins ${origin}`), refusal);
+    const open = await Gateway.start(...flags, '--allowed-origins', origin);
+    t.after(() => open.stop());
     assert.equal(await try_it(open.url, 30_000), 'welcome');
-    await open.stop();
   }));

@@ -74,8 +74,9 @@ spoken('the profile is told whole', async () => {
   assert.equal(profile.engine.name, 'reception');
   assert.deepEqual(
     profile.components.map((one) => one.ref).sort(),
-    [...profile.engine.components].sort(),
+    profile.engine.sub_engines.flatMap((one) => one.components).sort(),
   );
+  assert.deepEqual([profile.engine.components, profile.engine.sub_engines.map((one) => one.name)], [[], ['robot1']]);
   const navigation = profile.component_profiles.find((one) => one.id === 'profile.navigation')!;
   assert.equal(navigation.identifier, 'urn:x-rois:def:component:OMG::Navigation');
   assert.equal(navigation.name, 'navigation');
@@ -86,7 +87,7 @@ spoken('the profile is told whole', async () => {
   assert.equal(set.arguments.find((one) => one.name === 'routing_policy')!.default_value, 'time');
   assert.ok(navigation.parameters.length >= 3);
   const few = await client.get_profile(component_type('Navigation'));
-  assert.deepEqual(few.components, [{ ref: 'navigation', type: 'urn:x-rois:def:component:OMG::Navigation', engine: 'reception' }]);
+  assert.deepEqual(few.components, [{ ref: 'navigation', type: 'urn:x-rois:def:component:OMG::Navigation', engine: 'robot1' }]);
 });
 
 spoken('components are searched, bound and released', async () => {
@@ -106,7 +107,7 @@ spoken('components are searched, bound and released', async () => {
 
 spoken('parameters are set and read', async () => {
   const speech = await SpeechSynthesis.bind_any(client);
-  assert.equal(await speech.set({ speech_text: 'Good & <morning>', volume: 70 }), 'OK');
+  assert.equal(String(await speech.set({ speech_text: 'Good & <morning>', volume: 70 })), 'OK');
   const parameters = await speech.get();
   assert.equal(parameters.text('speech_text'), 'Good & <morning>');
   assert.equal(parameters.number('volume'), 70);
@@ -140,7 +141,7 @@ spoken('an execution can be waited for until a deadline', async () => {
   const follow = await Follow.bind_any(client);
   const execution = await client.execute([command('follow', 'start', { target_object_ref: value.identifier('nobody'), distance: 500 })]);
   await assert.rejects(execution.status(10), { failure: 'deadline' });
-  assert.equal(await follow.stop(), 'OK');
+  assert.equal(String(await follow.stop()), 'OK');
   assert.equal(await execution.status(), 'OK');
 });
 
@@ -149,20 +150,25 @@ spoken('the facades say what their components do', async () => {
   const [move, listening] = [await Move.bind_any(client), await SpeechRecognition.bind_any(client)];
   const system = new SystemInformation(client, 'system_information');
   const targets = await navigation.subscribe('reached_target', property('is_final_target').equals(true));
-  assert.equal(await navigation.go_to([{ x: 5000, y: 6000, th: 0 }, '6000, 6000'], { time_limit: 90_000, routing_policy: 'distance' }), 'OK');
+  assert.equal(String(await navigation.go_to([{ x: 5000, y: 6000, th: 0 }, '6000, 6000'], { time_limit: 90_000, routing_policy: 'distance' })), 'OK');
   assert.equal((await targets.next(1000))!.results.text('target'), '6000, 6000');
   assert.equal(await targets.next(1), undefined);
   const [at] = await system.robot_position();
   assert.ok(Math.hypot(at!.x - 6000, at!.y - 6000) < 200, JSON.stringify(at));
   assert.equal(await system.engine_status(), 'READY');
-  assert.equal(await speech.say('Good day.', { volume: 20, language: 'en' }), 'OK');
-  assert.equal(await speech.say_ssml('<speak version="1.0" xml:lang="en">Hello.</speak>'), 'OK');
-  assert.equal(await reaction.react(9), 'OK');
-  assert.equal(await move.line(100, 0), 'OK');
-  assert.equal(await move.curve(500, 10, { time: 200 }), 'OK');
-  assert.equal(await listening.listen({ languages: ['en'] }), 'OK');
-  assert.equal(await listening.stop(), 'OK');
-  assert.equal(await navigation.suspend(), 'ERROR', 'nothing runs');
+  assert.equal(String(await speech.say('Good day.', { volume: 20, language: 'en' })), 'OK');
+  assert.equal(String(await speech.say_ssml('<speak version="1.0" xml:lang="en">Hello.</speak>')), 'OK');
+  assert.equal(String(await reaction.react(9)), 'OK');
+  assert.equal(String(await move.line(100, 0)), 'OK');
+  assert.equal(String(await move.curve(500, 10, { time: 200 })), 'OK');
+  assert.equal(String(await listening.listen({ languages: ['en'] })), 'OK');
+  assert.equal(String(await listening.stop()), 'OK');
+  const idle = await navigation.suspend();
+  assert.equal(idle.status, 'ERROR', 'nothing runs');
+  assert.notEqual(idle.reason, '');
+  const unreachable = await navigation.go_to({ x: -5000, y: -5000, th: 0 });
+  assert.equal(unreachable.status, 'ERROR');
+  assert.notEqual(unreachable.reason, '');
   assert.equal(await navigation.component_status(), 'READY');
   await navigation.release();
   await assert.rejects(navigation.stop(), refused('ERROR'));
@@ -171,15 +177,15 @@ spoken('the facades say what their components do', async () => {
 spoken('whole numbers are rounded where RoIS wants them', async () => {
   const [navigation, speech, move] = [await Navigation.bind_any(client), await SpeechSynthesis.bind_any(client), await Move.bind_any(client)];
   const follow = await Follow.bind_any(client);
-  assert.equal(await navigation.go_to('6000.5, 6000', { time_limit: 90_000.5 }), 'OK');
-  assert.equal(await speech.say('Good day.', { volume: 20.4 }), 'OK');
-  assert.equal(await speech.say_ssml('<speak version="1.0" xml:lang="en">Hello.</speak>', { volume: 60.6 }), 'OK');
+  assert.equal(String(await navigation.go_to('6000.5, 6000', { time_limit: 90_000.5 })), 'OK');
+  assert.equal(String(await speech.say('Good day.', { volume: 20.4 })), 'OK');
+  assert.equal(String(await speech.say_ssml('<speak version="1.0" xml:lang="en">Hello.</speak>', { volume: 60.6 })), 'OK');
   assert.equal((await speech.get()).text('volume'), '61');
-  assert.equal(await move.line(99.5, 0.4, { time: 1000.5 }), 'OK');
-  assert.equal(await move.curve(500.5, 10.4, { time: 1000.5 }), 'OK');
+  assert.equal(String(await move.line(99.5, 0.4, { time: 1000.5 })), 'OK');
+  assert.equal(String(await move.curve(500.5, 10.4, { time: 1000.5 })), 'OK');
   const following = follow.follow('nobody', 500.5, { time_limit: 90_000.5 });
-  assert.equal(await follow.stop(), 'OK');
-  assert.equal(await following, 'OK');
+  assert.equal(String(await follow.stop()), 'OK');
+  assert.equal(String(await following), 'OK');
   const timed = [command('speech_synthesis', 'start', { speech_text: 'Then.' }, { delay_time: 0.6 }), delay(1.5), concurrently(command('move', 'stop'))];
   assert.equal(await (await client.execute(timed)).status(), 'OK');
 });
@@ -191,9 +197,9 @@ spoken('a stream is connected, and said where to fetch', async () => {
   assert.match(stream.text('transport_parameters') ?? '', /^http:/);
   const id = stream.text('stream_id')!;
   assert.equal((await changes.next(5000))!.results.text('stream_id'), id);
-  assert.equal(await audio.suspend_stream(id), 'OK');
-  assert.equal(await audio.resume_stream(id), 'OK');
-  assert.equal(await audio.disconnect_stream(id), 'OK');
+  assert.equal(String(await audio.suspend_stream(id)), 'OK');
+  assert.equal(String(await audio.resume_stream(id)), 'OK');
+  assert.equal(String(await audio.disconnect_stream(id)), 'OK');
 });
 
 spoken('a free component is chosen in an order', async () => {
@@ -220,7 +226,7 @@ spoken('events come to whoever subscribed, and their details can be fetched', as
   assert.equal((await all.next(1000))!.sequence, 1);
   await inline.close();
   await bare.close();
-  assert.equal(await detection.stop(), 'OK');
+  assert.equal(String(await detection.stop()), 'OK');
   await detection.start();
   for (let one = await inline.next(100); one; one = await inline.next(100)) assert.fail('an event after unsubscribe');
 });

@@ -66,7 +66,7 @@ test('an outside project finds its types, and the README is true', async () => {
   );
   const gateway = await Gateway.start('--scenario', `${root}/tests/server/data/one_visitor.xml`, '--sim-speed', '50');
   try {
-    assert.equal(await output_of([process.execPath, `${outside}/readme.js`], gateway.url), '1 person(s)\nOK\nOK\n');
+    assert.equal(await output_of([process.execPath, `${outside}/readme.js`], gateway.url), '1 person(s)\narrived\n');
   } finally {
     await gateway.stop();
   }

@@ -1,14 +1,24 @@
 // A program that plays an application, run by a test.
 import { spawn } from 'node:child_process';
 
-/** What it writes on standard output; rejects with its standard error when it fails. */
-export function output_of([program, ...args]: string[], url: string, environment: Record<string, string> = {}): Promise<string> {
+/**
+ * What it writes on standard output; rejects with its standard error when it fails. `logged` is called with each piece of its standard error.
+ */
+export function output_of(
+  [program, ...args]: string[],
+  url: string,
+  environment: Record<string, string> = {},
+  logged: (text: string) => void = () => undefined,
+): Promise<string> {
   return new Promise((resolve, reject) => {
     const env = { ...process.env, ROIS_URL: url, PYTHONDONTWRITEBYTECODE: '1', ...environment };
     const child = spawn(program!, args, { env, stdio: ['ignore', 'pipe', 'pipe'] });
     let [out, log] = ['', ''];
     child.stdout.setEncoding('utf8').on('data', (text: string) => (out += text));
-    child.stderr.setEncoding('utf8').on('data', (text: string) => (log += text));
+    child.stderr.setEncoding('utf8').on('data', (text: string) => {
+      log += text;
+      logged(text);
+    });
     child.on('error', reject);
     child.on('close', (code) => (code === 0 ? resolve(out) : reject(new Error(`it ended with ${code}: ${log}`))));
   });

@@ -2,10 +2,10 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { Client, type ClientOptions, type OpenSocket } from 'rois-client';
+import { Client, type ClientOptions, namespaces, Navigation, type OpenSocket } from 'rois-client';
 
 import { Clock, settled } from './clock.js';
-import { news_of, options, Scripted, scripted } from './scripted.js';
+import { news_of, options, Scripted, scripted, type ScriptedSocket } from './scripted.js';
 
 scripted('new tries come less and less often, until one succeeds', {}, async (client, gateway, clock) => {
   for (const delay of [100, 200, 400, 800, 1000, 1000]) {
@@ -33,23 +33,56 @@ async function resumed_after(delay: number, gateway: Scripted, clock: Clock): Pr
   await gateway.socket.answer();
 }
 
-scripted('a link that breaks before it was of use is no reason to try as often as at first', {}, async (client, gateway, clock) => {
-  const found = client.search();
-  for (const delay of [100, 200, 400]) {
+scripted('the delay is the first one again after each link that resumed the session', {}, async (client, gateway, clock) => {
+  for (let sequence = 1; sequence <= 20; ++sequence) {
     await gateway.socket.end('cut');
-    await resumed_after(delay, gateway, clock);
+    await resumed_after(100, gateway, clock);
+    await gateway.socket.completed(sequence);
   }
-  await gateway.socket.answer();
-  await found;
-  await gateway.socket.end('cut');
-  await resumed_after(100, gateway, clock); // a call was answered
-  await gateway.socket.end('cut');
-  await resumed_after(200, gateway, clock);
-  await clock.pass(5_000);
-  await gateway.socket.end('cut');
-  await resumed_after(100, gateway, clock); // it has lasted for a while
   assert.equal(client.state, 'resumed');
 });
+
+scripted('links that open and do not resume the session come less and less often', {}, async (client, gateway, clock) => {
+  for (const delay of [100, 200, 400, 800, 1000]) {
+    await gateway.socket.end('cut');
+    const tries = gateway.sockets.length;
+    await clock.pass(delay - 1);
+    assert.equal(gateway.sockets.length, tries, `${delay}`);
+    await clock.pass(1);
+    await gateway.socket.open();
+  }
+  assert.equal(client.state, 'lost');
+  await gateway.socket.answer();
+  assert.equal(client.state, 'resumed');
+});
+
+scripted('a command that fails says why', {}, async (client, gateway) => {
+  const [bound, going] = [Navigation.bind(client, 'navigation'), new Navigation(client, 'navigation').go_to('attic')];
+  await gateway.socket.answer();
+  await gateway.socket.answer();
+  await bound;
+  await gateway.socket.completed(1, command_id_of(gateway.socket), 'ERROR');
+  assert.equal(gateway.socket.names.at(-1), 'get_command_result');
+  const result = (name: string, text: string) => `<result r:name="${name}" xmlns:r="${namespaces.rois}"><r:data_type_ref r:code="string"/><r:value>${text}</r:value></result>`;
+  await gateway.socket.answer(`<results>${result('status', 'ERROR')}${result('reason', 'no way leads to the attic')}</results>`);
+  const completion = await going;
+  assert.deepEqual([completion.ok, completion.status, completion.reason], [false, 'ERROR', 'no way leads to the attic']);
+  assert.equal(`${completion}`, 'ERROR: no way leads to the attic');
+});
+
+scripted('a command that fails is told with its status alone when there is no answer to why', {}, async (client, gateway) => {
+  const going = new Navigation(client, 'navigation').go_to('attic');
+  await gateway.socket.answer();
+  await gateway.socket.completed(1, command_id_of(gateway.socket), 'ABORT');
+  await gateway.socket.answer('', 'BAD_PARAMETER');
+  const completion = await going;
+  assert.equal(`${completion}`, 'ABORT');
+});
+
+function command_id_of(socket: ScriptedSocket): string {
+  const [, id] = /command_id="([^"]+)"/.exec(socket.texts.find((text) => text.startsWith('<execute'))!)!;
+  return id!;
+}
 
 scripted('what is too large for the gateway fails, and only that', {}, async (client, gateway, clock) => {
   const calls: Promise<unknown>[] = [client.search(), client.send(`<mine>${'日'.repeat(1000)}</mine>`), client.bind('b'.repeat(2000))];
@@ -128,7 +161,7 @@ for (const [how, refuse] of [
     await gateway.socket.answer('<session>two</session>');
     await gateway.socket.completed(1);
     await gateway.socket.end('cut');
-    await clock.pass(200);
+    await clock.pass(100);
     await gateway.socket.open();
     assert.equal(gateway.socket.came[0]!.attribute('session'), 'two');
     assert.equal(gateway.socket.came[0]!.attribute('last_sequence'), '1');
@@ -182,6 +215,19 @@ test('who is refused a session tries again, and says why in the end', async () =
   });
   assert.equal(told, 'connecting connecting closed: RoisError: no session within 15000 ms: no session within 10000 ms');
   assert.ok(gateway.socket.closed);
+});
+
+test('each try that fails is reported at once, while the client keeps trying', async () => {
+  const gateway = new Scripted();
+  const told: string[] = [];
+  await begun({ on_state: ({ state, reason }) => told.push(`${state}: ${reason}`) }, gateway.open, async (clock) => {
+    await gateway.socket.end('connection refused');
+    assert.deepEqual(told, ['connecting: connection refused']);
+    await clock.pass(100);
+    await gateway.socket.end('no route');
+    assert.deepEqual(told, ['connecting: connection refused', 'connecting: no route']);
+    await clock.pass(14_900);
+  });
 });
 
 test('who cannot be reached at all is told at once', async () => {

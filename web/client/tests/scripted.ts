@@ -9,6 +9,7 @@ import { Clock, settled } from './clock.js';
 /** The gateway's end of one WebSocket. */
 export class ScriptedSocket implements Socket {
   readonly came: XmlElement[] = [];
+  readonly texts: string[] = []; // the same as they came
   closed = false; // by the client
   private ended = false; // by the gateway
   private answered = 0;
@@ -21,6 +22,7 @@ export class ScriptedSocket implements Socket {
 
   send(text: string): void {
     this.came.push(parse_xml(text));
+    this.texts.push(text);
   }
   close(): void {
     assert.ok(!this.is_over, 'it is over already');

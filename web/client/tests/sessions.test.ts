@@ -70,12 +70,12 @@ test('a new session binds again what the lost one had, and tells what it cannot 
     other = await connect(url);
     await other.bind('speech_synthesis');
   });
-  assert.equal(await navigation.go_to('4000, 5000'), 'OK');
+  assert.equal(String(await navigation.go_to('4000, 5000')), 'OK');
   assert.deepEqual(unbound, ['speech_synthesis: OUT_OF_RESOURCES']);
   await other.bind('move');
   await other.close();
   await restart(async () => undefined);
-  assert.equal(await navigation.go_to('4000, 5000'), 'OK');
+  assert.equal(String(await navigation.go_to('4000, 5000')), 'OK');
   assert.deepEqual(unbound, ['speech_synthesis: OUT_OF_RESOURCES']);
   assert.equal(seen.out.filter((name) => name === 'bind').length, 2 + 2 + 1, 'what another had is not asked for again');
   await client.close();

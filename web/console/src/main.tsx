@@ -7,10 +7,12 @@ import './order';
 import { render } from 'preact';
 
 import { Console } from './state/console';
+import { kept_text, restore } from './state/keeping';
 import { type Language, language, wished_language } from './i18n/i18n';
 import { panels } from './panels';
 import { App } from './shell/app';
-import { browser } from './shell/environment';
+import { desk_of } from './scenario/desk';
+import { browser, visit } from './shell/environment';
 import { begin_layout } from './shell/layout';
 import { follow_system, type Theme, theme } from './shell/theme';
 
@@ -20,12 +22,19 @@ follow_system();
 begin_layout(panels, browser.recall('panels'));
 
 const state = new Console(browser);
+restore(state, visit.recall());
 state.connect();
 state.history.record();
 // At hand in the developer tools, and for tests: `rois.run('navigation', 'start', { target_position: ['desk'] })`.
 Object.assign(window, { rois: state });
-// What this page runs must not go on when the page has gone.
-addEventListener('pagehide', () => void state.close());
+// What this page runs must not go on when the page has gone; the user is asked before.
+addEventListener('beforeunload', (event) => {
+  if (state.commands.open().length > 0 || desk_of(state).is_running.value) event.preventDefault();
+});
+addEventListener('pagehide', () => {
+  visit.remember(kept_text(state));
+  void state.close();
+});
 addEventListener('pageshow', (event) => {
   if (event.persisted) state.connect(state.current_token);
 });

@@ -53,7 +53,7 @@ export function clock_time(at: number, with_ms = true): string {
 export function duration(ms: number): string {
   const japanese = language.value === 'ja';
   const said = (n: number, digits: number, en: string, ja: string) => {
-    const text = n.toLocaleString(language.value, { maximumFractionDigits: digits, minimumFractionDigits: digits });
+    const text = n.toFixed(digits); // both languages write a point; toLocaleString takes a millisecond
     return japanese ? `${text}${ja}` : `${text} ${en}`;
   };
   if (ms < 1000) return said(Math.max(0, Math.round(ms)), 0, 'ms', 'ミリ秒');

@@ -170,7 +170,7 @@ export function ThingCard({ thing, close }: { thing: Shown; close: () => void })
     <Card title={`${t.kind(thing.kind)} ${thing.name}`} close={close}>
       <dl class="map-facts">
         {thing.kind === 'person' && <Fact name={t.name()}>{identity ? t.identified(thing.thing.ref) : t.unidentified()}</Fact>}
-        <Fact name={t.state()}>{t.freshness(thing.freshness, thing.kind)}{thing.freshness !== 'live' && ` (${t.ago(age(thing.age))})`}</Fact>
+        <Fact name={t.state()}>{t.freshness(thing.freshness, thing.kind, age(thing.age))}{/gone|unknown/.test(thing.freshness) && ` (${t.ago(age(thing.age))})`}</Fact>
         <Fact name={t.position()}>{position(thing)}</Fact>
         {th !== undefined && <Fact name={t.direction()}>{degrees(th)}</Fact>}
         <Fact name={t.certainty()}>{ellipse ? certainty(ellipse) : t.uncertain()}</Fact>
@@ -223,8 +223,10 @@ function Speaking({ voice }: { voice: string }) {
   const console = useConsole();
   const deed = useDeed();
   const words = useSignal('');
+  // Not that of a speech before: a bound component keeps it.
+  const language = console.profile.component(voice)?.parameters.find((one) => one.name === 'language')?.default_value;
   const say = async () => {
-    const { command_ids, ends } = await console.run(voice, 'start', { speech_text: value.string(words.value.trim()) }, { give_back: true });
+    const { command_ids, ends } = await console.run(voice, 'start', { speech_text: value.string(words.value.trim()), ...(language !== undefined && { language: value.string(language) }) }, { give_back: true });
     words.value = '';
     const [status] = await ends;
     if (status !== 'ERROR') return;
@@ -248,7 +250,7 @@ function Pursuit({ driver, thing, close }: { driver: Driver; thing: Shown; close
   const deed = useDeed();
   const gap = Number(session.gap.value);
   const is_number = session.gap.value.trim() !== '' && Number.isFinite(gap) && gap > 0;
-  const go_there = () => (session.interaction.value = { ...session.interaction.value, chosen: undefined, target: { x: Math.round(thing.x), y: Math.round(thing.y) } });
+  const go_there = () => (session.interaction.value = { ...session.interaction.value, chosen: undefined, target: { x: Math.round(thing.x), y: Math.round(thing.y), whom: thing.name } });
   const pursue = () => is_number && driver.follow && deed.run(() => follow(console, driver, thing, Math.round(gap * 1000)).then(close)); // the map says it, and has a button to stop it
   return (
     <Form class="map-form" submit={pursue}>

@@ -12,11 +12,11 @@ import { type Hit, type Input, stepped, type Surroundings } from './interaction'
 import { Labels } from './labels';
 import type { Palette } from './palette';
 import { type Context, Pen } from './pen';
-import { draw_picture, knob_distance, type Picture, type Preview } from './picture';
+import { draw_picture, knob_distance, label_of, type Picture, type Preview } from './picture';
 import type { Shown } from './scene';
 import type { MapSession } from './session';
 import { Trails } from './trails';
-import { box_around, fitted, margin_of, type Point, type Size, to_floor, to_screen, type View } from './view';
+import { box_around, fitted, margin_of, type Point, type Size, to_floor, to_screen, type View, with_point } from './view';
 
 /** As much of a canvas as this needs. */
 export interface Sheet {
@@ -34,7 +34,10 @@ export interface DrawingTools {
   distance_text: (mm: number) => string;
 }
 
+const target_edge = 60; // px that the target keeps from the edge when the size changes
 const usual_radius = 250; // mm, of a robot that is not on the map
+const least_move = 1.5; // px that a thing at rest moves before it is drawn elsewhere
+const noise = 4; // standard deviations that a robot at rest may seem to move
 const reach = { fine: 10, coarse: 20 }; // px around a thing that still hit it
 
 export class Drawing {
@@ -69,15 +72,15 @@ export class Drawing {
 
   /** Draws from now on whatever changes. */
   start(): Stop {
+    const { robots, entities, commands, map, link, status, bindings } = this.console;
+    const { interaction, hovered, layers, engine } = this.session;
     const stop = effect(() => {
-      const { robots, entities, commands, map, link, status, bindings } = this.console;
-      const { interaction, hovered, layers, engine } = this.session;
-      for (const one of [robots.pulse.beat, entities.pulse.beat, commands.pulse.beat, map.view, link.view, status.all, bindings.mine, interaction, hovered, layers, engine]) void one.value;
+      for (const one of [commands.pulse.beat, map.view, link.view, bindings.mine, interaction, hovered, layers, engine]) void one.value;
       untracked(() => this.request());
     });
-    const stop_ages = effect(() => {
-      void this.console.now.value;
-      if (this.shown.length > 0) untracked(() => this.request());
+    const stop_things = effect(() => {
+      for (const one of [robots.pulse.beat, entities.pulse.beat, status.all, this.console.now]) void one.value;
+      untracked(() => this.has_news() && this.request());
     });
     const stop_theme = effect(() => {
       this.tools.theme();
@@ -86,7 +89,7 @@ export class Drawing {
     });
     return () => {
       this.is_over = true;
-      for (const one of [stop, stop_ages, stop_theme]) one();
+      for (const one of [stop, stop_things, stop_theme]) one();
     };
   }
 
@@ -98,7 +101,14 @@ export class Drawing {
       sheet.width = Math.round(size.width * ratio);
       sheet.height = Math.round(size.height * ratio);
     }
+    this.keep_target();
     this.draw(); // a canvas that gets another size is empty
+  }
+
+  // The card of the target may have made the picture smaller.
+  private keep_target(): void {
+    const { view, target } = this.session.interaction.peek();
+    if (view && target) this.session.interaction.value = { ...this.session.interaction.peek(), view: with_point(view, this.size, target, target_edge) };
   }
 
   /** With reduced motion things jump. */
@@ -183,6 +193,20 @@ export class Drawing {
 
   // --- Drawing ---
 
+  /** Whether a picture drawn now would differ from the last one: something has come, gone or moved, or its label has changed. */
+  private has_news(): boolean {
+    const now = this.console.environment.now();
+    const { shown } = this.session.scene();
+    const { age_text } = this.tools;
+    const is_same = (one: Shown, before: Shown | undefined) => one.key === before?.key && one.freshness === before.freshness && label_of(one, age_text) === label_of(before, age_text);
+    return shown.length !== this.shown.length || shown.some((one, i) => !is_same(one, this.shown[i]) || this.glide.is_news(one.key, told(one), now, this.slack_of(one)));
+  }
+
+  // People are told of only when they move; a robot's position is asked for, so it comes with noise.
+  private slack_of({ kind, ellipse }: Shown): number {
+    return Math.max(least_move / this.scale.peek(), kind === 'robot' && ellipse ? noise * ellipse.a : 0);
+  }
+
   private request(): void {
     if (this.is_due || this.is_over) return;
     this.is_due = true;
@@ -212,7 +236,7 @@ export class Drawing {
     if (layers.peek().trails) context.drawImage(this.ways as unknown as CanvasImageSource, 0, 0);
     context.globalAlpha = 1;
     context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
-    const pose = (one: Shown) => this.glide.pose(one.key, told(one), now);
+    const pose = (one: Shown) => this.pose_of(one);
     if (layers.peek().trails) this.draw_trail_ends(pen, pose);
     const { chosen, cursor } = interaction.peek();
     const picture = untracked((): Picture => ({
@@ -277,7 +301,7 @@ export class Drawing {
   }
 
   private pose_of(one: Shown): FloorPose {
-    return this.glide.pose(one.key, told(one), this.console.environment.now());
+    return this.glide.pose(one.key, told(one), this.console.environment.now(), this.slack_of(one));
   }
 
   private pen(context: Context, view: View): Pen {

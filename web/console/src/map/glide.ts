@@ -1,4 +1,4 @@
-// Between two places that were told, things move evenly. With reduced motion, or after a leap, they jump.
+// Between two poses that were received, things move evenly. With reduced motion, or after a leap, they jump. The noise of a thing at rest is not drawn.
 import { distance, type FloorPose, turned } from '../state/floor';
 
 interface Way {
@@ -6,28 +6,39 @@ interface Way {
   to: FloorPose;
   began: number; // ms
   takes: number; // ms
+  anchor: FloorPose; // the last pose that was farther than noise from the anchor before it
+  moved: number; // ms: when that was
 }
 
 const slowest = 300; // ms; who is told of less often jumps the rest of the way
 const quickest = 50;
 const leap = 1500; // mm
+const settles = 1000; // ms after the last movement; every pose is drawn until then
+const least_turn = 6; // degrees
 
 export class Glide {
   is_still = false;
   private ways = new Map<string, Way>();
 
-  /** Where a thing is drawn that was told to be there. */
-  pose(key: string, told: FloorPose, now: number): FloorPose {
+  /** Where a thing is drawn whose pose was received. A thing at rest stays where it is drawn until it is farther than `slack` mm from there. */
+  pose(key: string, told: FloorPose, now: number, slack = 0): FloorPose {
     const way = this.ways.get(key);
-    if (way === undefined || this.is_still || distance(way.to, told) > leap) {
-      this.ways.set(key, { from: told, to: told, began: now, takes: quickest });
+    if (way === undefined || distance(way.to, told) > leap) {
+      this.ways.set(key, { from: told, to: told, began: now, takes: quickest, anchor: told, moved: now });
       return told;
     }
-    if (way.to.x !== told.x || way.to.y !== told.y || way.to.th !== told.th) {
-      const takes = Math.min(slowest, Math.max(quickest, now - way.began));
-      this.ways.set(key, { from: between(way, now), to: told, began: now, takes });
-    }
-    return between(this.ways.get(key)!, now);
+    if (is_off(way.anchor, told, slack)) [way.anchor, way.moved] = [told, now];
+    if (!is_off(way.to, told, 0) || now - way.moved >= settles) return between(way, now);
+    const takes = Math.min(slowest, Math.max(quickest, now - way.began));
+    const next = { ...way, from: this.is_still ? told : between(way, now), to: told, began: now, takes };
+    this.ways.set(key, next);
+    return between(next, now);
+  }
+
+  /** Whether a picture with this pose would show something new. */
+  is_news(key: string, told: FloorPose, now: number, slack: number): boolean {
+    const way = this.ways.get(key);
+    return way === undefined || is_off(way.anchor, told, slack) || (now - way.moved < settles && is_off(way.to, told, 0));
   }
 
   /** Whether something has not arrived. */
@@ -40,6 +51,12 @@ export class Glide {
   keep(keys: ReadonlySet<string>): void {
     for (const key of this.ways.keys()) if (!keys.has(key)) this.ways.delete(key);
   }
+}
+
+// Farther than so many mm away, or turned by more than a few degrees. Without slack any difference counts.
+function is_off(from: FloorPose, to: FloorPose, slack: number): boolean {
+  const turn = from.th === undefined || to.th === undefined ? Number(from.th !== to.th) * 360 : Math.abs(turned(to.th - from.th));
+  return distance(from, to) > slack || turn > (slack > 0 ? least_turn : 0);
 }
 
 function between({ from, to, began, takes }: Way, now: number): FloorPose {

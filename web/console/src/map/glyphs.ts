@@ -21,7 +21,7 @@ export function radius_of(pen: Pick<Pen, 'length'>, { kind, radius }: Pick<Shown
 export function draw_thing(pen: Pen, thing: Shown, at: Point): void {
   const radius = radius_of(pen, thing);
   const style = color_of(thing.kind, pen.palette);
-  if (thing.freshness === 'gone' || thing.freshness === 'old') pen.dashed(...gone);
+  if (/gone|old|unknown/.test(thing.freshness)) pen.dashed(...gone);
   if (thing.kind === 'robot') draw_robot(pen, thing, at, radius, style);
   else if (thing.kind === 'person') draw_person(pen, thing, at, radius, style);
   else if (thing.kind === 'face') draw_face(pen, thing, at, radius, style);
@@ -49,7 +49,7 @@ function draw_robot(pen: Pen, { th, freshness }: Shown, at: Point, radius: numbe
 // Shoulders and a head; a nose where they look. Full when it is known who it is.
 function draw_person(pen: Pen, { th, freshness, identity }: Shown, at: Point, radius: number, style: string): void {
   const { context, palette } = pen;
-  const alpha = freshness === 'gone' || freshness === 'old' ? 0 : identity ? 1 : 0.45;
+  const alpha = /gone|old|unknown/.test(freshness) ? 0 : identity ? 1 : 0.45;
   pen.turned(at, th ?? 0, () => {
     if (th !== undefined) {
       context.beginPath();

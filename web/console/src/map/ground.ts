@@ -20,6 +20,7 @@ export const all_layers: Layers = { grid: true, places: true, frames: true, trai
 const least_cell = 22; // px
 const wall_width = 90; // mm
 const name_below = 10; // px
+const line_height = 14; // px
 
 export function draw_ground(pen: Pen, map: FloorMap | undefined, layers: Layers): void {
   const { context, size, palette } = pen;
@@ -41,7 +42,8 @@ export function draw_ground(pen: Pen, map: FloorMap | undefined, layers: Layers)
       pen.stroke(palette.wall, 1, 0.55);
     });
   draw_walls(pen, map);
-  if (layers.places) for (const place of map.places) draw_place(pen, place, layers.names);
+  const names: Name[] | undefined = layers.names ? [] : undefined;
+  if (layers.places) for (const place of map.places) draw_place(pen, place, names);
   if (!layers.frames) return;
   draw_axes(pen, { x: 0, y: 0, heading: 0 }, short_name(map.crs));
   for (const { frame } of map.robots) if (frame) draw_axes(pen, frame, short_name(frame.crs));
@@ -113,7 +115,15 @@ function draw_area(pen: Pen, { x, y, width, depth }: Place): void {
   pen.dashed();
 }
 
-function draw_place(pen: Pen, place: Place, with_name: boolean): void {
+// Where a name is written: its middle, in px.
+interface Name {
+  x: number;
+  y: number;
+  half: number; // of its width
+}
+
+// A name that would lie over one of `names` is left out until the view is closer; undefined: no names are shown.
+function draw_place(pen: Pen, place: Place, names: Name[] | undefined): void {
   const { context, palette } = pen;
   const at = pen.at(place);
   pen.turned(at, place.heading, () => {
@@ -127,9 +137,12 @@ function draw_place(pen: Pen, place: Place, with_name: boolean): void {
   pen.circle(at, 3.5);
   pen.fill(palette.panel);
   pen.stroke(palette.soft, 1.5);
-  if (!with_name) return;
+  if (!names) return;
   context.font = palette.font;
   context.textBaseline = 'top';
+  const half = context.measureText(place_name(place)).width / 2 + 2;
+  if (names.some((one) => Math.abs(one.x - at.x) < one.half + half && Math.abs(one.y - at.y) < line_height)) return;
+  names.push({ ...at, half });
   pen.text(place_name(place), { x: at.x, y: at.y + name_below }, palette.soft, 'center');
 }
 

@@ -7,6 +7,8 @@ export interface Target extends Point {
   th?: number;
   /** The place by whose name it is sent, as long as nobody has turned it. */
   place?: string;
+  /** The name of the person or thing that stands there. */
+  whom?: string;
 }
 
 /** What is at a point of the screen. */
@@ -236,8 +238,8 @@ function escaped(before: Interaction): Interaction {
 }
 
 // Whole degrees; and a place that is entered from another side is not the place as it is meant.
-function with_direction({ x, y }: Target, th: number): Target {
-  return { x, y, th: Math.round(turned(th)) };
+function with_direction({ x, y, whom }: Target, th: number): Target {
+  return { x, y, th: Math.round(turned(th)), ...(whom !== undefined && { whom }) };
 }
 
 // As exactly as it is shown.

@@ -2,7 +2,7 @@
 import './map.css';
 
 import { useSignal } from '@preact/signals';
-import { useMemo } from 'preact/hooks';
+import { useEffect, useMemo, useRef } from 'preact/hooks';
 
 import { useConsole, useWatch } from '../shell/context';
 import { Button, IconButton } from '../ui';
@@ -31,10 +31,12 @@ export default function MapPanel() {
     <div class="map">
       <Toolbar />
       <div class="map-floor">
-        <Board begun={(one) => (drawing.value = one)} pointed={(at) => (pointer.value = at)} send={() => sending.send?.()} />
-        <div class="map-corner map-top">
-          <Remarks />
-          <Motions />
+        <div class="map-board">
+          <Board begun={(one) => (drawing.value = one)} pointed={(at) => (pointer.value = at)} send={() => sending.send?.()} />
+          <div class="map-corner map-top">
+            <Remarks />
+            <Motions />
+          </div>
         </div>
         <Chosen sending={sending} drawing={drawing.value} />
       </div>
@@ -63,8 +65,17 @@ function Chosen({ sending, drawing }: { sending: ReturnType<typeof useSending>; 
     const at = target ?? session.scene().shown.find((one) => one.key === chosen);
     return at !== undefined && drawing !== undefined && drawing.is_right(at);
   }, [key, drawing]);
+  // The button that had the focus may have gone with its card.
+  const cards = useRef<HTMLDivElement>(null);
+  const about = target ? 'target' : chosen;
+  const before = useRef<string>();
+  useEffect(() => {
+    if (before.current !== undefined && document.activeElement === document.body)
+      (cards.current?.querySelector<HTMLElement>('[type=submit]:enabled') ?? document.querySelector<HTMLElement>('.map-canvas'))?.focus();
+    before.current = about;
+  }, [about]);
   if (key === undefined) return null;
-  return <div class={at_left ? 'map-cards map-cards-left' : 'map-cards'}>{target ? <TargetCard target={target} sending={sending} /> : <ChosenThing chosen={chosen!} />}</div>;
+  return <div ref={cards} class={at_left ? 'map-cards map-cards-left' : 'map-cards'}>{target ? <TargetCard target={target} sending={sending} /> : <ChosenThing chosen={chosen!} />}</div>;
 }
 
 // As often as positions come in.

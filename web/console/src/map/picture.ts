@@ -142,6 +142,11 @@ function pill(pen: Pen, text: string, at: Point, style: string): void {
   pen.text(text, { x: at.x, y: at.y + 1 }, palette.ink, 'center');
 }
 
+/** A thing's name, and how old it is unless it was told of just now. */
+export function label_of({ name, freshness, age }: Shown, age_text: (ms: number) => string): string {
+  return freshness === 'live' ? name : `${name} · ${age_text(age)}`;
+}
+
 function draw_names(pen: Pen, { chosen, hovered, age_text, places: named, layers }: Picture, seen: readonly [Shown, FloorPose, Point][], labels: Labels): void {
   const { context, palette, size } = pen;
   context.font = palette.font;
@@ -151,7 +156,7 @@ function draw_names(pen: Pen, { chosen, hovered, age_text, places: named, layers
   for (const [one, , at] of seen) {
     const is_marked = one.key === chosen || one.key === hovered;
     if (one.kind !== 'robot' && one.kind !== 'person' && !is_marked) continue;
-    const text = one.freshness === 'live' ? one.name : `${one.name} · ${age_text(one.age)}`;
+    const text = label_of(one, age_text);
     texts.set(one.key, text);
     wanted.push({ key: one.key, width: Math.ceil(width_of(pen, text)) + 10, at, radius: radius_of(pen, one) * 1.3, must: is_marked || one.kind === 'robot' });
   }

@@ -1,5 +1,5 @@
 // Numbers of the floor in words.
-import { duration, language } from '../i18n/i18n';
+import { duration } from '../i18n/i18n';
 import { confidence } from './glyphs';
 import type { Target } from './interaction';
 import * as texts from './texts';
@@ -21,18 +21,10 @@ export function degrees(th: number): string {
   return texts.degrees(Math.round(th).toFixed(0).replace(/^-0$/, '0'));
 }
 
-const ages = new Map<string, string>();
-
-/** Whole seconds, since it is drawn anew once a second. Pictures need the same ones again and again, and browsers are slow to write numbers. */
+/** Whole seconds below 10 s, then steps of 5 s: a map at rest is drawn again only when a label changes. */
 export function age(ms: number): string {
-  const whole = ms < 1000 ? 1000 : Math.floor(ms / 1000) * 1000;
-  const key = `${language.value} ${whole}`;
-  const known = ages.get(key);
-  if (known !== undefined) return known;
-  if (ages.size > 500) ages.clear();
-  const said = duration(whole).replace('.0', '');
-  ages.set(key, said);
-  return said;
+  const step = ms < 10_000 ? 1000 : 5000;
+  return duration(Math.max(1000, Math.floor(ms / step) * step)).replace('.0', '');
 }
 
 /** `± 0.12 m (95 %)`, of both axes when they differ. */
@@ -41,7 +33,7 @@ export function certainty(ellipse: { a: number; b: number }): string {
   return texts.certain(a === b ? a : `${a} × ${b}`);
 }
 
-/** A target as it is told to people: a place by its name. */
+/** A target as it is told to people: a place or a person by its name. */
 export function target_words(target: Target): string {
-  return target.place ?? position(target);
+  return target.place ?? target.whom ?? position(target);
 }

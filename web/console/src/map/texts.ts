@@ -38,6 +38,9 @@ export const observing = text_of((on: number, of: number) => [
   on === of ? `${on} components look` : `${on} of ${of} components look`,
   on === of ? `${on} 個が検出中` : `${of} 個中 ${on} 個が検出中`,
 ]);
+export const observe_age = text_of((age: string) => [`news ${age} ago`, `通知 ${age}前`]);
+export const observe_silent = text('no news yet', 'まだ通知なし');
+export const observe_blind = text('their results do not arrive', '結果が届いていません');
 export const observe_refused = text('Not everything can be observed', '一部は観察できません');
 export const observe_none = text('This engine has nothing that looks for people', 'このエンジンには人を検出するものがありません');
 export const go_to = text('Go to', '行き先');
@@ -107,8 +110,12 @@ export const uncertain = text('not told', '不明');
 export const told = text('Told', '通知');
 export const ago = text_of((age: string) => [`${age} ago`, `${age}前`]);
 export const told_by = text('Told by', '通知元');
-export const freshness = text_of((state: string, kind: string) =>
-  state === 'live' ? ['Seen now', '検出中'] : state === 'quiet' ? ['Still there', '変化なし'] : state === 'old' ? ['No news for long', 'しばらく通知なし'] : gone[kind] ?? ['Out of sight', '見えません']);
+export const freshness = text_of((state: string, kind: string, age: string) =>
+  state === 'live' ? ['Seen now', '検出中']
+  : state === 'quiet' ? [`Not moved for ${age}`, `${age}変化なし`]
+  : state === 'old' ? [`No news for ${age}`, `${age}通知なし`]
+  : state === 'unknown' ? ['Unknown', '不明']
+  : gone[kind] ?? ['Out of sight', '見えません']);
 export const state = text('State', '状態');
 export const own_frame = text('Own frame', '固有の座標系');
 export const follow = text('Follow', '追う');

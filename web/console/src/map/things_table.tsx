@@ -1,4 +1,6 @@
 // What is on the floor as a table: always there for screen readers, and shown to all who ask for it. It changes once a second.
+import { untracked } from '@preact/signals';
+
 import { useConsole } from '../shell/context';
 import { Button } from '../ui';
 import { age, certainty, degrees, position } from './says';
@@ -11,7 +13,7 @@ export function ThingsTable() {
   const session = session_of(console);
   void console.now.value;
   const is_shown = session.shows_table.value;
-  const { shown } = session.scene();
+  const { shown } = untracked(() => session.scene());
   const { chosen } = session.interaction.value;
   const choose = (key: string) => (session.interaction.value = { ...session.interaction.value, target: undefined, chosen: key });
   const table = (
@@ -30,7 +32,7 @@ export function ThingsTable() {
           <tr key={one.key} aria-selected={is_shown ? one.key === chosen : undefined}>
             <td>{t.kind(one.kind)}</td>
             <th scope="row">{one.name}{one.identity && <span class="map-soft"> {one.thing.ref}</span>}</th>
-            <td>{t.freshness(one.freshness, one.kind)}</td>
+            <td>{t.freshness(one.freshness, one.kind, age(one.age))}</td>
             <td>{position(one)}</td>
             <td>{one.th === undefined ? '–' : degrees(one.th)}</td>
             <td>{one.ellipse ? certainty(one.ellipse) : '–'}</td>

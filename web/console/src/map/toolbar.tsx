@@ -1,11 +1,11 @@
 // Above the map: observing, places by name, layers, table, help.
 import { useSignal } from '@preact/signals';
-import { useRef } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
-import { Badge, Button, Checkbox, error_text } from '../ui';
+import { Badge, Button, Checkbox, error_text, Pop } from '../ui';
 import { all_layers, type Layers } from './ground';
 import { Help } from './help';
+import { age } from './says';
 import { session_of } from './session';
 import * as t from './texts';
 
@@ -32,11 +32,18 @@ export function Toolbar() {
   );
 }
 
+const fresh_for = 30_000; // ms: then news are old
+
 function Observe() {
   const console = useConsole();
   const { observer } = session_of(console);
+  const { entities, now } = console;
+  void entities.pulse.beat.value;
   const { is_wanted, is_busy, on, refused } = observer.state.value;
   const of = observer.components.length;
+  const old = now.value - entities.told_at; // ms
+  const is_blind = on.length > 0 && entities.is_blind();
+  const is_fresh = old < fresh_for;
   const why = refused.map(({ ref, error }) => `${ref}: ${error_text(error)}`).join('\n');
   return (
     <div class="map-observe">
@@ -53,18 +60,21 @@ function Observe() {
         <span class="map-switch-track" aria-hidden="true" />
         {t.observe()}
       </button>
-      {is_wanted && <Badge tone={refused.length > 0 ? 'warning' : on.length === of ? 'good' : 'busy'} title={why || undefined}>{t.observing(on.length, of)}</Badge>}
+      {is_wanted && (
+        <Badge tone={refused.length > 0 || is_blind ? 'warning' : on.length === of && is_fresh ? 'good' : 'busy'} title={why || undefined}>
+          {t.observing(on.length, of)}, {is_blind ? t.observe_blind() : entities.told_at === 0 ? t.observe_silent() : t.observe_age(age(old))}
+        </Badge>
+      )}
       {refused.length > 0 && (
-        <details class="map-pop">
-          <summary>{t.observe_refused()}</summary>
-          <ul class="map-pop-box plain-list">
+        <Pop label={t.observe_refused()}>
+          <ul class="plain-list">
             {refused.map(({ ref, error }) => (
               <li key={ref}>
                 <code>{ref}</code>: {error_text(error)}
               </li>
             ))}
           </ul>
-        </details>
+        </Pop>
       )}
     </div>
   );
@@ -96,28 +106,12 @@ function PlaceChoice() {
 
 function LayerChoice() {
   const session = session_of(useConsole());
-  const box = useRef<HTMLDetailsElement>(null);
-  const shut = () => box.current?.removeAttribute('open');
   const names = Object.keys(all_layers) as (keyof Layers)[];
   return (
-    <details
-      ref={box}
-      class="map-pop"
-      onKeyDown={(event) => {
-        if (event.key !== 'Escape' || !box.current?.open) return;
-        shut();
-        box.current.querySelector('summary')?.focus();
-      }}
-      onFocusOut={(event) => {
-        if (event.relatedTarget && !box.current?.contains(event.relatedTarget as Node)) shut();
-      }}
-    >
-      <summary>{t.layers()}</summary>
-      <div class="map-pop-box">
-        {names.map((name) => (
-          <Checkbox key={name} label={t.layer(name)} checked={session.layers.value[name]} change={(is_shown) => session.show(name, is_shown)} />
-        ))}
-      </div>
-    </details>
+    <Pop label={t.layers()} at_right>
+      {names.map((name) => (
+        <Checkbox key={name} label={t.layer(name)} checked={session.layers.value[name]} change={(is_shown) => session.show(name, is_shown)} />
+      ))}
+    </Pop>
   );
 }

@@ -94,7 +94,8 @@ export class Feed {
     return kept < before;
   }
 
-  private passes(document: LoggedDocument): boolean {
+  /** Whether the filter lets it through. */
+  passes(document: LoggedDocument): boolean {
     const { hidden, component, with_own } = this.filter;
     if (document.is_own && !with_own) return false;
     if (hidden.has(category_of(document))) return false;

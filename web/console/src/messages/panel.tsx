@@ -42,7 +42,11 @@ export default function MessagesPanel() {
   const chosen = choice.value;
   // Whoever picks a document elsewhere wants to see what happens.
   useEffect(() => {
-    if (recording.value && picked.value !== undefined) recording.value = undefined;
+    if (picked.value === undefined) return;
+    recording.value = undefined;
+    const wanted = console.documents.ring.numbered(picked.value);
+    if (wanted && !new Feed(live(console), filter.value).passes(wanted)) filter.value = { ...no_filter, with_own: wanted.is_own };
+    if (paused.value && !paused.value.rows.some((row) => !is_gap(row) && row.number === picked.value)) paused.value = undefined;
   }, [picked.value]);
   const { subscription } = console.selection;
   useEffect(() => {

@@ -39,7 +39,7 @@ function made_of(document: LoggedDocument): string {
   if (reason !== '') return reason;
   switch (name) {
     case 'receive_event':
-      return [event_type_of(document), ...values(text, 'result')].join('  ');
+      return of_event(document);
     case 'receive_error':
       return first_text(text, 'error_type');
     case 'completed':
@@ -80,6 +80,19 @@ function values(text: string, element: string): string[] {
     const items = [...inside!.matchAll(/<(?:[\w.-]+:)?value(?:\s[^>]*)?>([^<]*)</g)].map(([, value]) => unescaped(value!));
     return `${name}: ${items.join('; ')}`;
   });
+}
+
+// Who is where comes first, instead of the lists that say the same.
+function of_event(document: LoggedDocument): string {
+  const those = located(document.text);
+  const more = values(document.text, 'result').filter((one) => those.length === 0 || !/^(\w+_ref|position_data):/.test(one));
+  return [event_type_of(document), ...those, ...more].join('  ');
+}
+
+// `person-1 1000, 2000`: in mm.
+function located(text: string): string[] {
+  const each = new RegExp(`<(?:[\\w.-]+:)?located\\s[^>]*?${attribute('ref')}[^>]*>[^]*?<(?:[\\w.-]+:)?position>\\s*(\\S+)\\s+(\\S+)`, 'g');
+  return [...first_of(text.matchAll(each))].map(([, ref, x, y]) => `${unescaped(ref!)} ${x}, ${y}`);
 }
 
 function commands(text: string): string[] {

@@ -31,8 +31,11 @@ export function App({ console }: { console: Console }) {
   );
 }
 
-// People are told of when they come or move: whoever begins to listen later does not know of those who stand still.
+// People are told of when they come or move: whoever begins to listen later does not know of those who stand still. Trails have no gaps
+// while other panels are shown.
 function Watch() {
-  useWatch(useConsole().entities);
+  const { entities, robots } = useConsole();
+  useWatch(entities);
+  useWatch(robots.poll);
   return null;
 }

@@ -5,6 +5,24 @@ import type { Environment } from '../state/environment';
 
 const prefix = 'rois-console.';
 
+/** Kept for this visit alone: it outlives a reload, not the tab. */
+export const visit = {
+  recall: (): string | undefined => {
+    try {
+      return sessionStorage.getItem(prefix + 'past') ?? undefined;
+    } catch {
+      return undefined;
+    }
+  },
+  remember: (text: string) => {
+    try {
+      sessionStorage.setItem(prefix + 'past', text);
+    } catch {
+      // too much, or the user's settings forbid it
+    }
+  },
+};
+
 export const browser: Environment = {
   origin: location.origin,
   now: () => Date.now(),

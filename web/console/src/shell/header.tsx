@@ -1,10 +1,13 @@
 import { useSignal } from '@preact/signals';
+import type { ComponentChildren } from 'preact';
 
 import { language, type Language, languages } from '../i18n/i18n';
 import { Button } from '../ui/button';
 import { Dialog } from '../ui/dialog';
 import { tried } from '../ui/error_text';
+import { Pop } from '../ui/pop';
 import { useConsole } from './context';
+import { is_narrow } from './layout';
 import { LinkMark } from './link_status';
 import { NoticeArea } from './notices';
 import * as t from './texts';
@@ -24,7 +27,7 @@ export function Header() {
       </h1>
       <LinkMark />
       <NoticeArea />
-      <div class="head-end">
+      <Menu>
         <Bound />
         <label class="head-choice">
           <span class="unseen">{t.theme()}</span>
@@ -62,7 +65,7 @@ export function Header() {
         >
           <p>{t.disconnect_hint(console.bindings.mine.value.size, console.commands.open().length)}</p>
         </Dialog>
-      </div>
+      </Menu>
     </header>
   );
 
@@ -81,6 +84,12 @@ export function Header() {
     language.value = chosen;
     console.environment.remember('language', chosen);
   }
+}
+
+// In a row where there is room, else behind a button.
+function Menu({ children }: { children: ComponentChildren }) {
+  const those = <div class="head-end">{children}</div>;
+  return is_narrow.value ? <Pop label={t.menu()} at_right>{those}</Pop> : those;
 }
 
 // What this console has bound, since others cannot have it meanwhile.

@@ -1,5 +1,5 @@
 // Where the panels stand: on a wide screen in up to three areas at once, on a narrower one behind one row of tabs.
-import { signal } from '@preact/signals';
+import { type Signal, signal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 
 import type { Area, Panel } from '../panels';
@@ -12,6 +12,8 @@ import * as texts from './texts';
 
 let panels: readonly Panel[] = [];
 const wide = signal(true);
+/** The header is a menu. */
+export const is_narrow = signal(false);
 const areas: readonly Area[] = ['main', 'below', 'side'];
 const area_names: Record<Area, () => string> = { main: texts.main, below: texts.below, side: texts.side };
 
@@ -47,10 +49,8 @@ export function show_events({ selection }: Console, subscribe_id: string): void 
 /** Begins with these panels, those in front that are recalled, and follows the width of the window and the address. */
 export function begin_layout(all: readonly Panel[], recalled: string | undefined): void {
   panels = all;
-  const query = matchMedia('(min-width: 1100px)');
-  const read = () => (wide.value = query.matches);
-  query.addEventListener('change', read);
-  read();
+  follow('(min-width: 1100px)', wide);
+  follow('(max-width: 900px)', is_narrow);
   const from_address = () => show_panel(location.hash.slice(1));
   addEventListener('hashchange', from_address);
   for (const id of (recalled ?? '').split(' ')) {
@@ -58,6 +58,13 @@ export function begin_layout(all: readonly Panel[], recalled: string | undefined
     if (panel) shown.value = { ...shown.value, [panel.area]: id, all: id };
   }
   from_address();
+}
+
+function follow(query: string, answer: Signal<boolean>): void {
+  const list = matchMedia(query);
+  const read = () => (answer.value = list.matches);
+  list.addEventListener('change', read);
+  read();
 }
 
 export function Layout() {

@@ -4,13 +4,15 @@ import { Badge, tone_of } from '../ui/states';
 import { Button } from '../ui/button';
 import * as t from './texts';
 
+const stale_after = 5000; // ms; the console asks for something every second
+
 export function LinkMark() {
   const { link, now } = useConsole();
   const { phase, reason } = link.view.value;
   const age = now.value - link.heard_at;
   return (
     <div class="link-mark">
-      <Badge tone={tone_of(phase)} title={reason}>
+      <Badge tone={link.is_open && age > stale_after ? 'warning' : tone_of(phase)} title={reason}>
         {t.phase(phase)}
       </Badge>
       {link.heard_at > 0 && <span class="link-age">{t.age(Math.max(0, age))}</span>}

@@ -13,6 +13,7 @@ const phases: Record<Phase, Both> = {
 };
 
 export const title = text('RoIS console', 'RoIS コンソール');
+export const menu = text('Menu', 'メニュー');
 export const skip = text('Skip to the panels', 'パネルへ移動');
 export const phase = text_of((phase: Phase) => phases[phase]);
 export const age = text_of((ms: number) => [`data ${duration(ms)} old`, `データは${duration(ms)}前`]);

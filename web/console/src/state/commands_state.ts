@@ -110,6 +110,18 @@ export class CommandsState {
     this.working.clear();
   }
 
+  /** Takes commands of the page that was here before. Those that had not ended then are over, and nobody says how. */
+  recall(entries: readonly CommandEntry[]): void {
+    for (const entry of entries) {
+      const sequence: SequenceEntry = { number: this.next_sequence++, units: [], commands: [], sent_at: entry.sent_at, document: -1 };
+      const ended = has_ended(entry) ? {} : { state: 'unknown' as const, ended_at: this.environment.now() };
+      delete entry.completed;
+      sequence.commands.push({ ...entry, ...ended, sequence });
+      this.all.push(sequence.commands[0]!);
+    }
+    this.pulse.touch();
+  }
+
   async fetch_results(entry: CommandEntry): Promise<Results | undefined> {
     const client = this.client();
     if (!client || entry.results) return entry.results;

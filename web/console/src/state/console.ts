@@ -107,13 +107,15 @@ export class Console {
     this.events = new EventsState(environment, this.documents, client);
     this.subscriptions = new SubscriptionsState(
       environment,
+      this.documents,
       () => this.client,
       (event_type, error) => this.notices.tell('warning', event_type, { detail: reason_of(error), about: event_type }),
     );
-    this.robots = new RobotsState(environment, this.documents, client, components, is_open);
+    this.robots = new RobotsState(environment, this.documents, client, components, () => this.commands.open().length > 0, is_open);
     this.entities = new EntitiesState(
       environment,
-      (event_type) => this.documents.as_own(() => this.subscriptions.subscribe(event_type, {}, true)),
+      (event_type) => this.subscriptions.subscribe_own(event_type),
+      (event_type) => this.subscriptions.is_fed(event_type),
       (event_type) => this.profile.with_event(event_type).length > 0,
       (ref) => this.profile.component(ref)?.engine ?? '',
     );

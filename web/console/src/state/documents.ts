@@ -1,7 +1,6 @@
 // Every document in and out, as it was on the wire: the last ones, and how they belong together.
 import { type DocumentLimits, DocumentLog } from './document_log';
 import type { Environment } from './environment';
-import { Pulse } from './pulse';
 
 export type Direction = 'in' | 'out';
 
@@ -39,7 +38,6 @@ export interface DocumentListener {
 
 export class Documents {
   readonly ring: DocumentLog;
-  readonly pulse: Pulse;
   /** Whether the console itself has subscribed to what an event is told for. */
   is_own_subscription: (subscribe_id: string) => boolean = () => false;
   private waiting: { request: LoggedDocument; since: number }[] = []; // requests without their answers, in order; since by the precise clock
@@ -52,7 +50,6 @@ export class Documents {
     limits: DocumentLimits = usual_limits,
   ) {
     this.ring = new DocumentLog(limits);
-    this.pulse = new Pulse(environment);
   }
 
   /** Gives the function that ends the listening. */
@@ -69,7 +66,6 @@ export class Documents {
     if (direction === 'out') this.waiting.push({ request: document, since: this.environment.precise() });
     else if (document.kind !== 'notification') this.pair(document);
     this.ring.push(document);
-    this.pulse.touch();
     for (const listener of this.listeners) listener(document);
     return document;
   }

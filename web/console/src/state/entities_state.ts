@@ -7,6 +7,7 @@ import { type Entity, kind_told_by, located_in, placed } from './things';
 
 const most_entities = 500;
 const forgotten_after = 30_000; // ms since it was told of
+const same_event = 500; // ms between two notifications of it
 const same_place = 1000; // mm: somebody who is identified there is the one who is tracked there
 
 /** The events that tell of them; the last one tells when there is nobody. */
@@ -16,6 +17,8 @@ export class EntitiesState {
   /** By kind and ref: `person person-1`. They change in place: read `pulse.beat.value`, then this. */
   readonly all = new Map<string, Entity>();
   readonly pulse: Pulse;
+  /** When an event with results came last; 0 before the first. ms since 1970. */
+  told_at = 0;
   private lookers = 0;
   private readonly subscribed = new Map<string, Promise<Subscription | undefined>>();
   private stop_clock: Stop | undefined;
@@ -23,6 +26,7 @@ export class EntitiesState {
   constructor(
     private readonly environment: Environment,
     private readonly subscribe: (event_type: string) => Promise<Subscription>,
+    private readonly is_fed: (event_type: string) => boolean,
     private readonly has_event: (event_type: string) => boolean,
     private readonly engine_of: (component: string) => string,
   ) {
@@ -63,13 +67,30 @@ export class EntitiesState {
   /** Learns from every event, whoever has subscribed to it. */
   event(event: ReceiveEvent): void {
     const kind = kind_told_by(event);
-    if (kind) this.localized(kind, event);
+    const has_results = event.results.parameters.length > 0 || event.results.located.length > 0;
+    if (has_results && entity_events.includes(event.event_type)) this.told_at = this.environment.now();
+    if (kind && !has_results) this.not_told(kind, event.component_ref.code);
+    else if (kind) this.localized(kind, event);
     else if (event.event_type === 'person_identified') this.identified(event);
     else if (event.event_type === 'person_detected' && event.results.number('number') === 0) this.nobody_there(event);
   }
 
+  /** Whether what they do is not told: an event is not subscribed to, or comes without results. */
+  is_blind(): boolean {
+    const is_unfed = (event_type: string) => this.has_event(event_type) && !this.is_fed(event_type);
+    return entity_events.some(is_unfed) || [...this.all.values()].some((one) => one.unknown_since !== undefined);
+  }
+
   forget(): void {
+    this.told_at = 0;
     this.all.clear();
+    this.pulse.touch();
+  }
+
+  // Somebody has moved, come or gone, and nobody knows who. The same event may come twice, with results and without.
+  private not_told(kind: Entity['kind'], component: string): void {
+    const now = this.environment.now();
+    for (const entity of this.all.values()) if (entity.component === component && entity.kind === kind && now - entity.at > same_event) entity.unknown_since ??= now;
     this.pulse.touch();
   }
 
@@ -83,6 +104,7 @@ export class EntitiesState {
       const key = `${kind} ${located.ref}`;
       const entity = placed(this.all.get(key), located, { codebook, component, at }, (thing): Entity => ({ ...thing, kind, is_seen: true }));
       entity.is_seen = true;
+      delete entity.unknown_since;
       seen.add(key);
       this.all.set(key, entity);
     }

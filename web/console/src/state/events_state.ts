@@ -72,6 +72,14 @@ export class EventsState {
     return entry;
   }
 
+  /** Takes what was told to the page that was here before. */
+  recall(events: readonly EventEntry[], own_events: readonly EventEntry[], errors: readonly ErrorEntry[]): void {
+    for (const one of events) this.events.push({ ...one, number: this.next_event++ });
+    for (const one of own_events) this.own_events.push({ ...one, number: this.next_event++ });
+    for (const one of errors) this.errors.push({ ...one, number: this.next_error++ });
+    this.pulse.touch();
+  }
+
   gap(gap: Gap): void {
     this.gaps.push({ at: this.environment.now(), gap });
     this.pulse.touch();

@@ -93,6 +93,12 @@ export class History {
     };
   }
 
+  /** Takes spans of the page that was here before, in their order. */
+  recall(spans: readonly Span[]): void {
+    for (const span of spans) this.past.push({ ...span, number: this.next++ });
+    this.pulse.touch();
+  }
+
   // What the metrics said before it was released still names this console's session.
   private was_mine(ref: string, told_at: number): boolean {
     if (this.present.get(`holder ${ref}`)?.value === 'me') this.freed.set(ref, this.environment.now());

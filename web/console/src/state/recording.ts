@@ -63,7 +63,7 @@ function sessions_log(sessions: Map<string, Documents>, session: string, now: ()
   const known = sessions.get(session);
   if (known) return known;
   // All that a log needs of the world is the time.
-  const world = { now, precise: now, before_picture: () => undefined } as Partial<Environment> as Environment;
+  const world = { now, precise: now } as Partial<Environment> as Environment;
   const made = new Documents(world, { most: 1, most_bytes: Infinity });
   sessions.set(session, made);
   return made;

@@ -1,4 +1,4 @@
-// Where the robots are: `robot_position`, asked while somebody looks.
+// Where the robots are: `robot_position`, asked while somebody looks; less often while no robot moves.
 import { type Client, component_ref } from 'rois-client';
 
 import type { Documents } from './documents';
@@ -9,23 +9,28 @@ import { Pulse } from './pulse';
 import { located_in, placed, type Robot } from './things';
 
 const forgotten_after = 60_000; // ms
+const rests_after = 3000; // ms without a step of a trail
+const period = 100; // ms
+const period_at_rest = 500; // ms
 
 export class RobotsState {
   /** By ref. Robots change in place: read `pulse.beat.value`, then this. */
   readonly all = new Map<string, Robot>();
   readonly pulse: Pulse;
   readonly poll: Poll;
+  private asked_at = 0;
 
   constructor(
     private readonly environment: Environment,
     private readonly documents: Documents,
     private readonly client: () => Client | undefined,
     private readonly components: () => readonly ComponentView[],
+    /** Whether this session runs something that may move a robot. */
+    private readonly is_at_work: () => boolean,
     may_ask: () => boolean,
-    period = 100, // ms
   ) {
     this.pulse = new Pulse(environment);
-    this.poll = new Poll(environment, period, () => this.ask(), may_ask);
+    this.poll = new Poll(environment, period, () => this.ask(), () => may_ask() && this.is_due());
   }
 
   /** Those of another session may have been elsewhere meanwhile. */
@@ -34,7 +39,14 @@ export class RobotsState {
     this.pulse.touch();
   }
 
+  private is_due(): boolean {
+    const now = this.environment.now();
+    const is_moving = [...this.all.values()].some(({ trail }) => now - trail.at(-1)!.at < rests_after);
+    return is_moving || this.is_at_work() || now - this.asked_at >= period_at_rest;
+  }
+
   private async ask(): Promise<void> {
+    this.asked_at = this.environment.now();
     const client = this.client();
     if (!client) return;
     const askable = this.components().filter((one) => one.queries.some((query) => query.name === 'robot_position'));

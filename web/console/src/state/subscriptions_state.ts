@@ -1,8 +1,8 @@
 // What this session has subscribed to.
 import { signal } from '@preact/signals';
-import { type Client, parse_xml, type ReceiveEvent, type SubscribeOptions, type Subscription, text_element, request } from 'rois-client';
+import { type Client, condition_xml, not, parse_xml, property, type ReceiveEvent, type SubscribeOptions, type Subscription, text_element, request } from 'rois-client';
 
-import type { LoggedDocument } from './documents';
+import type { Documents, LoggedDocument } from './documents';
 import type { Environment } from './environment';
 
 export interface SubscriptionEntry {
@@ -15,6 +15,9 @@ export interface SubscriptionEntry {
   last_at?: number;
 }
 
+// Every event meets it. The engine knows a subscription by its type and condition, so the user's are others, with results or without.
+const own_condition = not(property('component_ref').is_null());
+
 export class SubscriptionsState {
   /** By subscribe_id. Counts change in place; the map is a new one when a subscription comes or goes. */
   readonly all = signal<ReadonlyMap<string, SubscriptionEntry>>(new Map());
@@ -22,22 +25,30 @@ export class SubscriptionsState {
 
   constructor(
     private readonly environment: Environment,
+    private readonly documents: Documents,
     private readonly client: () => Client,
     private readonly ended: (event_type: string, error: unknown) => void,
   ) {}
 
-  /** Outlives links and sessions. `ended` of the constructor is called when a new session refuses it. `is_own`: for what the console shows. */
-  async subscribe(event_type: string, options: SubscribeOptions = {}, is_own = false): Promise<Subscription> {
-    const subscription = await this.client().subscribe(event_type, options);
-    this.held.set(subscription, { is_own });
-    void this.drain(subscription);
-    return subscription;
+  /** Outlives links and sessions. `ended` of the constructor is called when a new session refuses it. */
+  subscribe(event_type: string, options: SubscribeOptions = {}): Promise<Subscription> {
+    return this.hold(this.client().subscribe(event_type, options), false);
+  }
+
+  /** For what the console shows: with results, whatever the user subscribes to and unsubscribes from. */
+  subscribe_own(event_type: string): Promise<Subscription> {
+    return this.hold(this.documents.as_own(() => this.client().subscribe(event_type, { condition: own_condition })), true);
   }
 
   /** Whether the console has it for itself: nobody has asked for it. Who asks for the same has the same id. */
   is_own(id: string): boolean {
     const those = this.held_as(id);
     return those.length > 0 && those.every(([, { is_own }]) => is_own);
+  }
+
+  /** Whether the events of a type come with their results. */
+  is_fed(event_type: string): boolean {
+    return [...this.held].some(([one, { is_own }]) => is_own && one.wanted.event_type === event_type && this.all.value.get(one.subscribe_id)?.inline_results);
   }
 
   /** Ends it, whoever has made it; the console keeps what it has for itself. */
@@ -60,8 +71,13 @@ export class SubscriptionsState {
       const inline_results = /^(true|1)$/.test(wanted.attribute('inline_results') ?? '');
       const entry = { id, event_type: wanted.text_of('event_type'), condition, inline_results, since: at, count: 0, ...(before && { count: before.count, since: before.since }) };
       this.all.value = new Map([...this.all.value, [id, entry]]);
+      if (!inline_results) this.restore(id);
     }
-    if (name === 'unsubscribe_response') this.remove(parse_xml(asked.text).text_of('subscribe_id'));
+    if (name === 'unsubscribe_response') {
+      const id = parse_xml(asked.text).text_of('subscribe_id');
+      this.remove(id);
+      this.restore(id);
+    }
   }
 
   event(event: ReceiveEvent): void {
@@ -73,6 +89,21 @@ export class SubscriptionsState {
 
   forget_session(): void {
     this.all.value = new Map();
+  }
+
+  private async hold(asked: Promise<Subscription>, is_own: boolean): Promise<Subscription> {
+    const subscription = await asked;
+    this.held.set(subscription, { is_own });
+    void this.drain(subscription);
+    return subscription;
+  }
+
+  // A document that the user has written may say the same as the console's own request, or name its id.
+  private restore(id: string): void {
+    const own = this.held_as(id).find(([, { is_own }]) => is_own)?.[0];
+    if (!own || own.ended) return;
+    const text = request('subscribe', { inline_results: true }, text_element('event_type', own.wanted.event_type) + condition_xml(own_condition));
+    this.documents.as_own(() => this.client().send(text)).catch(() => undefined); // the badge of the map says it
   }
 
   private held_as(id: string): [Subscription, { is_own: boolean }][] {

@@ -35,6 +35,8 @@ export interface Entity extends Thing {
   kind: EntityKind;
   /** Whether it was in what its component told last. */
   is_seen: boolean;
+  /** When its component told last without saying whom it sees: unknown since then. Absent while results come. */
+  unknown_since?: number;
   /** Who it is, when identification has said so. */
   identity?: { ref: string; codebook: string; at: number };
 }

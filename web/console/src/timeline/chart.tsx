@@ -1,5 +1,5 @@
 // The lanes, drawn: what points at them, and the keys that work them.
-import { effect, useSignal } from '@preact/signals';
+import { effect, untracked, useComputed, useSignal } from '@preact/signals';
 import { useCallback, useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
@@ -22,6 +22,7 @@ export interface ChartProps {
 }
 
 const zoom_step = 1.5;
+const look_every = 50; // ms: a live chart is drawn no more often because time passes; at rest, once a second
 const longest_rest = 10_000; // ms that a pointer may rest before the time goes on under it
 
 export function Chart({ view, opened, open }: ChartProps) {
@@ -61,7 +62,11 @@ export function Chart({ view, opened, open }: ChartProps) {
   });
   const { canvas, redraw } = drawing;
 
-  // What has changed is drawn; while it is live also each time that the time has gone on by a pixel.
+  const is_at_work = useComputed(() => {
+    void console.commands.pulse.beat.value;
+    return console.commands.open().length > 0;
+  });
+  // What has changed is drawn; while it is live also when the time has gone on by a pixel.
   useEffect(
     () =>
       effect(() => {
@@ -73,17 +78,20 @@ export function Chart({ view, opened, open }: ChartProps) {
   );
   useEffect(() => {
     const is_calm = matchMedia('(prefers-reduced-motion: reduce)');
-    let asked = 0;
-    const turn = () => {
-      asked = requestAnimationFrame(turn);
-      if (!view.is_live || !canvas.current) return;
-      const step = is_calm.matches ? 1000 : view.stretch.peek().span / Math.max(1, canvas.current.clientWidth);
-      if (console.environment.now() - drawn.current < step) return;
+    const look = () => {
+      if (!view.is_live || console.environment.now() - drawn.current < view.stretch.peek().span / Math.max(1, layout.current?.width ?? 1)) return;
       redraw();
       if (pointer.current) hover(pointer.current); // what is under it moves away
     };
-    turn();
-    return () => cancelAnimationFrame(asked);
+    const stop_looking = effect(() => (is_at_work.value && !is_calm.matches ? console.environment.every(look_every, look) : undefined));
+    const stop = effect(() => {
+      void console.now.value;
+      untracked(look);
+    });
+    return () => {
+      stop_looking();
+      stop();
+    };
   }, [view]);
 
   const found = (event: { clientX: number; clientY: number }): { placed: Placed | undefined; x: number; y: number } => {

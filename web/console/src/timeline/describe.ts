@@ -75,6 +75,8 @@ function of_command(entry: CommandEntry, at: number): Description {
   return { at: entry.sent_at, kind: t.command(), title: entry.command_type, component: entry.component, state: entry.state, facts };
 }
 
+const most_located = 5;
+
 export function of_mark(mark: Mark): Description {
   if (mark.kind === 'failed') return of_command(mark.entry.command, mark.entry.at);
   const { at } = mark.entry;
@@ -86,7 +88,9 @@ export function of_mark(mark: Mark): Description {
   const component = mark_ref(mark);
   if (mark.kind === 'refused') return { at, kind: t.refused(), title: mark.entry.request?.name ?? mark.entry.name, component, state: mark.entry.return_code ?? '', facts: [...facts, [t.reason(), reason_in(mark.entry.text)]] };
   if (mark.kind === 'error') return { at, kind: t.error(), title: mark.entry.error.error_type, component, state: '', facts };
-  return { at, kind: t.event(), title: mark.entry.event.event_type, component, state: '', facts };
+  const { results, event_type } = mark.entry.event;
+  for (const { ref, position: [x, y] } of results.located.slice(0, most_located)) facts.push([ref, `x ${(x / 1000).toFixed(2)} m, y ${(y / 1000).toFixed(2)} m`]);
+  return { at, kind: t.event(), title: event_type, component, state: '', facts };
 }
 
 function of_many(marks: readonly Mark[]): Description {

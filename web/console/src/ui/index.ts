@@ -10,6 +10,7 @@ export * from './files';
 export * from './form';
 export * from './icon';
 export * from './joined';
+export * from './pop';
 export * from './split_pane';
 export * from './states';
 export * from './table';

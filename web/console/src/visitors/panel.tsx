@@ -95,8 +95,8 @@ function Orders({ steering, visitor: { ref } }: { steering: Steering; visitor: V
   const say = () => {
     const text = steering.words.value.trim();
     if (text === '') return;
-    steering.words.value = '';
     void steering.order(ref, 'say', hall.say(ref, text, steering.spoken.value));
+    steering.words.value = steering.spoken.value = ''; // the language is that of one speech
   };
   return (
     <section class="visitors-orders" aria-label={ref}>

@@ -227,6 +227,8 @@ describe('components', () => {
     stage.page(async (page) => {
       await item(page, 'face_detection').waitFor();
       await page.getByRole('treeitem', { name: 'reception', exact: true }).focus();
+      await page.keyboard.press('ArrowDown'); // simulated_hall, which belongs to no robot
+      await page.keyboard.press('ArrowDown'); // the robot
       await page.keyboard.press('ArrowDown');
       await page.keyboard.press('ArrowDown');
       await page.keyboard.press('Enter');

@@ -128,7 +128,7 @@ export interface PageOptions {
   may_complain?: RegExp;
 }
 
-export const sizes = { wide: { width: 1600, height: 900 }, tablet: { width: 1024, height: 768 }, small: { width: 768, height: 1024 }, laptop: { width: 1280, height: 720 }, low: { width: 1366, height: 700 } } as const;
+export const sizes = { wide: { width: 1600, height: 900 }, tablet: { width: 1024, height: 768 }, small: { width: 768, height: 1024 }, phone: { width: 390, height: 844 }, laptop: { width: 1280, height: 720 }, low: { width: 1366, height: 700 } } as const;
 
 /** In which each panel is judged, beside the wide, dark and English one of all other tests; not wide is touched by fingers. */
 export const looks = [

@@ -6,7 +6,7 @@ import { afterAll, beforeAll, beforeEach, describe, expect, test } from 'vitest'
 import type { Console } from '../../src/state/console';
 import { click_map, on_map } from './floor';
 import { Hall, still_hall } from './hall';
-import { broken_link, picture, sizes, Stage, violations } from './harness';
+import { broken_link, is_in_view, picture, sizes, Stage, violations } from './harness';
 
 let stage: Stage;
 let hall: Hall;
@@ -51,6 +51,37 @@ describe('the map', () => {
       { ...sizes[size], look, language, touch: size !== 'wide' },
     ),
   );
+
+  test('is not drawn at rest, and the time line once a second, while positions come in', () =>
+    stage.page(
+      async (page) => {
+        await ready(page);
+        const counted = await page.evaluate(async () => {
+          const { rois } = window as unknown as { rois: Console };
+          const drawn = { map: 0, timeline: 0, seconds: -1, positions: 0 };
+          const proto = CanvasRenderingContext2D.prototype;
+          const { drawImage, clearRect } = proto;
+          proto.drawImage = function (this: CanvasRenderingContext2D, ...given: unknown[]) {
+            drawn.map += Number(this.canvas.className === 'map-canvas');
+            (drawImage as (...given: unknown[]) => void).apply(this, given);
+          } as typeof drawImage;
+          proto.clearRect = function (this: CanvasRenderingContext2D, ...given) {
+            drawn.timeline += Number(this.canvas.className === 'timeline-canvas');
+            clearRect.apply(this, given);
+          };
+          rois.now.subscribe(() => (drawn.seconds += 1));
+          for (let told_at = 0; drawn.positions < 10; await new Promise((looked) => setTimeout(looked, 20))) {
+            const { at } = rois.robots.all.get('robot1')!;
+            drawn.positions += Number(at !== told_at);
+            told_at = at;
+          }
+          return drawn;
+        });
+        expect(counted.map).toBe(0);
+        expect(counted.timeline).toBeLessThanOrEqual(counted.seconds + 1);
+      },
+      { motion: 'no-preference' },
+    ));
 
   test('is a plain grid when the engine has none', () =>
     stage.page(async (page) => {
@@ -179,11 +210,20 @@ describe('the robot', () => {
       await page.getByRole('button', { name: 'Table' }).click();
       await page.getByRole('button', { name: 'Choose: robot1' }).click();
       const card = page.getByRole('region', { name: 'Robot robot1' });
+      // Another language was chosen for an earlier speech, and the component is still bound.
+      await page.evaluate(async () => {
+        const { rois } = window as unknown as { rois: Console };
+        await rois.set_parameter('speech_synthesis', { language: 'ja' });
+      });
       await card.getByRole('textbox', { name: 'Speak' }).fill('Welcome.');
       await page.keyboard.press('Enter');
       await page.getByText('1 bound').waitFor();
-      await pass_until(page, page.getByText('0 bound'), 200);
-      expect(await page.evaluate(() => (window as unknown as { rois: Console }).rois.commands.all.list().map((one) => `${one.component} ${one.state}`))).toEqual(['speech_synthesis OK']);
+      const spoken = () => page.evaluate(() => (window as unknown as { rois: Console }).rois.commands.all.list().filter((one) => one.command_type === 'start').map((one) => one.arguments.map(({ name, values }) => `${name}=${values.join()}`)));
+      await expect.poll(spoken).toEqual([['speech_text=Welcome.', 'language=en']]);
+      await hall.pass(3000);
+      await expect.poll(() => page.evaluate(() => (window as unknown as { rois: Console }).rois.commands.all.list().filter((one) => one.command_type === 'start').map((one) => `${one.component} ${one.state}`))).toEqual(['speech_synthesis OK']);
+      await page.evaluate(() => (window as unknown as { rois: Console }).rois.bindings.release('speech_synthesis'));
+      await page.getByText('0 bound').waitFor();
       await card.getByText('All that it can do').click();
       await card.getByRole('button', { name: 'reaction', exact: true }).click();
       await page.getByRole('heading', { name: 'reaction', exact: true }).waitFor();
@@ -234,6 +274,82 @@ describe('the robot', () => {
     }));
 });
 
+describe('the card of a target', () => {
+  test.each(['wide', 'small', 'phone'] as const)('leaves the target and its button in view, and gives the focus back: %s', (size) =>
+    stage.page(
+      async (page) => {
+        await ready(page);
+        for (const at of [{ x: 2000, y: 2000 }, { x: 18_000, y: 2000 }, { x: 18_000, y: 7000 }]) {
+          await click_map(page, at);
+          const send = page.getByRole('button', { name: 'Send here' });
+          await send.waitFor();
+          expect(await is_in_view(send)).toBe(true);
+          const point = await on_map(page, at);
+          expect(await page.evaluate(({ x, y }) => document.elementFromPoint(x, y)?.className, point)).toBe('map-canvas');
+          await page.getByRole('button', { name: 'Cancel' }).click();
+          await send.waitFor({ state: 'detached' });
+          expect(await page.evaluate(() => document.activeElement?.className)).toBe('map-canvas');
+        }
+        expect(await violations(page)).toBe('');
+        await picture(page, `map-card-${size}`);
+      },
+      { ...sizes[size], touch: size !== 'wide' },
+    ),
+  );
+});
+
+describe('the trail of the robot', () => {
+  test('goes on while another panel is shown in place of the map', () =>
+    stage.page(async (page) => {
+      await ready(page);
+      const robot = () => page.evaluate(() => {
+        const { at, trail } = (window as unknown as { rois: Console }).rois.robots.all.get('robot1')!;
+        return { at, points: trail.list().map(({ begins }) => begins === true) };
+      });
+      await page.getByRole('tab', { name: 'Sequences' }).click();
+      await page.locator('.map').waitFor({ state: 'detached' });
+      const before = (await robot()).points.length;
+      await page.evaluate(() => (window as unknown as { rois: Console }).rois.run('navigation', 'start', { target_position: ['waiting_area'] }).then(() => undefined));
+      for (let step = 0; step < 24; ++step) {
+        await hall.pass(240);
+        const { at } = await robot();
+        await expect.poll(async () => (await robot()).at).toBeGreaterThan(at);
+      }
+      const { points } = await robot();
+      expect(points.length).toBeGreaterThan(before + 3);
+      expect(points).not.toContain(true); // no gap
+      await page.getByRole('tab', { name: 'Floor map' }).click();
+      await ready(page);
+      expect((await robot()).points.length).toBeGreaterThanOrEqual(points.length);
+      await page.locator('.map-motion').getByRole('button', { name: 'Stop robot1' }).click();
+      await pass_until(page, page.locator('.map:not(:has(.map-motion))'), 100);
+    }));
+});
+
+describe('a page that is loaded again', () => {
+  test('asks before while the robot drives, and has its time line afterwards', () =>
+    stage.page(async (page) => {
+      await ready(page);
+      await page.getByLabel('Place to go to').selectOption('desk');
+      await page.getByRole('button', { name: 'Send here' }).click();
+      await page.locator('.map-motion').waitFor();
+      const asked: string[] = [];
+      page.on('dialog', (dialog) => {
+        asked.push(dialog.type());
+        void dialog.accept();
+      });
+      await page.reload();
+      expect(asked).toEqual(['beforeunload']);
+      await ready(page);
+      const known = () => page.evaluate(() => (window as unknown as { rois: Console }).rois.commands.all.list().map((one) => [one.component, one.command_type, one.state]));
+      expect(await known()).toContainEqual(['navigation', 'start', 'unknown']);
+      await page.reload();
+      await ready(page);
+      expect(asked.length).toBe(1);
+      expect(await known()).toContainEqual(['navigation', 'start', 'unknown']);
+    }));
+});
+
 describe('people', () => {
   let is_there = false;
   beforeEach(async () => {
@@ -264,6 +380,45 @@ describe('people', () => {
       await page.getByText(/^± 0\.12 m \(95 %\)$/).first().waitFor();
       expect(await violations(page)).toBe('');
       await picture(page, 'map-people');
+      await page.getByRole('switch', { name: 'Observe' }).click();
+      await page.getByText('0 bound').waitFor();
+    }));
+
+  test('stay on the map when the user subscribes to them without results, and the badge is right', () =>
+    stage.page(async (page) => {
+      await ready(page);
+      await observe(page);
+      await pass_until(page, row(page, /tanaka|person-/), 200);
+      await page.getByRole('treeitem', { name: /^person_localization / }).click();
+      await page.getByRole('tab', { name: /^Events(?! and)/ }).click();
+      await page.getByLabel('Bring the values along').uncheck();
+      await page.getByRole('button', { name: 'Subscribe', exact: true }).click();
+      await page.locator('.exchange-came').getByText('OK', { exact: true }).waitFor();
+      for (const x of [9, 8]) {
+        await hall.walk('tanaka', `${x}000, 6000, 180`);
+        await row(page, /tanaka|person-/).getByText(new RegExp(`x (${x}\\.[0-3]|${x - 1}\\.[6-9])\\d m`)).waitFor();
+      }
+      await page.locator('.map').getByText(/5 components look, news 1 s ago/).waitFor();
+      expect(await page.locator('.map').getByText('their results do not arrive').count()).toBe(0);
+      await page.getByRole('switch', { name: 'Observe' }).click();
+      await page.getByText('0 bound').waitFor();
+    }));
+
+  test('are gone to from their card: the focus goes to the button that sends, and then to the map', () =>
+    stage.page(async (page) => {
+      await ready(page);
+      await observe(page);
+      await pass_until(page, row(page, /tanaka|person-/), 200);
+      await page.getByRole('button', { name: 'Table' }).click();
+      await page.getByRole('button', { name: /^Choose: (tanaka|person-)/ }).click();
+      const focused = () => page.evaluate(() => document.activeElement?.textContent || document.activeElement?.className);
+      await page.getByRole('button', { name: 'Go there' }).press('Enter');
+      await expect.poll(focused).toBe('Send here');
+      await page.keyboard.press('Enter');
+      await page.locator('.map-motion').waitFor();
+      await expect.poll(focused).toBe('map-canvas');
+      await pass_until(page, page.getByText(/robot1 has reached (tanaka|person-)/));
+      await page.getByRole('button', { name: 'Table' }).click();
       await page.getByRole('switch', { name: 'Observe' }).click();
       await page.getByText('0 bound').waitFor();
     }));

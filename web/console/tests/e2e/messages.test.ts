@@ -90,6 +90,23 @@ describe('events and messages', () => {
       await page.locator('.messages .virtual-list-row[aria-selected=true]').waitFor();
     }));
 
+  test('"Why" of a drive that failed shows its end, though the filter hides it', () =>
+    stage.page(async (page) => {
+      await page.getByLabel('Search in the text').fill('nothing has this text');
+      await page.getByText('Nothing passes the filter').waitFor();
+      await page.getByLabel('Place to go to').selectOption('desk');
+      await page.getByLabel('Place', { exact: true }).selectOption('Point on the floor');
+      await page.getByLabel('x', { exact: true }).fill('17.5');
+      await page.getByLabel('y', { exact: true }).fill('7');
+      await page.getByRole('button', { name: 'Send here' }).click();
+      const why = page.getByRole('region', { name: 'Notices' }).getByRole('button', { name: 'Why' });
+      await hall.pass_until(page, why);
+      await why.click();
+      await page.getByRole('heading', { name: 'completed', exact: true }).waitFor();
+      await page.locator('.messages .virtual-list-row[aria-selected=true]', { hasText: 'completed' }).waitFor();
+      expect(await page.getByLabel('Search in the text').inputValue()).toBe('');
+    }));
+
   test('an event without its values has its details fetched', () =>
     stage.page(async (page) => {
       await event_comes(page);

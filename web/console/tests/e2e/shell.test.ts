@@ -2,7 +2,7 @@
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
 import { still_hall } from './hall';
-import { broken_link, picture, sizes, Stage, violations } from './harness';
+import { is_in_view, broken_link, picture, sizes, Stage, violations } from './harness';
 
 let stage: Stage;
 
@@ -25,6 +25,7 @@ describe('the page', () => {
     ['wide', 'dark', 'en'],
     ['tablet', 'light', 'en'],
     ['small', 'dark', 'ja'],
+    ['phone', 'light', 'en'],
   ] as const)('is accessible: %s, %s, %s', (size, look, language) =>
     stage.page(
       async (page) => {
@@ -32,14 +33,34 @@ describe('the page', () => {
         await page.locator('.engine-component', { hasText: 'navigation' }).getByText('READY').waitFor();
         expect(await violations(page)).toBe('');
         expect(await page.evaluate(() => document.documentElement.lang)).toBe(language);
-        const tabs = await page.locator('.app-main .tabs-row').first().getByRole('tab').evaluateAll((all) => all.map((one) => one.getBoundingClientRect().right));
-        expect(Math.max(...tabs), 'all tabs are seen').toBeLessThanOrEqual(sizes[size].width);
+        const tabs = page.locator('.app-main .tabs-row').first().getByRole('tab');
+        const boxes = await tabs.evaluateAll((all) => all.map((one) => one.getBoundingClientRect()));
+        if (sizes[size].width > 900) expect(Math.max(...boxes.map((one) => one.right)), 'all tabs are seen').toBeLessThanOrEqual(sizes[size].width);
+        else expect(new Set(boxes.map((one) => one.top)).size, 'one row of tabs, which scrolls').toBe(1);
+        await tabs.last().click();
+        expect(await is_in_view(tabs.last())).toBe(true);
+        const menu = page.locator('.head summary');
+        if (sizes[size].width > 900) expect(await menu.count()).toBe(0);
+        else {
+          await menu.click();
+          expect(await is_in_view(page.locator('.head select').first())).toBe(true);
+          expect(await violations(page)).toBe('');
+          await page.keyboard.press('Escape');
+          expect(await page.locator('.head select').first().isVisible()).toBe(false);
+        }
+        await page.getByRole('tab', { name: language === 'ja' ? 'コンポーネント' : 'Components' }).click();
         await picture(page, `shell-${size}-${look}-${language}`);
       },
       { ...sizes[size], look, language, touch: size !== 'wide' },
       '/#components',
     ),
   );
+
+  test('without JavaScript leads to the plain page at its top', async () => {
+    const page = await (await fetch(stage.front.url)).text();
+    expect(page.indexOf('<a href="/plain">')).toBeGreaterThan(page.indexOf('<noscript>'));
+    expect(page.indexOf('<a href="/plain">')).toBeLessThan(page.indexOf('id="console"'));
+  });
 
   test('is accessible in a low window, panel by panel, with nothing in them', () =>
     stage.page(async (page) => {
@@ -48,7 +69,30 @@ describe('the page', () => {
         await page.getByRole('tab', { name, exact: true }).click();
         expect(await violations(page), name).toBe('');
       }
-    }, sizes.laptop));
+    }, sizes.laptop), 180_000);
+
+  test('is accessible on a phone, panel by panel: nothing is cut off or too small to touch', () =>
+    stage.page(
+      async (page) => {
+        await page.getByRole('heading', { name: 'Reception hall' }).waitFor();
+        for (const name of await page.getByRole('tablist').first().getByRole('tab').allTextContents()) {
+          await page.getByRole('tab', { name, exact: true }).click();
+          expect(await violations(page), name).toBe('');
+          const wrong = await page.evaluate(() =>
+            [...document.querySelectorAll<HTMLElement>('button, select, label, summary, [role=tab], [role=treeitem]')].flatMap((one) => {
+              const { width, height, right } = one.getBoundingClientRect();
+              const is_pressed = !one.matches('label') || one.querySelector('input[type=checkbox]') !== null;
+              if (width === 0 || !is_pressed || one.closest('.unseen, dialog:not([open])')) return [];
+              const is_cut = right > innerWidth + 1 && !one.closest('[role=tablist], .scenario-panel');
+              return height < 35.5 || is_cut ? [`${one.tagName} ${one.textContent} ${width} x ${height}, until ${right}`] : [];
+            }),
+          );
+          expect(wrong, name).toEqual([]);
+          expect(await page.evaluate(() => document.documentElement.scrollWidth), name).toBeLessThanOrEqual(sizes.phone.width);
+        }
+      },
+      { ...sizes.phone, touch: true },
+    ), 180_000);
 
   test('tells that the link is lost, what is stale, and that it is there again', () =>
     stage.page(

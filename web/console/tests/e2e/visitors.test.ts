@@ -58,8 +58,11 @@ describe('in a world that stands still', () => {
         await page.mouse.up();
         await row(page, 'anna').getByText('walking').waitFor();
 
+        const language = page.locator('.visitors-orders').getByLabel('Language');
+        await language.selectOption('ja');
         await page.getByLabel('Say', { exact: true }).fill('Good morning');
         await page.keyboard.press('Enter');
+        expect(await language.inputValue()).toBe(''); // the next speech is in their own again
         await page.getByRole('button', { name: 'wave' }).click();
         await row(page, 'anna').getByText('walking, saying, gesture').waitFor();
         await picture(page, 'visitors-wide-dark');

@@ -1,7 +1,8 @@
 // What the console costs, from the real gateway, in Chromium; a line of JSON for each of its rows in `./dev bench console`:
 //   first view: when something is painted and when the map stands (ms after the page was asked for), what came over the wire (KiB),
 //     and what all files of the console are together;
-//   20 people at 20 Hz: pictures a second, the longest time between two (ms), the share of a core that the page's thread works.
+//   20 people at 20 Hz: pictures a second, the longest time between two (ms), the share of a core that the page's thread works;
+//   at rest: the share of a core that the page's process and the GPU process take, all threads, while the robot and three people stand still.
 // cd web/console && npm run build && ROIS_BINARY_DIR=../../build/release npx vite-node tests/measure/console.ts [SECONDS]
 import { execFileSync } from 'node:child_process';
 import { existsSync, readdirSync } from 'node:fs';
@@ -27,6 +28,7 @@ try {
   await browser.close();
   await gateway.stop();
 }
+console.log(JSON.stringify({ row: 'at rest', ...(await rest()) }));
 
 /** Of a browser that has nothing of it in store. */
 async function view(browser: Browser, url: string) {
@@ -61,7 +63,7 @@ async function crowd(browser: Browser) {
   const pass = async (ms: number) => (await hall.execute([command('simulated_hall', 'let_pass', { time: value.int(ms) })])).status();
   await pass(120_000);
   await hall.bind('person_localization');
-  await (await hall.execute([command('person_localization', 'start', { detection_threshold: value.int(0), minimum_interval: value.int(50) })])).status();
+  await (await hall.execute([command('person_localization', 'start', { detection_threshold: value.int(125), minimum_interval: value.int(50) })])).status();
   const context = await browser.newContext({ viewport: size, reducedMotion: 'no-preference' });
   try {
     const page = await context.newPage();
@@ -115,6 +117,37 @@ async function crowd(browser: Browser) {
   } finally {
     await context.close();
     await hall.close();
+  }
+}
+
+/** A browser of its own, which nothing looks into but for the time that its processes have taken. */
+async function rest() {
+  const hall = await Gateway.start('--scenario', `${here}/rest.xml`, '--seed', '7');
+  const sensing = await connect(hall.url);
+  for (const ref of ['person_detection', 'person_localization', 'person_identification', 'face_localization', 'sound_localization']) {
+    await sensing.bind(ref);
+    await (await sensing.execute([command(ref, 'start')])).status();
+  }
+  const window = await chromium.launch({ executablePath: process.env['CHROMIUM'] ?? '/usr/bin/chromium', args: ['--disable-dev-shm-usage'] });
+  try {
+    const page = await window.newPage({ viewport: size, reducedMotion: 'no-preference' });
+    await page.goto(hall.url);
+    await new Promise((passed) => setTimeout(passed, 40_000)); // everybody has come in and stands
+    const inside = await window.newBrowserCDPSession();
+    const taken = async () => {
+      const sums = { renderer: 0, GPU: 0 };
+      for (const { type, cpuTime } of (await inside.send('SystemInfo.getProcessInfo')).processInfo) if (type === 'renderer' || type === 'GPU') sums[type] += cpuTime;
+      return sums;
+    };
+    const [before, began] = [await taken(), Date.now()];
+    await new Promise((passed) => setTimeout(passed, 25_000));
+    const [after, took] = [await taken(), (Date.now() - began) / 1000];
+    const percent = (type: 'renderer' | 'GPU') => Number(((100 * (after[type] - before[type])) / took).toFixed(1));
+    return { page_percent: percent('renderer'), gpu_percent: percent('GPU') };
+  } finally {
+    await window.close();
+    await sensing.close();
+    await hall.stop();
   }
 }
 

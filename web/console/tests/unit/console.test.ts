@@ -1,5 +1,5 @@
 // What the state knows and does, with an engine that answers as the test says.
-import { command, type XmlElement } from 'rois-client';
+import { command, request, text_element, type XmlElement } from 'rois-client';
 import { beforeEach, describe, expect, test, vi } from 'vitest';
 
 import type { Console } from '../../src/state/console';
@@ -167,11 +167,11 @@ describe('documents', () => {
 
   test('changes are told once a picture', async () => {
     world.draws();
-    const before = console.documents.pulse.beat.value;
-    for (let i = 0; i < 5; ++i) await world.notifies('profile_changed');
-    expect(console.documents.pulse.beat.value).toBe(before);
+    const before = console.events.pulse.beat.value;
+    for (let i = 0; i < 5; ++i) await world.notifies('receive_event', localized(['a', i, 0]));
+    expect(console.events.pulse.beat.value).toBe(before);
     world.draws();
-    expect(console.documents.pulse.beat.value).toBe(before + 1);
+    expect(console.events.pulse.beat.value).toBe(before + 1);
   });
 
   test('a text is sent as it is, and its answer found', async () => {
@@ -303,20 +303,43 @@ describe('people', () => {
     expect([...console.subscriptions.all.value.keys()]).toEqual(['s-3']);
   });
 
-  test('of whom somebody asks as the console does come for them, too: the engine has one name for both', async () => {
-    world.answers.set('subscribe', () => '<subscribe_id>s-1</subscribe_id>');
-    console.entities.watch();
-    await settled();
-    const is_own = async () => {
-      await world.notifies('receive_event', localized(['person-1', 0, 0]));
-      return console.documents.ring.last!.is_own;
-    };
-    expect(await is_own()).toBe(true);
-    await console.subscribe('person_localized');
-    expect(await is_own()).toBe(false);
-    await console.subscriptions.unsubscribe('s-1');
-    expect(await is_own()).toBe(true);
-    expect(world.names()).not.toContain('unsubscribe');
+  // The engine knows a subscription by its type and condition, and the last inline_results counts (decision 20).
+  describe('while the user subscribes to the same', () => {
+    const asked_with = (name: string) => world.requests.filter((one) => one.name === name).map((one) => [one.attribute('inline_results'), one.children.some(({ name }) => name === 'condition')]);
+
+    beforeEach(async () => {
+      world.answers.set('subscribe', (request) => `<subscribe_id>${request.children.some(({ name }) => name === 'condition') ? 'own' : 'theirs'}</subscribe_id>`);
+      console.entities.watch();
+      await settled();
+    });
+
+    test('without results, the console has a subscription of its own with results', async () => {
+      await console.subscribe('person_localized', { inline_results: false });
+      expect(asked_with('subscribe').filter(([, has_condition]) => has_condition).every(([inline]) => inline === 'true')).toBe(true);
+      expect(console.subscriptions.all.value.get('own')!.inline_results).toBe(true);
+      expect(console.subscriptions.all.value.get('theirs')!.inline_results).toBe(false);
+      expect([console.subscriptions.is_own('own'), console.subscriptions.is_own('theirs')]).toEqual([true, false]);
+      await console.subscriptions.unsubscribe('theirs');
+      expect([...console.subscriptions.all.value.keys()]).toEqual(['own']);
+    });
+
+    test('by a document with the same condition and without results, the console asks again with results', async () => {
+      const [first] = world.requests.filter((one) => one.name === 'subscribe');
+      const before = asked_with('subscribe').length;
+      await console.send(request('subscribe', { inline_results: false }, text_element('event_type', first!.text_of('event_type')) + '<condition/>'));
+      await settled();
+      expect(asked_with('subscribe').slice(before)).toEqual([['false', true], ['true', true]]);
+      expect(console.subscriptions.all.value.get('own')!.inline_results).toBe(true);
+      expect(console.entities.is_blind()).toBe(false);
+    });
+
+    test('and unsubscribes from the id by hand, the console subscribes again', async () => {
+      const before = asked_with('subscribe').length;
+      await console.send(request('unsubscribe', {}, text_element('subscribe_id', 'own')));
+      await settled();
+      expect(asked_with('subscribe').length).toBe(before + 1);
+      expect(console.subscriptions.all.value.has('own')).toBe(true);
+    });
   });
 
   test('have a trail that begins anew where nobody knows the way', async () => {

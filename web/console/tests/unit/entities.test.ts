@@ -18,6 +18,24 @@ function number(component: string, n: number): string {
   return told('person_detected', component, `<result rois:name="number"><rois:data_type_ref rois:code="int"/><rois:value>${n}</rois:value></result>`);
 }
 
+test('people of whom events without results tell are unknown, not out of sight, until results come', async () => {
+  const world = new World();
+  world.answers.set('get_profile', () => profile_xml({ localization: { type: 'PersonLocalization', messages: event('person_localized') } }));
+  const console = await world.console();
+  console.entities.watch();
+  await world.notifies('receive_event', people('localization', 'person-1'));
+  const bare = told('person_localized', 'localization', '');
+  await world.notifies('receive_event', bare); // the same event once more, for somebody who wants no results
+  const person = () => console.entities.all.get('person person-1')!;
+  expect([person().is_seen, person().unknown_since]).toEqual([true, undefined]);
+  await world.passes(2000);
+  await world.notifies('receive_event', bare);
+  expect(person()).toMatchObject({ is_seen: true, unknown_since: world.now() });
+  expect(console.entities.is_blind()).toBe(true);
+  await world.notifies('receive_event', people('localization', 'person-1'));
+  expect(person().unknown_since).toBeUndefined();
+});
+
 test('those are out of sight of whom detection says that nobody is there, each robot for itself', async () => {
   const world = new World();
   const parts = { PersonDetection: event('person_detected'), PersonLocalization: event('person_localized') };

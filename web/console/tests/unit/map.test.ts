@@ -5,6 +5,8 @@ import { bearing, obstacle_at, on_map, turned } from '../../src/state/floor';
 import { Glide } from '../../src/map/glide';
 import { at_rest, type Hit, type Input, type Interaction, is_map_key, stepped, type Surroundings } from '../../src/map/interaction';
 import { Labels } from '../../src/map/labels';
+import { label_of } from '../../src/map/picture';
+import { age } from '../../src/map/says';
 import { scene_of, type Told } from '../../src/map/scene';
 import { box_around, fitted, panned, pinched, round_step, to_floor, to_screen, with_point, zoomed } from '../../src/map/view';
 import type { FloorMap } from '../../src/state/floor_map';
@@ -228,6 +230,12 @@ describe('what is on the floor', () => {
     expect(states({ entities: [person('a', { at: now - 9000 })], senses: () => false })).toEqual(['gone']);
     expect(states({ entities: [person('a')], senses: () => false })).toEqual(['live']); // told just now, whatever is known of bindings
     expect(states({ entities: [person('a')], is_live: false })).toEqual(['gone']);
+    expect(states({ entities: [person('a', { at: now - 9000, unknown_since: now - 50 })] })).toEqual(['unknown']);
+  });
+
+  test('the label of who stands still says how long ago they were told of, and grows older', () => {
+    const label = (ms: number) => label_of(scene_of(told({ entities: [person('anna', { at: now - ms })] })).shown[0]!, age);
+    expect([100, 6000, 7000, 12_000, 14_000, 16_000, 61_000].map(label)).toEqual(['anna', 'anna · 6 s', 'anna · 7 s', 'anna · 10 s', 'anna · 10 s', 'anna · 15 s', 'anna · 1 min']);
   });
 
   test('who is gone for half a minute is not shown, unless nothing can be told because the link is lost', () => {
@@ -259,6 +267,22 @@ describe('what is on the floor', () => {
 });
 
 describe('gliding', () => {
+  test('the noise of a thing at rest is not news, neither is it drawn; a movement is', () => {
+    const glide = new Glide();
+    const slack = 30; // mm
+    glide.pose('a', { x: 0, y: 0, th: 0 }, 0, slack);
+    const noisy = { x: 20, y: -10, th: 2 };
+    expect(glide.is_news('a', noisy, 1500, slack)).toBe(false);
+    expect(glide.pose('a', noisy, 1500, slack)).toEqual({ x: 0, y: 0, th: 0 });
+    expect(glide.is_news('a', { x: 0, y: 0, th: 10 }, 1600, slack)).toBe(true);
+    expect(glide.is_news('a', { x: 31, y: 0, th: 0 }, 1600, slack)).toBe(true);
+    expect(glide.is_news('b', { x: 0, y: 0 }, 1600, slack)).toBe(true);
+    glide.pose('a', { x: 40, y: 0, th: 0 }, 1700, slack);
+    expect(glide.pose('a', { x: 40, y: 0, th: 0 }, 2100, slack)).toEqual({ x: 40, y: 0, th: 0 });
+    expect(glide.is_news('a', { x: 45, y: 0, th: 0 }, 2200, slack)).toBe(true); // it moves: every step counts
+    expect(glide.is_news('a', { x: 45, y: 0, th: 0 }, 2800, slack)).toBe(false);
+  });
+
   test('goes evenly from one told place to the next, as long as it took to be told', () => {
     const glide = new Glide();
     expect(glide.pose('a', { x: 0, y: 0, th: 350 }, 1000)).toEqual({ x: 0, y: 0, th: 350 });

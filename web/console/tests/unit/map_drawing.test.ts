@@ -7,6 +7,7 @@ import { drivers_of, follow, go, motions_of, stop } from '../../src/map/driving'
 import { goals_of } from '../../src/map/goals';
 import type { Palette } from '../../src/map/palette';
 import { knob_distance } from '../../src/map/picture';
+import { age } from '../../src/map/says';
 import { MapSession } from '../../src/map/session';
 import type { Console } from '../../src/state/console';
 import { profile_xml, settled, World } from './world';
@@ -33,7 +34,7 @@ function sheet(): Sheet {
 
 function drawing(): Drawing {
   const palette = new Proxy({}, { get: () => 'black' }) as Palette;
-  const made = new Drawing(console, session, sheet(), { make_sheet: sheet, read_palette: () => palette, theme: () => 'dark', age_text: String, distance_text: String });
+  const made = new Drawing(console, session, sheet(), { make_sheet: sheet, read_palette: () => palette, theme: () => 'dark', age_text: age, distance_text: String });
   made.resize({ width: 800, height: 600 }, 2);
   return made;
 }
@@ -122,6 +123,36 @@ describe('drawing', () => {
     expect(made.counts.grounds).toBe(grounds + 1);
   });
 
+  test('does not happen at rest, however noisy the robot\'s position is, but for the ages; and at once when the robot moves', async () => {
+    let n = 0;
+    const at = (x: number, y: number) => `<component_ref rois:code="system_information"/>${where(x, y).replace('</results>', '')}<located of="position_data" ref="robot1" crs="hall"><position>${x} ${y} 0</position><orientation>0 0 ${(n % 3) - 1}</orientation><covariance>64 0 0 64</covariance></located></results>`;
+    world.answers.set('query', () => at(1000 + 10 * Math.sin((n += 1)), 2000 + 10 * Math.cos(3 * n)));
+    console.robots.poll.watch();
+    await settled();
+    const made = drawing();
+    made.start();
+    const pictures_in = async (ms: number) => {
+      const { pictures } = made.counts;
+      for (let passed = 0; passed < ms; passed += 16) {
+        await world.passes(16);
+        world.draws();
+      }
+      return made.counts.pictures - pictures;
+    };
+    await pictures_in(5000);
+    const asked = () => world.names().filter((name) => name === 'query').length;
+    const before = asked();
+    expect(await pictures_in(10_000)).toBe(0);
+    expect(asked() - before).toBeLessThanOrEqual(21);
+    await world.notifies('receive_event', people([4000, 4000]));
+    await pictures_in(10_000);
+    expect(made.counts.pictures).toBeGreaterThan(0);
+    expect(await pictures_in(10_000)).toBeLessThanOrEqual(2); // whoever stands still ages in steps of 5 s
+    let x = 1000;
+    world.answers.set('query', () => at((x += 100), 2000));
+    expect(await pictures_in(2000)).toBeGreaterThan(60);
+  });
+
   test('of 20 people who move 20 times a second costs a bounded number of calls, and the ground and the trails once', async () => {
     const made = drawing();
     made.start();
@@ -204,6 +235,14 @@ describe('driving', () => {
     await ends(ids()[0]!, 'OK');
     expect(said()).toEqual(['robot1 has reached x 4.00 m, y 3.00 m']);
     expect(world.names()).toContain('release');
+  });
+
+  test('sent to somebody, it arrives at them, by their name', async () => {
+    const [driver] = drivers_of(console);
+    await go(console, driver!, { x: 4000, y: 3000, whom: 'tanaka' }, 0);
+    expect(said()).toEqual(['robot1 is going to tanaka']);
+    await ends(ids()[0]!, 'OK');
+    expect(said()).toEqual(['robot1 has reached tanaka']);
   });
 
   test('the notice\'s button stops it', async () => {

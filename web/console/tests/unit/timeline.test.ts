@@ -1,5 +1,5 @@
 // The time line without its drawing: where things stand, what is at a point, where the keys lead, what stretch is shown.
-import type { ReceiveEvent } from 'rois-client';
+import { type ReceiveEvent, Results } from 'rois-client';
 import { beforeEach, describe, expect, test } from 'vitest';
 
 import type { CommandEntry, CommandState } from '../../src/state/commands_state';
@@ -24,7 +24,7 @@ function ring<T>(...entries: T[]): Ring<T> {
 
 let next = 0;
 function event(at: number, component = 'person_detection', event_type = 'person_detected'): EventEntry {
-  const told = { name: 'receive_event', event_type, component_ref: { code: component }, expire: new Date(at + 60_000) } as unknown as ReceiveEvent;
+  const told = { name: 'receive_event', event_type, component_ref: { code: component }, results: new Results(), expire: new Date(at + 60_000) } as unknown as ReceiveEvent;
   return { number: next++, at, event: told, document: 0, details: { state: 'none' } };
 }
 function command(component: string, sent_at: number, started_at?: number, ended_at?: number, state: CommandState = ended_at === undefined ? 'running' : 'OK'): CommandEntry {

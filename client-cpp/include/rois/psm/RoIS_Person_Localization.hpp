@@ -1,0 +1,39 @@
+// Person Localization in the C++ PSM (sections 7.6.3 and 7.7; table 36).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "RoIS_Common.hpp"
+
+namespace Person_Localization {
+
+class Command : public RoIS_Common::Command {
+public:
+    Command() : RoIS_Common::Command("PersonLocalization") {}
+
+    // detection_threshold: an event follows when somebody or something has moved by more than this (mm). minimum_interval: and
+    // not before this time has passed since the last one (ms). A negative value leaves the parameter as it is.
+    RoIS_HRI::ReturnCode_t set_parameter(RoIS_HRI::Integer detection_threshold, RoIS_HRI::Integer minimum_interval);
+};
+
+class Query : public RoIS_Common::Query {
+public:
+    Query() : RoIS_Common::Query("PersonLocalization") {}
+
+    // Parameters that are not set are -1.
+    RoIS_HRI::ReturnCode_t get_parameter(RoIS_HRI::Integer& detection_threshold, RoIS_HRI::Integer& minimum_interval);
+};
+
+class Event : public RoIS_Common::Event {
+public:
+    Event() : RoIS_Common::Event("PersonLocalization", {"person_localized"}) {}
+
+    // Who is where: two lists in the same order.
+    virtual void person_localized(RoIS_HRI::DateTime timestamp, RoIS_HRI::RoIS_IdentifierList person_ref,
+                                  std::vector<RoLo::Architecture::Data> position_data);
+
+    void deliver(std::string const& event_type, rois::psm::EventResults const& results) override;
+};
+
+}  // namespace Person_Localization

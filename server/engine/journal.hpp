@@ -1,0 +1,31 @@
+// What the engine reports for the log: sessions, bindings, refused operations and commands.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "types/messages.hpp"
+
+namespace rois {
+
+struct Command;
+
+// Called from within the engine's own calls; must not call the engine. Sessions are named by their numbers, because their ids are
+// secrets. Refs are those of components; a command's id may be any text of the application's.
+class Journal {
+public:
+    virtual ~Journal() = default;
+    virtual void session_opened(std::uint64_t /*session*/) {}
+    virtual void session_resumed(std::uint64_t /*session*/) {}
+    virtual void session_ended(std::uint64_t /*session*/, std::string_view /*why*/) {}
+    virtual void bound(std::uint64_t /*session*/, std::string const& /*ref*/) {}
+    virtual void released(std::uint64_t /*session*/, std::string const& /*ref*/) {}
+    // The operation returned another code than OK.
+    virtual void refused(std::uint64_t /*session*/, Operation const&, Outcome const&) {}
+    // The command's turn has come, or it has ended. Its session is null once that has ended.
+    virtual void command_begun(Command const&) {}
+    virtual void command_ended(Command const&) {}
+};
+
+}  // namespace rois

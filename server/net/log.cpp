@@ -1,0 +1,80 @@
+#include "net/log.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+#include "engine/command.hpp"
+#include "engine/registry.hpp"
+#include "engine/session.hpp"
+#include "net/telemetry.hpp"
+#include "types/texts.hpp"
+
+namespace rois::net {
+
+namespace {
+
+bool is_debugging() { return spdlog::should_log(spdlog::level::debug); }
+
+spdlog::level::level_enum level_of(FaultCode code) {
+    switch (code) {
+        case FaultCode::not_allowed:
+        case FaultCode::unauthorized:
+        case FaultCode::too_many:
+            return spdlog::level::info;
+        default:
+            return spdlog::level::debug;
+    }
+}
+
+// "session 3: the command 'c-1', start of navigation"
+std::string name_of(Command const& command) {
+    auto const session = command.session == nullptr ? "an ended session" : "session " + std::to_string(command.session->number);
+    return session + ": the command " + quoted(command.id.text) + ", " + command.type + " of " + command.component->ref().code;
+}
+
+// A reason, fit for a line: it may repeat what a client said.
+std::string clean(std::string_view reason) {
+    constexpr std::size_t longest = 200;
+    auto const with_quotes = quoted(reason, longest);
+    return with_quotes.substr(1, with_quotes.size() - 2);
+}
+
+}  // namespace
+
+std::uint64_t EngineLog::take_joined() { return std::exchange(joined_, 0); }
+
+void EngineLog::session_ended(std::uint64_t session, std::string_view why) { spdlog::info("session {} ended: {}", session, why); }
+
+void EngineLog::bound(std::uint64_t session, std::string const& ref) { spdlog::debug("session {} binds {}", session, ref); }
+
+void EngineLog::released(std::uint64_t session, std::string const& ref) { spdlog::debug("session {} releases {}", session, ref); }
+
+void EngineLog::refused(std::uint64_t session, Operation const& operation, Outcome const& outcome) {
+    if (!is_debugging()) return;
+    spdlog::debug("session {} is refused {} with {}: {}", session, operation_name(operation), to_text(outcome.return_code),
+                  clean(outcome.reason));
+}
+
+void EngineLog::command_begun(Command const& command) {
+    if (is_debugging()) spdlog::debug("{}, begins", name_of(command));
+}
+
+void EngineLog::command_ended(Command const& command) {
+    if (!is_debugging()) return;
+    spdlog::debug("{}, ended with {}{}{}", name_of(command), to_text(command.status), command.reason.empty() ? "" : ": ",
+                  command.reason.empty() ? "" : clean(command.reason));
+}
+
+void log_joined(std::uint64_t session, std::string_view how, std::string const& peer) {
+    spdlog::info("session {} {} by {}", session, how, peer);
+}
+
+void log_fault(Fault const& fault, std::string_view request, std::string const& peer) {
+    spdlog::log(level_of(fault.code), "refused {} of {}: {}: {}", quoted(request), peer, to_text(fault.code),
+                clean(fault.reason));
+}
+
+bool is_logged(FaultCode code) { return spdlog::should_log(level_of(code)); }
+
+}  // namespace rois::net

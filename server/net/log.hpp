@@ -1,0 +1,41 @@
+// The log's lines about sessions and refused requests. What a client says is quoted: no line can be forged.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "engine/journal.hpp"
+#include "types/messages.hpp"
+
+namespace rois::net {
+
+// Sessions are logged at the level info, the rest at debug. Called with the engine locked.
+class EngineLog : public Journal {
+public:
+    // The number of the session that the last operation opened or resumed; 0 if it did neither.
+    std::uint64_t take_joined();
+
+private:
+    void session_opened(std::uint64_t session) override { joined_ = session; }
+    void session_resumed(std::uint64_t session) override { joined_ = session; }
+    void session_ended(std::uint64_t session, std::string_view why) override;
+    void bound(std::uint64_t session, std::string const& ref) override;
+    void released(std::uint64_t session, std::string const& ref) override;
+    void refused(std::uint64_t session, Operation const&, Outcome const&) override;
+    void command_begun(Command const&) override;
+    void command_ended(Command const&) override;
+
+    std::uint64_t joined_ = 0;
+};
+
+// A client opened or resumed a session: `how` is "opened over HTTP", for example; `peer` is its address.
+void log_joined(std::uint64_t session, std::string_view how, std::string const& peer);
+
+// A request was refused with a fault: at the level info if the gateway does not let the client in, otherwise at debug. `request`
+// is what was asked for.
+void log_fault(Fault const&, std::string_view request, std::string const& peer);
+// Whether log_fault would write a line about it.
+bool is_logged(FaultCode);
+
+}  // namespace rois::net

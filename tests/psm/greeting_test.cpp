@@ -1,0 +1,41 @@
+// A program written from section 7.7 alone, against the real gateway.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "server/gateway_process.hpp"
+
+namespace rois::test {
+namespace {
+
+constexpr auto source_file = ROIS_SOURCE_DIR "/client-cpp/examples/greeting.cpp";
+
+TEST(AProgramOfTheCppPsm, GreetsAVisitor) {
+    std::string const visitor = ROIS_SOURCE_DIR "/tests/server/data/one_visitor.xml";
+    GatewayProcess const gateway{{"--scenario", visitor, "--sim-speed", "20", "--seed", "7"}};
+    std::string said;
+    auto* const pipe = popen(("ROIS_URL=" + gateway.url() + " " ROIS_BINARY_DIR "/bin/greeting 2>&1").c_str(), "r");
+    for (int c = std::getc(pipe); c != EOF; c = std::getc(pipe)) said.push_back(static_cast<char>(c));
+    EXPECT_EQ(WEXITSTATUS(pclose(pipe)), 0);
+    EXPECT_EQ(said, "greeted a visitor\n");
+}
+
+TEST(AProgramOfTheCppPsm, IsShortAndIncludesOnlyItsHeaders) {
+    std::ifstream source{source_file};
+    int lines = 0;
+    for (std::string line; std::getline(source, line); ++lines) {
+        if (!line.starts_with("#include \"")) continue;
+        EXPECT_THAT(line, testing::StartsWith("#include \"RoIS_"));
+    }
+    EXPECT_GT(lines, 0);
+    EXPECT_LE(lines, 80);
+}
+
+}  // namespace
+}  // namespace rois::test

@@ -1,0 +1,61 @@
+// What the time line shows outlives a reload of the page: a text for the browser to keep, and the way back. Documents do not: they hold
+// more than a browser keeps.
+import { Results } from 'rois-client';
+
+import type { CommandEntry } from './commands_state';
+import type { Console } from './console';
+import type { EventEntry, ErrorEntry } from './events_state';
+import type { Span } from './history';
+
+/** Of each kind; the newest. About 1 MB in all. */
+const most = 1000;
+const no_document = -1; // its number, when it is not there any more
+
+interface Kept {
+  spans: Span[];
+  commands: CommandEntry[];
+  events: EventEntry[];
+  own_events: EventEntry[];
+  errors: ErrorEntry[];
+}
+
+export function kept_text({ history, commands, events }: Console): string {
+  const newest = <T>(rows: Iterable<T>) => [...rows].slice(-most);
+  const kept: Kept = {
+    spans: newest([...history.past, ...history.present.values()]),
+    commands: newest(commands.all),
+    events: newest(events.events),
+    own_events: newest(events.own_events),
+    errors: newest(events.errors),
+  };
+  // Commands refer to their sequence, which refers to them.
+  return JSON.stringify(kept, (key, value: unknown) => (key === 'units' || (key === 'commands' && value !== kept.commands) ? [] : value));
+}
+
+/** Puts in front what another page of this visit has kept. What cannot be read is left out. */
+export function restore(console: Console, text: string | undefined): void {
+  if (text === undefined) return;
+  try {
+    const { spans, commands, events, own_events, errors } = JSON.parse(text) as Kept;
+    const details = <T extends EventEntry | ErrorEntry>(entry: T): T => ({ ...entry, document: no_document, details: with_results(entry) });
+    console.history.recall(spans);
+    console.commands.recall(commands.map((one) => ({ ...one, ...(one.results && { results: results_of(one.results) }) })));
+    console.events.recall(events.map(revived).map(details), own_events.map(revived).map(details), errors.map(details));
+  } catch {
+    // it was written by another version of the page
+  }
+}
+
+function revived(entry: EventEntry): EventEntry {
+  const { event } = entry;
+  return { ...entry, event: { ...event, expire: new Date(event.expire), results: results_of(event.results) } };
+}
+
+function results_of({ parameters, located }: Results): Results {
+  return new Results(parameters, located);
+}
+
+function with_results({ details }: EventEntry | ErrorEntry): EventEntry['details'] {
+  if (details.state === 'there') return { state: 'there', results: results_of(details.results) };
+  return { state: 'gone', reason: '' };
+}
