@@ -25,6 +25,7 @@ export default defineConfig({
     environment: 'node',
     testTimeout: 60_000,
     hookTimeout: 60_000,
+    expect: { poll: { timeout: 15_000 } }, // as long as a locator waits: a second is too short on a machine that is busy
     fileParallelism: false,
   },
 });

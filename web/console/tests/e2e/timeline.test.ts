@@ -55,8 +55,10 @@ const ended_at = (page: Page, index: number) => page.evaluate((i) => (window as 
 async function stop_time(page: Page): Promise<void> {
   await page.getByRole('button', { name: 'Stop time' }).click();
   await page.getByText('Stopped', { exact: true }).waitFor();
-  await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+  await drawn(page);
 }
+/** What has been clicked is drawn a frame later. */
+const drawn = (page: Page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 /** Drags over a stretch of time, which is shown alone then. */
 async function zoom(page: Page, from: number, to: number): Promise<void> {
   const [begin, end] = [await point(page, 'navigation', from), await point(page, 'navigation', to)];
@@ -206,6 +208,7 @@ describe('the time line', () => {
         await expect.poll(() => span(page)).toBe(60_000);
         await page.getByRole('button', { name: 'Earlier' }).click();
         await page.getByText('Stopped', { exact: true }).waitFor();
+        await drawn(page);
         // What happens meanwhile is not lost, and does not move what is looked at.
         const still = await page.locator('.timeline-canvas').getAttribute('data-to');
         await hall.run(page, 'speech_synthesis', 'start', { speech_text: 'Good bye.' });
