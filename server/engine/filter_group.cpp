@@ -34,6 +34,29 @@ bool is_of(std::string_view type, Candidate const& component, std::string_view m
     return is_robot(type, text_of(component, Reference::To::engine), text_of(component, Reference::To::robot_id));
 }
 
+// A component as a condition on a group sees it: what the asker has bound already is not bound for it. It would have to be free
+// otherwise, and so the asker could never bind a second one of the group.
+class ForAsker final : public Candidate {
+public:
+    explicit ForAsker(Candidate const& component) : component_{component} {}
+
+    std::optional<Texts> texts(Reference const& reference) const override {
+        auto texts = component_.texts(reference);
+        bool const is_own = reference.to == Reference::To::bound && component_.holder() == Holder::asker;
+        if (texts && is_own) std::ranges::fill(*texts, "false");
+        return texts;
+    }
+    std::optional<Positions> positions(Reference const& reference) const override { return component_.positions(reference); }
+    bool has(Reference const& reference) const override { return component_.has(reference); }
+    std::string_view rid() const override { return component_.rid(); }
+    std::vector<Candidate const*> robot() const override { return component_.robot(); }
+    std::optional<GroupVerdict>* verdict(void const* group) const override { return component_.verdict(group); }
+    Holder holder() const override { return component_.holder(); }
+
+private:
+    Candidate const& component_;
+};
+
 // A robot as its group's filter sees it: a reference stands for the values of all its components that are of the types, with an
 // alias for those of one type.
 class Robot final : public Candidate {
@@ -78,7 +101,7 @@ private:
     std::optional<Values> united(Reference const& reference, Ask const& ask) const {
         Values all;
         for (auto const* component : meant(reference)) {
-            auto const values = ask(*component);
+            auto const values = ask(ForAsker{*component});
             if (!values) return {};
             all.insert(all.end(), values->begin(), values->end());
         }
@@ -129,7 +152,7 @@ public:
 private:
     // What is looked for: its members; without any, the components of its types.
     Match match_itself(Candidate const& candidate) const {
-        if (!members_.empty()) return best(members_, candidate);
+        if (!members_.empty()) return best(members_, ForAsker{candidate});
         bool const meant =
             types_.empty() || std::ranges::any_of(types_, [&](auto const& type) { return is_of(type, candidate, main_engine_); });
         return meant ? Match::yes : Match::no;
@@ -142,7 +165,7 @@ private:
         auto worst = filter_ ? filter_->match(robot) : Match::yes;
         for (auto const& member : members_) {
             auto met = Match::no;
-            for (auto const* component : all) met = std::max(met, member->match(*component));
+            for (auto const* component : all) met = std::max(met, member->match(ForAsker{*component}));
             worst = std::min(worst, met);
         }
         return worst;
@@ -153,7 +176,7 @@ private:
         verdict.match = match_robot(all);
         if (verdict.match != Match::yes) return verdict;
         for (auto const& member : members_)
-            add(verdict, all, [&](Candidate const& component) { return member->match(component) == Match::yes; });
+            add(verdict, all, [&](Candidate const& component) { return member->match(ForAsker{component}) == Match::yes; });
         if (!members_.empty()) return verdict;
         for (auto const& type : types_)
             add(verdict, all, [&](Candidate const& component) { return is_of(type, component, main_engine_); });

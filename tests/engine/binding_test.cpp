@@ -185,6 +185,25 @@ TEST_F(GroupsOfTwoRobots, MustBeFreeWhateverElseTheConditionAsksFor) {
     EXPECT_EQ(world.connect().bind_any(last_first), "robot2.speech");
 }
 
+TEST_F(GroupsOfTwoRobots, MayAskForWhatNoOtherSessionHasBound) {
+    auto const free = [](Part const& part) {
+        return both({equal("component_type", part.profile.object.identifier), equal("bound", "false")});
+    };
+    auto const free_ones = group({.types = {}, .aliases = {}, .filter = {}, .members = {free(navigation), free(speech)}});
+    std::vector<std::string> bound;
+    for (int i = 0; i < 4; ++i) bound.push_back(desk.bind_any(free_ones));
+    EXPECT_THAT(bound, ElementsAre("robot1.navigation", "robot1.speech", "robot1.navigation", "robot1.navigation"))
+        << "what the session has bound itself is still free for it";
+    EXPECT_EQ(hall.bind_any(free_ones), "robot2.navigation");
+    EXPECT_THAT(desk.search(equal("bound", "false")), testing::Not(testing::Contains("robot1.navigation")))
+        << "outside of groups, any session counts";
+    auto const all_free = group({.types = {"Navigation", "SpeechSynthesis"},
+                                 .aliases = {"a", "b"},
+                                 .filter = {both({equal("a/bound", "false"), equal("b/bound", "false")})},
+                                 .members = {}});
+    EXPECT_EQ(hall.bind_any(all_free), "robot2.speech");
+}
+
 TEST(BindAny, OfAGroupTakesWhatTheSessionLacksFirst) {
     World world{named("navigation_a", navigation), named("navigation_b", navigation), speech};
     auto desk = world.connect();
