@@ -84,7 +84,7 @@ public:
 
     std::vector<Results> query(std::string_view query_type, Instant now) override {
         fail_when_failed();
-        if (!is(Fault::Kind::silent)) return component_->query(query_type, now);
+        if (!is(Fault::Kind::silent)) return with_status(query_type, component_->query(query_type, now));
         port_->error(ErrorType::component_not_responding, "it answers no query", Report::once);
         return {};
     }
@@ -116,6 +116,15 @@ private:
         return std::ranges::any_of(faults_, [&](Fault const& fault) {
             return fault.kind == kind && fault.from <= now && (!fault.until || now < *fault.until);
         });
+    }
+
+    // The status of the engine is that of its system information, with its faults.
+    std::vector<Results> with_status(std::string_view query_type, std::vector<Results> rows) const {
+        if (query_type != "engine_status") return rows;
+        for (auto& row : rows)
+            for (auto& parameter : row.parameters)
+                if (parameter.name == "status") parameter = status_of("status", status());
+        return rows;
     }
 
     void fail_when_failed() const {

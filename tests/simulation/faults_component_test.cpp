@@ -60,6 +60,19 @@ TEST_F(Faults, OfAComplainingComponentAreToldOnceAndItWorks) {
     EXPECT_EQ(stage["speech_synthesis"].component().status(), ComponentStatus::ready);
 }
 
+TEST_F(Faults, OfAComplainingSystemInformationAreTheStatusOfTheEngine) {
+    auto stage = unwell("system_information", Fault::Kind::complaining, 0.1, 0.5);
+    auto const told = [&] {
+        return value(stage["system_information"].component().query("engine_status", stage.now()).at(0), "status");
+    };
+    stage.step();
+    EXPECT_EQ(told(), "READY");
+    stage.run(0.3);
+    EXPECT_EQ(told(), "WARNING");
+    stage.run(0.3);
+    EXPECT_EQ(told(), "READY");
+}
+
 TEST_F(Faults, LetASilentComponentGoOnWithWhatItDoes) {
     auto stage = unwell("speech_synthesis", Fault::Kind::silent, 0.1);
     stage["speech_synthesis"].start(speech());
