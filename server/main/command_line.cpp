@@ -4,12 +4,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <map>
 
 #include "main/configuration_file.hpp"
 #include "main/keys.hpp"
+#include "types/environment.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -102,28 +102,12 @@ Settings gather(CLI::App const& app, Flags const& flags) {
     return settings;
 }
 
-// Beside the keys: the file, and what the project's other programs, its tests and a cluster with a service called rois-gateway
-// set.
-bool is_of_others(std::string_view name) {
-    constexpr std::array<std::string_view, 8> names{"ROIS_CONFIG", "ROIS_URL",     "ROIS_SESSION", "ROIS_SESSION_FILE",
-                                                    "ROIS_TOKEN",  "ROIS_CA_FILE", "ROIS_JOBS",    "ROIS_ENDURANCE"};
-    constexpr std::array<std::string_view, 4> beginnings{"ROIS_GATEWAY_", "ROIS_TEST_", "ROIS_BINARY_", "ROIS_PICTURES"};
-    return std::ranges::find(names, name) != names.end() ||
-           std::ranges::any_of(beginnings, [&](auto each) { return name.starts_with(each); });
-}
-
-// A misspelt variable would have no effect, and nobody would know.
-std::vector<std::string> unknown_variables() {
-    std::vector<std::string> warnings;
-    for (auto const* const* each = environ; *each != nullptr; ++each) {
-        std::string_view const variable{*each};
-        auto const name = variable.substr(0, variable.find('='));
-        if (!name.starts_with("ROIS_") || is_of_others(name) || std::ranges::find(keys(), name, variable_of) != keys().end())
-            continue;
-        warnings.push_back("the environment variable " + rois::quoted(name) + " is unknown and ignored; --help lists the keys");
-    }
-    std::ranges::sort(warnings);
-    return warnings;
+std::vector<std::string> warnings() {
+    auto const is_key = [](std::string_view name) { return std::ranges::find(keys(), name, variable_of) != keys().end(); };
+    auto all = unknown_variables(environ, is_key);
+    for (auto& name : all)
+        name = "the environment variable " + rois::quoted(name) + " is unknown and ignored; --help lists the keys";
+    return all;
 }
 
 CommandLine say(std::string words) { return {CommandLine::Wish::say, std::move(words), {}, {}, {}}; }
@@ -146,9 +130,9 @@ CommandLine read_command_line(int argc, char const* const* argv) {
     if (app.count("--check-profiles") > 0)
         return {CommandLine::Wish::check_profiles, {}, std::move(flags.check_profiles), {}, std::move(settings)};
     if (flags.print_config) return say(commented_configuration(settings));
-    if (flags.check_config) return {CommandLine::Wish::check_config, {}, {}, unknown_variables(), std::move(settings)};
+    if (flags.check_config) return {CommandLine::Wish::check_config, {}, {}, warnings(), std::move(settings)};
     if (flags.check_health) return {CommandLine::Wish::check_health, {}, {}, {}, std::move(settings)};
-    return {CommandLine::Wish::serve, {}, {}, unknown_variables(), std::move(settings)};
+    return {CommandLine::Wish::serve, {}, {}, warnings(), std::move(settings)};
 }
 
 }  // namespace rois

@@ -1,6 +1,7 @@
 #include "main/configuration_file.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -43,6 +44,24 @@ std::string place_of_key(std::string const& text, std::string const& key, Which 
     return place_of(text, found);
 }
 
+// Where the number, word or string begins that ends at this position: the library says where it ends.
+std::size_t begin_of_token(std::string_view text, std::size_t end) {
+    auto const is_escaped = [&](std::size_t at) {
+        auto const before = text.find_last_not_of('\\', at - 1);
+        return at > 0 && (at - 1 - before) % 2 == 1;  // npos + 1 is 0
+    };
+    auto begin = end;
+    if (end < text.size() && text[end] == '"') {
+        do {
+            --begin;
+        } while (begin > 0 && (text[begin] != '"' || is_escaped(begin)));
+        return begin;
+    }
+    auto const is_part = [](unsigned char c) { return std::isalnum(c) != 0 || c == '+' || c == '-' || c == '.'; };
+    while (begin > 0 && begin < text.size() && is_part(text[begin]) && is_part(text[begin - 1])) --begin;
+    return begin;
+}
+
 // What the library says after its own name, the place and what it was parsing: "unexpected number literal; expected ':'".
 std::string cause_of(json::exception const& error) {
     std::string_view words = error.what();
@@ -50,7 +69,10 @@ std::string cause_of(json::exception const& error) {
         if (auto const at = words.find(end); at != std::string_view::npos) words.remove_prefix(at + end.size());
     constexpr std::size_t longest = 160;
     auto const with_quotes = rois::quoted(words, longest);
-    return with_quotes.substr(1, with_quotes.size() - 2);
+    auto cause = with_quotes.substr(1, with_quotes.size() - 2);
+    for (std::string const end : {"'}'", "']'"})  // of an object or a list, which may go on instead
+        if (cause.ends_with("expected " + end)) cause.insert(cause.size() - end.size(), "',' or ");
+    return cause;
 }
 
 // Where the number stands that is too large; the library says which one it is.
@@ -75,8 +97,10 @@ json parse(std::string const& file, std::string const& text) {
                               " is there twice"};
         if (parsed.is_object()) return parsed;
     } catch (json::parse_error const& error) {
-        auto const position = std::min(error.byte - std::min<std::size_t>(error.byte, 1), text.size());
-        throw BadSettings{file + ":" + place_of(text, position) + ": this is not JSON: " + cause_of(error)};
+        auto position = std::min(error.byte - std::min<std::size_t>(error.byte, 1), text.size());
+        auto const cause = cause_of(error);
+        if (cause.starts_with("unexpected ") && position < text.size()) position = begin_of_token(text, position);
+        throw BadSettings{file + ":" + place_of(text, position) + ": this is not JSON: " + cause};
     } catch (json::out_of_range const& error) {
         throw BadSettings{file + ":" + place_of_number(text, error) + ": the number is too large for any key"};
     }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <thread>
 
+#include "types/address.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -91,33 +92,13 @@ Key choice(std::string name, std::string help, Member<T> const& member, std::vec
     return key;
 }
 
-struct Address {
-    std::string host;
-    std::uint16_t port;
-};
-
-// "127.0.0.1:8080", "[::1]:8080", "localhost:0"
-std::optional<Address> read_address(std::string const& text) {
-    auto const colon = text.rfind(':');
-    if (colon == std::string::npos || colon == 0) return {};
-    auto host = text.substr(0, colon);
-    if (host == "*") return {};  // some systems take it for any address
-    bool const bracketed = host.size() > 2 && host.front() == '[' && host.back() == ']';
-    if (bracketed) host = host.substr(1, host.size() - 2);
-    if (!bracketed && host.find(':') != std::string::npos) return {};
-    std::uint16_t port = 0;
-    auto const [end, error] = std::from_chars(text.data() + colon + 1, text.data() + text.size(), port);
-    if (error != std::errc{} || end != text.data() + text.size()) return {};
-    return Address{host, port};
-}
-
 std::string show_address(std::string const& host, std::uint16_t port) {
     bool const ipv6 = host.find(':') != std::string::npos;
     return (ipv6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
 }
 
 bool set_listen(Settings& settings, std::string const& text) {
-    auto const read = read_address(text);
+    auto const read = read_host_and_port(text);
     if (!read) return false;
     settings.net.host = read->host;
     settings.net.port = read->port;
@@ -127,7 +108,7 @@ bool set_listen(Settings& settings, std::string const& text) {
 std::string show_listen(Settings const& settings) { return show_address(settings.net.host, settings.net.port); }
 
 bool set_media(Settings& settings, std::string const& text) {
-    auto const read = text.empty() ? std::optional{Address{}} : read_address(text);
+    auto const read = text.empty() ? std::optional{HostAndPort{}} : read_host_and_port(text);
     if (!read) return false;
     settings.media.host = read->host;
     settings.media.port = read->port;

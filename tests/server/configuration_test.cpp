@@ -99,7 +99,7 @@ TEST(CommandLine, RefusesEqualPortsOfGatewayAndMedia) {
 
 TEST(Environment, WarnsOfVariablesThatNobodyKnows) {
     Variables const variables{{"ROIS_SIM_SPED", "2"}, {"ROIS_URL", "http://h"}, {"ROIS_SESSION", "s"}, {"ROIS_SESSION_FILE", "f"},
-                              {"ROIS_JOBS", "2"},     {"ROIS_SEED", "3"},       {"ROIS_ZOO\n", "1"}};
+                              {"ROIS_JOBS", "2"},     {"ROIS_SEED", "3"},       {"ROIS_ZOO\n", "1"},   {"ROIS_FOO", ""}};
     auto const wanted = "the environment variable 'ROIS_SIM_SPED' is unknown and ignored; --help lists the keys\n";
     auto const checked = run_gateway({"--check-config"}, variables);
     EXPECT_EQ(checked.exit_code, 0);
@@ -132,6 +132,10 @@ TEST(ConfigurationFile, WithAMistakeIsOneClearLine) {
     expect_complaint(check("{\"session_timeout\": -1}"), "FILE:1:2: session_timeout must be a number of seconds");
     expect_complaint(check("{\n  \"seed\": 1,\n  \"threads\" 2\n}"),
                      "FILE:3:13: this is not JSON: unexpected number literal; expected ':'");
+    expect_complaint(check("{\"listen\": \"x\"\n  \"threads\": 2}"),
+                     "FILE:2:3: this is not JSON: unexpected string literal; expected ',' or '}'");
+    expect_complaint(check("{\"seed\": 1 \"a,\" : 2}"),
+                     "FILE:1:12: this is not JSON: unexpected string literal; expected ',' or '}'");
     expect_complaint(check("{\n  \"engine_name\": \"\xC3\xA9\" x}"),
                      "FILE:2:22: this is not JSON: invalid literal; last read: '\"\xC3\xA9\" x'");
     expect_complaint(check("{\n\"seed\": 1,\n"), "FILE:3:1: this is not JSON: unexpected end of input");
