@@ -1,5 +1,8 @@
 // The commands that move something: bind, release, set, start, stop, execute.
+#include <algorithm>
 #include <filesystem>
+#include <optional>
+#include <vector>
 
 #include "command/arguments.hpp"
 #include "command/context.hpp"
@@ -7,6 +10,7 @@
 #include "command/request_file.hpp"
 #include "command/sequences.hpp"
 #include "command/terminal.hpp"
+#include "rois/condition.hpp"
 #include "types/texts.hpp"
 
 namespace rois::command {
@@ -15,12 +19,26 @@ namespace {
 
 Identifier ref_of(std::string const& code) { return {code, {}, {}, {}}; }
 
+constexpr auto between_looks = std::chrono::seconds{1};  // at the session file
+
+// Returns the next one until then. Returns nothing also if other calls do not find the holder of the session file any more.
+std::optional<Heard> next(Context& context, Until until) {
+    auto& session = context.session();
+    if (!context.holds_session_file()) return session.hear(until);
+    while (context.is_found_by_session_file()) {
+        auto const look = std::chrono::steady_clock::now() + between_looks;
+        auto heard = session.hear(until ? std::min(*until, look) : look);
+        if (heard || std::chrono::steady_clock::now() < look) return heard;
+    }
+    return std::nullopt;
+}
+
 // Hears until the time is over, or a signal or the end of the link comes; tells what happens to the link, and errors.
 void hold(Context& context, Until until) {
     auto& session = context.session();
     auto& printer = context.printer();
     context.keep_recording();
-    while (auto const heard = session.hear(until)) {
+    while (auto const heard = next(context, until)) {
         if (session.interrupted()) return;
         if (auto const* const gap = std::get_if<Gap>(&*heard)) {
             printer.gap(*gap);
@@ -35,7 +53,8 @@ void hold(Context& context, Until until) {
             printer.notification(news->notification, news->sequence);
     }
     bool const over = session.interrupted() || (until && std::chrono::steady_clock::now() >= *until);
-    if (!over) throw Trouble{Exit::no_answer, "the connection has closed"};
+    bool const is_lost = context.holds_session_file() && !context.is_found_by_session_file();
+    if (!over && !is_lost) throw Trouble{Exit::no_answer, "the connection has closed"};
 }
 
 void say_bound(Context& context, std::string const& ref) {
@@ -68,6 +87,44 @@ void check_file(std::string const& name) {
                                        "; of a component, say which command: rois execute " + name + " start"};
 }
 
+// In a shared session, the components that nobody has bound.
+std::vector<Identifier> free_components(Context& context) {
+    if (!context.session().is_joined()) return {};
+    return context.ok(Search{conditions::bound == false}).component_ref_list;
+}
+
+struct Bound {
+    std::string operation;
+    Identifier component;
+    Reply reply;
+};
+
+// Appends to `done` what is bound so far.
+void bind_each(Context& context, QueryExpression const& condition, std::vector<Bound>& done) {
+    auto const& options = context.options();
+    for (auto const& ref : options.words) done.push_back({"bind", ref_of(ref), context.bound(ref_of(ref))});
+    if (options.where.empty() && options.condition_file.empty()) return;
+    auto reply = context.ok(BindAny{condition}, [&] { return what_there_is(context, condition); });
+    done.push_back({"bind_any", reply.component_ref, reply});
+}
+
+// Binds all, or nothing: a shared session goes on after a refusal.
+std::vector<Bound> bind_all(Context& context, QueryExpression const& condition) {
+    auto const free = free_components(context);
+    std::vector<Bound> all;
+    try {
+        bind_each(context, condition, all);
+    } catch (NoSession const&) {
+        throw;
+    } catch (Trouble const&) {
+        for (auto const& bound : all)
+            if (std::ranges::find(free, bound.component.code, &Identifier::code) != free.end())
+                context.session().request(Release{bound.component});
+        throw;
+    }
+    return all;
+}
+
 ParameterList arguments_of(Context& context, std::string const& ref, std::string const& type,
                            std::vector<std::string> const& given) {
     if (given.empty()) return {};
@@ -78,17 +135,18 @@ ParameterList arguments_of(Context& context, std::string const& ref, std::string
 
 void bind(Context& context) {
     auto const& options = context.options();
-    bool const is_meant = !options.where.empty() || !options.condition_file.empty();
     auto const condition = context.condition();
-    for (auto const& ref : options.words) {
-        auto const reply = context.bound(ref_of(ref));
-        if (options.form != Form::human) context.printer().reply(reply, "bind");
-        say_bound(context, ref);
+    std::optional<std::vector<Bound>> all;
+    while (!all) {
+        try {
+            all = bind_all(context, condition);
+        } catch (NoSession const& gone) {
+            context.begin_again(gone);
+        }
     }
-    if (is_meant) {
-        auto const reply = context.ok(BindAny{condition}, [&] { return what_there_is(context, condition); });
-        if (options.form != Form::human) context.printer().reply(reply, "bind_any");
-        say_bound(context, reply.component_ref.code);
+    for (auto const& bound : *all) {
+        if (options.form != Form::human) context.printer().reply(bound.reply, bound.operation);
+        say_bound(context, bound.component.code);
     }
     auto& session = context.session();
     if (session.is_joined()) return;
@@ -101,7 +159,7 @@ void bind(Context& context) {
 void release(Context& context) {
     auto const& options = context.options();
     if (options.words.empty()) return end_holder(options.session_file, options.held->holder, options.deadline);
-    for (auto const& ref : options.words) context.show(Release{ref_of(ref)});
+    for (auto const& ref : options.words) context.show(Release{ref_of(ref)}, [&] { return context.hint_for_component(ref); });
 }
 
 void set(Context& context) {

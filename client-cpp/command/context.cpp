@@ -50,6 +50,7 @@ void Context::take_session_file() {
 Session& Context::session() {
     if (session_) return *session_;
     while (!session_) {
+        leave_no_file_if_interrupted();
         try {
             session_ = std::make_unique<Session>(options_, recorded_);
         } catch (std::invalid_argument const& error) {
@@ -63,11 +64,26 @@ Session& Context::session() {
     return *session_;
 }
 
+// Until there is a session, a signal ends the program at once.
+void Context::leave_no_file_if_interrupted() {
+    if (!session_file_) return;
+    signals_.on_first([file = session_file_.get()] {
+        file->remove();
+        _exit(static_cast<int>(Exit::interrupted));
+    });
+}
+
+void Context::begin_again(NoSession const& gone) {
+    signals_.on_first({});
+    session_.reset();
+    replace_lost_session(gone);
+}
+
 // The engine does not have the session to act in. If the session file named it, its holder has lost it and has not noticed yet,
 // as after a restart of the engine: `bind` ends that holder, and takes its place.
 void Context::replace_lost_session(NoSession const& gone) {
     auto const& held = options_.held;
-    if (!held || held->url != options_.url) {
+    if (!held) {
         printer_.fault({FaultCode::no_session, gone.what(), {}, {}}, options_.command);
         throw Trouble{Exit::fault, ""};
     }
@@ -76,16 +92,21 @@ void Context::replace_lost_session(NoSession const& gone) {
     take_session_file();
 }
 
-// The session of a holder that was killed would keep its components bound until the engine gives it up.
+// The session of a holder that was killed would keep its components bound until its gateway gives it up.
 void Context::end_left_session() {
-    if (!session_file_ || !session_file_->left() || session_file_->left()->url != options_.url) return;
+    if (!session_file_ || !session_file_->left()) return;
+    auto const& held = *session_file_->left();
     auto options = options_;
-    options.session = session_file_->left()->session;
+    options.url = held.url;
+    options.session = held.session;
+    options.span.reset();
     try {
         Session left{options, nullptr};
         left.request(Disconnect{});
-    } catch (NoSession const&) {  // it has ended
-    } catch (Trouble const&) {    // then `bind` says what it cannot have
+    } catch (Trouble const& trouble) {
+        bool const has_ended = dynamic_cast<NoSession const*>(&trouble) != nullptr;
+        if (!has_ended)
+            remark("the session that a killed process left at " + held.url + " could not be ended: " + trouble.what());
     }
 }
 
@@ -150,11 +171,13 @@ std::vector<ComponentEntry> Context::components() {
 
 Bind::Reply Context::bound(Identifier component) {
     auto const ref = component.code;
-    return ok(Bind{std::move(component)}, [&]() -> std::string {
-        auto const there = components();
-        if (std::ranges::find(there, ref, &ComponentEntry::ref) != there.end()) return {};
-        return "; there are " + listed(there, &ComponentEntry::ref);
-    });
+    return ok(Bind{std::move(component)}, [&] { return hint_for_component(ref); });
+}
+
+std::string Context::hint_for_component(std::string const& ref) {
+    auto const there = components();
+    if (std::ranges::find(there, ref, &ComponentEntry::ref) != there.end()) return {};
+    return "; there are " + listed(there, &ComponentEntry::ref);
 }
 
 ComponentEntry Context::component(std::string const& ref) {

@@ -31,11 +31,16 @@ public:
 
     // Whether this process holds the session of the session file.
     bool holds_session_file() const { return session_file_ != nullptr; }
+    // Whether other calls find this process by the session file.
+    bool is_found_by_session_file() const { return session_file_ && session_file_->is_there(); }
     // If this process holds the session file: writes it and ends the parent. Throws Trouble.
     void go_to_background();
 
     // Opened when it is asked for the first time. Throws Trouble.
     Session& session();
+    // Of `bind`: the joined session has ended. The next `session` is one that another process holds, or one of its own. Throws
+    // Trouble.
+    void begin_again(NoSession const&);
     std::shared_ptr<xml::Schemas const> schemas();
     // Of `--record`; null without.
     std::shared_ptr<RecordingWriter> const& recorded() const { return recorded_; }
@@ -58,6 +63,9 @@ public:
 
     // Binds the component. If it is unknown, the refusal names those that there are.
     Bind::Reply bound(Identifier);
+
+    // For the refusal of an unknown component: those that there are. Empty if the component is known.
+    std::string hint_for_component(std::string const& ref);
 
     // The engine's components; none if the engine does not answer.
     std::vector<ComponentEntry> components();
@@ -85,6 +93,7 @@ private:
     void take_session_file();
     void replace_lost_session(NoSession const&);
     void end_left_session();
+    void leave_no_file_if_interrupted();
 
     Options options_;
     Signals& signals_;

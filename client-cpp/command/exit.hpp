@@ -36,10 +36,10 @@ private:
     Exit exit_;
 };
 
-// The session to act in is not there; the text is the reason.
-class NoSession : public std::runtime_error {
+// The session to act in does not exist, or does not exist any more; the text is the reason.
+class NoSession : public Trouble {
 public:
-    using std::runtime_error::runtime_error;
+    explicit NoSession(std::string const& reason) : Trouble{Exit::no_answer, reason} {}
 };
 
 }  // namespace rois::command

@@ -21,20 +21,23 @@ struct Address {
     std::string host;
     std::string port;
     std::string path;
+
+    bool operator==(Address const&) const = default;
 };
 
 Address address_of(std::string const& url) {
-    static std::regex const form{
-        R"re((http|https|ws|wss)://(\[[0-9A-Fa-f:.]+\]|[^/:?#\[\]@\s]+)(?::([0-9]{1,5}))?(/[^?#\s]*)?)re"};
+    static std::regex const form{R"re((https?|wss?)://(\[[0-9A-Fa-f:.]+\]|[^/:?#\[\]@\s]+)(?::([0-9]{1,5}))?(/[^?#\s]*)?)re",
+                                 std::regex::icase};
     std::smatch match;
     bool const is_url = std::regex_match(url, match, form);
     auto const port = is_url && match[3].matched ? to_int(match[3].str()) : 1;
     if (!is_url || port < 1 || port > 65'535)
         throw Trouble{Exit::usage, rois::quoted(url) +
-                                       " is not a URL of an engine: expected http://HOST:PORT (or https, ws, wss), "
+                                       " is not a URL of a gateway: expected http://HOST:PORT (or https, ws, wss), "
                                        "with a port from 1 to 65535"};
     Address address;
-    address.tls = match[1] == "https" || match[1] == "wss";
+    auto const scheme = lower_case(match[1].str());
+    address.tls = scheme == "https" || scheme == "wss";
     address.host = match[2];
     address.port = match[3].matched ? match[3].str() : address.tls ? "443" : "80";
     address.path = match[4];
@@ -46,11 +49,12 @@ std::string without_brackets(std::string const& host) { return host.starts_with(
 
 using Get = http::request<http::empty_body>;
 
-Get request_of(Address const& address, HttpServer const& server, std::string const& target) {
+Get request_of(Address const& address, HttpServer const& server, std::string const& target, std::string const& session) {
     Get request{http::verb::get, address.path + target, 11};
     request.set(http::field::host, address.host + ":" + address.port);
     request.set(http::field::connection, "close");
     if (!server.token.empty()) request.set(http::field::authorization, "Bearer " + server.token);
+    if (!session.empty()) request.set("RoIS-Session", session);
     return request;
 }
 
@@ -129,15 +133,24 @@ std::string hint_for_url(std::string const& url) {
     return names_rois ? "; the URL ends where /rois begins: leave it out" : "";
 }
 
-void check_ca_file(HttpServer const& server) {
-    if (server.ca_file.empty() || !address_of(server.url).tls) return;
+void check(HttpServer const& server) {
+    address_of(server.url);
+    if (server.ca_file.empty()) return;
     asio::ssl::context context{asio::ssl::context::tls_client};
     load_trusted(context, server.ca_file);
 }
 
-HttpAnswer http_get(HttpServer const& server, std::string const& target, std::chrono::milliseconds deadline) {
+bool is_same_gateway(std::string const& url, std::string const& other) {
+    auto one = address_of(url);
+    auto two = address_of(other);
+    for (auto* const address : {&one, &two}) address->host = lower_case(address->host);
+    return one == two;
+}
+
+HttpAnswer http_get(HttpServer const& server, std::string const& target, std::chrono::milliseconds deadline,
+                    std::string const& session) {
     auto const address = address_of(server.url);
-    auto request = request_of(address, server, target);
+    auto request = request_of(address, server, target, session);
     Outcome outcome;
     auto io = std::make_unique<asio::io_context>(1);
     asio::co_spawn(*io, run(address, server, request, outcome), rethrow);

@@ -1,4 +1,4 @@
-// Single HTTP requests, for what is no session: the engine's health.
+// Single HTTP requests: the engine's health, and what a session has been told.
 #pragma once
 
 #include <chrono>
@@ -18,12 +18,17 @@ struct HttpServer {
     std::string ca_file{};  // empty: the system's certificates alone
 };
 
-// Gets "/readyz" or the like, behind the path of the URL, in this time. Throws Trouble (no_answer) when there is no answer;
-// (usage) for a URL that is none.
-HttpAnswer http_get(HttpServer const&, std::string const& target, std::chrono::milliseconds deadline);
+// Gets "/readyz" or the like, behind the path of the URL, in this time; in this session, unless it is empty. Throws Trouble
+// (no_answer) when there is no answer; (usage) for a URL that is none.
+HttpAnswer http_get(HttpServer const&, std::string const& target, std::chrono::milliseconds deadline,
+                    std::string const& session = {});
 
-// For a URL of https or wss. Throws Trouble (usage) if the file of certificates cannot be read.
-void check_ca_file(HttpServer const&);
+// Throws Trouble (usage) for a URL that is none, and if the file of certificates cannot be read.
+void check(HttpServer const&);
+
+// Whether both URLs name the same host, port and path over the same kind of link (TLS or plain). Throws Trouble (usage) for a URL
+// that is none.
+bool is_same_gateway(std::string const& url, std::string const& other);
 
 // What may be wrong with a URL that leads to no engine; empty if nothing is known.
 std::string hint_for_url(std::string const& url);

@@ -1,7 +1,9 @@
 #include "command/listening.hpp"
 
 #include <algorithm>
+#include <pugixml.hpp>
 
+#include "command/http.hpp"
 #include "command/sequences.hpp"
 #include "types/listing.hpp"
 #include "types/texts.hpp"
@@ -66,21 +68,31 @@ void start_components(Context& context) {
     context.ok(Execute{std::move(sequence)});
 }
 
-void subscribe_to(Context& context, std::vector<std::string> const& event_types, QueryExpression const& condition) {
+std::vector<SubscribeId> subscribe_to(Context& context, std::vector<std::string> const& event_types,
+                                      QueryExpression const& condition) {
     auto const known = message_names(context.ok(GetProfile{}).components, MessageKind::event);
     check_known(context, event_types, known);
     bool const all = event_types.empty();
-    bool heard_any = false;
+    std::vector<SubscribeId> ids;
     for (auto const& type : all ? known : event_types) {
         // A condition may speak of what only some events have: those that cannot be meant are left out when nobody named them.
         auto answer = context.session().request(Subscribe{type, condition, true});
         auto const* const reply = std::get_if<Reply>(&answer);
         auto const* const subscribed = reply != nullptr ? std::get_if<Subscribe::Reply>(reply) : nullptr;
         bool const ok = subscribed != nullptr && subscribed->return_code == ReturnCode::ok;
-        heard_any = heard_any || ok;
+        if (ok) ids.push_back(subscribed->subscribe_id);
         if (!ok && !all) context.ok(Subscribe{type, condition, true});
     }
-    if (!heard_any) context.refuse<Subscribe>(ReturnCode::unsupported, "no event can meet the condition");
+    if (ids.empty()) context.refuse<Subscribe>(ReturnCode::unsupported, "no event can meet the condition");
+    return ids;
+}
+
+bool Meant::operator()(Heard const& heard) const {
+    auto const* const news = std::get_if<News>(&heard);
+    if (news == nullptr) return true;
+    auto const* const event = std::get_if<ReceiveEvent>(&news->notification);
+    bool const is_chosen = event == nullptr || events.empty() || std::ranges::find(events, event->subscribe_id) != events.end();
+    return news->sequence > after && is_chosen;
 }
 
 namespace {
@@ -93,9 +105,34 @@ void end_in_time(Options const& options, std::size_t events) {
     if (events == 0) remark("no event came in the time of --for");
 }
 
+// The sequence of the last notification that the shared session has been told; 0: none.
+std::uint64_t last_sequence(Context& context) {
+    auto const& options = context.options();
+    for (std::uint64_t last = 0;;) {
+        auto const answer =
+            http_get({options.url, options.token, options.ca_file},
+                     "/rois/notifications?after=" + std::to_string(last) + "&wait=0", options.deadline, options.session);
+        pugi::xml_document notifications;
+        if (answer.status != 200 || !notifications.load_string(answer.body.c_str()))
+            throw Trouble{Exit::no_answer, options.url + ": what the session has been told is not to be had (status " +
+                                               std::to_string(answer.status) + ")"};
+        auto const newest = notifications.document_element().last_child().attribute("sequence").as_ullong();
+        if (newest <= last) return last;
+        last = newest;
+    }
+}
+
+// Calls `subscribe`. In a shared session, only what comes from then on is meant, and only events of these subscriptions.
+Meant meant_by(Context& context, std::function<std::vector<SubscribeId>()> const& subscribe) {
+    if (!context.session().is_joined()) return subscribe(), Meant{};
+    Meant meant{.after = last_sequence(context)};
+    meant.events = subscribe();
+    return meant;
+}
+
 }  // namespace
 
-void listen(Context& context, std::function<void(Heard const&)> const& told) {
+void listen(Context& context, std::function<void(Heard const&)> const& told, Meant const& meant) {
     auto& session = context.session();
     auto const& options = context.options();
     auto const until = end_of(options);
@@ -107,6 +144,7 @@ void listen(Context& context, std::function<void(Heard const&)> const& told) {
         if (session.interrupted()) return;
         if (!heard && until && std::chrono::steady_clock::now() >= *until) return end_in_time(options, events);
         if (!heard) throw Trouble{Exit::no_answer, "the connection has closed"};
+        if (!meant(*heard)) continue;
         auto const* const news = std::get_if<News>(&*heard);
         if (news != nullptr && std::holds_alternative<ReceiveEvent>(news->notification)) ++events;
         told(*heard);
@@ -116,24 +154,34 @@ void listen(Context& context, std::function<void(Heard const&)> const& told) {
 
 void subscribe(Context& context) {
     auto const& options = context.options();
-    auto const reply = context.ok(Subscribe{options.name, context.condition(), true}, [&]() -> std::string {
-        auto const known = message_names(context.components(), MessageKind::event);
-        return std::ranges::find(known, options.name) == known.end() ? "; there are the events " + listed(known) : "";
+    auto const meant = meant_by(context, [&] {
+        auto const reply = context.ok(Subscribe{options.name, context.condition(), true}, [&]() -> std::string {
+            auto const known = message_names(context.components(), MessageKind::event);
+            return std::ranges::find(known, options.name) == known.end() ? "; there are the events " + listed(known) : "";
+        });
+        context.printer().reply(reply, "subscribe");
+        return std::vector{reply.subscribe_id};
     });
-    context.printer().reply(reply, "subscribe");
-    if (context.session().is_joined()) return;
-    listen(context, [&](Heard const& heard) {
-        auto const* const change = std::get_if<StateChange>(&heard);
-        bool const usual = change != nullptr && (change->state == State::open || change->state == State::connecting);
-        if (!usual) show(context.printer(), heard);
-    });
+    if (context.session().is_joined() && !options.count && !options.span) return;
+    listen(
+        context,
+        [&](Heard const& heard) {
+            auto const* const change = std::get_if<StateChange>(&heard);
+            bool const usual = change != nullptr && (change->state == State::open || change->state == State::connecting);
+            if (!usual) show(context.printer(), heard);
+        },
+        meant);
 }
 
 void watch(Context& context) {
     auto const& options = context.options();
-    if (!context.session().is_joined() || !options.words.empty()) subscribe_to(context, options.words, context.condition());
+    bool const is_chosen = !options.words.empty() || !options.where.empty() || !options.condition_file.empty();
+    Meant meant;
+    if (is_chosen || !context.session().is_joined())
+        meant = meant_by(context, [&] { return subscribe_to(context, options.words, context.condition()); });
     start_components(context);
-    listen(context, [&](Heard const& heard) { show(context.printer(), heard); });
+    listen(
+        context, [&](Heard const& heard) { show(context.printer(), heard); }, meant);
 }
 
 void record(Context& context) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "command/exit.hpp"
+#include "command/http.hpp"
 #include "command/session_file.hpp"
 #include "rois/settings.hpp"
 #include "types/texts.hpp"
@@ -48,7 +49,7 @@ CLI::Validator within(double least, double most) {
                               double value = 0;
                               if (CLI::detail::lexical_cast(text, value) && value >= least && value <= most) return {};
                               std::ostringstream expected;
-                              expected.precision(8);
+                              expected.precision(10);
                               expected << rois::quoted(text) << " is not a number from " << least << " to " << most;
                               return expected.str();
                           },
@@ -63,6 +64,8 @@ public:
         for_commanding();
         for_listening();
         for_files();
+        name_values(app_);
+        for (auto* const command : app_.get_subcommands({})) name_values(*command);
     }
 
 private:
@@ -98,6 +101,12 @@ private:
         app_.add_flag("--version", raw_.version, "say the version");
     }
 
+    // What the help calls a value, errors call it, too.
+    static void name_values(CLI::App& app) {
+        for (auto* const option : app.get_options())
+            if (auto const& name = option->get_option_text(); !trimmed(name).empty()) option->type_name(name);
+    }
+
     CLI::App& command(std::string const& name, std::string const& what) {
         auto& added = *app_.add_subcommand(name, what);
         added.fallthrough();
@@ -118,9 +127,7 @@ private:
     }
 
     void counted(CLI::App& command) {
-        command.add_option("--count", raw_.count, "end after so many events")
-            ->option_text("N")
-            ->check(CLI::Range(1, 1'000'000'000));
+        command.add_option("--count", raw_.count, "end after so many events")->option_text("N")->check(within(1, 1'000'000'000));
     }
 
     void starting(CLI::App& command) {
@@ -228,11 +235,10 @@ private:
 
 std::chrono::milliseconds milliseconds_of(double seconds) { return std::chrono::milliseconds{std::llround(seconds * 1'000)}; }
 
-// Where a gateway in the same container is asked for its health: ROIS_URL, or the port of its own ROIS_LISTEN.
+// Where a gateway in the same container is asked for its health without ROIS_URL: at the port of its own ROIS_LISTEN.
 std::string url_beside_gateway() {
-    auto const* const url = std::getenv("ROIS_URL");
     auto const* const listen = std::getenv("ROIS_LISTEN");
-    if ((url != nullptr && *url != '\0') || listen == nullptr) return default_url();
+    if (listen == nullptr) return default_url();
     std::string const address{listen};
     auto const colon = address.rfind(':');
     if (colon == std::string::npos) return default_url();
@@ -330,7 +336,7 @@ void check(Options const& options, Raw const& raw) {
         throw Trouble{Exit::usage, "--no-wait: without --session the command would end with the program"};
     if (options.command == "bind" && options.words.empty() && options.where.empty() && options.condition_file.empty())
         throw Trouble{Exit::usage, "bind: which components? Name them, or say --where CONDITION"};
-    bool const unasked = options.command == "replay" || options.command == "health";  // they ask for no session
+    bool const unasked = options.command == "replay" || options.command == "health" || options.check;  // they ask for no session
     if (has_own_session(options) && !unasked && !(options.session.empty() && options.session_file.empty()))
         throw Trouble{
             Exit::usage,
@@ -365,6 +371,9 @@ std::variant<Options, Said> read_options(int argc, char const* const* argv) {
     check_empty(*app.get_subcommand(options.command));
     options.deadline = milliseconds_of(raw.timeout);
     options.deadline_is_given = app.get_option("--timeout")->count() > 0;
+    if (options.command == "replay" && !options.url.empty())
+        throw Trouble{Exit::usage, "replay serves a recording and asks no gateway: --url has no meaning"};
+    if (auto const* const url = std::getenv("ROIS_URL"); url != nullptr && options.url.empty()) options.url = url;
     options.url_is_given = !options.url.empty();
     join_held_session(options);
     if (options.url.empty()) options.url = options.command == "health" ? url_beside_gateway() : default_url();
@@ -383,6 +392,9 @@ void join(Options& options, HeldSession const& held) {
     options.session = held.session;
     options.held = held;
     if (!options.url_is_given) options.url = held.url;
+    if (!is_same_gateway(options.url, held.url))
+        throw Trouble{Exit::usage, "--session-file " + rois::quoted(options.session_file) + ": the session of this file is at " +
+                                       held.url + ", not at " + options.url + " (--url or ROIS_URL)"};
 }
 
 bool runs_in_background(Options const& options) { return options.command == "bind" && !options.session_file.empty(); }

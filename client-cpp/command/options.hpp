@@ -19,7 +19,7 @@ struct Options {
 
     // Of every command.
     std::string url;
-    bool url_is_given = false;  // by --url
+    bool url_is_given = false;  // by --url or ROIS_URL
     std::string token;
     std::string ca_file;
     std::string session;              // joined instead of opening one; empty: none
@@ -60,7 +60,7 @@ struct Said {
 // file, whose session becomes `session`; `bind` looks into the file later. Throws Trouble with the reason.
 std::variant<Options, Said> read_options(int argc, char const* const* argv);
 
-// The command then acts in this session, and speaks to its engine unless --url names another.
+// The command then acts in this session, at its gateway. Throws Trouble (usage) if --url or ROIS_URL names another gateway.
 void join(Options&, HeldSession const&);
 
 // Whether the command goes on in the background: bind with a session file. Only there it finds out whether it opens a session or

@@ -1,6 +1,7 @@
 // rois replay, and rois record --listen: this program as an engine.
 #include "command/context.hpp"
 #include "command/front.hpp"
+#include "command/http.hpp"
 #include "command/player.hpp"
 #include "command/relay.hpp"
 #include "command/terminal.hpp"
@@ -38,13 +39,15 @@ void replay(Context& context) {
 }
 
 void record_others(Context& context) {
+    auto const& options = context.options();
+    check({options.url, options.token, options.ca_file});
     asio::io_context io{1};
     std::size_t sessions = 0;
     Host host{io, [&](HostedSession& session) {
                   return std::make_unique<Relay>(io, session, settings_of(context.options()), context.recorded(),
                                                  std::to_string(++sessions));
               }};
-    serve(context, host, "recording what is said between applications and " + context.options().url);
+    serve(context, host, "recording what is said between applications and " + options.url);
     context.recorded()->check();
 }
 

@@ -19,7 +19,7 @@ bool lasts(Options const& options) {
 
 // Commands that are over soon do not try for long.
 Settings settings_for(Options const& options) {
-    check_ca_file({options.url, options.token, options.ca_file});
+    check({options.url, options.token, options.ca_file});
     auto settings = settings_of(options);
     if (!lasts(options)) settings.attempts = 3;
     // On a WebSocket the engine says nothing of what is not UTF-8 or too long: it closes the link.
@@ -78,6 +78,7 @@ std::variant<Reply, Fault> Session::request(Operation operation) {
     if (auto* const reply = std::get_if<Reply>(&answered)) return std::move(*reply);
     if (auto* const fault = std::get_if<Fault>(&answered)) return std::move(*fault);
     if (interrupted()) throw Trouble{Exit::interrupted, ""};
+    if (joined_ && id().text.empty()) throw NoSession{std::get<NoAnswer>(answered).reason};
     throw Trouble{Exit::no_answer, std::get<NoAnswer>(answered).reason};
 }
 

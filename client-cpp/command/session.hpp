@@ -35,7 +35,7 @@ public:
     bool is_joined() const { return joined_; }
     SessionId id() const { return connection_.session(); }
 
-    // Waits for the answer. Throws Trouble (no_answer) when there is none.
+    // Waits for the answer. Throws Trouble (no_answer) when there is none, NoSession if the joined session has ended.
     std::variant<Reply, Fault> request(Operation);
 
     // Any document as it stands, and its answer's. Throws Trouble like `request`.

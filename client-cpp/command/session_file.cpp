@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -58,22 +59,30 @@ private:
     int descriptor_;
 };
 
-// Refuses FIFOs and devices: they would block, or lose the text.
-void check_regular(std::string const& file, int descriptor) {
+// Refuses FIFOs and devices, which would block or lose the text. Refuses what another user may have written, and so could send
+// the token elsewhere, and what others can read, since the session is a secret. An empty file has no secret yet.
+void check_trusted(std::string const& file, int descriptor) {
     struct stat status {};
-    if (fstat(descriptor, &status) == 0 && !S_ISREG(status.st_mode)) complain(file, "this is not a regular file");
+    if (fstat(descriptor, &status) != 0) complain_of_error(file, "cannot be read");
+    if (!S_ISREG(status.st_mode)) complain(file, "this is not a regular file");
+    if (status.st_uid != geteuid()) complain(file, "it belongs to another user; name a file of your own");
+    if (status.st_size > 0 && (status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
+        complain(file, "others can read it, but whoever knows the session can act in it; allow only its owner: chmod 600");
 }
 
-// -1 if there is no such file.
-int open_to_read(std::string const& file) {
-    int const descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0 && errno != ENOENT) complain_of_error(file, "cannot be read");
+// A symbolic link would stay when the holder removes its file. Returns -1 if there is no such file.
+int open_file(std::string const& file, int flags, char const* failure) {
+    int const descriptor = open(file.c_str(), flags | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK, S_IRUSR | S_IWUSR);
+    if (descriptor < 0 && errno == ELOOP) complain(file, "this is a symbolic link; name the file itself");
+    if (descriptor < 0 && errno != ENOENT) complain_of_error(file, failure);
     return descriptor;
 }
 
+int open_to_read(std::string const& file) { return open_file(file, O_RDONLY, "cannot be read"); }
+
 // Nothing if the file is empty. Throws Trouble (usage) if it cannot be read, or was not written by `SessionFile::write`.
 std::optional<HeldSession> read_held_session(std::string const& file, int descriptor) {
-    check_regular(file, descriptor);
+    check_trusted(file, descriptor);
     char text[4096];
     auto const size = pread(descriptor, text, sizeof text, 0);
     if (size < 0) complain_of_error(file, "cannot be read");
@@ -85,11 +94,11 @@ std::optional<HeldSession> read_held_session(std::string const& file, int descri
     return HeldSession{content["url"], content["session"], content["process"]};
 }
 
-// Whether the name still leads to the open file: another holder may have removed it before it was locked.
+// Whether the name still leads to the open file, which may have been removed, or replaced by the file of another holder.
 bool is_still(std::string const& file, int descriptor) {
     struct stat open_one {};
     struct stat named {};
-    return fstat(descriptor, &open_one) == 0 && stat(file.c_str(), &named) == 0 && open_one.st_ino == named.st_ino &&
+    return fstat(descriptor, &open_one) == 0 && lstat(file.c_str(), &named) == 0 && open_one.st_ino == named.st_ino &&
            open_one.st_dev == named.st_dev;
 }
 
@@ -133,23 +142,29 @@ Trouble no_holder(std::string const& file) {
 
 std::unique_ptr<SessionFile> SessionFile::lock(std::string const& file) {
     while (true) {
-        int const descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, S_IRUSR | S_IWUSR);
+        Descriptor locked_file{open_file(file, O_RDWR | O_CREAT, "cannot be written")};
+        int const descriptor = locked_file.get();
         if (descriptor < 0) complain_of_error(file, "cannot be written");
-        Descriptor open_file{descriptor};
-        check_regular(file, descriptor);
+        check_trusted(file, descriptor);
         auto lock = whole_file(F_WRLCK);
         if (fcntl(descriptor, F_SETLK, &lock) != 0) return nullptr;
         if (!is_still(file, descriptor)) continue;
         auto left = read_held_session(file, descriptor);
-        std::unique_ptr<SessionFile> locked{new SessionFile{file, open_file.release()}};
+        std::unique_ptr<SessionFile> locked{new SessionFile{file, locked_file.release()}};
         locked->left_ = std::move(left);
         return locked;
     }
 }
 
 SessionFile::~SessionFile() {
-    if (!left_) unlink(file_.c_str());
+    remove();
     close(descriptor_);
+}
+
+bool SessionFile::is_there() const { return is_still(file_, descriptor_); }
+
+void SessionFile::remove() const {
+    if (!left_ && is_there()) unlink(file_.c_str());
 }
 
 void SessionFile::write(std::string const& url, std::string const& session) {
@@ -164,11 +179,14 @@ Background::Background() {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw Trouble{Exit::error, std::string{"no pipe: "} + std::strerror(errno)};
     std::fflush(nullptr);
+    auto const parent = getpid();
     auto const child = fork();
     if (child < 0) throw Trouble{Exit::error, std::string{"no process for the background: "} + std::strerror(errno)};
     if (child == 0) {
         close(ends[0]);
         parent_ = ends[1];
+        prctl(PR_SET_PDEATHSIG, SIGTERM);
+        if (getppid() != parent) _exit(static_cast<int>(Exit::interrupted));
         return;
     }
     close(ends[1]);
@@ -188,14 +206,16 @@ Background::~Background() {
 }
 
 void Background::ready() {
+    prctl(PR_SET_PDEATHSIG, 0);
     setsid();
     std::fflush(nullptr);
     int const nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
     for (int const standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(nowhere, standard);
     close(nowhere);
     char const byte = 0;
-    [[maybe_unused]] auto const told = ::write(parent_, &byte, 1);
+    auto const written = ::write(parent_, &byte, 1);
     close(std::exchange(parent_, -1));
+    if (written != 1) throw Trouble{Exit::interrupted, ""};
 }
 
 }  // namespace rois::command

@@ -32,8 +32,7 @@ void end_holder(std::string const& file, pid_t holder, std::chrono::milliseconds
 // The file, and what to do about it.
 Trouble no_holder(std::string const& file);
 
-// The holder's side: a file that only its owner can read, locked. The destructor removes it, unless it still names the session
-// that another process left.
+// The holder's side: a file that only its owner can read, locked. The destructor calls `remove`.
 class SessionFile {
 public:
     // Creates the file and locks it. Returns null if another process has locked it. Throws Trouble (usage) if the file cannot be
@@ -49,6 +48,12 @@ public:
     // From now on `find_held_session` returns this session. Throws Trouble (usage) if the file cannot be written.
     void write(std::string const& url, std::string const& session);
 
+    // Whether the name still leads to this file. If not, `find_held_session` does not find this holder. From any thread.
+    bool is_there() const;
+
+    // Removes the file, unless the name leads to another file, or the file still names the session that another process left.
+    void remove() const;
+
 private:
     SessionFile(std::string file, int descriptor) : file_{std::move(file)}, descriptor_{descriptor} {}
 
@@ -58,7 +63,7 @@ private:
 };
 
 // Goes on in a child process. Made before any thread: the parent waits, and ends with exit code 0 when the child is ready, or
-// with the child's exit code if that ends first.
+// with the child's exit code if that ends first. If the parent is killed before, the child gets SIGTERM.
 class Background {
 public:
     Background();
@@ -66,7 +71,8 @@ public:
     Background(Background const&) = delete;
     Background& operator=(Background const&) = delete;
 
-    // Ends the parent, and lets go of its terminal and of standard input, output and error.
+    // Ends the parent, and lets go of its terminal and of standard input, output and error. Throws Trouble (interrupted) if the
+    // parent was killed: its caller does not know of the session.
     void ready();
 
 private:
