@@ -1,9 +1,8 @@
 #include "command/front.hpp"
 
-#include <charconv>
-
 #include "command/exit.hpp"
 #include "command/front_connection.hpp"
+#include "types/address.hpp"
 #include "types/texts.hpp"
 
 namespace rois::command {
@@ -12,28 +11,12 @@ namespace {
 
 constexpr auto between_sweeps = std::chrono::seconds{5};
 
-struct Address {
-    std::string host;
-    std::uint16_t port = 0;
-};
-
-Address address_of(std::string const& text) {
-    auto const colon = text.rfind(':');
-    Address address;
-    bool good = colon != text.npos && colon > 0;
-    if (good) {
-        address.host = text.substr(0, colon);
-        if (address.host.starts_with('[') && address.host.ends_with(']'))
-            address.host = address.host.substr(1, address.host.size() - 2);
-        auto const* const end = text.data() + text.size();
-        auto const read = std::from_chars(text.data() + colon + 1, end, address.port);
-        good = read.ec == std::errc{} && read.ptr == end;
-    }
-    if (!good) throw Trouble{Exit::usage, "--listen must be HOST:PORT, such as 127.0.0.1:8080, not " + rois::quoted(text)};
-    return address;
+HostAndPort address_of(std::string const& text) {
+    if (auto read = read_host_and_port(text)) return *std::move(read);
+    throw Trouble{Exit::usage, "--listen must be HOST:PORT, such as 127.0.0.1:8080, not " + rois::quoted(text)};
 }
 
-asio::ip::tcp::acceptor listening(asio::io_context& io, Address const& address) {
+asio::ip::tcp::acceptor listening(asio::io_context& io, HostAndPort const& address) {
     try {
         asio::ip::tcp::resolver resolver{io};
         auto const found = resolver.resolve(address.host, std::to_string(address.port));

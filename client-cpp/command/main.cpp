@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "command/context.hpp"
+#include "command/environment.hpp"
 #include "command/terminal.hpp"
 #include "xml/schemas.hpp"
 
@@ -43,6 +44,7 @@ int tell(Exit exit, std::string_view what) {
 }
 
 int run(int argc, char const* const* argv) {
+    warn_of_unknown_variables();
     auto read = read_options(argc, argv);
     if (auto const* const said = std::get_if<Said>(&read)) {
         std::fputs(said->words.c_str(), stdout);

@@ -113,5 +113,18 @@ TEST_F(Rois, RefusesWhatIsNoRecording) {
     expect(2, "cannot be written", {"search", "--record", "/no/such/folder/file"});
 }
 
+TEST_F(Rois, ChecksWhereItListensAndWhomItAsksBeforeItServes) {
+    auto const file = file_named("listening.jsonl");
+    ASSERT_EQ(run({"search", "--record", file}).exit_code, 0);
+    for (std::string const address : {"*:0", ":0", "::1:0", "127.0.0.1"}) {
+        expect(2, "--listen must be HOST:PORT, such as 127.0.0.1:8080, not '" + address, {"replay", file, "--listen", address});
+        expect(2, "--listen must be HOST:PORT", {"record", file_named("none.jsonl"), "--listen", address});
+    }
+    expect(2, "--listen: 1 required HOST:PORT missing", {"replay", file, "--listen"});
+    expect(2, "replay serves a recording and asks no gateway: --url has no meaning", {"replay", file, "--url", "http://there"});
+    expect(2, "'http://127.0.0.1:99999' is not a URL of a gateway",
+           {"record", file_named("none.jsonl"), "--listen", "127.0.0.1:0", "--url", "http://127.0.0.1:99999"});
+}
+
 }  // namespace
 }  // namespace rois::test

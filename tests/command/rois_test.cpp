@@ -364,17 +364,40 @@ TEST_F(Rois, SaysWhatIsWrongWithItsCommandLine) {
     expect(2, "there is no file 'navigation'; of a component, say which command", {"execute", "navigation"});
     for (std::string const url : {"ftp://there", "http://127.0.0.1:99999", "http://127.0.0.1:0"})
         for (std::string const command : {"search", "health"})
-            expect(2, "'" + url + "' is not a URL of ", {command, "--url", url});
+            expect(2, "'" + url + "' is not a URL of a gateway", {command, "--url", url});
     for (std::string const time : {"nan", "inf", "-1", "soon"})
         expect(2, "--for: '" + time + "' is not a number from 0 to ", {"watch", "--for", time});
     expect(2, "is not a number from 0.01 to 86400", {"search", "--timeout", "nan"});
     expect(2, "--session-file (ROIS_SESSION_FILE)", {"release", "navigation"});
+    expect(2, "--count: 1 required N missing", {"watch", "--count"});
+    expect(2, "--count: '0' is not a number from 1 to 1000000000", {"watch", "--count", "0"});
+    for (std::string const url : {"http:", "https:"})
+        expect(2, "the file of trusted certificates '/none' cannot be read",
+               {"search", "--url", url + "//a", "--ca-file", "/none"});
     for (std::string const command : {"search", "health"})
         EXPECT_THAT(run({command, "--url", shared_gateway().url() + "/rois/"}).error,
                     HasSubstr("; the URL ends where /rois begins: leave it out"));
     EXPECT_EQ(run_rois({"search", "--timeout", "2"}).exit_code, 8);
     EXPECT_THAT(run({"--version"}).out, StartsWith("rois "));
     EXPECT_THAT(run({"search", "--colour", "always", "type = Move"}).out, HasSubstr("\x1b["));
+}
+
+TEST_F(Rois, WarnsOfUnknownVariables) {
+    auto const warned = run_rois({"health"}, {}, {{"ROIS_URL", shared_gateway().url()}, {"ROIS_URLL", "x"}, {"ROIS_FOO", ""}});
+    EXPECT_EQ(warned.exit_code, 0);
+    EXPECT_EQ(warned.error, "rois: the environment variable 'ROIS_URLL' is unknown and ignored; man rois lists the variables\n");
+}
+
+TEST_F(Rois, KnowsTheVariablesOfTheGateway) {
+    Variables variables{{"ROIS_URL", shared_gateway().url()}};
+    auto const configuration = json::parse(run_gateway({"--print-config"}).out, nullptr, true, true);
+    for (auto const& [key, value] : configuration.items()) {
+        std::string name = "ROIS_" + key;
+        for (auto& letter : name) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+        variables.emplace(name, "1");
+    }
+    EXPECT_GT(variables.size(), 20u);
+    EXPECT_EQ(run_rois({"health"}, {}, variables).error, "");
 }
 
 TEST_F(Rois, SpeaksHttpToo) {

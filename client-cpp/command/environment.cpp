@@ -1,0 +1,68 @@
+#include "command/environment.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "command/context.hpp"
+#include "types/environment.hpp"
+#include "types/texts.hpp"
+
+namespace rois::command {
+
+namespace {
+
+// The configuration keys of rois-gateway (server/main/keys.cpp) as variables.
+constexpr std::array<std::string_view, 41> keys{"ROIS_ALLOWED_ORIGINS",
+                                                "ROIS_COMMAND_RESULTS",
+                                                "ROIS_ENGINE_NAME",
+                                                "ROIS_ERROR_DETAILS",
+                                                "ROIS_EVENT_DETAILS",
+                                                "ROIS_FLOOR_PLAN",
+                                                "ROIS_IDLE_TIMEOUT",
+                                                "ROIS_LISTEN",
+                                                "ROIS_LOG_FORMAT",
+                                                "ROIS_LOG_LEVEL",
+                                                "ROIS_MAX_ATTRIBUTES",
+                                                "ROIS_MAX_BODY",
+                                                "ROIS_MAX_COMMAND_RESULTS",
+                                                "ROIS_MAX_CONNECTIONS",
+                                                "ROIS_MAX_DEPTH",
+                                                "ROIS_MAX_ELEMENTS",
+                                                "ROIS_MAX_HEADER",
+                                                "ROIS_MAX_MEDIA_CONNECTIONS",
+                                                "ROIS_MAX_REQUESTS_IN_FLIGHT",
+                                                "ROIS_MAX_SENT_NOTIFICATIONS",
+                                                "ROIS_MAX_SESSIONS",
+                                                "ROIS_MAX_SUBSCRIBED_PREDICATES",
+                                                "ROIS_MAX_WAITING_NOTIFICATIONS",
+                                                "ROIS_MEDIA",
+                                                "ROIS_MEDIA_RTP",
+                                                "ROIS_MEDIA_URL",
+                                                "ROIS_ON_SESSION_END",
+                                                "ROIS_PING_INTERVAL",
+                                                "ROIS_PROFILES",
+                                                "ROIS_REQUEST_TIMEOUT",
+                                                "ROIS_RESUME_WINDOW",
+                                                "ROIS_SCENARIO",
+                                                "ROIS_SEED",
+                                                "ROIS_SESSION_TIMEOUT",
+                                                "ROIS_SHUTDOWN_TIMEOUT",
+                                                "ROIS_SIM_SPEED",
+                                                "ROIS_START_TIMEOUT",
+                                                "ROIS_STEERING",
+                                                "ROIS_THREADS",
+                                                "ROIS_VALIDATION",
+                                                "ROIS_WRITE_TIMEOUT"};
+
+}  // namespace
+
+void warn_of_unknown_variables() {
+    auto const is_key = [](std::string_view name) { return std::ranges::find(keys, name) != keys.end(); };
+    for (auto const& name : unknown_variables(environ, is_key))
+        remark("the environment variable " + rois::quoted(name) + " is unknown and ignored; man rois lists the variables");
+}
+
+}  // namespace rois::command
