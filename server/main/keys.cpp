@@ -141,7 +141,7 @@ bool is_origin(std::string const& text) {
     auto const after = text.find("://");
     if (after == std::string::npos || after == 0) return false;
     auto const host = text.substr(after + 3);
-    auto const fits = [](char c) { return c > ' ' && c < 0x7F && !(c >= 'A' && c <= 'Z'); };
+    auto const fits = [](char c) { return c > ' ' && c < 0x7F && (c < 'A' || c > 'Z'); };
     if (host.empty() || host.find_first_of("/?#@,\"<>") != std::string::npos || !std::ranges::all_of(text, fits)) return false;
     bool const default_port =
         (text.starts_with("http://") && host.ends_with(":80")) || (text.starts_with("https://") && host.ends_with(":443"));
