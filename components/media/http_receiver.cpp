@@ -144,6 +144,28 @@ std::string single_picture(Channel& channel, bool with_content) {
     return whole("200 OK", "image/jpeg", *picture, with_content);
 }
 
+// Keeps out web pages of other sites: why the request is refused, or nothing.
+std::optional<std::string> refusal_of_foreign(http::request<http::empty_body> const& request, Settings const& settings) {
+    auto const view = [](beast::string_view text) { return std::string_view{text.data(), text.size()}; };
+    bool const with_content = request.method() != http::verb::head;
+    if (request.count(http::field::host) > 1)
+        return refusal("400 Bad Request", "more than one Host header: expected exactly one", with_content);
+    auto const host = view(request[http::field::host]);
+    if (settings.is_own_host && request.count(http::field::host) == 1 && !settings.is_own_host(host))
+        return refusal("421 Misdirected Request",
+                       "this host is not one of the gateway's: expected localhost, an IP address or the name of its machine; the "
+                       "key hosts adds other names",
+                       with_content);
+    auto const [first, last] = request.equal_range(http::field::origin);
+    bool const allowed = !settings.is_allowed_origin || std::all_of(first, last, [&](auto const& field) {
+        return settings.is_allowed_origin(view(field.value()), host);
+    });
+    if (!allowed)
+        return refusal("403 Forbidden", "pages of this origin are not allowed here; the key allowed_origins adds other origins",
+                       with_content);
+    return {};
+}
+
 // What is answered at once; nothing when there is more to come.
 std::optional<std::string> short_answer(http::request<http::empty_body> const& request, std::shared_ptr<Channel> const& channel,
                                         Connection& connection) {
@@ -166,6 +188,10 @@ std::shared_ptr<Channel> channel_of(http::request<http::empty_body> const& reque
 }
 
 Task<> answer(SharedConnection connection, http::request<http::empty_body> request) {
+    if (auto const text = refusal_of_foreign(request, connection->settings)) {
+        co_await write(*connection, *text);
+        co_return;
+    }
     auto const channel = channel_of(request, connection->directory);
     if (auto const text = short_answer(request, channel, *connection)) {
         co_await write(*connection, *text);

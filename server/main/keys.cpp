@@ -6,6 +6,7 @@
 #include <optional>
 #include <thread>
 
+#include "net/foreign.hpp"
 #include "types/address.hpp"
 #include "types/texts.hpp"
 
@@ -148,22 +149,39 @@ bool is_origin(std::string const& text) {
     return !default_port;
 }
 
-bool set_origins(Settings& settings, std::string const& text) {
-    std::vector<std::string> origins;
+// The parts of a text that are separated by spaces.
+std::vector<std::string> words_of(std::string const& text) {
+    std::vector<std::string> words;
     for (std::size_t begin = 0; begin < text.size();) {
         auto const end = std::min(text.find(' ', begin), text.size());
-        if (end > begin) origins.push_back(text.substr(begin, end - begin));
+        if (end > begin) words.push_back(text.substr(begin, end - begin));
         begin = end + 1;
     }
+    return words;
+}
+
+std::string joined(std::vector<std::string> const& words) {
+    std::string text;
+    for (auto const& word : words) text += (text.empty() ? "" : " ") + word;
+    return text;
+}
+
+bool set_origins(Settings& settings, std::string const& text) {
+    auto origins = words_of(text);
     if (!std::ranges::all_of(origins, is_origin)) return false;
     settings.net.allowed_origins = std::move(origins);
     return true;
 }
 
-std::string show_origins(Settings const& settings) {
-    std::string text;
-    for (auto const& origin : settings.net.allowed_origins) text += (text.empty() ? "" : " ") + origin;
-    return text;
+bool set_hosts(Settings& settings, std::string const& text) {
+    std::vector<std::string> hosts;
+    for (auto const& word : words_of(text)) {
+        auto host = net::host_name(word);
+        if (!host) return false;
+        hosts.push_back(std::move(*host));
+    }
+    settings.net.hosts = std::move(hosts);
+    return true;
 }
 
 bool set_sim_speed(Settings& settings, std::string const& text) {
@@ -205,9 +223,12 @@ std::vector<Key> general_keys() {
         {"profiles", "folder of component profiles that make components, re-read after SIGHUP; empty: none", "DIR", "a text",
          Key::Kind::text, [](Settings& s, std::string const& text) { return s.profiles = text, true; },
          [](Settings const& s) { return s.profiles; }},
-        {"allowed_origins", "web pages that may open WebSockets beside this server's own, separated by spaces", "ORIGINS",
+        {"hosts", "names by which clients reach the gateway, beside localhost, IP addresses and the name of its machine", "NAMES",
+         "host names such as gateway or robots.example, without a port, separated by spaces", Key::Kind::text, set_hosts,
+         [](Settings const& s) { return joined(s.net.hosts); }},
+        {"allowed_origins", "web pages that may send requests, beside this server's own, separated by spaces", "ORIGINS",
          "origins such as https://console.example, in small letters and without a path, separated by spaces", Key::Kind::text,
-         set_origins, show_origins},
+         set_origins, [](Settings const& s) { return joined(s.net.allowed_origins); }},
     };
 }
 

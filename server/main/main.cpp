@@ -19,6 +19,7 @@
 #include "main/user_components.hpp"
 #include "media/server.hpp"
 #include "net/documents.hpp"
+#include "net/foreign.hpp"
 #include "net/gateway.hpp"
 #include "net/health_check.hpp"
 #include "net/secrets.hpp"
@@ -83,9 +84,36 @@ std::shared_ptr<simulation::Simulation> make_simulation(std::shared_ptr<xml::Sch
     return std::make_shared<simulation::Simulation>(std::move(plan), std::move(scenario), settings.seed, settings.sim_speed);
 }
 
+// "robots.example" of "https://robots.example:8443/media"; not for IPv6 addresses.
+std::string_view host_of_url(std::string_view url) {
+    auto const scheme_end = url.find("://");
+    if (scheme_end == std::string_view::npos) return {};
+    url.remove_prefix(scheme_end + 3);
+    return url.substr(0, url.find_first_of(":/"));
+}
+
+// The network's settings with all names by which clients reach this gateway: those of the key `hosts`, of the machine, and of the
+// keys that say where it listens.
+net::Settings with_all_hosts(Settings const& settings) {
+    auto all = settings.net;
+    auto const add = [&](std::string_view name) {
+        if (auto host = net::host_name(name)) all.hosts.push_back(std::move(*host));
+    };
+    for (auto const& name : net::machine_names()) add(name);
+    add(settings.net.host);
+    add(settings.media.host);
+    add(host_of_url(settings.media.url));
+    return all;
+}
+
 // Null when nothing is to be streamed.
-std::shared_ptr<media::Server> make_media(media::Settings const& settings) {
-    return settings.host.empty() ? nullptr : std::make_shared<media::Server>(settings, net::fresh_secret);
+std::shared_ptr<media::Server> make_media(media::Settings settings, net::Settings const& net) {
+    if (settings.host.empty()) return nullptr;
+    settings.is_own_host = [hosts = net.hosts](std::string_view host) { return net::is_own_host(host, hosts); };
+    settings.is_allowed_origin = [allowed = net.allowed_origins](std::string_view origin, std::string_view host) {
+        return net::is_allowed_origin(origin, host, allowed);
+    };
+    return std::make_shared<media::Server>(std::move(settings), net::fresh_secret);
 }
 
 bool has_steering(Settings const& settings) { return settings.steering == Steering::on || settings.sim_speed == 0; }
@@ -149,8 +177,9 @@ int serve(CommandLine const& command) {
         return done;
     }
     set_up_logging(settings.log_format, settings.log_level);
+    auto const net_settings = with_all_hosts(settings);
     for (auto const& warning : command.warnings) spdlog::warn("{}", warning);
-    auto const media = make_media(settings.media);
+    auto const media = make_media(settings.media, net_settings);
     net::Readers readers;
     Engine engine{engine_profile(settings, simulation->hall().plan()), profiles, settings.engine, readers, net::fresh_secret};
     engine.add(simulation);
@@ -169,7 +198,7 @@ int serve(CommandLine const& command) {
                                    {.page = files::web().at("index.html"),
                                     .console = net::WebFiles{files::console()},
                                     .floor_map = xml::encode(simulation::floor_map(simulation->hall().plan()))}};
-    net::Server server{settings.net, gateway, telemetry, documents, schemas};
+    net::Server server{net_settings, gateway, telemetry, documents, schemas};
     if (!settings.profiles.empty()) server.on_hang_up([&] { read_again(user_components, gateway); });
     if (media) spdlog::info("media are served under {}", media->url());
     spdlog::info("listening on {}", server.url());

@@ -173,7 +173,7 @@ Task<Connection::Then> Connection::serve_other() {
 Connection::Then Connection::serve_upgrade() {
     auto const& shared = loop_.shared();
     if (shared.gateway.shutting_down()) return reply(answer_of(shutting_down()));
-    auto const answer = upgrade(head(), shared.settings);
+    auto const answer = upgrade(head());
     if (answer.status != 101) return reply(answer);
     append(out_, answer, {});
     return Then::websocket;

@@ -33,7 +33,7 @@ Task<> ask(std::string host, std::uint16_t port, std::string& trouble) {
     }
     Socket socket{executor};
     co_await socket.async_connect(found.begin()->endpoint(), into(error));
-    std::string const request = "GET /readyz HTTP/1.1\r\nHost: health.check\r\nConnection: close\r\n\r\n";
+    std::string const request = "GET /readyz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
     if (!error) co_await asio::async_write(socket, asio::buffer(request), into(error));
     std::string answer;
     if (!error) co_await asio::async_read_until(socket, asio::dynamic_buffer(answer, 16 * 1024), "\r\n", into(error));

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "net/foreign.hpp"
 #include "types/texts.hpp"
 
 namespace rois::net {
@@ -95,6 +96,7 @@ Route route_of(std::string_view path) {
 }
 
 std::optional<HttpAnswer> refusal(RequestHead const& head, Route const& route, Settings const& settings) {
+    if (auto foreign = refusal_of_foreign(head, settings)) return foreign;
     bool const known_method = head.method == "GET" || head.method == "HEAD" || head.method == "POST";
     if (route.endpoint == Endpoint::unknown && known_method) return not_found(head);
     if (!takes(route, head.method)) return method_not_allowed(route);

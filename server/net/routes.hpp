@@ -34,7 +34,8 @@ struct Route {
 
 Route route_of(std::string_view path);
 
-// Why this request is refused before its body is looked at, or nothing: 404, 405, 413 and 415, in the order of wire.md.
+// Why this request is refused before its body is looked at, or nothing: 421, 403 for an origin, 404, 405, 413 and 415, in
+// this order.
 std::optional<HttpAnswer> refusal(RequestHead const&, Route const&, Settings const&);
 
 }  // namespace rois::net

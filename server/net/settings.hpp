@@ -24,6 +24,7 @@ struct Settings {
     xml::Validation validation = xml::Validation::fast;
     std::size_t max_fragments = 1'024;         // of a WebSocket message
     std::size_t max_requests_in_flight = 16;   // answers that wait for one connection before it is read again
+    std::vector<std::string> hosts;            // names that clients use for the gateway, from host_name (net/foreign.hpp)
     std::vector<std::string> allowed_origins;  // of web pages, beside this server's own: "https://console.example"
 
     std::chrono::milliseconds request_timeout = std::chrono::seconds{30};  // for a request to arrive whole

@@ -7,6 +7,6 @@
 namespace rois::net {
 
 // Answers a GET or HEAD on /rois: status 101 when the connection becomes a WebSocket, a fault otherwise.
-HttpAnswer upgrade(RequestHead const&, Settings const&);
+HttpAnswer upgrade(RequestHead const&);
 
 }  // namespace rois::net

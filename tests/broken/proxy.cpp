@@ -188,7 +188,7 @@ public:
     void ask_aside(std::string const& request) override {
         Socket aside{connect_to(port_)};
         write_message(aside, {"POST /rois HTTP/1.1\r\n",
-                              {"Host: aside\r\n", "Content-Type: text/xml\r\n", session_, std::string{length_field} + "\r\n"},
+                              {"Host: localhost\r\n", "Content-Type: text/xml\r\n", session_, std::string{length_field} + "\r\n"},
                               request});
         read_message(aside);
     }

@@ -10,7 +10,7 @@ namespace {
 TEST(Deadline, OfAHeader) {
     GatewayProcess gateway{{"--request-timeout", "0.2"}};
     HttpClient client{gateway};
-    auto const reply = client.say("GET /healthz HTTP/1.1\r\nHost: h\r\nX");
+    auto const reply = client.say("GET /healthz HTTP/1.1\r\nHost: localhost\r\nX");
     EXPECT_EQ(reply.status, 408);
     EXPECT_EQ(reply.fault(), "too_slow");
     EXPECT_TRUE(client.line().ends());
@@ -19,8 +19,9 @@ TEST(Deadline, OfAHeader) {
 TEST(Deadline, OfABody) {
     GatewayProcess gateway{{"--request-timeout", "0.2"}};
     HttpClient client{gateway};
-    EXPECT_EQ(client.say("POST /rois HTTP/1.1\r\nHost: h\r\nContent-Type: text/xml\r\nContent-Length: 10\r\n\r\n<conn").status,
-              408);
+    EXPECT_EQ(
+        client.say("POST /rois HTTP/1.1\r\nHost: localhost\r\nContent-Type: text/xml\r\nContent-Length: 10\r\n\r\n<conn").status,
+        408);
     EXPECT_TRUE(client.line().ends());
 }
 
@@ -47,7 +48,7 @@ void stuff(Line& line, std::string const& request) {
 TEST(Deadline, OfAReaderThatNeverReads) {
     GatewayProcess gateway{{"--write-timeout", "0.5", "--threads", "1"}};
     HttpClient greedy{gateway}, other{gateway};
-    stuff(greedy.line(), "GET /rois/schemas/rois.xsd HTTP/1.1\r\nHost: h\r\n\r\n");
+    stuff(greedy.line(), "GET /rois/schemas/rois.xsd HTTP/1.1\r\nHost: localhost\r\n\r\n");
     EXPECT_EQ(other.get("/healthz").status, 200);
     while (other.get("/metrics").body.find("rois_connections_cut_total 1") == std::string::npos) {
     }
@@ -72,7 +73,7 @@ TEST(Limit, OfConnectionsMakesMoreOfThemWait) {
     auto first = std::make_unique<HttpClient>(gateway);
     EXPECT_EQ(first->get("/healthz").status, 200);
     HttpClient second{gateway};
-    second.line().send("GET /healthz HTTP/1.1\r\nHost: h\r\n\r\n");
+    second.line().send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
     EXPECT_EQ(first->get("/healthz").status, 200);
     first.reset();
     EXPECT_EQ(second.read().status, 200);
@@ -88,7 +89,7 @@ TEST(Limit, OfConnectionsHoldsOverAllThreads) {
     std::vector<std::unique_ptr<HttpClient>> outside;
     for (int i = 0; i < 8; ++i) {
         outside.push_back(std::make_unique<HttpClient>(gateway));
-        outside.back()->line().send("GET /healthz HTTP/1.1\r\nHost: h\r\nConnection: close\r\n\r\n");
+        outside.back()->line().send("GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
     }
     for (auto const& client : inside)
         EXPECT_THAT(client->get("/metrics").body, testing::HasSubstr("rois_connections{kind=\"http\"} 3\n"));

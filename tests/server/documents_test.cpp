@@ -126,7 +126,8 @@ TEST(FloorMap, OfAnEngineWithoutOneIsNotFound) {
 }
 
 TEST(Page, LinksToAllOfItAndShowsTheRealAddress) {
-    HttpClient client;
+    GatewayProcess const gateway{{"--hosts", "robot.example"}};
+    HttpClient client{gateway};
     auto const page = client.say("GET /plain HTTP/1.1\r\nHost: robot.example:8080\r\n\r\n");
     EXPECT_THAT(page.header("Content-Type"), HasSubstr("text/html"));
     EXPECT_THAT(page.header("Content-Security-Policy"),
@@ -141,10 +142,12 @@ TEST(Page, LinksToAllOfItAndShowsTheRealAddress) {
 
 TEST(Page, ReflectsNoMarkup) {
     HttpClient client;
-    auto const page = client.say("GET /plain HTTP/1.1\r\nHost: $(reboot)&lt;script&gt;\r\n\r\n");
-    EXPECT_THAT(page.body, Not(HasSubstr("script&gt;")));
+    auto const page = client.say("GET /plain HTTP/1.0\r\n\r\n");
     EXPECT_THAT(page.body, HasSubstr("url=http://localhost\n"));
-    auto const refused = client.say("GET / HTTP/1.1\r\nHost: <script>alert(1)</script>\r\n\r\n");
+    auto const misdirected = HttpClient{}.say("GET /plain HTTP/1.1\r\nHost: $(reboot)&lt;script&gt;\r\n\r\n");
+    EXPECT_EQ(misdirected.status, 421);
+    EXPECT_THAT(misdirected.body, Not(HasSubstr("&lt;script")));
+    auto const refused = HttpClient{}.say("GET / HTTP/1.1\r\nHost: <script>alert(1)</script>\r\n\r\n");
     EXPECT_EQ(refused.status, 400);
     EXPECT_THAT(refused.body, Not(HasSubstr("<script")));
 }

@@ -14,7 +14,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string head(std::string const& method_and_target, std::string const& lines = "") {
-    return method_and_target + " HTTP/1.1\r\nHost: gateway.test\r\n" + lines + "\r\n";
+    return method_and_target + " HTTP/1.1\r\nHost: localhost\r\n" + lines + "\r\n";
 }
 
 // Says it and expects this fault; the connection ends after it.
@@ -71,7 +71,7 @@ TEST(Http, TellsRequestsApartThatLookAlike) {
 TEST(Http, TakesARequestByteByByte) {
     HttpClient client;
     auto const body = request("connect");
-    for (char const byte : "\r\nPOST /rois HTTP/1.1\r\nHost: h\r\nContent-Type: text/xml\r\nContent-Length: " +
+    for (char const byte : "\r\nPOST /rois HTTP/1.1\r\nHost: localhost\r\nContent-Type: text/xml\r\nContent-Length: " +
                                std::to_string(body.size()) + "\r\n\r\n" + body) {
         client.line().send({&byte, 1});
     }
@@ -114,15 +114,15 @@ TEST(Http, ChecksTheAuthorityOfATargetLikeHost) {
                                "http://?x", "http://a#b/healthz", "HTTPS://user:secret@a"})
         expect_end(get(target), 400, "not_well_formed");
     HttpClient client;
-    for (auto const* target : {"http://gateway.test/healthz", "http://another.test:81/healthz", "HTTP://[::1]:8080/healthz?x"})
+    for (auto const* target : {"http://localhost/healthz", "http://127.0.0.1:81/healthz", "HTTP://[::1]:8080/healthz?x"})
         EXPECT_EQ(client.say(get(target)).status, 200) << target;
-    EXPECT_EQ(client.say(head("GET http://gateway.test")).status, 200) << "the page at /";
+    EXPECT_EQ(client.say(head("GET http://localhost")).status, 200) << "the page at /";
 }
 
 TEST(Http, TakesTheAuthorityOfATargetBeforeHost) {
     HttpClient client;
-    EXPECT_THAT(client.say(head("GET http://another.test:81/plain")).body, HasSubstr("http://another.test:81"));
-    EXPECT_THAT(client.say(head("GET /plain")).body, HasSubstr("http://gateway.test"));
+    EXPECT_THAT(client.say(head("GET http://127.0.0.1:81/plain")).body, HasSubstr("http://127.0.0.1:81"));
+    EXPECT_THAT(client.say(head("GET /plain")).body, HasSubstr("http://localhost"));
 }
 
 // An answer with a body would be read as the beginning of the next one.
@@ -132,7 +132,7 @@ TEST(Http, RefusesHeadWithoutABody) {
          std::map<std::string, int>{{head("HEAD /healthz", "Transfer-Encoding: chunked\r\n"), 411},
                                     {head("HEAD /healthz", "Host: another\r\n"), 400},
                                     {head("HEAD http://user@a/healthz"), 400},
-                                    {"HEAD /healthz HTTP/2.0\r\nHost: h\r\n\r\n", 400},
+                                    {"HEAD /healthz HTTP/2.0\r\nHost: localhost\r\n\r\n", 400},
                                     {"HEAD /healthz HTTP/1.1\r\n\r\n", 400},
                                     {head("HEAD /healthz", "X: " + std::string(17 * 1024, 'x') + "\r\n"), 431},
                                     {"HEAD /" + std::string(20 * 1024, 'x'), 414},

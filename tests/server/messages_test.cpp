@@ -75,7 +75,7 @@ TEST(Session, WithTwoHeadersIsNone) {
     auto const body = request("search");
     auto const line = "RoIS-Session: " + client.session + "\r\n";
     EXPECT_EQ(client
-                  .say("POST /rois HTTP/1.1\r\nHost: h\r\nContent-Type: text/xml\r\n" + line + line +
+                  .say("POST /rois HTTP/1.1\r\nHost: localhost\r\nContent-Type: text/xml\r\n" + line + line +
                        "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body)
                   .fault(),
               "no_session");
@@ -142,7 +142,7 @@ TEST(Operation, OfFiftyRacersSucceedsForOne) {
     }
     auto const body = request("bind", component_ref("gesture_recognition"));
     for (auto& racer : racers) {
-        racer->line().send("POST /rois HTTP/1.1\r\nHost: h\r\nContent-Type: text/xml\r\nRoIS-Session: " + racer->session +
+        racer->line().send("POST /rois HTTP/1.1\r\nHost: localhost\r\nContent-Type: text/xml\r\nRoIS-Session: " + racer->session +
                            "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
     }
     int bound = 0, refused = 0;

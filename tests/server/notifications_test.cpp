@@ -30,8 +30,8 @@ class Stream {
 public:
     explicit Stream(std::string const& session, std::string const& lines = "", GatewayProcess const& gateway = shared_gateway())
         : line_{gateway.address()} {
-        line_.send("GET /rois/notifications HTTP/1.1\r\nHost: h\r\nAccept: text/event-stream\r\nRoIS-Session: " + session +
-                   "\r\n" + lines + "\r\n");
+        line_.send("GET /rois/notifications HTTP/1.1\r\nHost: localhost\r\nAccept: text/event-stream\r\nRoIS-Session: " +
+                   session + "\r\n" + lines + "\r\n");
         head = line_.take_until("\r\n\r\n");
     }
 
@@ -70,7 +70,7 @@ TEST(LongPoll, GivesWhatIsThereAtOnce) {
 TEST(LongPoll, WaitsForTheNext) {
     HttpClient client, waiting;
     bind_and_complete(client, 1);
-    waiting.line().send("GET /rois/notifications?after=1&wait=30 HTTP/1.1\r\nHost: h\r\nRoIS-Session: " + client.session +
+    waiting.line().send("GET /rois/notifications?after=1&wait=30 HTTP/1.1\r\nHost: localhost\r\nRoIS-Session: " + client.session +
                         "\r\n\r\n");
     complete(client, 1);
     EXPECT_THAT(sequences(waiting.read()), ElementsAre(2));
@@ -87,7 +87,8 @@ TEST(LongPoll, EndsWithItsTimeAndKeepsTheConnection) {
 TEST(LongPoll, OfAClientThatSaysNoMoreIsAnsweredAtOnce) {
     HttpClient client;
     bind_and_complete(client, 0);
-    client.line().send("GET /rois/notifications?wait=30 HTTP/1.1\r\nHost: h\r\nRoIS-Session: " + client.session + "\r\n\r\n");
+    client.line().send("GET /rois/notifications?wait=30 HTTP/1.1\r\nHost: localhost\r\nRoIS-Session: " + client.session +
+                       "\r\n\r\n");
     client.line().finish();
     EXPECT_THAT(sequences(client.read()), IsEmpty());
 }
@@ -96,7 +97,8 @@ TEST(LongPoll, OfAClientThatSaysNoMoreIsAnsweredAtOnce) {
 TEST(LongPoll, DoesNotOutliveItsSession) {
     HttpClient client, waiting;
     client.call("connect");
-    waiting.line().send("GET /rois/notifications?wait=30 HTTP/1.1\r\nHost: h\r\nRoIS-Session: " + client.session + "\r\n\r\n");
+    waiting.line().send("GET /rois/notifications?wait=30 HTTP/1.1\r\nHost: localhost\r\nRoIS-Session: " + client.session +
+                        "\r\n\r\n");
     EXPECT_EQ(client.call("disconnect").return_code(), "OK");
     EXPECT_THAT(waiting.read().status, testing::AnyOf(200, 403));
 }
@@ -144,8 +146,8 @@ TEST(EventStream, ShowsThatItLives) {
     HttpClient client{gateway};
     client.call("connect");
     Line line{gateway.address()};
-    line.send("GET /rois/notifications HTTP/1.1\r\nHost: h\r\nAccept: text/event-stream\r\nRoIS-Session: " + client.session +
-              "\r\n\r\n");
+    line.send("GET /rois/notifications HTTP/1.1\r\nHost: localhost\r\nAccept: text/event-stream\r\nRoIS-Session: " +
+              client.session + "\r\n\r\n");
     line.take_until("\r\n\r\n");
     EXPECT_EQ(line.take(3), ":\n\n");
 }

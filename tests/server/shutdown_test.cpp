@@ -42,9 +42,9 @@ TEST(Shutdown, EndsStreamsPollsAndIdleConnections) {
     bind_and_complete(client, 1);
     Line stream{gateway.address()}, poll{gateway.address()};
     auto const session = "RoIS-Session: " + client.session + "\r\n\r\n";
-    stream.send("GET /rois/notifications HTTP/1.1\r\nHost: h\r\nAccept: text/event-stream\r\n" + session);
+    stream.send("GET /rois/notifications HTTP/1.1\r\nHost: localhost\r\nAccept: text/event-stream\r\n" + session);
     stream.take_until("\n\n");
-    poll.send("GET /rois/notifications?after=1&wait=30 HTTP/1.1\r\nHost: h\r\n" + session);
+    poll.send("GET /rois/notifications?after=1&wait=30 HTTP/1.1\r\nHost: localhost\r\n" + session);
     while (client.get("/metrics").body.find("rois_connections_accepted_total 3") == std::string::npos) {
     }
     gateway.signal(SIGTERM);
@@ -59,10 +59,10 @@ TEST(Shutdown, AnswersRequestsOnTheirWayWith503) {
     HttpClient ready{gateway}, operation{gateway}, watching{gateway};
     operation.call("connect");
     EXPECT_EQ(watching.get("/readyz").status, 200);
-    ready.line().send("GET /readyz HTTP/1.1\r\nHost: h\r\n");
+    ready.line().send("GET /readyz HTTP/1.1\r\nHost: localhost\r\n");
     auto const body = request("search");
-    operation.line().send("POST /rois HTTP/1.1\r\nHost: h\r\nContent-Type: text/xml\r\nRoIS-Session: " + operation.session +
-                          "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n");
+    operation.line().send("POST /rois HTTP/1.1\r\nHost: localhost\r\nContent-Type: text/xml\r\nRoIS-Session: " +
+                          operation.session + "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n");
     while (watching.get("/metrics").body.find("rois_connections{kind=\"http\"} 3") == std::string::npos) {
     }
     gateway.signal(SIGTERM);

@@ -254,6 +254,27 @@ TEST(StreamingAddress, IsThePublicOne) {
     EXPECT_GE(address.size(), std::string{"https://robots.example/media/"}.size() + 22) << "128 bits or more";
 }
 
+// Under a name of their own site that points to this machine (DNS rebinding), or across sites.
+TEST_P(Streaming, IsNotForPagesOfOtherSites) {
+    ASSERT_THAT(desk.bind("video_streaming"), IsOk());
+    set("video_streaming", "image/jpeg", "http");
+    MediaUrl const url{connect("video_streaming").transport};
+    auto const status = [&](std::string const& target, std::string const& lines) {
+        Line line{url.address};
+        line.send("GET " + target + " HTTP/1.1\r\n" + lines + "\r\n");
+        return line.take_until("\r\n").substr(9, 3);
+    };
+    for (std::string const host : {"127.0.0.1:8081", "localhost:8081", "[::1]"})
+        EXPECT_EQ(status(url.target, "Host: " + host + "\r\n"), "200") << host;
+    EXPECT_EQ(status(url.target, "Host: localhost:8081\r\nOrigin: http://localhost:8081\r\n"), "200");
+    for (auto const& target : {url.target, std::string{"/nowhere"}}) {
+        EXPECT_EQ(status(target, "Host: evil.example\r\n"), "421");
+        EXPECT_EQ(status(target, "Host: localhost\r\nOrigin: http://evil.example\r\n"), "403");
+        EXPECT_EQ(status(target, "Host: localhost\r\nOrigin: null\r\n"), "403");
+        EXPECT_EQ(status(target, "Host: localhost\r\nHost: evil.example\r\n"), "400");
+    }
+}
+
 TEST_P(Streaming, ComponentsAreThereBesideTheFifteen) {
     EXPECT_THAT(desk.search(), AllOf(SizeIs(17), Contains("audio_streaming"), Contains("video_streaming")));
 }

@@ -68,14 +68,13 @@ TEST(Handshake, LeavesNothingBehindOfItsHead) {
 
 TEST(Handshake, IsForPagesOfThisServerAndThoseAllowed) {
     GatewayProcess gateway{{"--allowed-origins", "https://console.example http://other.example:81"}};
-    for (auto const* origin :
-         {"http://gateway.test", "HTTP://Gateway.Test:80", "https://console.example", "http://other.example:81"}) {
+    for (auto const* origin : {"http://localhost", "HTTP://LocalHost:80", "https://console.example", "http://other.example:81"}) {
         HttpClient http{gateway};
         EXPECT_EQ(shake_hands(http, {{"Origin", origin}}).status, 101) << origin;
     }
     HttpClient http{gateway};
     for (auto const* origin :
-         {"http://evil.example", "http://gateway.test:81", "http://gateway.test.evil.example", "null", "http://other.example"}) {
+         {"http://evil.example", "http://localhost:81", "http://localhost.evil.example", "null", "http://other.example"}) {
         auto const reply = shake_hands(http, {{"Origin", origin}});
         EXPECT_EQ(reply.status, 403) << origin;
         EXPECT_EQ(reply.fault(), "not_allowed") << origin;
