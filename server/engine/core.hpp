@@ -135,6 +135,7 @@ private:
     Details events_;
     Details errors_;
     Steady details_checked_;
+    std::vector<std::uint32_t> free_slots_;  // of sessions that have ended, below those of the others (Details::Asker)
     bool shutting_down_ = false;
     std::uint64_t events_published_ = 0;
     std::uint64_t errors_published_ = 0;

@@ -115,6 +115,7 @@ void Engine::Core::end(Session& session, std::string_view why, Instant now) {
     executor_.forget(session);
     notifier_.close(session);
     journal_->session_ended(session.number, why);
+    free_slots_.push_back(session.events.slot);
     sessions_.erase(SessionId{session.id});
 }
 

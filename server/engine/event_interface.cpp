@@ -50,8 +50,8 @@ Reply Engine::Core::perform(Session& session, Unsubscribe const& unsubscribe, In
     return Unsubscribe::Reply{};
 }
 
-Reply Engine::Core::perform(Session&, GetEventDetail const& get, Instant now) {
-    auto const found = events_.find(get.event_id.text, now);
+Reply Engine::Core::perform(Session& session, GetEventDetail const& get, Instant now) {
+    auto const found = events_.find(get.event_id.text, session.events, now);
     if (found.found == Details::Found::unknown)
         return refused<GetEventDetail::Reply>(ReturnCode::bad_parameter, "unknown event_id " + quoted(get.event_id.text));
     if (found.found == Details::Found::expired)
@@ -122,8 +122,9 @@ void Engine::Core::publish(EventOccurred said, Instant now) {
              hearers = hearers.subspan(1)) {
             call_nearer(hearers, notifier_);
             auto const& hearer = hearers.front();
-            if (!each || matches(*subscription, *hearer.session))
-                notifier_.tell(*hearer.queue, notifications.of(hearer.inline_results));
+            if (each && !matches(*subscription, *hearer.session)) continue;
+            events_.tell(hearer.slot);
+            notifier_.tell(*hearer.queue, notifications.of(hearer.inline_results));
         }
     }
 }

@@ -12,6 +12,7 @@
 
 #include "engine/command.hpp"
 #include "engine/deadlines.hpp"
+#include "engine/details.hpp"
 #include "engine/notification_queue.hpp"
 #include "types/ids.hpp"
 #include "types/instant.hpp"
@@ -27,6 +28,8 @@ struct Session {
     SessionId id;
     std::uint64_t number = 0;  // in the order of connecting
     Steady connected;
+    Details::Asker events;  // which details it may ask for (decision 24)
+    Details::Asker errors;
 
     std::set<RegisteredComponent*> bound;
     std::set<Subscription*> subscriptions;

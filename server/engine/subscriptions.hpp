@@ -30,6 +30,7 @@ struct Subscription {
     struct Hearer {
         Session* session;
         std::uint64_t number;      // the session's
+        std::uint32_t slot;        // among those who may ask for details, found without the session
         NotificationQueue* queue;  // and its own, found without it
         bool inline_results;
     };

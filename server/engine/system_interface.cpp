@@ -16,6 +16,14 @@ std::variant<Reply, Refusal> Engine::Core::connect(SessionId const& id, Instant 
     session->id.text = fresh_secret_();
     session->number = ++last_session_;
     session->connected = now.steady;
+    auto const slot = free_slots_.empty() ? static_cast<std::uint32_t>(sessions_.size()) : free_slots_.back();
+    if (free_slots_.empty()) {
+        free_slots_.reserve(slot + 1);  // so that the end of a session needs no memory
+    } else {
+        free_slots_.pop_back();
+    }
+    session->events = {slot, events_.next()};
+    session->errors = {slot, errors_.next()};
     session->notifications =
         std::make_shared<NotificationQueue>(session->id, settings_.max_waiting_notifications, settings_.max_sent_notifications);
     session->quiet_until = now.steady;
@@ -84,8 +92,8 @@ Declarations error_details() {
 
 }  // namespace
 
-Reply Engine::Core::perform(Session&, GetErrorDetail const& get, Instant now) {
-    auto const found = errors_.find(get.error_id.text, now);
+Reply Engine::Core::perform(Session& session, GetErrorDetail const& get, Instant now) {
+    auto const found = errors_.find(get.error_id.text, session.errors, now);
     if (found.found == Details::Found::unknown)
         return refused<GetErrorDetail::Reply>(ReturnCode::bad_parameter, "unknown error_id " + quoted(get.error_id.text));
     if (found.found == Details::Found::expired)
@@ -109,14 +117,18 @@ void Engine::Core::publish(ErrorOccurred said, Instant now) {
     ReceiveError error{.error_id = {errors_.add(std::move(results), nullptr, now)}, .error_type = said.type, .component_ref = {}};
     if (said.component != nullptr) error.component_ref = said.component->ref();
     auto const notification = std::make_shared<OutgoingNotification const>(std::move(error));
+    auto const tell = [&](Session& session) {
+        errors_.tell(session.errors.slot);
+        notifier_.tell(session, notification);
+    };
     if (said.component == nullptr) {
-        for (auto const& [id, session] : sessions_) notifier_.tell(*session, notification);
+        for (auto const& [id, session] : sessions_) tell(*session);
         return;
     }
     Perspective ever{registry_, places_, nullptr, Perspective::Of::ever};
     auto concerned = subscriptions_.hearers(*said.component, ever);
     if (said.component->bound_to != nullptr) concerned.insert(said.component->bound_to);
-    for (auto* session : concerned) notifier_.tell(*session, notification);
+    for (auto* session : concerned) tell(*session);
 }
 
 }  // namespace rois

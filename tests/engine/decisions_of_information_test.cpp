@@ -203,6 +203,58 @@ TEST(Decision24, ErrorsGoToThoseWhomTheyConcern) {
     for (auto* each : {&bound, &subscribed, &other}) EXPECT_THAT(each->heard().back(), HasSubstr("ENGINE_INTERNAL_ERROR"));
 }
 
+TEST(Decision24, DetailsOfAnEventAreForSessionsThatWereNotifiedOfIt) {
+    World world{detection};
+    auto desk = world.connect(), other = world.connect(), choosy = world.connect();
+    desk.subscribe("person_detected");
+    choosy.subscribe("person_detected", greater("number", "5"));
+    world["detection"].fires("person_detected", people(2));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection"));
+    auto const id = desk.last_heard<ReceiveEvent>().event_id;
+    other.subscribe("person_detected");
+    auto later = world.connect();
+    EXPECT_EQ(desk.detail_of(id).return_code, ReturnCode::ok);
+    auto const expect_unknown = [&](Application& asker) {
+        EXPECT_EQ(asker.detail_of(id).return_code, ReturnCode::bad_parameter);
+        EXPECT_EQ(asker.detail_of(id).reason, "unknown event_id '" + id.text + "'");
+    };
+    for (auto* each : {&other, &choosy, &later}) expect_unknown(*each);
+    world.advance(60s);
+    EXPECT_THAT(desk.detail_of(id).reason, HasSubstr("expired"));
+    for (auto* each : {&other, &choosy, &later}) expect_unknown(*each);
+    world.advance(10min);
+    EXPECT_THAT(desk.detail_of(id).reason, HasSubstr("expired"));
+    expect_unknown(later);
+}
+
+TEST(Decision24, DetailsOfAnErrorAreForSessionsThatWereNotifiedOfIt) {
+    World world{navigation};
+    auto desk = world.connect(), other = world.connect();
+    desk.bind("navigation");
+    world["navigation"].reports(ErrorType::user_defined_error, "a wheel is stuck");
+    EXPECT_THAT(desk.heard(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
+    auto const id = desk.last_heard<ReceiveError>().error_id;
+    EXPECT_EQ(desk.detail_of(id).return_code, ReturnCode::ok);
+    EXPECT_EQ(other.detail_of(id).return_code, ReturnCode::bad_parameter);
+    EXPECT_EQ(other.detail_of(id).reason, "unknown error_id '" + id.text + "'");
+}
+
+TEST(Decision24, DetailsDoNotPassToTheNextSession) {
+    World world{detection};
+    auto desk = world.connect();
+    desk.subscribe("person_detected");
+    world["detection"].fires("person_detected", people(2));
+    desk.heard();
+    auto const id = desk.last_heard<ReceiveEvent>().event_id;
+    desk.leave();
+    auto next = world.connect();
+    EXPECT_EQ(next.detail_of(id).return_code, ReturnCode::bad_parameter) << "though it has the place of the one that left";
+    next.subscribe("person_detected");
+    world["detection"].fires("person_detected", people(3));
+    next.heard();
+    EXPECT_EQ(next.detail_of(next.last_heard<ReceiveEvent>().event_id).return_code, ReturnCode::ok);
+}
+
 TEST(Decision25, ComponentsHaveNamesAndTypes) {
     World world{navigation, in_engine("sub1", navigation)};
     auto desk = world.connect();
