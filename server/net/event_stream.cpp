@@ -23,8 +23,6 @@ Fault bad_number(std::string_view name, std::string_view limit = {}) {
     return {FaultCode::not_well_formed, std::string{name} + " must be a whole number" + std::string{limit}, {}, {}};
 }
 
-HttpAnswer no_session() { return answer_of(no_such_session()); }
-
 // One event: its id is the sequence, its data the document line by line.
 void append_event(std::string& out, Numbered const& numbered) {
     std::string document;
@@ -67,8 +65,9 @@ Task<HttpAnswer> poll(Wire& wire, Gateway& gateway, Telemetry& telemetry, Wakes&
                       NotificationsWanted const& wanted) {
     auto const until = std::chrono::steady_clock::now() + wanted.wait;
     auto const signal = std::make_shared<Signal>(wakes);
-    auto const reading = gateway.read(session, Link::stream, wanted.after, *signal);
-    if (!reading) co_return no_session();
+    auto read = gateway.read(session, Link::stream, wanted.after, *signal);
+    if (auto const* fault = std::get_if<Fault>(&read)) co_return answer_of(*fault);
+    auto const reading = std::get<std::unique_ptr<Reading>>(std::move(read));
     bool gone = false;
     auto taken = reading->take(most_a_poll);
     auto const watch = wire.watch([&gone, signal] {
@@ -91,8 +90,9 @@ Task<HttpAnswer> poll(Wire& wire, Gateway& gateway, Telemetry& telemetry, Wakes&
 Task<std::optional<HttpAnswer>> stream(Wire& wire, Gateway& gateway, Telemetry& telemetry, Wakes& wakes, SessionId const& session,
                                        NotificationsWanted const& wanted, Settings const& settings) {
     auto const signal = std::make_shared<Signal>(wakes);
-    auto const reading = gateway.read(session, Link::stream, wanted.after, *signal);
-    if (!reading) co_return no_session();
+    auto read = gateway.read(session, Link::stream, wanted.after, *signal);
+    if (auto const* fault = std::get_if<Fault>(&read)) co_return answer_of(*fault);
+    auto const reading = std::get<std::unique_ptr<Reading>>(std::move(read));
     HttpAnswer head;
     head.content_type = "text/event-stream";
     std::string out;

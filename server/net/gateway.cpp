@@ -21,6 +21,14 @@ Fault fault_of(Refusal refusal) {
     return no_such_session();
 }
 
+Fault beyond(std::uint64_t after, std::uint64_t last) {
+    return {FaultCode::not_well_formed,
+            "the position " + std::to_string(after) +
+                " is above the last sequence that was given out in this session: expected " + std::to_string(last) + " at most",
+            {},
+            {}};
+}
+
 // What an operation that went well changes for the connection that asked for it.
 void take_turn(Answer& answer, Operation const& operation, Reply const& reply) {
     if (auto const* connected = std::get_if<Connect::Reply>(&reply)) {
@@ -150,10 +158,12 @@ void Gateway::heard_from_opened(std::variant<Reply, Refusal> const& handled, Ins
     if (connected != nullptr) engine_.heard_from(connected->session, now);
 }
 
-std::unique_ptr<Reading> Gateway::read(SessionId const& session, Link link, std::uint64_t after, Reader& reader) {
+std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& session, Link link, std::uint64_t after,
+                                                            Reader& reader) {
     std::lock_guard const lock{mutex_};
     auto queue = engine_.notifications(session);
-    if (!queue || queue->closed()) return {};
+    if (!queue || queue->closed()) return no_such_session();
+    if (auto const last = queue->last_sequence(); after > last) return beyond(after, last);
     engine_.link_opened(session);
     readers_.join(*queue, link, reader);
     return std::make_unique<Reading>(*this, link, after, reader, std::move(queue));

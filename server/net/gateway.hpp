@@ -117,8 +117,8 @@ public:
     // search.
     Answer answer(xml::RequestReader&, SessionId const&, std::string_view text, Via, Reading const* reading = nullptr);
 
-    // Null when there is no such session.
-    std::unique_ptr<Reading> read(SessionId const&, Link, std::uint64_t after, Reader&);
+    // A fault if there is no such session, or if `after` is above the last sequence that was given out in it.
+    std::variant<std::unique_ptr<Reading>, Fault> read(SessionId const&, Link, std::uint64_t after, Reader&);
 
     // To be called every few milliseconds: lets the engine do what is due.
     void tick();

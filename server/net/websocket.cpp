@@ -134,7 +134,8 @@ void WebSocket::join(Answer const& answer) {
     if (same && answer.turn == Answer::Turn::connected) return;
     reading_.reset();
     session_over_ = false;
-    reading_ = gateway_.read(session_, Link::websocket, answer.last_sequence, *this);
+    auto read = gateway_.read(session_, Link::websocket, answer.last_sequence, *this);
+    if (auto* reading = std::get_if<std::unique_ptr<Reading>>(&read)) reading_ = std::move(*reading);
 }
 
 // Reading stops while as many answers wait as may be in flight.

@@ -109,6 +109,17 @@ TEST_P(EventOperations, OnlyWhatTheConditionSaysIsHeard) {
                 testing::UnorderedElementsAre(testing::StartsWith("completed c-"), detected, "completed stop OK"));
 }
 
+TEST_P(EventOperations, DetailsAreForThoseWhoWereTold) {
+    Application other{GetParam(), empty_hall()};
+    other.connect();
+    desk.subscribe(detected);
+    detect(desk);
+    auto const id = desk.hear_event(detected).text("event_id");
+    EXPECT_THAT(desk.get_event_detail(id), IsOk());
+    other.subscribe(detected);
+    EXPECT_THAT(other.get_event_detail(id), IsRefused("BAD_PARAMETER", "unknown event_id '" + id + "'"));
+}
+
 TEST_P(EventOperations, SubscribeToWhatCannotHappenIsUnsupported) {
     EXPECT_THAT(desk.subscribe("dinner_ready"), IsRefused("UNSUPPORTED", "dinner_ready"));
     EXPECT_THAT(desk.subscribe(detected, where(equal("component_ref", "navigation"))), IsRefused("UNSUPPORTED", "match"));

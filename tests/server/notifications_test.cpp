@@ -114,6 +114,34 @@ TEST(LongPoll, RefusesBadNumbers) {
     EXPECT_EQ(client.get("/rois/notifications", {{"Accept", "text/event-stream"}, {"Last-Event-ID", "x"}}).status, 400);
 }
 
+TEST(LongPoll, RefusesAPositionThatWasNeverGivenOut) {
+    HttpClient client;
+    bind_and_complete(client, 3);
+    EXPECT_THAT(sequences(client.get("/rois/notifications?after=3")), IsEmpty());
+    for (auto const* after : {"4", "1000000", "18446744073709551615"}) {
+        auto const reply = client.get("/rois/notifications?wait=30&after=" + std::string{after});
+        EXPECT_EQ(reply.status, 400) << after;
+        EXPECT_EQ(reply.reason(), "the position " + std::string{after} +
+                                      " is above the last sequence that was given out in this session: expected 3 at most");
+    }
+    EXPECT_EQ(client.get("/rois/notifications?after=18446744073709551616").status, 400);
+    complete(client, 1);
+    EXPECT_THAT(sequences(client.get("/rois/notifications?after=3")), ElementsAre(4));
+    HttpClient stranger;
+    EXPECT_EQ(stranger.get("/rois/notifications?after=5").status, 403) << "without a session";
+}
+
+TEST(EventStream, RefusesAPositionThatWasNeverGivenOut) {
+    HttpClient client;
+    bind_and_complete(client, 2);
+    for (auto const* last : {"3", "-1", "18446744073709551615", "18446744073709551616", "", "2\r\nLast-Event-ID: 2"}) {
+        auto const reply = client.get("/rois/notifications", {{"Accept", "text/event-stream"}, {"Last-Event-ID", last}});
+        EXPECT_EQ(reply.status, 400) << last;
+        EXPECT_EQ(reply.fault(), "not_well_formed") << last;
+    }
+    EXPECT_THAT(Stream(client.session, "Last-Event-ID: 2\r\n").head, testing::StartsWith("HTTP/1.1 200 "));
+}
+
 TEST(EventStream, NeedsASession) {
     HttpClient client;
     auto const reply = client.get("/rois/notifications", {{"Accept", "text/event-stream"}});
