@@ -59,7 +59,7 @@ Task<Connection::Then> Connection::serve() {
             then = co_await receive();
             continue;
         }
-        request_due_ = Steady::max();
+        request_due_ = idle_due_ = Steady::max();
         bool const whole = std::exchange(has_head_, false);
         if (whole && head().method != "POST") then = co_await serve_other();
         if (whole && head().method == "POST") {
@@ -128,7 +128,8 @@ Task<Connection::Then> Connection::receive() {
     if (idle_) request_due_ = Steady::max();
     if (!idle_ && request_due_ == Steady::max()) request_due_ = now() + settings.request_timeout;
     auto const expected = has_head_ ? head().content_length - wire_.received().size() : 0;
-    auto const until = idle_ ? now() + settings.idle_timeout : request_due_;
+    if (idle_ && idle_due_ == Steady::max()) idle_due_ = now() + settings.idle_timeout;
+    auto const until = idle_ ? idle_due_ : request_due_;
     auto outcome = wire_.receive_now(until, expected);
     while (!outcome) {
         co_await wire_.readable();

@@ -72,9 +72,10 @@ private:
     Route route_;
     SessionId session_;  // that it names; empty when it names none
     Steady request_due_ = Steady::max();
-    bool idle_ = false;        // no byte of it has come
-    std::string out_;          // answers that wait for the next write
-    std::vector<Hold> holds_;  // and the notifications that wait for them
+    Steady idle_due_ = Steady::max();  // when the next request must have begun; empty lines are none
+    bool idle_ = false;                // no byte of it has come
+    std::string out_;                  // answers that wait for the next write
+    std::vector<Hold> holds_;          // and the notifications that wait for them
     std::weak_ptr<WebSocket> websocket_;
 };
 

@@ -14,6 +14,7 @@ namespace rois::net {
 namespace {
 
 constexpr std::size_t most_at_once = 64;                    // notifications of one write
+constexpr unsigned most_controls = 50;                      // control frames a second
 constexpr auto longest_farewell = std::chrono::seconds{2};  // from our close frame to the end of the connection
 
 template <class... Cases>
@@ -62,6 +63,7 @@ bool WebSocket::take_frames() {
         std::size_t used = 0;
         auto const heard = messages_.next(wire_->received(), used);
         bool const incomplete = std::holds_alternative<MessageReader::Incomplete>(heard);
+        if (std::holds_alternative<MessageReader::Text>(heard)) message_due_ = Steady::max();  // the next one has its own time
         if (!incomplete) take(heard);
         wire_->use(used);
         if (incomplete) break;
@@ -79,7 +81,11 @@ void WebSocket::take(MessageReader::Heard const& heard) {
                                   say(answer);
                               }
                           },
-                          [&](MessageReader::Ping ping) { say_pong(ping.payload); },
+                          [&](MessageReader::Ping ping) {
+                              note_control();
+                              if (!ending_) say_pong(ping.payload);
+                          },
+                          [&](MessageReader::Pong) { note_control(); },
                           [&](MessageReader::Closed closed) {
                               close({closed.code, ""});
                           },
@@ -157,6 +163,16 @@ void WebSocket::note_message() {
     } else if (message_due_ == Steady::max()) {
         message_due_ = now() + settings_.request_timeout;
     }
+}
+
+// A ping or a pong. Few are ever needed, and each ping costs an answer.
+void WebSocket::note_control() {
+    auto const present = now();
+    if (present - controls_since_ >= std::chrono::seconds{1}) {
+        controls_since_ = present;
+        controls_ = 0;
+    }
+    if (++controls_ > most_controls) close({CloseCode::policy_violation, "more than 50 control frames a second"});
 }
 
 void WebSocket::close(Ending ending) {

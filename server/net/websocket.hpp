@@ -49,6 +49,7 @@ private:
     Task<> wait_for_room();
     Task<> something_written();
     void note_message();
+    void note_control();
     void close(Ending);
 
     void flush();
@@ -78,6 +79,8 @@ private:
     bool pinged_ = false;                 // since it was heard
     Steady heard_;                        // from the peer, last
     Steady message_due_ = Steady::max();  // when what has begun to arrive must be whole
+    Steady controls_since_;               // the beginning of the second in which control frames are counted
+    unsigned controls_ = 0;
     Settings const& settings_;
     Gateway& gateway_;
     xml::RequestReader& reader_;

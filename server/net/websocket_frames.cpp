@@ -169,7 +169,7 @@ MessageReader::Heard MessageReader::next(std::span<char> bytes, std::size_t& use
 
 MessageReader::Heard MessageReader::take_control(Head const& head, std::string_view payload) const {
     if (head.opcode == Opcode::ping) return Ping{payload};
-    if (head.opcode == Opcode::pong) return Nothing{};
+    if (head.opcode == Opcode::pong) return Pong{};
     if (payload.empty()) return Closed{CloseCode::normal};
     if (payload.size() == 1) return protocol_error("half a close code");
     auto const code = static_cast<unsigned>(static_cast<unsigned char>(payload[0]) << 8 | static_cast<unsigned char>(payload[1]));

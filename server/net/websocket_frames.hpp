@@ -43,7 +43,8 @@ public:
     struct Ping {
         std::string_view payload;
     };
-    struct Nothing {};  // a frame that asks for nothing
+    struct Pong {};
+    struct Nothing {};  // a frame that asks for nothing: part of a message
     struct Closed {
         CloseCode code;
     };  // the peer closes; answer with this code
@@ -51,7 +52,7 @@ public:
         CloseCode code;
         std::string_view reason;
     };
-    using Heard = std::variant<Incomplete, Text, Ping, Nothing, Closed, Violation>;
+    using Heard = std::variant<Incomplete, Text, Ping, Pong, Nothing, Closed, Violation>;
 
     // Reads the frame at the front of `bytes`, whose payload is unmasked in place. `used` becomes its size. Views are good until
     // the bytes change or the next call.

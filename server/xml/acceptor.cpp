@@ -295,7 +295,7 @@ bool Acceptor::bind(std::string_view prefix, std::string_view name_space, std::s
         if (bindings_[i].prefix == prefix) return false;
     }
     bindings_.push_back({prefix, id});
-    return true;
+    return bindings_.size() <= limits_.namespaces;
 }
 
 Interned::Id Acceptor::name_space_of(std::string_view prefix) const {

@@ -22,6 +22,7 @@ struct DocumentLimits {
     std::size_t attributes = 32;    // an element
     std::size_t name_length = 256;  // bytes
     std::size_t elements = 5'000;
+    std::size_t namespaces = 64;  // declarations in scope: of an element and those around it
 };
 
 // How documents are checked. The verdict and its words are the same.

@@ -59,7 +59,7 @@ bool Acceptor::take_text_element(KnownTag const& known) {
 bool Acceptor::bind_again(KnownTag const& known, char const* tag) {
     for (auto const& each : known.namespaces) bindings_.push_back({each.prefix.of(tag), each.name_space});
     if (!known.namespaces.empty()) scope_ = 0;
-    return name_space_of(known.prefix.of(tag)) == known.name_space;
+    return bindings_.size() <= limits_.namespaces && name_space_of(known.prefix.of(tag)) == known.name_space;
 }
 
 // The tag that was just read, without attributes and of its declared type.

@@ -43,6 +43,7 @@ private:
     Next end_tag();
     Next start_tag();
     void end_list();
+    void close();
     void attribute(StartTag const&, std::size_t tag);
     void namespace_declaration(StartTag const&, std::size_t tag);
     void refuse(FaultCode code, std::string reason, std::size_t offset) { refusal_ = Refusal{code, std::move(reason), offset}; }
@@ -55,6 +56,8 @@ private:
     std::size_t at_ = 0;
     std::size_t depth_ = 0;
     std::size_t elements_ = 0;
+    std::vector<std::size_t> outer_;   // of each open element: how many namespace declarations were in scope around it
+    std::size_t in_scope_ = 0;         // namespace declarations
     std::optional<std::size_t> list_;  // offset of the tag that began the list we are in
     Scanned scanned_;
     std::optional<Refusal> refusal_;
@@ -155,10 +158,17 @@ void Scan::end_list() {
         refuse(FaultCode::forbidden_xml, limit("a list of numbers is too long", longest_list), *begin);
 }
 
+// The innermost open element.
+void Scan::close() {
+    --depth_;
+    in_scope_ = outer_.back();
+    outer_.pop_back();
+}
+
 Scan::Next Scan::end_tag() {
     end_list();
     if (depth_ == 0 || refusal_) return Next::nothing;
-    --depth_;
+    close();
     return skip_to(">");
 }
 
@@ -174,6 +184,7 @@ Scan::Next Scan::start_tag() {
     };
     if (++elements_ > limits_.elements) return forbid(limit("too many elements", limits_.elements));
     if (++depth_ > limits_.depth) return forbid(limit("elements are nested too deeply", limits_.depth));
+    outer_.push_back(in_scope_);
     if (tag.name().size() > limits_.name_length) return forbid(limit("the name of an element is too long", limits_.name_length));
 
     auto step = tag.next();
@@ -186,7 +197,7 @@ Scan::Next Scan::start_tag() {
         refuse(FaultCode::not_well_formed, std::string{tag.complaint()}, place);
     }
     if (step == StartTag::Step::empty_end) {
-        --depth_;
+        close();
         list_.reset();
     }
     at_ = tag.offset();
@@ -201,6 +212,9 @@ void Scan::attribute(StartTag const& tag, std::size_t begin) {
 }
 
 void Scan::namespace_declaration(StartTag const& tag, std::size_t begin) {
+    if (++in_scope_ > limits_.namespaces) {
+        return refuse(FaultCode::forbidden_xml, limit("too many namespace declarations in scope", limits_.namespaces), begin);
+    }
     if (tag.value() == old_rois_namespace) {
         auto const offset = static_cast<std::size_t>(tag.value().data() - text_.data());
         std::ranges::copy(rois_namespace, document_.begin() + static_cast<std::ptrdiff_t>(offset));

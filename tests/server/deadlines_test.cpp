@@ -2,6 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <string>
+#include <thread>
+#include <vector>
+
 #include "server/websocket_client.hpp"
 
 namespace rois::test {
@@ -31,6 +36,20 @@ TEST(Deadline, OfASilentConnection) {
     EXPECT_EQ(once.get("/healthz").status, 200);
     EXPECT_TRUE(silent.line().ends());
     EXPECT_TRUE(once.line().ends());
+}
+
+TEST(Deadline, IsNotRenewedByEmptyLines) {
+    GatewayProcess const gateway{{"--idle-timeout", "0.3", "--request-timeout", "0.3"}};
+    for (auto const& lines : {std::vector<std::string>{"\r\n"}, {"\r", "\n"}, {"\r", "\n\r"}}) {
+        HttpClient client{gateway};
+        EXPECT_EQ(client.get("/healthz").status, 200);
+        for (std::size_t i = 0; i < 30; ++i) {
+            client.line().send(lines[i % lines.size()]);
+            std::this_thread::sleep_for(std::chrono::milliseconds{50});
+        }
+        client.line().be_patient(std::chrono::milliseconds{100});
+        EXPECT_NO_THROW(client.line().rest()) << "it is open still";
+    }
 }
 
 // Sends requests and reads nothing, until the gateway takes no more.

@@ -242,13 +242,13 @@ TEST(Link, OfAWebSocketThatVanishesIsLostWithItsSession) {
 TEST(Ping, GetsAPongOfItsOwnInOrderWithTheAnswers) {
     WebSocketClient client;
     client.call("connect");
-    for (int i = 0; i < 50; ++i) {
+    for (int i = 0; i < 25; ++i) {
         auto const number = std::to_string(i);
         client.send("before " + number, Kind::ping);
         client.ask("search", "", {{"request_id", number}});
         client.send("", Kind::ping);
     }
-    for (int i = 0; i < 50; ++i) {
+    for (int i = 0; i < 25; ++i) {
         auto const number = std::to_string(i);
         auto const before = client.next();
         EXPECT_EQ(before.kind, Kind::pong);
@@ -348,6 +348,49 @@ TEST(Close, With1008ForAMessageThatDoesNotEnd) {
     WebSocketClient client{gateway};
     client.send_raw(0x01, "<connect");
     EXPECT_EQ(client.closes(), 1008);
+}
+
+// A client with steady traffic has nearly always part of the next message here.
+TEST(Close, IsNoMatterOfSteadyTraffic) {
+    GatewayProcess const gateway{{"--request-timeout", "0.3"}};
+    WebSocketClient client{gateway};
+    client.call("connect");
+    auto const document = request("search") + std::string(200, ' ');
+    std::string const frame = std::string{"\x81\xFE", 2} + static_cast<char>(document.size() >> 8) +
+                              static_cast<char>(document.size() & 0xFF) + std::string(4, '\0') + document;
+    client.line().send(frame.substr(0, 20));
+    auto const until = std::chrono::steady_clock::now() + std::chrono::milliseconds{1'200};
+    do {
+        client.line().send(frame.substr(20) + frame.substr(0, 20));  // the end of one and the beginning of the next
+        EXPECT_EQ(name_of(client.next_document()), "search_response");
+    } while (std::chrono::steady_clock::now() < until && !testing::Test::HasFailure());
+    EXPECT_EQ(client.closes(), 1008) << "the last one does not end";
+}
+
+TEST(Close, With1008ForAMessageThatDoesNotEndAmongPings) {
+    GatewayProcess const gateway{{"--request-timeout", "0.3"}};
+    WebSocketClient client{gateway};
+    client.send_raw(0x01, "<connect");
+    auto const begun = std::chrono::steady_clock::now();
+    auto kind = Kind::pong;
+    while (kind == Kind::pong && std::chrono::steady_clock::now() < begun + std::chrono::seconds{10}) {
+        client.send("", Kind::ping);
+        kind = client.next().kind;
+        std::this_thread::sleep_for(std::chrono::milliseconds{40});
+    }
+    EXPECT_EQ(kind, Kind::close);
+}
+
+TEST(Close, With1008ForAFloodOfControlFrames) {
+    for (auto const kind : {Kind::ping, Kind::pong}) {
+        WebSocketClient client;
+        client.call("connect");
+        for (int i = 0; i < 50; ++i) client.send("", kind);
+        for (int i = 0; i < 50 && kind == Kind::ping; ++i) EXPECT_EQ(client.next().kind, Kind::pong);
+        EXPECT_EQ(code_of(client.call("search")), "OK") << "50 within a second are none";
+        for (int i = 0; i < 51; ++i) client.send("", kind);
+        EXPECT_EQ(client.closes(), 1008);
+    }
 }
 
 TEST(Close, With1008AfterTooManySessions) {

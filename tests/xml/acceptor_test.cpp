@@ -90,6 +90,12 @@ TEST(Acceptor, KeepsTheLimits) {
     EXPECT_FALSE(accepted(document("connect", {}, " request_id=''"), {.attributes = 6}));
     EXPECT_TRUE(accepted(document("connect", {}, " request_id=''"), {.name_length = 10}));
     EXPECT_FALSE(accepted(document("connect", {}, " request_id=''"), {.name_length = 9}));
+    auto const declaring = [](std::string const& prefix) {
+        return document("bind", "<component_ref xmlns:" + prefix + "='http://www.opengis.net/fes/2.0' rois:code='a'/>");
+    };
+    EXPECT_TRUE(accepted(declaring("f"), {.namespaces = 7}));
+    EXPECT_FALSE(accepted(declaring("f"), {.namespaces = 6}));
+    EXPECT_FALSE(accepted(document("connect"), {.namespaces = 5}));
     auto const corner = [](std::size_t blanks) {
         return document(
             "search",

@@ -115,6 +115,36 @@ TEST(BadDocument, Attributes) {
               FaultCode::not_well_formed);
 }
 
+// Each of so many elements, one within the other, declares so many namespaces.
+std::string declaring(std::size_t elements, std::size_t each) {
+    std::string text, ends;
+    for (std::size_t i = 0; i < elements; ++i) {
+        text += "<fes:Not";
+        for (std::size_t j = 0; j < each; ++j)
+            text += " xmlns:p" + std::to_string(i) + "x" + std::to_string(j) + "='http://www.opengis.net/fes/2.0'";
+        text += ">";
+        ends += "</fes:Not>";
+    }
+    text += "<fes:PropertyIsNull><fes:ValueReference>a</fes:ValueReference></fes:PropertyIsNull>" + ends;
+    return document("search", "<condition><fes:Filter>" + text + "</fes:Filter></condition>");
+}
+
+TEST(BadDocument, NamespacesInScope) {
+    std::size_t const of_root = 6;  // what `document` declares
+    auto const most = 64 - of_root;
+    EXPECT_TRUE(std::holds_alternative<Request>(read(declaring(2, most / 2))));
+    auto const text = declaring(3, most / 2);
+    auto const more = fault(text);
+    EXPECT_EQ(more.code, FaultCode::forbidden_xml);
+    EXPECT_EQ(more.reason, "too many namespace declarations in scope: the limit is 64");
+    EXPECT_EQ(more.place.value_or(Place{}).column, text.rfind("<fes:Not ") + 1) << "of the tag with the first one too many";
+    EXPECT_EQ(fault(declaring(57, 25)).reason, more.reason) << "618 KiB took 0.7 s once";
+    std::string beside;
+    for (int i = 0; i < 100; ++i)
+        beside += "<component_ref xmlns:a='http://www.opengis.net/fes/2.0' xmlns:b='http://www.opengis.net/fes/2.0'/>";
+    EXPECT_EQ(fault(document("bind", beside)).code, FaultCode::invalid) << "these are not in scope together";
+}
+
 TEST(BadDocument, LongNamesAndManyElements) {
     std::string const longest(256, 'n');
     EXPECT_EQ(fault(document("bind", "<" + longest + "/>")).code, FaultCode::invalid);
