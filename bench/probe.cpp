@@ -65,7 +65,7 @@ private:
     ComponentStatus status() const override { return ComponentStatus::ready; }
     std::optional<std::string> refusal(std::string_view, ParameterList const&) const override { return {}; }
     void start(CommandHandle command, ParameterList const&, Instant) override { port_->completed(command, CompletedStatus::ok); }
-    void halt(Instant) override {}
+    Halted halt(Instant) override { return Halted::confirmed; }
     void suspend(Instant) override {}
     void resume(Instant) override {}
 

@@ -49,9 +49,9 @@ public:
         component_->start(command, parameters, now);
     }
 
-    void halt(Instant now) override {
+    Halted halt(Instant now) override {
         running_.reset();
-        component_->halt(now);
+        return component_->halt(now);
     }
 
     void suspend(Instant now) override {

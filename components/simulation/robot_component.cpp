@@ -121,7 +121,10 @@ void ContinuousFunction::start(CommandHandle command, ParameterList const& param
     port().completed(command, CompletedStatus::ok, {}, Afterwards::active);
 }
 
-void ContinuousFunction::halt(Instant) { state_ = State::idle; }
+Halted ContinuousFunction::halt(Instant) {
+    state_ = State::idle;
+    return Halted::confirmed;
+}
 
 void ContinuousFunction::suspend(Instant) {
     if (state_ != State::active) return;
@@ -151,10 +154,9 @@ void Action::start(CommandHandle command, ParameterList const& parameters, Insta
     if (command_) port().started(command);
 }
 
-void Action::halt(Instant) {
-    if (!command_) return;
-    command_.reset();
-    cease();
+Halted Action::halt(Instant) {
+    if (std::exchange(command_, {})) cease();
+    return Halted::confirmed;
 }
 
 void Action::suspend(Instant) {

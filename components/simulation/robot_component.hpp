@@ -91,7 +91,7 @@ public:
     using RobotComponent::RobotComponent;
 
     void start(CommandHandle, ParameterList const&, Instant now) final;
-    void halt(Instant now) final;
+    Halted halt(Instant now) final;
     void suspend(Instant now) final;
     void resume(Instant now) final;
     void parameters_changed(ParameterList const&, Instant now) final;
@@ -119,7 +119,7 @@ public:
     using RobotComponent::RobotComponent;
 
     void start(CommandHandle, ParameterList const&, Instant now) final;
-    void halt(Instant now) final;
+    Halted halt(Instant now) final;
     void suspend(Instant now) final;
     void resume(Instant now) final;
 

@@ -66,18 +66,16 @@ public:
         return language.empty() && command_type != "enter" ? std::nullopt : no_language(language);
     }
 
-    // There is nothing to start: visitors can be steered anyway. So what stops a `start` leaves them alone, and whatever else
-    // ends something ends all of it.
+    // There is nothing to start: visitors can be steered anyway.
     void start(CommandHandle command, ParameterList const&, Instant) override {
-        started_ = true;
         port_->completed(command, CompletedStatus::ok, {}, Afterwards::active);
     }
-    void halt(Instant) override {
-        if (std::exchange(started_, false)) return;
+    Halted halt(Instant) override {
         orders_.clear();
         passing_.clear();
         hall().stop_steering();
         simulation_->stand_still();
+        return Halted::confirmed;
     }
     void suspend(Instant) override {}
     void resume(Instant) override {}
@@ -207,7 +205,6 @@ private:
     ComponentDescription description_;
     ComponentPort* port_ = nullptr;
     bool stepped_ = false;
-    bool started_ = false;
     std::vector<Ordered> orders_;  // that go on
     std::deque<Passing> passing_;
 };

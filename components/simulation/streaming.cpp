@@ -49,9 +49,10 @@ void Streaming::start(CommandHandle command, ParameterList const& parameters, In
     port().completed(command, CompletedStatus::ok);
 }
 
-void Streaming::halt(Instant now) {
+Halted Streaming::halt(Instant now) {
     while (!streams_.empty()) disconnect(streams_.front(), now);
     held_ = false;
+    return Halted::confirmed;
 }
 
 void Streaming::suspend(Instant now) {

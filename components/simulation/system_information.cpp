@@ -21,7 +21,7 @@ public:
     void start(CommandHandle command, ParameterList const&, Instant) override {
         port().completed(command, CompletedStatus::error, {}, Afterwards::as_before, "there is nothing to start");
     }
-    void halt(Instant) override {}
+    Halted halt(Instant) override { return Halted::confirmed; }
     void suspend(Instant) override {}
     void resume(Instant) override {}
 

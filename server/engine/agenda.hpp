@@ -25,6 +25,10 @@ struct CommandEnded {
     std::string reason;
 };
 
+struct HaltConfirmed {
+    RegisteredComponent* component;
+};
+
 struct EventOccurred {
     RegisteredComponent* component;
     std::string event_type;
@@ -37,7 +41,7 @@ struct ErrorOccurred {
     std::string text;
 };
 
-using Said = std::variant<CommandStarted, CommandEnded, EventOccurred, ErrorOccurred>;
+using Said = std::variant<CommandStarted, CommandEnded, HaltConfirmed, EventOccurred, ErrorOccurred>;
 
 class Agenda {
 public:

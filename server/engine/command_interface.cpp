@@ -16,7 +16,16 @@ std::string held(RegisteredComponent const& component) {
            std::to_string(component.bound_to->number);
 }
 
+std::string not_halted(RegisteredComponent const& component) {
+    return "the component " + quoted(component.ref().code) +
+           " has not confirmed that it stands still; it can be bound once it has";
+}
+
 std::string not_bound(std::string const& ref) { return "the component " + quoted(ref) + " is not bound by this session"; }
+
+std::string why_not_free(RegisteredComponent const& component) {
+    return component.bound_to == nullptr ? not_halted(component) : held(component);
+}
 
 // Gives an id to every command that has none.
 class IdFiller {
@@ -64,6 +73,8 @@ Reply Engine::Core::perform(Session& session, Bind const& bind, Instant now) {
         case Registry::Bound::ok:
             if (!mine) journal_->bound(session.number, component->ref().code);
             return Bind::Reply{};
+        case Registry::Bound::not_halted:
+            return refused<Bind::Reply>(ReturnCode::error, not_halted(*component));
         case Registry::Bound::taken:
             break;
     }
@@ -79,14 +90,15 @@ Reply Engine::Core::perform(Session& session, BindAny const& bind, Instant now) 
     if (!may_ever_match(selection.filter(), registry_.possible(selection.filter().demand()), session))
         return refused<BindAny::Reply>(ReturnCode::unsupported, "no component of this engine can match the condition");
     auto const [matches, held_of_group] = select_to_bind(selection, session);
-    auto found = std::ranges::find(matches, nullptr, &RegisteredComponent::bound_to);
+    auto found = std::ranges::find_if(matches, &RegisteredComponent::is_free);
     if (found == matches.end()) found = std::ranges::find(matches, &session, &RegisteredComponent::bound_to);
     if (found == matches.end() && held_of_group != nullptr)
         return refused<BindAny::Reply>(ReturnCode::out_of_resources,
                                        "no robot can give all components of the group now; " + held(*held_of_group));
     if (found == matches.end())
-        return refused<BindAny::Reply>(ReturnCode::out_of_resources, "no component that matches the condition is free now" +
-                                                                         (matches.empty() ? "" : "; " + held(*matches.front())));
+        return refused<BindAny::Reply>(ReturnCode::out_of_resources,
+                                       "no component that matches the condition is free now" +
+                                           (matches.empty() ? "" : "; " + why_not_free(*matches.front())));
     if ((*found)->bound_to == nullptr) journal_->bound(session.number, (*found)->ref().code);
     Registry::bind(**found, session, now);
     BindAny::Reply reply;
@@ -97,12 +109,14 @@ Reply Engine::Core::perform(Session& session, BindAny const& bind, Instant now) 
 Reply Engine::Core::perform(Session& session, Release const& release_, Instant now) {
     auto [component, problem] = registry_.meant(release_.component_ref);
     if (component == nullptr) return refused<Release::Reply>(ReturnCode::bad_parameter, std::move(problem));
-    if (component->bound_to == &session) release(session, *component, now);
+    if (component->bound_to == &session) {
+        executor_.release(session, *component, now);
+        unbind(session, *component, now);
+    }
     return Release::Reply{};
 }
 
-void Engine::Core::release(Session& session, RegisteredComponent& component, Instant now) {
-    executor_.release(session, component, now);
+void Engine::Core::unbind(Session& session, RegisteredComponent& component, Instant now) {
     session.bound.erase(&component);
     component.bound_to = nullptr;
     component.restore_defaults(now);

@@ -47,6 +47,9 @@ enum class Afterwards : std::uint8_t {
     idle        // no function works any more
 };
 
+// Whether a component that was told to halt already knows that it stands still.
+enum class Halted : std::uint8_t { confirmed, not_yet };
+
 // How often a failure that may come again and again is told: each time, or `once`, until something of the component succeeds or
 // somebody else binds it. `once` is for what anybody may cause at any time.
 enum class Report : std::uint8_t { each, once };
@@ -65,6 +68,9 @@ public:
     // for people, why it did not end with OK; it becomes the result `reason` of get_command_result.
     virtual void completed(CommandHandle, CompletedStatus, Results = {}, Afterwards = Afterwards::as_before,
                            std::string reason = {}) = 0;
+
+    // The component stands still, after its `halt` returned `not_yet`.
+    virtual void halted() = 0;
 
     // An event of the profile occurred.
     virtual void event(std::string_view event_type, Results) = 0;
@@ -100,9 +106,11 @@ public:
     // Begin to act with these parameters. Never called while an earlier start still runs: the engine halts that first.
     virtual void start(CommandHandle, ParameterList const& parameters, Instant now) = 0;
 
-    // End the running action or function at once; its command is completed by the engine, with `status_when_stopped`.
-    // May be called when idle.
-    virtual void halt(Instant now) = 0;
+    // End every running action, function and command of the profile at once; the engine completes the commands, `start` with
+    // `status_when_stopped`. May be called at any time, also when idle, and again until it is confirmed: until then the engine
+    // starts nothing here. A component that throws, or does not confirm within half a second, is called again every 0.2 s
+    // (decision 35).
+    virtual Halted halt(Instant now) = 0;
 
     // Hold the running action or function, and go on with it.
     virtual void suspend(Instant now) = 0;

@@ -62,7 +62,7 @@ Engine::Core::ToBind Engine::Core::select_to_bind(Selection const& selection, Se
     for (auto* component : possible) {
         if (selection.match(present.candidate(*component)) != Match::yes) continue;
         found.push_back(component);
-        if (!selection.sorts() && !present.knows_groups() && component->bound_to == nullptr) break;
+        if (!selection.sorts() && !present.knows_groups() && component->is_free()) break;
     }
     if (selection.sorts()) {
         sort(found, selection, present);

@@ -114,7 +114,7 @@ private:
     void end_if_lost(SessionId const&, Instant now);
     void settle(Instant now);
     void advance_devices(Instant now);
-    void release(Session&, RegisteredComponent&, Instant now);
+    void unbind(Session&, RegisteredComponent&, Instant now);
 
     Journal nobody_;
     Journal* journal_ = &nobody_;  // never null

@@ -78,6 +78,7 @@ void Engine::Core::settle(Instant now) {
         Instant now;
         void operator()(CommandStarted const& said) { core.executor_.started(said.command); }
         void operator()(CommandEnded& said) { core.executor_.completed(std::move(said), now); }
+        void operator()(HaltConfirmed const& said) { core.executor_.halted(*said.component, now); }
         void operator()(EventOccurred& said) { core.publish(std::move(said), now); }
         void operator()(ErrorOccurred& said) { core.publish(std::move(said), now); }
     };
@@ -107,8 +108,10 @@ void Engine::Core::end(Session& session, std::string_view why, Instant now) {
     if (settings_.on_session_end == OnSessionEnd::continue_) {
         executor_.let_run_on(session);
     } else {
+        // First what moves, then the rest.
+        for (auto* component : session.bound) executor_.halt(*component, CompletedStatus::abort, "its session has ended", now);
         executor_.abort_all(session, now);
-        while (!session.bound.empty()) release(session, **session.bound.begin(), now);
+        while (!session.bound.empty()) unbind(session, **session.bound.begin(), now);
     }
     for (auto* component : session.bound) component->bound_to = nullptr;
     subscriptions_.remove_all(session);
@@ -123,7 +126,7 @@ void Engine::Core::shut_down(Instant now) {
     shutting_down_ = true;
     settings_.on_session_end = OnSessionEnd::stop;
     while (!sessions_.empty()) end(*sessions_.begin()->second, "the gateway is shutting down", now);
-    executor_.stop_all(now);
+    executor_.stop_all("the engine ends", now);
     settle(now);
 }
 

@@ -11,6 +11,8 @@ namespace rois {
 
 namespace {
 
+constexpr auto not_halted = "the component has not confirmed that it stands still";
+
 // The commands of a session that have not ended, in the order in which they were given.
 std::vector<std::shared_ptr<Command>> live_commands(Session const& session) {
     std::vector<std::shared_ptr<Command>> live;
@@ -27,6 +29,8 @@ Executor::~Executor() {
     for (auto const& [handle, command] : live_) {
         command->execution.reset();
         command->component->start.reset();
+        command->component->functions.clear();
+        command->component->halting.reset();
     }
 }
 
@@ -129,10 +133,16 @@ Executor::Called Executor::store(Command const& command) {
 }
 
 void Executor::run_start(SharedCommand const& command, Instant now) {
-    auto& component = *command->component;
     if (store(*command) == Called::failed) return end(command, Called::failed, now);
+    go_on_with_start(command, now);
+}
+
+void Executor::go_on_with_start(SharedCommand const& command, Instant now) {
+    auto& component = *command->component;
+    if (command->state != Command::State::running) return;
     if (component.activity != RegisteredComponent::Activity::idle)
         halt(component, CompletedStatus::abort, "another start took its place", now);
+    if (component.halting) return wait_for_halt(command, now);
     component.activity = RegisteredComponent::Activity::running;
     component.start = command;
     await_start(command, now);
@@ -147,17 +157,17 @@ void Executor::run_start(SharedCommand const& command, Instant now) {
 
 void Executor::run_stop(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
-    if (component.activity != RegisteredComponent::Activity::idle) {
-        auto status_of_start = CompletedStatus::abort;
-        component.call([&](Component& c) { status_of_start = c.status_when_stopped(); });
-        halt(component, status_of_start, status_of_start == CompletedStatus::ok ? "" : "it was stopped", now);
-    }
+    auto status_of_start = CompletedStatus::abort;
+    if (component.start) component.call([&](Component& c) { status_of_start = c.status_when_stopped(); });
+    halt(component, status_of_start, status_of_start == CompletedStatus::ok ? "" : "it was stopped", now);
+    if (component.halting) return wait_for_halt(command, now);
     end(command, Called::ok, now);
 }
 
 void Executor::run_suspend(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
-    if (component.activity == RegisteredComponent::Activity::idle || component.suspended)
+    bool const idle = component.activity == RegisteredComponent::Activity::idle && component.functions.empty();
+    if (idle || component.suspended)
         return end(command, CompletedStatus::error,
                    component.suspended ? "the component is suspended already" : "nothing runs that could be suspended", now);
     auto const called = component.call([&](Component& c) { c.suspend(now); });
@@ -167,6 +177,7 @@ void Executor::run_suspend(SharedCommand const& command, Instant now) {
 
 void Executor::run_resume(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
+    if (component.halting) return end(command, CompletedStatus::error, not_halted, now);
     if (!component.suspended) return end(command, CompletedStatus::error, "nothing is suspended that could be resumed", now);
     auto const called = component.call([&](Component& c) { c.resume(now); });
     component.suspended = called != Called::ok;
@@ -174,11 +185,13 @@ void Executor::run_resume(SharedCommand const& command, Instant now) {
 }
 
 void Executor::run_function(SharedCommand const& command, Instant now) {
+    auto& component = *command->component;
+    if (component.halting) return end(command, CompletedStatus::error, not_halted, now);
+    component.functions.push_back(command);
     await_start(command, now);
-    auto const changed = command->component->in_own_frame(command->arguments);
+    auto const changed = component.in_own_frame(command->arguments);
     auto const& arguments = changed ? *changed : command->arguments;
-    auto const called =
-        command->component->call([&](Component& c) { c.perform(command->handle, command->type, arguments, now); });
+    auto const called = component.call([&](Component& c) { c.perform(command->handle, command->type, arguments, now); });
     if (called == Called::failed) end(command, called, now);
 }
 
@@ -197,12 +210,10 @@ void Executor::start_timed_out(CommandHandle handle, Instant now) {
     auto& component = *command->component;
     std::string const reason = "the command '" + command->type + "' did not start in time";
     agenda_.add(ErrorOccurred{&component, ErrorType::component_not_responding, reason});
-    if (component.start == command) {
-        halt(component, CompletedStatus::timeout, reason, now);
-    } else {
-        component.call([&](Component& c) { c.halt(now); });
-        end(command, CompletedStatus::timeout, reason, now);
-    }
+    bool const is_start = component.start == command;
+    std::erase(component.functions, command);
+    halt(component, is_start ? CompletedStatus::timeout : CompletedStatus::abort, reason, now);
+    end(command, CompletedStatus::timeout, reason, now);
     run_ready(now);
 }
 
@@ -229,6 +240,7 @@ void Executor::completed(CommandEnded said, Instant now) {
         said.reason = "its results are not those of the profile";
     }
     if (said.status == CompletedStatus::ok) component.succeeded();
+    std::erase(component.functions, command);
     follow_up(component, command, said.status == CompletedStatus::ok ? said.afterwards : Afterwards::as_before);
     end(command, said.status, std::move(said.reason), now, std::move(said.results));
     run_ready(now);
@@ -243,14 +255,7 @@ void Executor::follow_up(RegisteredComponent& component, SharedCommand const& co
     bool const active = afterwards == Afterwards::active ||
                         (afterwards == Afterwards::as_before && !starts && component.activity == Activity::active);
     component.activity = active ? Activity::active : Activity::idle;
-    component.suspended = active && component.suspended;
-}
-
-void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_start, std::string reason, Instant now) {
-    component.call([&](Component& c) { c.halt(now); });
-    component.activity = RegisteredComponent::Activity::idle;
-    component.suspended = false;
-    if (auto const start = std::exchange(component.start, nullptr)) end(start, status_of_start, std::move(reason), now);
+    component.suspended = component.suspended && (active || !component.functions.empty());
 }
 
 void Executor::end(SharedCommand const& command, Called called, Instant now) {
@@ -312,49 +317,28 @@ void Executor::forget(Session& session) {
 }
 
 void Executor::release(Session& session, RegisteredComponent& component, Instant now) {
-    withdraw(live_commands(session), component, "its component was released", now);
+    halt(component, CompletedStatus::abort, "its component was released", now);
+    for (auto const& command : live_commands(session))
+        if (command->component.get() == &component) command->binding_lost = true;
+    run_ready(now);
 }
 
 void Executor::part(RegisteredComponent& component, Instant now) {
-    std::vector<SharedCommand> live;
-    live.reserve(live_.size());
-    for (auto const& [handle, command] : live_) live.push_back(command);
-    std::ranges::sort(live, {}, [](auto const& command) { return command->handle; });
-    withdraw(live, component, "its component has gone", now);
-}
-
-void Executor::withdraw(std::vector<SharedCommand> const& live, RegisteredComponent& component, std::string const& reason,
-                        Instant now) {
-    for (auto const& command : live) {
-        if (command->component.get() != &component || command->state == Command::State::ended) continue;
-        if (command->state == Command::State::waiting) {
-            command->binding_lost = true;
-        } else if (component.start != command) {
-            component.call([&](Component& c) { c.halt(now); });
-            end(command, CompletedStatus::abort, reason, now);
-        }
-    }
-    if (component.activity != RegisteredComponent::Activity::idle) halt(component, CompletedStatus::abort, reason, now);
+    halt(component, CompletedStatus::abort, "its component has gone", now);
+    forget_halt(component, now);
+    for (auto const& [handle, command] : live_)
+        if (command->component.get() == &component) command->binding_lost = true;
     run_ready(now);
-}
-
-void Executor::abort(SharedCommand const& command, std::string const& reason, Instant now) {
-    auto& component = *command->component;
-    if (component.start == command) return halt(component, CompletedStatus::abort, reason, now);
-    if (command->state == Command::State::running) component.call([&](Component& c) { c.halt(now); });
-    end(command, CompletedStatus::abort, reason, now);
 }
 
 void Executor::abort_all(Session& session, Instant now) {
-    for (auto const& command : live_commands(session)) abort(command, "its session has ended", now);
+    for (auto const& command : live_commands(session)) end(command, CompletedStatus::abort, "its session has ended", now);
     run_ready(now);
 }
 
-void Executor::stop_all(Instant now) {
-    std::string const ends = "the engine ends";
-    while (!live_.empty()) abort(SharedCommand{live_.begin()->second}, ends, now);
-    for (auto const& [ref, component] : registry_.all())
-        if (component->activity != RegisteredComponent::Activity::idle) halt(*component, CompletedStatus::abort, ends, now);
+void Executor::stop_all(std::string const& reason, Instant now) {
+    for (auto const& [ref, component] : registry_.all()) halt(*component, CompletedStatus::abort, reason, now);
+    while (!live_.empty()) end(SharedCommand{live_.begin()->second}, CompletedStatus::abort, reason, now);
 }
 
 void Executor::let_run_on(Session& session) {

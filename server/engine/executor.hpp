@@ -47,21 +47,26 @@ public:
     // What components said.
     void started(CommandHandle);
     void completed(CommandEnded, Instant now);
+    void halted(RegisteredComponent&, Instant now);
 
-    // Ends what the session has running on the component or waiting for it, and what it made active there (decision 6).
+    // Halts the component, whatever the engine believes it does, and ends all that runs there: `start` with this status, commands
+    // of its profile with ABORT. Repeats it until it is confirmed (decision 35).
+    void halt(RegisteredComponent&, CompletedStatus status_of_start, std::string const& reason, Instant now);
+
+    // Halts the component, and ends what the session has waiting for it (decision 6).
     void release(Session&, RegisteredComponent&, Instant now);
 
     // The same for a component that goes, whoever commanded it.
     void part(RegisteredComponent&, Instant now);
 
-    // Ends all that the session commanded, with ABORT.
+    // Ends all that the session commanded, with ABORT; halts nothing.
     void abort_all(Session&, Instant now);
 
     // Lets all that the session commanded run on, heard by nobody.
     void let_run_on(Session&);
 
-    // Ends all that still runs or is active, whoever commanded it.
-    void stop_all(Instant now);
+    // Halts every component, and ends all that runs or waits, whoever commanded it.
+    void stop_all(std::string const& reason, Instant now);
 
     // Removes results, of the session or of all, that are older than they are kept.
     void forget_old_results(Session&, Instant now);
@@ -88,15 +93,19 @@ private:
     void run_suspend(SharedCommand const&, Instant now);
     void run_resume(SharedCommand const&, Instant now);
     void run_function(SharedCommand const&, Instant now);
-    void withdraw(std::vector<SharedCommand> const& live, RegisteredComponent&, std::string const& reason, Instant now);
-    void halt(RegisteredComponent&, CompletedStatus status_of_start, std::string reason, Instant now);
+    void go_on_with_start(SharedCommand const&, Instant now);
+    void ask_to_halt(RegisteredComponent&, Instant now);
+    void halt_failed(RegisteredComponent&, CompletedStatus, std::string const& reason, Instant now);
+    void halt_again_later(RegisteredComponent&, Instant now);
+    void go_on(RegisteredComponent&, Instant now);
+    void forget_halt(RegisteredComponent&, Instant now);
+    void wait_for_halt(SharedCommand const&, Instant now);
     void await_start(SharedCommand const&, Instant now);
     void start_timed_out(CommandHandle, Instant now);
     static void follow_up(RegisteredComponent&, SharedCommand const&, Afterwards);
     // `reason`: why it is not OK, for people.
     void end(SharedCommand const&, CompletedStatus, std::string reason, Instant now, Results = {});
     void end(SharedCommand const& command, Called called, Instant now);
-    void abort(SharedCommand const&, std::string const& reason, Instant now);
     Called store(Command const&);
     void remember(SharedCommand const&, Instant now);
 

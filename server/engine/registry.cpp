@@ -135,6 +135,7 @@ RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, C
 }
 
 ComponentStatus RegisteredComponent::status_for(Session const* asker) const {
+    if (halting && halting->failed) return ComponentStatus::error;
     if (bound_to != nullptr && bound_to != asker) return ComponentStatus::busy;
     auto status = ComponentStatus::error;
     if (!failed_) call([&](Component& c) { status = c.status(); });
@@ -322,6 +323,8 @@ void RegisteredComponent::completed(CommandHandle command, CompletedStatus statu
     agenda_.add(CommandEnded{command, status, std::move(told_results).value_or(Results{}), afterwards, std::move(reason)});
 }
 
+void RegisteredComponent::halted() { agenda_.add(HaltConfirmed{this}); }
+
 void RegisteredComponent::event(std::string_view event_type, Results results) {
     if (check(MessageKind::event, event_type, results, Report::once) == Answer::wrong) return;
     if (auto here = told(std::move(results), event_type, Report::once))
@@ -410,6 +413,7 @@ Declarations const& Registry::results(MessageKind kind, std::string_view message
 Registry::Bound Registry::bind(RegisteredComponent& component, Session& session, Instant now) {
     if (component.bound_to != nullptr && component.bound_to != &session) return Bound::taken;
     if (component.bound_to == nullptr) {
+        if (component.halting) return Bound::not_halted;
         component.bound_anew();
         component.restore_defaults(now);  // what still runs for an ended session (on_session_end) left its own
     }

@@ -44,6 +44,7 @@ public:
 
     // The component goes; what knows it still can read its ref and profile, and all calls fail without a word.
     void depart() { component_.reset(); }
+    bool has_departed() const { return component_ == nullptr; }
 
     // Asks or tells the component something. An exception that leaves it is reported and makes its status ERROR (decision 16).
     enum class Called : std::uint8_t { ok, failed };
@@ -99,10 +100,21 @@ public:
     std::optional<ParameterList> merged(ParameterList stored, ParameterList const& arrived) const;
 
     Session* bound_to = nullptr;
+    // Whether somebody may bind it.
+    bool is_free() const { return bound_to == nullptr && !halting; }
     ParameterList parameters;  // stored for the session that has it bound; the defaults without a binding
     Activity activity = Activity::idle;
     bool suspended = false;
-    std::shared_ptr<Command> start;  // whose action runs, or null
+    std::shared_ptr<Command> start;                   // whose action runs, or null
+    std::vector<std::shared_ptr<Command>> functions;  // those of its own profile that run
+
+    // A halt that it has not confirmed (decision 35).
+    struct Halting {
+        bool failed = false;                            // it threw, or did not confirm in time: its status is ERROR
+        Deadlines::Ticket due;                          // the end of that time, or the next attempt
+        std::vector<std::shared_ptr<Command>> waiting;  // which go on when it is confirmed; none once it has failed
+    };
+    std::optional<Halting> halting;
 
     // A command or query of it: what failed before is over.
     void succeeded();
@@ -111,6 +123,7 @@ public:
 
     void started(CommandHandle) override;
     void completed(CommandHandle, CompletedStatus, Results, Afterwards, std::string reason) override;
+    void halted() override;
     void event(std::string_view event_type, Results) override;
     void error(ErrorType, std::string text, Report) override;
 
@@ -193,7 +206,7 @@ public:
     // The parameters of all components: what conditions may speak of. Good until the next change.
     Declarations const& parameters() const;
 
-    enum class Bound : std::uint8_t { ok, taken };
+    enum class Bound : std::uint8_t { ok, taken, not_halted };
     static Bound bind(RegisteredComponent&, Session&, Instant now);
 
 private:

@@ -28,7 +28,10 @@ public:
     ComponentStatus status() const override { return ComponentStatus::ready; }
     std::optional<std::string> refusal(std::string_view, ParameterList const&) const override { return {}; }
     void start(CommandHandle command, ParameterList const&, Instant) override { running_ = command; }
-    void halt(Instant) override { running_.reset(); }
+    Halted halt(Instant) override {
+        running_.reset();
+        return Halted::confirmed;
+    }
     void suspend(Instant) override {}
     void resume(Instant) override {}
 

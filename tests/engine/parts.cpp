@@ -141,6 +141,10 @@ void ScriptedComponent::begins() {
     happen_([this] { port_->started(latest_); });
 }
 
+void ScriptedComponent::stands_still() {
+    happen_([this] { port_->halted(); });
+}
+
 void ScriptedComponent::finishes(CompletedStatus status, Results results, Afterwards afterwards) {
     happen_([this, status, results, afterwards] { port_->completed(latest_, status, results, afterwards); });
 }
@@ -198,9 +202,10 @@ void ScriptedComponent::start(CommandHandle command, ParameterList const& parame
     if (on_start == OnStart::is_done) port_->completed(command, CompletedStatus::ok);
 }
 
-void ScriptedComponent::halt(Instant) {
+Halted ScriptedComponent::halt(Instant) {
     told.emplace_back("halt");
     called("halt");
+    return halts_later ? Halted::not_yet : Halted::confirmed;
 }
 
 void ScriptedComponent::suspend(Instant) {

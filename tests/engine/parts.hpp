@@ -54,6 +54,7 @@ public:
     // Names of calls that an exception leaves; or how else they go wrong: "nothing performed", "nothing known", "nothing right".
     std::set<std::string> throws_in;
     bool throws_no_exception = false;  // but something else
+    bool halts_later = false;          // says `not_yet` when told to halt
     std::vector<std::string> told;     // the calls that reached it
     ParameterList started_with;
     ParameterList changed_to;            // the last parameters_changed
@@ -63,6 +64,7 @@ public:
 
     // What it says by itself; the engine has heard it when the call returns.
     void begins();
+    void stands_still();  // confirms the halt
     void finishes(CompletedStatus = CompletedStatus::ok, Results = {}, Afterwards = Afterwards::as_before);
     void answers(CommandHandle, CompletedStatus = CompletedStatus::ok);
     void fires(std::string const& event_type, ParameterList results = {}, std::vector<Located> located = {});
@@ -75,7 +77,7 @@ public:
     std::optional<std::string> refusal(std::string_view command_type, ParameterList const& parameters) const override;
     void reconcile(ParameterList& stored, ParameterList const& arrived) const override;
     void start(CommandHandle, ParameterList const& parameters, Instant now) override;
-    void halt(Instant now) override;
+    Halted halt(Instant now) override;
     void suspend(Instant now) override;
     void resume(Instant now) override;
     void parameters_changed(ParameterList const& parameters, Instant now) override;

@@ -1,0 +1,199 @@
+// `stop` tells the truth (decision 35): it always reaches the component, and says OK only when that stands still.
+#include <gmock/gmock.h>
+
+#include "world.hpp"
+
+namespace rois {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+namespace {
+
+class Halting : public testing::Test {
+protected:
+    Halting() { desk.bind("navigation"); }
+
+    auto halts() { return std::ranges::count(robot.told, "halt"); }
+
+    World world{navigation, speech};
+    ScriptedComponent& robot = world["navigation"];
+    Application desk = world.connect();
+};
+
+}  // namespace
+
+TEST_F(Halting, StopReachesAComponentThatTheEngineBelievesIdle) {
+    desk.execute(named("stop", stop("navigation")));
+    EXPECT_THAT(robot.told, ElementsAre("halt"));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed stop OK"));
+}
+
+TEST_F(Halting, StopReachesACommandOfTheComponentsOwn) {
+    desk.execute(named("dock", command("dock", "navigation")));
+    desk.execute(named("stop", stop("navigation")));
+    EXPECT_THAT(robot.told, ElementsAre("dock", "halt"));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock ABORT", "2 completed stop OK"));
+    EXPECT_EQ(desk.reason_of("dock"), "it was stopped");
+    robot.finishes();
+    EXPECT_EQ(world.stray_answers(), 1) << "it has ended already";
+}
+
+TEST_F(Halting, SuspendReachesACommandOfTheComponentsOwn) {
+    desk.execute(named("dock", command("dock", "navigation")));
+    desk.execute(named("hold", suspend("navigation")));
+    desk.execute(named("on", resume("navigation")));
+    robot.finishes();
+    desk.execute(named("over", suspend("navigation")));
+    EXPECT_THAT(robot.told, ElementsAre("dock", "suspend", "resume"));
+    EXPECT_THAT(desk.heard(),
+                ElementsAre("1 completed hold OK", "2 completed on OK", "3 completed dock OK", "4 completed over ERROR"));
+}
+
+TEST_F(Halting, ThatFailsMakesStopFailAndTheStatusError) {
+    robot.throws_in = {"halt"};
+    desk.execute(go("go"));
+    desk.execute(named("stop", stop("navigation")));
+    EXPECT_THAT(desk.heard(),
+                ElementsAre("1 completed go ABORT", "2 completed stop ERROR", "3 COMPONENT_INTERNAL_ERROR navigation"));
+    EXPECT_THAT(desk.reason_of("stop"), HasSubstr("failed to halt"));
+    EXPECT_EQ(desk.status_of("navigation"), "ERROR");
+    desk.query("route");
+    EXPECT_EQ(desk.status_of("navigation"), "ERROR") << "a query that succeeds says nothing of motion";
+}
+
+TEST_F(Halting, ThatFailsIsRepeatedUntilItSucceeds) {
+    robot.throws_in = {"halt"};
+    desk.execute(named("stop", stop("navigation")));
+    desk.heard();
+    world.advance(1s);
+    EXPECT_EQ(halts(), 1 + 5) << "every 0.2 s";
+    EXPECT_THAT(desk.heard(), IsEmpty()) << "it is told once";
+    robot.throws_in = {};
+    world.advance(200ms);
+    EXPECT_EQ(desk.status_of("navigation"), "READY");
+    EXPECT_EQ(halts(), 7);
+    world.advance(1s);
+    EXPECT_EQ(halts(), 7);
+}
+
+TEST_F(Halting, ThatFailsLetsNothingStart) {
+    robot.throws_in = {"halt"};
+    desk.execute(named("stop", stop("navigation")));
+    desk.execute(go("go"), named("dock", command("dock", "navigation")));
+    desk.execute(named("on", resume("navigation")));
+    EXPECT_THAT(robot.told, ElementsAre("halt"));
+    desk.heard();
+    EXPECT_EQ(desk.result_of("go"), "status=ERROR");
+    EXPECT_THAT(desk.reason_of("go"), HasSubstr("failed to halt"));
+    robot.throws_in = {};
+    desk.execute(named("stop 2", stop("navigation")));
+    desk.execute(go("go 2"));
+    EXPECT_THAT(robot.told, ElementsAre("halt", "halt", "start"));
+    EXPECT_EQ(desk.result_of("stop 2"), "status=OK");
+}
+
+TEST_F(Halting, ThatFailsLetsNobodyBind) {
+    robot.throws_in = {"halt"};
+    desk.execute(go("go"));
+    desk.leave();
+    auto hall = world.connect();
+    EXPECT_EQ(hall.status_of("navigation"), "ERROR");
+    EXPECT_EQ(hall.bind("navigation"), ReturnCode::error);
+    EXPECT_EQ(hall.bind_any(equal("component_ref", "navigation")), "OUT_OF_RESOURCES");
+    EXPECT_EQ(hall.bind_any(), "speech");
+    robot.throws_in = {};
+    world.advance(200ms);
+    EXPECT_EQ(hall.bind("navigation"), ReturnCode::ok);
+}
+
+TEST_F(Halting, IsConfirmedLater) {
+    robot.halts_later = true;
+    desk.execute(go("go"));
+    desk.execute(named("stop", stop("navigation")));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT"));
+    EXPECT_EQ(desk.result_of("stop"), "status=RUNNING");
+    world.advance(450ms);
+    robot.stands_still();
+    EXPECT_THAT(desk.heard(), ElementsAre("2 completed stop OK"));
+    world.advance(1s);
+    EXPECT_EQ(halts(), 1);
+    EXPECT_EQ(desk.status_of("navigation"), "READY");
+}
+
+TEST_F(Halting, ThatIsNotConfirmedIsATimeout) {
+    robot.halts_later = true;
+    desk.execute(go("go"));
+    desk.execute(named("stop", stop("navigation")));
+    desk.heard();
+    world.advance(500ms);
+    EXPECT_THAT(desk.heard(), ElementsAre("2 completed stop TIMEOUT", "3 COMPONENT_NOT_RESPONDING navigation"));
+    EXPECT_EQ(desk.status_of("navigation"), "ERROR");
+    world.advance(400ms);
+    EXPECT_EQ(halts(), 3);
+    robot.stands_still();
+    EXPECT_EQ(desk.status_of("navigation"), "READY");
+    world.advance(1s);
+    EXPECT_EQ(halts(), 3);
+}
+
+TEST_F(Halting, AStartThatTakesThePlaceOfAnotherOneWaitsForIt) {
+    desk.execute(go("go"));
+    robot.halts_later = true;
+    desk.execute(go("go 2"));
+    EXPECT_THAT(robot.told, ElementsAre("start", "halt"));
+    robot.stands_still();
+    EXPECT_THAT(robot.told, ElementsAre("start", "halt", "start"));
+    EXPECT_EQ(desk.result_of("go 2"), "status=RUNNING");
+}
+
+TEST_F(Halting, AStartThatWaitsForItIsStoppedToo) {
+    desk.execute(go("go"));
+    robot.halts_later = true;
+    desk.execute(go("go 2"));
+    desk.execute(named("stop", stop("navigation")));
+    robot.stands_still();
+    EXPECT_THAT(robot.told, ElementsAre("start", "halt", "halt"));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT", "2 completed go 2 ABORT", "3 completed stop OK"));
+}
+
+TEST_F(Halting, AtTheEndOfASessionReachesAnIdleComponent) {
+    desk.leave();
+    EXPECT_THAT(robot.told, ElementsAre("halt"));
+}
+
+TEST_F(Halting, AtTheEndOfASessionIsRepeatedUntilItIsConfirmed) {
+    robot.halts_later = true;
+    desk.execute(go("go"));
+    desk.leave();
+    auto hall = world.connect();
+    EXPECT_EQ(hall.bind("navigation"), ReturnCode::error);
+    world.advance(700ms);
+    EXPECT_EQ(halts(), 2);
+    robot.stands_still();
+    EXPECT_EQ(hall.bind("navigation"), ReturnCode::ok);
+}
+
+TEST_F(Halting, AtTheEndOfTheEngineReachesEveryComponent) {
+    world.engine->shut_down(world.now);
+    EXPECT_THAT(robot.told, ElementsAre("halt"));
+    EXPECT_THAT(world["speech"].told, ElementsAre("halt"));
+}
+
+TEST_F(Halting, EndsWithAComponentThatGoes) {
+    robot.halts_later = true;
+    desk.execute(go("go"));
+    desk.execute(named("stop", stop("navigation")));
+    world.change({"navigation"}, {});
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT", "2 completed stop ABORT", "3 profile_changed"));
+    world.advance(1s);
+}
+
+TEST_F(Halting, ThatNobodyAskedForIsCountedWhenItIsConfirmed) {
+    robot.stands_still();
+    EXPECT_EQ(world.stray_answers(), 1);
+}
+
+}  // namespace rois
