@@ -41,6 +41,12 @@ struct ErrorOccurred {
     std::string text;
 };
 
+// What all sessions are told when everything was stopped (decision 34).
+inline ErrorOccurred everything_was_stopped() {
+    return {nullptr, ErrorType::user_defined_error,
+            "everything was stopped; nothing starts until it is cleared (POST /rois/clear)"};
+}
+
 using Said = std::variant<CommandStarted, CommandEnded, HaltConfirmed, EventOccurred, ErrorOccurred>;
 
 class Agenda {

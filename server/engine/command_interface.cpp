@@ -16,7 +16,7 @@ std::string held(RegisteredComponent const& component) {
            std::to_string(component.bound_to->number);
 }
 
-std::string not_halted(RegisteredComponent const& component) {
+std::string why_not_halted(RegisteredComponent const& component) {
     return "the component " + quoted(component.ref().code) +
            " has not confirmed that it stands still; it can be bound once it has";
 }
@@ -24,7 +24,7 @@ std::string not_halted(RegisteredComponent const& component) {
 std::string not_bound(std::string const& ref) { return "the component " + quoted(ref) + " is not bound by this session"; }
 
 std::string why_not_free(RegisteredComponent const& component) {
-    return component.bound_to == nullptr ? not_halted(component) : held(component);
+    return component.bound_to == nullptr ? why_not_halted(component) : held(component);
 }
 
 // Gives an id to every command that has none.
@@ -74,7 +74,7 @@ Reply Engine::Core::perform(Session& session, Bind const& bind, Instant now) {
             if (!mine) journal_->bound(session.number, component->ref().code);
             return Bind::Reply{};
         case Registry::Bound::not_halted:
-            return refused<Bind::Reply>(ReturnCode::error, not_halted(*component));
+            return refused<Bind::Reply>(ReturnCode::error, why_not_halted(*component));
         case Registry::Bound::taken:
             break;
     }
@@ -152,6 +152,9 @@ Reply Engine::Core::perform(Session& session, Execute const& execute, Instant no
     SequenceCheck check{session, registry_};
     if (auto problem = check.objection(execute.command_unit_list))
         return refused<Execute::Reply>(problem->return_code, std::move(problem->reason));
+    if (everything_is_stopped_ && check.begins_something())
+        return refused<Execute::Reply>(ReturnCode::error,
+                                       "everything was stopped; nothing starts until it is cleared (POST /rois/clear)");
     // However they end, as many `completed` can wait for the session (decisions 12, 23).
     auto const most = settings_.max_waiting_notifications;
     if (session.live_commands() + check.commands() > most) {

@@ -38,6 +38,8 @@ struct ComponentDescription {
     // From which codebooks its parameters take identifiers. The engine rejects all others. A codebook that the profile declares
     // for the parameter (codebook_ref of data_type_ref) is known, too, and comes first.
     std::vector<Codebooks> codebooks{};
+    // Whether it moves the robot, or a part of it: it acts only while its application gives signs of life (decision 33).
+    bool moves = false;
 };
 
 // What becomes of a component when a command of it has completed.

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -39,10 +40,15 @@ public:
 
     Session* find(SessionId const&) const;
     void end(SessionId const&, Instant now);
+    void stop_everything(Instant now);
+    void clear() { everything_is_stopped_ = false; }
+    bool everything_is_stopped() const { return everything_is_stopped_; }
+    std::vector<std::string> not_halted() const;
     void shut_down(Instant now);
     void heard_from(SessionId const&, Instant now);
-    void link_opened(SessionId const&);
-    void link_closed(SessionId const&, Link, Instant now);
+    void heard_pong(SessionId const&, Instant now);
+    void link_opened(SessionId const&, Link, Instant now);
+    void link_closed(SessionId const&, Link, Closing, Instant now);
 
     std::shared_ptr<EngineProfile const> profile() const;
     std::vector<ComponentEntry> components() const;
@@ -57,7 +63,7 @@ private:
     void check(ComponentChange const&) const;
 
     // System interface (system_interface.cpp)
-    std::variant<Reply, Refusal> connect(SessionId const&, Instant now);
+    std::variant<Reply, Refusal> connect(SessionId const&, Connect const&, Instant now);
     Reply perform(Session&, Connect const&, Instant now);
     Reply perform(Session&, Resume const&, Instant now);
     Reply perform(Session&, Disconnect const&, Instant now);
@@ -85,6 +91,7 @@ private:
     Reply perform(Session&, GetEventDetail const&, Instant now);
     void publish(EventOccurred, Instant now);
     void publish(ErrorOccurred, Instant now);
+    ReceiveError noted(ErrorOccurred, Instant now);
 
     // Conditions (conditions.cpp)
     Vocabulary vocabulary(Declarations const* results = nullptr) const {
@@ -114,6 +121,7 @@ private:
     void end_if_lost(SessionId const&, Instant now);
     void settle(Instant now);
     void advance_devices(Instant now);
+    void hold_unproven_motion(Instant now);
     void unbind(Session&, RegisteredComponent&, Instant now);
 
     Journal nobody_;
@@ -136,7 +144,9 @@ private:
     Details errors_;
     Steady details_checked_;
     std::vector<std::uint32_t> free_slots_;  // of sessions that have ended, below those of the others (Details::Asker)
+    std::optional<Steady> last_tick_;
     bool shutting_down_ = false;
+    bool everything_is_stopped_ = false;
     std::uint64_t events_published_ = 0;
     std::uint64_t errors_published_ = 0;
     std::uint64_t last_session_ = 0;

@@ -21,14 +21,27 @@ Engine::Core::Core(EngineProfile profile, std::vector<ComponentProfile> known_pr
       events_{"e-", settings_.event_details},
       errors_{"x-", settings_.error_details} {}
 
+namespace {
+
+// From one tick to the next ones, however late they come; beyond it nobody sends pings.
+constexpr std::chrono::milliseconds signs_of_life_wanted{1'000};
+
+std::string in_seconds(std::chrono::nanoseconds time) {
+    auto const tenths = std::chrono::duration_cast<std::chrono::duration<std::int64_t, std::deci>>(time).count();
+    return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " s";
+}
+
+}  // namespace
+
 // All refusals, before any operation runs; then the one that it is.
 std::variant<Reply, Refusal> Engine::Core::handle(SessionId const& id, Operation const& operation, Instant now) {
     if (shutting_down_) return Refusal::shutting_down;
-    if (std::holds_alternative<Connect>(operation)) return connect(id, now);
+    if (auto const* asked = std::get_if<Connect>(&operation)) return connect(id, *asked, now);
     auto const* resumed = std::get_if<Resume>(&operation);
     auto* session = find(resumed != nullptr ? resumed->session : id);
     if (session == nullptr) return Refusal::no_session;
     auto const number = session->number;
+    session->lease.heard_request(now.steady);
     Reply reply = std::visit([&](auto const& known) { return perform(*session, known, now); }, operation);
     auto const& outcome = std::visit([](Outcome const& each) -> Outcome const& { return each; }, reply);
     if (outcome.return_code != ReturnCode::ok) journal_->refused(number, operation, outcome);
@@ -37,6 +50,7 @@ std::variant<Reply, Refusal> Engine::Core::handle(SessionId const& id, Operation
 }
 
 void Engine::Core::tick(Instant now) {
+    hold_unproven_motion(now);
     constexpr int most_turns = 100;  // of devices; what is left waits for the next tick
     auto const goes_on = [](std::shared_ptr<Device> const& device) { return device->goes_on(); };
     for (int turn = 0; turn == 0 || (turn < most_turns && std::ranges::any_of(devices_, goes_on)); ++turn) {
@@ -52,6 +66,22 @@ void Engine::Core::tick(Instant now) {
     events_.forget_expired(now);
     errors_.forget_expired(now);
     executor_.forget_old_results(now);
+}
+
+// Decision 33. Who commands something that moves is asked for signs of life. When the engine itself stood still, nobody was.
+void Engine::Core::hold_unproven_motion(Instant now) {
+    auto const missed = now.steady - std::exchange(last_tick_, now.steady).value_or(now.steady);
+    for (auto* component : registry_.moving()) {
+        auto const* session = component->bound_to;
+        if (session == nullptr || (!component->works() && session->live_commands() == 0)) continue;
+        session->notifications->want_signs_of_life(now.steady + signs_of_life_wanted);
+        if (!component->works()) continue;
+        if (missed >= settings_.motion_lease)
+            executor_.hold(*component, "the engine stood still for " + in_seconds(missed), now);
+        else if (now.steady >= session->lease.end())
+            executor_.hold(*component, "nothing was heard from its application in time", now);
+    }
+    settle(now);
 }
 
 // A device that fails is not advanced again: it would fail for ever.
@@ -122,11 +152,25 @@ void Engine::Core::end(Session& session, std::string_view why, Instant now) {
     sessions_.erase(SessionId{session.id});
 }
 
+void Engine::Core::stop_everything(Instant now) {
+    everything_is_stopped_ = true;
+    executor_.stop_all("everything was stopped", now);
+    agenda_.add(everything_was_stopped());
+    settle(now);
+}
+
+std::vector<std::string> Engine::Core::not_halted() const {
+    std::vector<std::string> refs;
+    for (auto const& [ref, component] : registry_.all())
+        if (component->halting) refs.push_back(ref);
+    return refs;
+}
+
 void Engine::Core::shut_down(Instant now) {
     shutting_down_ = true;
     settings_.on_session_end = OnSessionEnd::stop;
-    while (!sessions_.empty()) end(*sessions_.begin()->second, "the gateway is shutting down", now);
     executor_.stop_all("the engine ends", now);
+    while (!sessions_.empty()) end(*sessions_.begin()->second, "the gateway is shutting down", now);
     settle(now);
 }
 
@@ -134,14 +178,18 @@ void Engine::Core::heard_from(SessionId const& id, Instant now) {
     if (auto* session = find(id)) session->quiet_until = std::max(session->quiet_until, now.steady + settings_.session_timeout);
 }
 
-void Engine::Core::link_opened(SessionId const& id) {
-    if (auto* session = find(id)) ++session->open_links;
+void Engine::Core::heard_pong(SessionId const& id, Instant now) {
+    if (auto* session = find(id)) session->lease.heard_pong(now.steady);
 }
 
-void Engine::Core::link_closed(SessionId const& id, Link link, Instant now) {
+void Engine::Core::link_opened(SessionId const& id, Link link, Instant now) {
+    if (auto* session = find(id)) session->lease.opened(link, now.steady);
+}
+
+void Engine::Core::link_closed(SessionId const& id, Link link, Closing closing, Instant now) {
     auto* session = find(id);
-    if (session == nullptr || session->open_links == 0) return;
-    --session->open_links;
+    if (session == nullptr) return;
+    session->lease.closed(link, closing, now.steady);
     auto const grace = link == Link::stream ? settings_.session_timeout : std::chrono::milliseconds{0};
     session->quiet_until = std::max(session->quiet_until, now.steady + grace);
     await_end_of_window(*session);
@@ -157,7 +205,7 @@ void Engine::Core::await_end_of_window(Session& session) {
 // Looks again later when something was heard in between (decision 2).
 void Engine::Core::end_if_lost(SessionId const& id, Instant now) {
     auto* session = find(id);
-    if (session == nullptr || session->open_links > 0) return;
+    if (session == nullptr || session->lease.links() > 0) return;
     if (session->quiet_until + settings_.resume_window <= now.steady) {
         end(*session, "its link was lost and it was not resumed in time", now);
     } else {
@@ -182,6 +230,8 @@ EngineStatistics Engine::Core::statistics() const {
     numbers.notifications_lost = notifier_.lost();
     numbers.errors = errors_published_;
     numbers.stray_answers = executor_.stray_answers();
+    numbers.everything_is_stopped = everything_is_stopped_;
+    numbers.not_halted = not_halted().size();
     for (auto const& [id, session] : sessions_) numbers.each_session.push_back(statistics(*session));
     std::ranges::sort(numbers.each_session, {}, &SessionStatistics::number);
     auto const waiting = settings_.max_waiting_notifications;
@@ -228,10 +278,18 @@ std::shared_ptr<NotificationQueue> Engine::notifications(SessionId const& id) co
 }
 
 void Engine::heard_from(SessionId const& id, Instant now) { core_->heard_from(id, now); }
-void Engine::link_opened(SessionId const& id) { core_->link_opened(id); }
-void Engine::link_closed(SessionId const& id, Link link, Instant now) { core_->link_closed(id, link, now); }
+void Engine::heard_pong(SessionId const& id, Instant now) { core_->heard_pong(id, now); }
+void Engine::link_opened(SessionId const& id, Link link, Instant now) { core_->link_opened(id, link, now); }
+void Engine::link_closed(SessionId const& id, Link link, Closing closing, Instant now) {
+    core_->link_closed(id, link, closing, now);
+}
 void Engine::end(SessionId const& id, Instant now) { core_->end(id, now); }
 void Engine::shut_down(Instant now) { core_->shut_down(now); }
+
+void Engine::stop_everything(Instant now) { core_->stop_everything(now); }
+void Engine::clear() { core_->clear(); }
+bool Engine::everything_is_stopped() const { return core_->everything_is_stopped(); }
+std::vector<std::string> Engine::not_halted() const { return core_->not_halted(); }
 
 std::shared_ptr<EngineProfile const> Engine::profile() const { return core_->profile(); }
 std::vector<ComponentEntry> Engine::components() const { return core_->components(); }

@@ -11,6 +11,7 @@
 
 #include "engine/component.hpp"
 #include "engine/journal.hpp"
+#include "engine/motion_lease.hpp"
 #include "engine/notification_queue.hpp"
 #include "engine/places.hpp"
 #include "engine/settings.hpp"
@@ -30,9 +31,6 @@ public:
 
 // Why an operation did not run at all; the network layer makes a fault of it.
 enum class Refusal : std::uint8_t { no_session, too_many_sessions, shutting_down };
-
-// How a service application is linked to its session (decision 2).
-enum class Link : std::uint8_t { websocket, stream };
 
 // Components that come and go at once (profile_changed).
 struct ComponentChange {
@@ -67,6 +65,8 @@ struct EngineStatistics {
     std::uint64_t notifications_lost = 0;
     std::uint64_t errors = 0;
     std::uint64_t stray_answers = 0;              // of components: late, double or of nobody
+    bool everything_is_stopped = false;           // decision 34
+    std::size_t not_halted = 0;                   // components that have not confirmed a halt
     std::vector<SessionStatistics> each_session;  // ordered by number
     std::vector<LimitStatistics> limits;
 };
@@ -110,13 +110,23 @@ public:
     // Null when there is no such session. Whoever keeps it can read what the session was told last, also after its end.
     std::shared_ptr<NotificationQueue> notifications(SessionId const&) const;
 
-    // The session's link: an HTTP request was heard from it; a WebSocket or a notification stream of it opened or closed.
+    // The session's link: an HTTP request was heard from it (all operations renew its motion lease by themselves), or a pong; a
+    // WebSocket or a notification stream of it opened or closed.
     void heard_from(SessionId const&, Instant now);
-    void link_opened(SessionId const&);
-    void link_closed(SessionId const&, Link, Instant now);
+    void heard_pong(SessionId const&, Instant now);
+    void link_opened(SessionId const&, Link, Instant now);
+    void link_closed(SessionId const&, Link, Closing, Instant now);
 
     // Ends one session as if disconnected; nothing happens when there is none.
     void end(SessionId const&, Instant now);
+
+    // Stop for everything (decision 34): halts every component, whoever has it bound, and ends all commands with ABORT. Nothing
+    // starts until `clear`. All sessions are told, also those that are opened meanwhile.
+    void stop_everything(Instant now);
+    void clear();
+    bool everything_is_stopped() const;
+    // Refs of the components that were told to halt and have not confirmed that they stand still (decision 35).
+    std::vector<std::string> not_halted() const;
 
     // Ends every session, and refuses what comes later.
     void shut_down(Instant now);

@@ -107,6 +107,8 @@ void Executor::run(SharedCommand const& command, Instant now) {
         return end(command, CompletedStatus::abort, "its component was released before its turn came", now);
     command->state = Command::State::running;
     journal_->command_begun(*command);
+    if (command->component->moves() && begins_action(command->type) && now.steady >= command->session->lease.end())
+        return end(command, CompletedStatus::abort, "nothing was heard from its application before its turn came", now);
     if (command->type == "set_parameter") return run_set_parameter(command, now);
     if (command->type == "start") return run_start(command, now);
     if (command->type == "stop") return run_stop(command, now);

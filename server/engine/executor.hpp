@@ -59,6 +59,9 @@ public:
     // The same for a component that goes, whoever commanded it.
     void part(RegisteredComponent&, Instant now);
 
+    // Suspends what works on the component, or halts it where that fails, and reports why (decision 33).
+    void hold(RegisteredComponent&, std::string const& reason, Instant now);
+
     // Ends all that the session commanded, with ABORT; halts nothing.
     void abort_all(Session&, Instant now);
 

@@ -1,4 +1,4 @@
-// How components are halted: until they confirm that they stand still (decision 35).
+// How components are halted, until they confirm that they stand still (decision 35), and held (decision 33).
 #include <utility>
 
 #include "engine/executor.hpp"
@@ -98,6 +98,16 @@ void Executor::forget_halt(RegisteredComponent& component, Instant now) {
     if (!halting) return;
     deadlines_.cancel(halting->due);
     for (auto const& command : halting->waiting) end(command, CompletedStatus::abort, "its component has gone", now);
+}
+
+void Executor::hold(RegisteredComponent& component, std::string const& reason, Instant now) {
+    component.suspended = component.call([&](Component& c) { c.suspend(now); }) == Called::ok;
+    bool const held = component.suspended;
+    if (!held) halt(component, CompletedStatus::abort, reason, now);
+    agenda_.add(ErrorOccurred{&component, ErrorType::user_defined_error,
+                              (held ? "its motion is held: " : "its motion was stopped: ") + reason +
+                                  (held ? "; resume goes on, and so does a new command" : "")});
+    run_ready(now);
 }
 
 }  // namespace rois

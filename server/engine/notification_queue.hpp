@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -91,6 +92,10 @@ public:
 
     bool closed() const;
 
+    // Until then the engine wants signs of life of the application (decision 33): WebSockets send it pings.
+    void want_signs_of_life(Steady until) { signs_of_life_until_.store(until, std::memory_order_relaxed); }
+    bool wants_signs_of_life(Steady now) const { return now < signs_of_life_until_.load(std::memory_order_relaxed); }
+
     // For the outbox, which finds them here without a search; guarded as the engine is.
     std::shared_ptr<Audience> const& audience() const { return audience_; }
     void set_audience(std::shared_ptr<Audience> audience) { audience_ = std::move(audience); }
@@ -126,6 +131,8 @@ private:
     std::vector<Hold> holds_;  // ascending, since sequences are
     bool closed_ = false;
     bool overflowed_ = false;
+
+    std::atomic<Steady> signs_of_life_until_{Steady::min()};
 
     std::size_t max_waiting_;  // what follows never changes
     std::size_t max_sent_;

@@ -121,6 +121,7 @@ RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, C
     auto const prefix = description.engine + ".";
     if (prefix.size() > 1 && ref_.code.starts_with(prefix)) code_begin_ = prefix.size();
     crs_ = description.crs;
+    moves_ = description.moves;
     positions_ = description.positions;
     auto type = profile.object.identifier;
     type_key_ = folded_name(type);
@@ -341,12 +342,14 @@ RegisteredComponent& Registry::add(std::shared_ptr<RegisteredComponent> componen
     auto& registered = *place->second;
     parameters_.reset();
     everybody_.add(registered);
+    if (registered.moves()) moving_.push_back(&registered);
     for (auto const& message : registered.profile().messages) change(message).components.add(registered);
     return registered;
 }
 
 void Registry::remove(RegisteredComponent const& component) {
     everybody_.remove(component);
+    std::erase(moving_, &component);
     for (auto const& message : component.profile().messages) change(message).components.remove(component);
     components_.erase(component.ref().code);
     parameters_.reset();

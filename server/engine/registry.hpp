@@ -39,6 +39,7 @@ public:
     std::string_view code_in_engine() const { return std::string_view{ref_.code}.substr(code_begin_); }
     // Its type as conditions compare it.
     std::string const& type_key() const { return type_key_; }
+    bool moves() const { return moves_; }
     // With the messages of the sub components, and those that go without saying.
     ComponentProfile const& profile() const { return *entry_.profile; }
 
@@ -105,6 +106,8 @@ public:
     ParameterList parameters;  // stored for the session that has it bound; the defaults without a binding
     Activity activity = Activity::idle;
     bool suspended = false;
+    // Whether something of it goes on.
+    bool works() const { return !suspended && (activity != Activity::idle || !functions.empty()); }
     std::shared_ptr<Command> start;                   // whose action runs, or null
     std::vector<std::shared_ptr<Command>> functions;  // those of its own profile that run
 
@@ -153,6 +156,7 @@ private:
     Agenda& agenda_;
     Frames const& frames_;
     std::string crs_;
+    bool moves_ = false;
     std::vector<std::string> positions_;
     std::vector<Codebooks> codebooks_;
 };
@@ -193,6 +197,8 @@ public:
     Meant meant(Identifier const& component_ref) const;
 
     Components const& all() const { return components_; }
+    // Those that move the robot.
+    std::vector<RegisteredComponent*> const& moving() const { return moving_; }
 
     // The components that alone can meet the demand; all when there is none.
     ComponentsInOrder possible(std::optional<Demand> const& demand) const { return everybody_.possible(demand); }
@@ -221,6 +227,7 @@ private:
     Tellers const& tellers(MessageKind, std::string_view message) const;
 
     Components components_;
+    std::vector<RegisteredComponent*> moving_;
     ComponentIndex everybody_;
     mutable std::optional<Declarations> parameters_;  // nothing when they are to be gathered anew
     std::map<MessageKind, ByName> by_message_;

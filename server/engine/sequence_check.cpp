@@ -36,6 +36,10 @@ std::vector<ParameterProfile> const* arguments_of(RegisteredComponent const& com
     return command_type == "start" ? &component.startable() : &message->arguments;
 }
 
+bool begins_action(std::string_view command_type) {
+    return command_type != "set_parameter" && command_type != "stop" && command_type != "suspend";
+}
+
 bool stores_arguments(std::string_view command_type) { return command_type == "start" || command_type == "set_parameter"; }
 
 std::optional<Objection> SequenceCheck::objection(CommandUnitSequence const& sequence) {
@@ -85,6 +89,7 @@ std::optional<Objection> SequenceCheck::in_branches(ConcurrentCommands const& co
 
 std::optional<Objection> SequenceCheck::objection(CommandMessage const& message) {
     ++commands_;
+    begins_something_ = begins_something_ || begins_action(message.command_type);
     auto [component, problem_of_ref] = registry_.meant(message.component_ref);
     if (component == nullptr) return bad_parameter(std::move(problem_of_ref));
     if (component->bound_to != &session_)

@@ -31,6 +31,9 @@ public:
     // How many commands were checked.
     std::size_t commands() const { return commands_; }
 
+    // Whether one of them begins an action, or goes on with one.
+    bool begins_something() const { return begins_something_; }
+
     // The ids that the application gave.
     std::set<CommandId> const& ids() const { return ids_; }
 
@@ -44,12 +47,16 @@ private:
     Session const& session_;
     Registry const& registry_;
     std::size_t commands_ = 0;
+    bool begins_something_ = false;
     std::set<CommandId> ids_;
     std::map<RegisteredComponent const*, ParameterList> stored_;  // where it will differ from what is stored now
 };
 
 // Which parameters a command of this type may carry; null when the component has no such command.
 std::vector<ParameterProfile> const* arguments_of(RegisteredComponent const&, std::string_view command_type);
+
+// Whether such a command begins an action, or goes on with one.
+bool begins_action(std::string_view command_type);
 
 // Whether what it carries is stored (decision 8); other commands carry arguments, which have default values.
 bool stores_arguments(std::string_view command_type);

@@ -13,6 +13,7 @@
 #include "engine/command.hpp"
 #include "engine/deadlines.hpp"
 #include "engine/details.hpp"
+#include "engine/motion_lease.hpp"
 #include "engine/notification_queue.hpp"
 #include "types/ids.hpp"
 #include "types/instant.hpp"
@@ -24,6 +25,8 @@ struct Subscription;
 
 // Owned by the engine; state only.
 struct Session {
+    Session(MotionLease::Terms const& terms, Steady now) : connected{now}, lease{terms, now}, quiet_until{now} {}
+
     std::shared_ptr<NotificationQueue> notifications;
     SessionId id;
     std::uint64_t number = 0;  // in the order of connecting
@@ -38,8 +41,8 @@ struct Session {
     std::list<std::shared_ptr<Command>> ended;                                 // of these, in the order in which they ended
     std::size_t live_commands() const { return commands.size() - ended.size(); }
 
-    // The link (decision 2): how many WebSockets and streams are open, and until when silence is no loss.
-    std::size_t open_links = 0;
+    // The link (decision 2): which are open and when something was heard, and until when silence is no loss.
+    MotionLease lease;
     Steady quiet_until;
     std::optional<Deadlines::Ticket> end_of_window;  // when to look whether the link was lost for good
 };

@@ -21,6 +21,8 @@ struct EngineSettings {
     std::chrono::milliseconds start_timeout = std::chrono::seconds{5};   // without one in the profile (decision 16)
     std::chrono::milliseconds session_timeout = std::chrono::seconds{60};
     std::chrono::milliseconds resume_window = std::chrono::seconds{30};
+    std::chrono::milliseconds motion_lease = std::chrono::seconds{2};        // of a session with a link (decision 33)
+    std::chrono::milliseconds motion_lease_http = std::chrono::seconds{10};  // of one that sends requests only
     OnSessionEnd on_session_end = OnSessionEnd::stop;
 };
 

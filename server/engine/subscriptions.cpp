@@ -66,7 +66,8 @@ Subscription& Subscriptions::add(Session& session, std::string const& event_type
     auto const place = place_of(session, *subscription);
     if (session.subscriptions.insert(subscription).second) {
         session.predicates += subscription->filter.predicates();
-        subscription->hearers.insert(place, {&session, session.number, session.events.slot, session.notifications.get(), inline_results});
+        subscription->hearers.insert(
+            place, {&session, session.number, session.events.slot, session.notifications.get(), inline_results});
     } else {
         place->inline_results = inline_results;
     }

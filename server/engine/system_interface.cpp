@@ -6,16 +6,45 @@
 
 namespace rois {
 
-std::variant<Reply, Refusal> Engine::Core::connect(SessionId const& id, Instant now) {
-    if (auto* session = find(id)) return perform(*session, Connect{}, now);
+namespace {
+
+constexpr std::chrono::milliseconds shortest_lease{1'000};
+
+// Why these leases cannot be agreed on, or nothing; changes `terms` to them.
+std::optional<std::string> agree(MotionLease::Terms& terms, Connect const& asked, EngineSettings const& most) {
+    auto const take = [](std::string_view name, std::optional<std::chrono::milliseconds> wanted,
+                         std::chrono::milliseconds longest, std::chrono::milliseconds& lease) -> std::optional<std::string> {
+        if (!wanted) return {};
+        lease = *wanted;
+        if (lease >= std::min(shortest_lease, longest) && lease <= longest) return {};
+        return std::string{name} + " must be " + std::to_string(std::min(shortest_lease, longest).count()) + " to " +
+               std::to_string(longest.count()) + " milliseconds, not " + std::to_string(lease.count());
+    };
+    if (auto problem = take("motion_lease", asked.motion_lease, most.motion_lease, terms.linked)) return problem;
+    if (auto problem = take("motion_lease_http", asked.motion_lease_http, most.motion_lease_http, terms.http)) return problem;
+    if (asked.motion_proof) terms.pongs_count = *asked.motion_proof == MotionProof::pong;
+    return {};
+}
+
+}  // namespace
+
+std::variant<Reply, Refusal> Engine::Core::connect(SessionId const& id, Connect const& asked, Instant now) {
+    auto* const known = find(id);
+    auto terms =
+        known != nullptr ? known->lease.terms() : MotionLease::Terms{settings_.motion_lease, settings_.motion_lease_http};
+    if (auto problem = agree(terms, asked, settings_)) return refused<Connect::Reply>(ReturnCode::bad_parameter, *problem);
+    if (known != nullptr) {
+        known->lease.agree(terms);
+        known->lease.heard_request(now.steady);
+        return perform(*known, asked, now);
+    }
     if (sessions_.size() >= settings_.max_sessions) {
         ++refused_.sessions;
         return Refusal::too_many_sessions;
     }
-    auto session = std::make_unique<Session>();
+    auto session = std::make_unique<Session>(terms, now.steady);
     session->id.text = fresh_secret_();
     session->number = ++last_session_;
-    session->connected = now.steady;
     auto const slot = free_slots_.empty() ? static_cast<std::uint32_t>(sessions_.size()) : free_slots_.back();
     if (free_slots_.empty()) {
         free_slots_.reserve(slot + 1);  // so that the end of a session needs no memory
@@ -26,11 +55,15 @@ std::variant<Reply, Refusal> Engine::Core::connect(SessionId const& id, Instant 
     session->errors = {slot, errors_.next()};
     session->notifications =
         std::make_shared<NotificationQueue>(session->id, settings_.max_waiting_notifications, settings_.max_sent_notifications);
-    session->quiet_until = now.steady;
     auto& opened = *sessions_.emplace(session->id, std::move(session)).first->second;
     await_end_of_window(opened);
     journal_->session_opened(opened.number);
-    return perform(opened, Connect{}, now);
+    if (everything_is_stopped_) {
+        auto error = noted(everything_was_stopped(), now);
+        errors_.tell(opened.errors.slot);
+        notifier_.tell(opened, std::move(error));
+    }
+    return perform(opened, asked, now);
 }
 
 Reply Engine::Core::perform(Session& session, Connect const&, Instant) {
@@ -108,6 +141,24 @@ Reply Engine::Core::perform(Session& session, GetErrorDetail const& get, Instant
 
 // Decision 24: the engine's errors go to all sessions, a component's to those who have to do with it.
 void Engine::Core::publish(ErrorOccurred said, Instant now) {
+    auto const* const component = said.component;
+    auto const notification = std::make_shared<OutgoingNotification const>(noted(std::move(said), now));
+    auto const tell = [&](Session& session) {
+        errors_.tell(session.errors.slot);
+        notifier_.tell(session, notification);
+    };
+    if (component == nullptr) {
+        for (auto const& [id, session] : sessions_) tell(*session);
+        return;
+    }
+    Perspective ever{registry_, places_, nullptr, Perspective::Of::ever};
+    auto concerned = subscriptions_.hearers(*component, ever);
+    if (component->bound_to != nullptr) concerned.insert(component->bound_to);
+    for (auto* session : concerned) tell(*session);
+}
+
+// Keeps its details.
+ReceiveError Engine::Core::noted(ErrorOccurred said, Instant now) {
     ++errors_published_;
     auto results = std::make_shared<Results>();
     if (said.component != nullptr)
@@ -116,19 +167,7 @@ void Engine::Core::publish(ErrorOccurred said, Instant now) {
     results->parameters.push_back(text("text", std::move(said.text)));
     ReceiveError error{.error_id = {errors_.add(std::move(results), nullptr, now)}, .error_type = said.type, .component_ref = {}};
     if (said.component != nullptr) error.component_ref = said.component->ref();
-    auto const notification = std::make_shared<OutgoingNotification const>(std::move(error));
-    auto const tell = [&](Session& session) {
-        errors_.tell(session.errors.slot);
-        notifier_.tell(session, notification);
-    };
-    if (said.component == nullptr) {
-        for (auto const& [id, session] : sessions_) tell(*session);
-        return;
-    }
-    Perspective ever{registry_, places_, nullptr, Perspective::Of::ever};
-    auto concerned = subscriptions_.hearers(*said.component, ever);
-    if (said.component->bound_to != nullptr) concerned.insert(said.component->bound_to);
-    for (auto* session : concerned) tell(*session);
+    return error;
 }
 
 }  // namespace rois

@@ -1,5 +1,7 @@
 #include "net/connection.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <utility>
 
 #include "net/event_stream.hpp"
@@ -61,8 +63,9 @@ Task<Connection::Then> Connection::serve() {
         }
         request_due_ = idle_due_ = Steady::max();
         bool const whole = std::exchange(has_head_, false);
-        if (whole && head().method != "POST") then = co_await serve_other();
-        if (whole && head().method == "POST") {
+        bool const is_request = head().method == "POST" && route_.endpoint == Endpoint::rois;
+        if (whole && !is_request) then = co_await serve_other();
+        if (whole && is_request) {
             auto answer = operate();
             if (answer.turn == Answer::Turn::disconnected) {
                 co_await flush();
@@ -167,8 +170,32 @@ Connection::Then Connection::reply(Answer&& answer) {
 Task<Connection::Then> Connection::serve_other() {
     wire_.use(head().content_length);
     if (route_.endpoint == Endpoint::rois) co_return serve_upgrade();
+    if (route_.endpoint == Endpoint::stop) co_return reply(stop_everything());
+    if (route_.endpoint == Endpoint::clear) co_return reply(clear());
     if (route_.endpoint == Endpoint::notifications) co_return co_await serve_notifications();
     co_return reply(loop_.shared().documents.answer(route_, head()));
+}
+
+// Decision 34. 202: some component has not confirmed yet that it stands still.
+HttpAnswer Connection::stop_everything() {
+    spdlog::warn("everything is stopped, as asked by {}", wire_.peer());
+    HttpAnswer answer;
+    answer.content_type = "text/plain; charset=utf-8";
+    answer.body = "stopped\n";
+    for (auto const& ref : loop_.shared().gateway.stop_everything()) {
+        answer.status = 202;
+        answer.body.append("not confirmed yet: ").append(ref).append("\n");
+    }
+    return answer;
+}
+
+HttpAnswer Connection::clear() {
+    spdlog::warn("commands may start again, as asked by {}", wire_.peer());
+    loop_.shared().gateway.clear();
+    HttpAnswer answer;
+    answer.content_type = "text/plain; charset=utf-8";
+    answer.body = "cleared\n";
+    return answer;
 }
 
 Connection::Then Connection::serve_upgrade() {

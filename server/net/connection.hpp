@@ -45,6 +45,8 @@ private:
     Answer operate();
     Then reply(Answer&&);
     Task<Then> serve_other();
+    HttpAnswer stop_everything();
+    HttpAnswer clear();
     Then serve_upgrade();
     Task<> serve_websocket();
     Task<Then> serve_notifications();

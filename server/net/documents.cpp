@@ -177,8 +177,13 @@ HttpAnswer Documents::floor_map(RequestHead const& head) const {
 }
 
 HttpAnswer Documents::readiness() const {
-    if (!gateway_.shutting_down()) return plain("ready\n");
-    return answer_of(shutting_down());
+    if (gateway_.shutting_down()) return answer_of(shutting_down());
+    auto answer = plain("ready\n");
+    if (gateway_.everything_is_stopped()) {
+        answer.status = 503;
+        answer.body = "stopped: nothing starts until POST /rois/clear\n";
+    }
+    return answer;
 }
 
 HttpAnswer Documents::metrics() const {

@@ -84,6 +84,7 @@ Task<HttpAnswer> poll(Wire& wire, Gateway& gateway, Telemetry& telemetry, Wakes&
     for (auto const& numbered : taken.notifications) NotificationDocument{numbered}.append_to(answer.body);
     answer.body.append(xml::notifications_end());
     telemetry.delivered(taken.notifications.size());
+    if (!gone) reading->answered();
     co_return answer;
 }
 

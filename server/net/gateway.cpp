@@ -70,7 +70,12 @@ Reading::Reading(Gateway& gateway, Link link, std::uint64_t after, Reader& reade
 Reading::~Reading() {
     std::lock_guard const lock{gateway_.mutex_};
     gateway_.readers_.leave(session(), reader_);
-    gateway_.engine_.link_closed(session(), link_, present());
+    gateway_.engine_.link_closed(session(), link_, closing_, present());
+}
+
+void Reading::heard_pong() {
+    std::lock_guard const lock{gateway_.mutex_};
+    gateway_.engine_.heard_pong(session(), present());
 }
 
 Reading::Then Reading::take(std::size_t most, std::vector<Numbered>& into) {
@@ -164,7 +169,7 @@ std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& ses
     auto queue = engine_.notifications(session);
     if (!queue || queue->closed()) return no_such_session();
     if (auto const last = queue->last_sequence(); after > last) return beyond(after, last);
-    engine_.link_opened(session);
+    engine_.link_opened(session, link, present());
     readers_.join(*queue, link, reader);
     return std::make_unique<Reading>(*this, link, after, reader, std::move(queue));
 }
@@ -179,6 +184,23 @@ void Gateway::change(ComponentChange change) {
     auto const now = present();
     std::lock_guard const lock{mutex_};
     engine_.change(std::move(change), now);
+}
+
+std::vector<std::string> Gateway::stop_everything() {
+    auto const now = present();
+    std::lock_guard const lock{mutex_};
+    engine_.stop_everything(now);
+    return engine_.not_halted();
+}
+
+void Gateway::clear() {
+    std::lock_guard const lock{mutex_};
+    engine_.clear();
+}
+
+bool Gateway::everything_is_stopped() const {
+    std::lock_guard const lock{mutex_};
+    return engine_.everything_is_stopped();
 }
 
 void Gateway::shut_down() {

@@ -60,6 +60,12 @@ public:
     Taken take(std::size_t most);
     Then take(std::size_t most, std::vector<Numbered>& into);  // appends them
 
+    // The motion lease (decision 33): whether the application is asked for signs of life now; and one of them.
+    bool wants_signs_of_life(Steady now) const { return queue_->wants_signs_of_life(now); }
+    void heard_pong();
+    // The long poll was answered; without it the link counts as lost when this ends.
+    void answered() { closing_ = Closing::answered; }
+
     // Prefetches what `take` needs.
     void approach() const { prefetch<sizeof(NotificationQueue)>(queue_.get()); }
 
@@ -70,6 +76,7 @@ private:
 
     Gateway& gateway_;
     Link link_;
+    Closing closing_ = Closing::lost;
     std::uint64_t after_;
     Reader& reader_;
     std::shared_ptr<NotificationQueue> queue_;
@@ -125,6 +132,11 @@ public:
 
     // Components come and go. Throws what the engine throws.
     void change(ComponentChange);
+
+    // Stop for everything (decision 34). Returns the refs of components that have not confirmed yet that they stand still.
+    std::vector<std::string> stop_everything();
+    void clear();
+    bool everything_is_stopped() const;
 
     // Ends all sessions; what comes later is refused.
     void shut_down();

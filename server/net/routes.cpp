@@ -13,13 +13,15 @@ struct Named {
     std::string_view path;
     Endpoint endpoint;
 };
-constexpr std::array<Named, 10> fixed{{{"/", Endpoint::page},
+constexpr std::array<Named, 12> fixed{{{"/", Endpoint::page},
                                        {"/plain", Endpoint::plain_page},
                                        {"/rois", Endpoint::rois},
                                        {"/rois/notifications", Endpoint::notifications},
                                        {"/rois/profile", Endpoint::engine_profile},
                                        {"/rois/schemas", Endpoint::schema_list},
                                        {"/rois/map", Endpoint::floor_map},
+                                       {"/rois/stop", Endpoint::stop},
+                                       {"/rois/clear", Endpoint::clear},
                                        {"/healthz", Endpoint::healthz},
                                        {"/readyz", Endpoint::readyz},
                                        {"/metrics", Endpoint::metrics}}};
@@ -66,9 +68,21 @@ bool is_xml(std::string_view content_type) {
     return true;
 }
 
+std::string_view methods_of(Endpoint endpoint) {
+    switch (endpoint) {
+        case Endpoint::stop:
+        case Endpoint::clear:
+            return "POST";
+        case Endpoint::rois:
+            return "GET, HEAD, POST";
+        default:
+            return "GET, HEAD";
+    }
+}
+
 bool takes(Route const& route, std::string_view method) {
-    if (method == "GET" || method == "HEAD") return true;
-    return method == "POST" && route.endpoint == Endpoint::rois;
+    bool const known = method == "GET" || method == "HEAD" || method == "POST";
+    return known && methods_of(route.endpoint).find(method) != std::string_view::npos;
 }
 
 HttpAnswer not_found(RequestHead const& head) {
@@ -76,7 +90,7 @@ HttpAnswer not_found(RequestHead const& head) {
 }
 
 HttpAnswer method_not_allowed(Route const& route) {
-    std::string_view const allowed = route.endpoint == Endpoint::rois ? "GET, HEAD, POST" : "GET, HEAD";
+    auto const allowed = methods_of(route.endpoint);
     auto answer = answer_of({FaultCode::method_not_allowed, "the methods taken here are " + std::string{allowed}, {}, {}});
     answer.set("Allow", allowed);
     return answer;
@@ -104,7 +118,7 @@ std::optional<HttpAnswer> refusal(RequestHead const& head, Route const& route, S
         return answer_of(
             {FaultCode::too_large, "the body may have " + std::to_string(settings.document.bytes) + " bytes", {}, {}});
     }
-    if (head.method != "POST") return {};
+    if (head.method != "POST" || route.endpoint != Endpoint::rois) return {};
     auto const type = head.field("Content-Type");
     if (!type || !is_xml(*type)) {
         return answer_of({FaultCode::unsupported_media_type,

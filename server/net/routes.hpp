@@ -21,6 +21,8 @@ enum class Endpoint : std::uint8_t {
     schema_list,
     schema,
     floor_map,
+    stop,
+    clear,
     healthz,
     readyz,
     metrics,

@@ -100,6 +100,10 @@ public:
                 number(s.notifications_lost));
         counter("rois_stray_component_answers_total", "Answers of components that were late, double or of nobody.",
                 number(s.stray_answers));
+        gauge("rois_everything_stopped", "1 while nothing starts because everything was stopped (POST /rois/stop).",
+              s.everything_is_stopped ? 1 : 0);
+        gauge("rois_components_not_halted", "Components that were told to halt and have not confirmed that they stand still.",
+              number(s.not_halted));
         begin("rois_commands_completed_total", "Commands by how they ended.", MetricType::Counter);
         for (std::size_t i = 0; i < std::size(s.commands_completed); ++i) {
             add({{"status", std::string{to_text(static_cast<CompletedStatus>(i))}}}, number(s.commands_completed[i]));

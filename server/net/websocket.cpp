@@ -13,9 +13,10 @@ namespace rois::net {
 
 namespace {
 
-constexpr std::size_t most_at_once = 64;                    // notifications of one write
-constexpr unsigned most_controls = 50;                      // control frames a second
-constexpr auto longest_farewell = std::chrono::seconds{2};  // from our close frame to the end of the connection
+constexpr std::size_t most_at_once = 64;                                // notifications of one write
+constexpr unsigned most_controls = 50;                                  // control frames a second
+constexpr auto between_signs_of_life = std::chrono::milliseconds{500};  // that are asked for while the robot moves
+constexpr auto longest_farewell = std::chrono::seconds{2};              // from our close frame to the end of the connection
 
 template <class... Cases>
 struct Overloaded : Cases... {
@@ -85,7 +86,10 @@ void WebSocket::take(MessageReader::Heard const& heard) {
                               note_control();
                               if (!ending_) say_pong(ping.payload);
                           },
-                          [&](MessageReader::Pong) { note_control(); },
+                          [&](MessageReader::Pong) {
+                              note_control();
+                              if (reading_ && reading_->wants_signs_of_life(now())) reading_->heard_pong();
+                          },
                           [&](MessageReader::Closed closed) {
                               close({closed.code, ""});
                           },
@@ -205,8 +209,10 @@ void WebSocket::sweep(Steady at) {
     bool const late = at >= message_due_ && !ending_;
     bool const silent = at >= heard_ + settings_.ping_interval && !std::exchange(pinged_, true);
     if (late) close({CloseCode::policy_violation, "the message did not arrive in time"});
-    if (silent) ping_due_ = true;
-    if (late || silent) flush();
+    bool const proof_due = at >= proof_due_ && reading_ && reading_->wants_signs_of_life(at);
+    if (proof_due) proof_due_ = at + between_signs_of_life;
+    if (silent || proof_due) ping_due_ = true;
+    if (late || ping_due_) flush();
 }
 
 void WebSocket::shut_down() {

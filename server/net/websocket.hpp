@@ -23,7 +23,7 @@ public:
     // After the handshake has been answered: until the connection is over.
     Task<> run();
 
-    // Looks at the clock: pings who is silent, closes for who sends a message too slowly.
+    // Looks at the clock: pings who is silent or commands something that moves, closes for who sends a message too slowly.
     void sweep(Steady now);
     // The peer hears its last notifications, then the connection closes with 1001.
     void shut_down();
@@ -78,6 +78,7 @@ private:
     bool heard_something_ = false;        // from the peer, since the last sweep
     bool pinged_ = false;                 // since it was heard
     Steady heard_;                        // from the peer, last
+    Steady proof_due_ = Steady::min();    // the next ping while the robot moves (decision 33)
     Steady message_due_ = Steady::max();  // when what has begun to arrive must be whole
     Steady controls_since_;               // the beginning of the second in which control frames are counted
     unsigned controls_ = 0;

@@ -2,6 +2,7 @@
 // said between a service application and the engine. An operation is a struct; its reply lives inside it.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -27,7 +28,15 @@ struct Outcome {
 
 // --- System interface (table 2) ---
 
+// By what a WebSocket proves that its application lives: pongs, which libraries and browsers answer with by themselves, and
+// requests; or requests alone.
+enum class MotionProof : std::uint8_t { pong, request };
+
 struct Connect {
+    // The motion lease (decision 33): what is asked for, shorter than usual.
+    std::optional<std::chrono::milliseconds> motion_lease;
+    std::optional<std::chrono::milliseconds> motion_lease_http;
+    std::optional<MotionProof> motion_proof;
     struct Reply : Outcome {
         SessionId session;
     };

@@ -1,5 +1,6 @@
 #include "xml/decoding.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <limits>
@@ -23,6 +24,21 @@ Identifier component_ref(Node node) { return decode_identifier(node.child("compo
 
 QueryExpression condition(Node node) { return decode_condition(node.child("condition")); }
 
+std::optional<std::chrono::milliseconds> decode_lease(std::optional<std::string_view> text) {
+    if (!text) return {};
+    constexpr std::uint64_t more_than_any_lease = 1'000'000'000;
+    return std::chrono::milliseconds{std::min(decode_unsigned(*text), more_than_any_lease)};
+}
+
+Operation decode_connect(Node node) {
+    Connect connect{.motion_lease = decode_lease(node.attribute("motion_lease")),
+                    .motion_lease_http = decode_lease(node.attribute("motion_lease_http")),
+                    .motion_proof = {}};
+    if (auto const proof = node.attribute("motion_proof"))
+        connect.motion_proof = *proof == "request" ? MotionProof::request : MotionProof::pong;
+    return connect;
+}
+
 Operation decode_resume(Node node) {
     return Resume{SessionId{node.attribute_text("session")}, decode_unsigned(node.attribute_text("last_sequence"))};
 }
@@ -40,7 +56,7 @@ Operation decode_subscribe(Node node) {
 using Decode = Operation (*)(Node);
 
 constexpr std::array<std::pair<std::string_view, Decode>, std::variant_size_v<Operation>> operations{{
-    {"connect", [](Node) -> Operation { return Connect{}; }},
+    {"connect", decode_connect},
     {"resume", decode_resume},
     {"disconnect", [](Node) -> Operation { return Disconnect{}; }},
     {"get_profile", [](Node n) -> Operation { return GetProfile{condition(n)}; }},

@@ -37,6 +37,11 @@ void write(Writer& out, Unsubscribe const& op) { out.element("subscribe_id", op.
 void write(Writer& out, GetEventDetail const& op) { out.element("event_id", op.event_id.text); }
 
 void write_attributes(Writer&, auto const&) {}
+void write_attributes(Writer& out, Connect const& op) {
+    if (op.motion_lease) out.attribute("motion_lease", static_cast<std::uint64_t>(op.motion_lease->count()));
+    if (op.motion_lease_http) out.attribute("motion_lease_http", static_cast<std::uint64_t>(op.motion_lease_http->count()));
+    if (op.motion_proof) out.attribute("motion_proof", *op.motion_proof == MotionProof::request ? "request" : "pong");
+}
 void write_attributes(Writer& out, Resume const& op) {
     out.attribute("session", op.session.text).attribute("last_sequence", op.last_sequence);
 }

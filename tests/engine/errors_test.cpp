@@ -134,7 +134,7 @@ TEST_F(Errors, InAHaltDoNotKeepACommandAlive) {
     desk.execute(go("go"));
     desk.execute(named("stop", stop("navigation")));
     EXPECT_THAT(desk.heard(),
-                ElementsAre("1 completed go ABORT", "2 completed stop OK", "3 COMPONENT_INTERNAL_ERROR navigation"));
+                ElementsAre("1 completed go ABORT", "2 completed stop ERROR", "3 COMPONENT_INTERNAL_ERROR navigation"));
     EXPECT_THAT(desk.heard(), IsEmpty());
 }
 

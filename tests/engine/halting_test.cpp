@@ -86,13 +86,13 @@ TEST_F(Halting, ThatFailsLetsNothingStart) {
     desk.execute(named("on", resume("navigation")));
     EXPECT_THAT(robot.told, ElementsAre("halt"));
     desk.heard();
-    EXPECT_EQ(desk.result_of("go"), "status=ERROR");
+    EXPECT_EQ(desk.result_of("go"), "ERROR");
     EXPECT_THAT(desk.reason_of("go"), HasSubstr("failed to halt"));
     robot.throws_in = {};
     desk.execute(named("stop 2", stop("navigation")));
     desk.execute(go("go 2"));
     EXPECT_THAT(robot.told, ElementsAre("halt", "halt", "start"));
-    EXPECT_EQ(desk.result_of("stop 2"), "status=OK");
+    EXPECT_EQ(desk.result_of("stop 2"), "OK");
 }
 
 TEST_F(Halting, ThatFailsLetsNobodyBind) {
@@ -114,7 +114,7 @@ TEST_F(Halting, IsConfirmedLater) {
     desk.execute(go("go"));
     desk.execute(named("stop", stop("navigation")));
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT"));
-    EXPECT_EQ(desk.result_of("stop"), "status=RUNNING");
+    EXPECT_EQ(desk.result_of("stop"), "RUNNING");
     world.advance(450ms);
     robot.stands_still();
     EXPECT_THAT(desk.heard(), ElementsAre("2 completed stop OK"));
@@ -146,7 +146,7 @@ TEST_F(Halting, AStartThatTakesThePlaceOfAnotherOneWaitsForIt) {
     EXPECT_THAT(robot.told, ElementsAre("start", "halt"));
     robot.stands_still();
     EXPECT_THAT(robot.told, ElementsAre("start", "halt", "start"));
-    EXPECT_EQ(desk.result_of("go 2"), "status=RUNNING");
+    EXPECT_EQ(desk.result_of("go 2"), "RUNNING");
 }
 
 TEST_F(Halting, AStartThatWaitsForItIsStoppedToo) {
@@ -178,8 +178,48 @@ TEST_F(Halting, AtTheEndOfASessionIsRepeatedUntilItIsConfirmed) {
 
 TEST_F(Halting, AtTheEndOfTheEngineReachesEveryComponent) {
     world.engine->shut_down(world.now);
-    EXPECT_THAT(robot.told, ElementsAre("halt"));
+    EXPECT_GE(halts(), 1);
     EXPECT_THAT(world["speech"].told, ElementsAre("halt"));
+}
+
+TEST_F(Halting, OfEverythingReachesEveryComponentAndLetsNothingStart) {
+    auto hall = world.connect();
+    hall.bind("speech");
+    hall.execute(say("say"));
+    desk.execute(go("go"), after(1s, go("later")));
+    world.engine->stop_everything(world.now);
+    EXPECT_THAT(robot.told, ElementsAre("start", "halt"));
+    EXPECT_THAT(world["speech"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT", "2 completed later ABORT", "3 USER_DEFINED_ERROR"));
+    EXPECT_THAT(hall.heard(), ElementsAre("1 completed say ABORT", "2 USER_DEFINED_ERROR"));
+    for (auto const& unit : {go("again"), command("dock", "navigation"), resume("navigation")}) {
+        auto const reply = desk.execute(stop("navigation"), unit);
+        EXPECT_EQ(reply.return_code, ReturnCode::error);
+        EXPECT_THAT(reply.reason, HasSubstr("everything was stopped"));
+    }
+    EXPECT_EQ(desk.execute(stop("navigation")).return_code, ReturnCode::ok);
+    world.advance(5s);
+    EXPECT_THAT(robot.told, ElementsAre("start", "halt", "halt"));
+    auto later = world.connect();
+    EXPECT_THAT(later.heard(), ElementsAre("1 USER_DEFINED_ERROR"));
+    world.engine->clear();
+    EXPECT_EQ(desk.execute(go("again")).return_code, ReturnCode::ok);
+    EXPECT_THAT(robot.told, ElementsAre("start", "halt", "halt", "start"));
+}
+
+TEST_F(Halting, OfEverythingTellsWhatHasNotConfirmed) {
+    robot.halts_later = true;
+    world.engine->stop_everything(world.now);
+    EXPECT_THAT(world.engine->not_halted(), ElementsAre("navigation"));
+    robot.stands_still();
+    EXPECT_THAT(world.engine->not_halted(), IsEmpty());
+}
+
+TEST_F(Halting, OfEverythingGoesOnWhenOneComponentFails) {
+    robot.throws_in = {"halt"};
+    world["speech"].throws_in = {"halt"};
+    world.engine->stop_everything(world.now);
+    EXPECT_THAT(world.engine->not_halted(), ElementsAre("navigation", "speech"));
 }
 
 TEST_F(Halting, EndsWithAComponentThatGoes) {

@@ -128,6 +128,7 @@ ScriptedComponent::ScriptedComponent(Part const& part, std::function<void(std::f
     description_.crs = part.crs;
     description_.positions = part.positions;
     description_.codebooks = part.codebooks;
+    description_.moves = part.moves;
     description_.profile = std::make_shared<ComponentProfile const>(part.profile);
 }
 

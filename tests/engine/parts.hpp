@@ -42,6 +42,7 @@ struct Part {
     std::string crs{};   // the frame in which it takes positions, and which parameters are positions
     std::vector<std::string> positions{};
     std::vector<Codebooks> codebooks{};  // from which it takes identifiers
+    bool moves = false;
 };
 
 class ScriptedComponent final : public Component {

@@ -137,10 +137,10 @@ TEST(Session, WhatRunsOnDoesNotTakeAComponentFromItsNextSession) {
 TEST(Link, AWebSocketThatClosesLeavesTheSessionTheResumeWindow) {
     World world{navigation};
     auto desk = world.connect_without_link();
-    world.engine->link_opened(desk.session);
+    world.engine->link_opened(desk.session, Link::websocket, world.now);
     world.advance(200s);
     EXPECT_TRUE(lives(world, desk)) << "a silent WebSocket is a link";
-    world.engine->link_closed(desk.session, Link::websocket, world.now);
+    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
     world.advance(29900ms);
     EXPECT_TRUE(lives(world, desk));
     world.advance(100ms);
@@ -150,10 +150,10 @@ TEST(Link, AWebSocketThatClosesLeavesTheSessionTheResumeWindow) {
 TEST(Link, AClientThatBindsAndVanishesIsStoppedWithinTheWindow) {
     World world{navigation};
     auto desk = world.connect_without_link();
-    world.engine->link_opened(desk.session);
+    world.engine->link_opened(desk.session, Link::websocket, world.now);
     desk.bind("navigation");
     desk.execute(go("go"));
-    world.engine->link_closed(desk.session, Link::websocket, world.now);
+    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
     world.advance(29s);
     EXPECT_THAT(world["navigation"].told, ElementsAre("start"));
     world.advance(1s);
@@ -165,14 +165,14 @@ TEST(Link, AClientThatBindsAndVanishesIsStoppedWithinTheWindow) {
 TEST(Link, ASessionThatIsResumedGoesOn) {
     World world{navigation};
     auto desk = world.connect_without_link();
-    world.engine->link_opened(desk.session);
-    world.engine->link_closed(desk.session, Link::websocket, world.now);
+    world.engine->link_opened(desk.session, Link::websocket, world.now);
+    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
     world.advance(29s);
     EXPECT_EQ(desk.ask(Resume{desk.session, 0}).return_code, ReturnCode::ok);
-    world.engine->link_opened(desk.session);
+    world.engine->link_opened(desk.session, Link::websocket, world.now);
     world.advance(100s);
     EXPECT_TRUE(lives(world, desk));
-    world.engine->link_closed(desk.session, Link::websocket, world.now);
+    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
     world.advance(30s);
     EXPECT_FALSE(lives(world, desk));
     EXPECT_EQ(std::get<Refusal>(world.say({}, Resume{desk.session, 0})), Refusal::no_session);
@@ -213,9 +213,9 @@ TEST(Link, AConnectThatNobodyFollowsUpEnds) {
 TEST(Link, AStreamThatClosesLeavesTheSessionTimeoutToo) {
     World world{navigation};
     auto desk = world.connect_without_link();
-    world.engine->link_opened(desk.session);
+    world.engine->link_opened(desk.session, Link::stream, world.now);
     world.advance(300s);
-    world.engine->link_closed(desk.session, Link::stream, world.now);
+    world.engine->link_closed(desk.session, Link::stream, Closing::lost, world.now);
     world.advance(89900ms);
     EXPECT_TRUE(lives(world, desk));
     world.advance(100ms);
@@ -225,12 +225,12 @@ TEST(Link, AStreamThatClosesLeavesTheSessionTimeoutToo) {
 TEST(Link, OneOfSeveralIsEnough) {
     World world{navigation};
     auto desk = world.connect_without_link();
-    world.engine->link_opened(desk.session);
-    world.engine->link_opened(desk.session);
-    world.engine->link_closed(desk.session, Link::websocket, world.now);
+    world.engine->link_opened(desk.session, Link::websocket, world.now);
+    world.engine->link_opened(desk.session, Link::websocket, world.now);
+    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
     world.advance(300s);
     EXPECT_TRUE(lives(world, desk));
-    world.engine->link_closed(desk.session, Link::websocket, world.now);
+    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
     world.advance(30s);
     EXPECT_FALSE(lives(world, desk));
 }
@@ -238,9 +238,9 @@ TEST(Link, OneOfSeveralIsEnough) {
 TEST(Link, HttpBesideAWebSocketCounts) {
     World world{navigation};
     auto desk = world.connect_without_link();
-    world.engine->link_opened(desk.session);
+    world.engine->link_opened(desk.session, Link::websocket, world.now);
     world.engine->heard_from(desk.session, world.now);
-    world.engine->link_closed(desk.session, Link::websocket, world.now);
+    world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
     world.advance(89950ms);
     EXPECT_TRUE(lives(world, desk));
     world.advance(50ms);
@@ -251,8 +251,8 @@ TEST(Link, ManyShortPollsDoNotShortenIt) {
     World world{navigation};
     auto desk = world.connect_without_link();
     for (int poll = 0; poll < 200; ++poll) {
-        world.engine->link_opened(desk.session);
-        world.engine->link_closed(desk.session, Link::stream, world.now);
+        world.engine->link_opened(desk.session, Link::stream, world.now);
+        world.engine->link_closed(desk.session, Link::stream, Closing::lost, world.now);
         world.advance(1s);
     }
     EXPECT_TRUE(lives(world, desk));
@@ -265,8 +265,8 @@ TEST(Link, ManyShortPollsDoNotShortenIt) {
 TEST(Link, ThatOfAnUnknownSessionIsNothing) {
     World world{navigation};
     world.engine->heard_from({"made-up"}, world.now);
-    world.engine->link_opened({"made-up"});
-    world.engine->link_closed({"made-up"}, Link::stream, world.now);
+    world.engine->link_opened({"made-up"}, Link::stream, world.now);
+    world.engine->link_closed({"made-up"}, Link::stream, Closing::lost, world.now);
     world.engine->end({"made-up"}, world.now);
     EXPECT_EQ(world.engine->statistics().sessions, 0U);
 }
@@ -288,7 +288,7 @@ TEST(ShutDown, EndsAllSessionsAndRefusesNewOnes) {
     EXPECT_TRUE(hall.told_of_the_end());
     EXPECT_EQ(desk.refusal_of(Search{}), Refusal::shutting_down);
     EXPECT_EQ(std::get<Refusal>(world.say({}, Connect{})), Refusal::shutting_down);
-    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "halt", "parameters_changed"));
 }
 
 TEST(ShutDown, StopsAlsoWhatWasLeftToRunOn) {

@@ -125,7 +125,7 @@ void World::change(std::vector<std::string> going, std::vector<Part> const& comi
 
 Application World::connect() {
     auto application = connect_without_link();
-    engine->link_opened(application.session);
+    engine->link_opened(application.session, Link::websocket, now);
     return application;
 }
 

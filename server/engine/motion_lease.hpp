@@ -1,0 +1,71 @@
+// How long what moves may go on without a sign of life of its application (decision 33).
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "types/instant.hpp"
+
+namespace rois {
+
+// How a service application is linked to its session (decision 2): by a WebSocket, or by an event stream or a pending long poll.
+enum class Link : std::uint8_t { websocket, stream };
+
+// How a link ended: a long poll was answered; or the application closed it, or it broke.
+enum class Closing : std::uint8_t { answered, lost };
+
+class MotionLease {
+public:
+    struct Terms {
+        std::chrono::milliseconds linked;  // on a WebSocket, and after a long poll was answered
+        std::chrono::milliseconds http;    // with requests only
+        bool pongs_count = true;           // else a WebSocket is proven by requests alone
+    };
+
+    MotionLease(Terms const& terms, Steady now) : terms_{terms}, heard_{now} {}
+
+    Terms const& terms() const { return terms_; }
+    void agree(Terms const& terms) { terms_ = terms; }
+
+    void heard_request(Steady now) {
+        heard_ = now;
+        end_after_link_.reset();
+    }
+    void heard_pong(Steady now) {
+        if (terms_.pongs_count) heard_ = now;
+    }
+    void opened(Link link, Steady now) {
+        ++count(link);
+        heard_request(now);
+    }
+    void closed(Link link, Closing closing, Steady now) {
+        if (count(link) > 0) --count(link);
+        if (links() == 0) end_after_link_ = now + (closing == Closing::answered ? terms_.linked : for_a_successor);
+    }
+
+    std::size_t links() const { return websockets_ + streams_; }
+
+    // From then on its motion is held, unless something is heard before. An open stream is proof by itself: the system finds out
+    // when its peer has gone.
+    Steady end() const {
+        if (streams_ > 0) return Steady::max();
+        if (websockets_ > 0) return heard_ + terms_.linked;
+        return end_after_link_.value_or(heard_ + terms_.http);
+    }
+
+private:
+    // From the end of a link until another one, or a request, takes its place.
+    static constexpr std::chrono::milliseconds for_a_successor{250};
+
+    std::size_t& count(Link link) { return link == Link::websocket ? websockets_ : streams_; }
+
+    Terms terms_;
+    Steady heard_;
+    std::size_t websockets_ = 0;
+    std::size_t streams_ = 0;
+    std::optional<Steady> end_after_link_;  // set when the last link has closed, until something is heard
+};
+
+}  // namespace rois
