@@ -98,6 +98,7 @@ private:
         port_->completed(command, status, std::move(results), afterwards, std::move(why));
     }
 
+    void halted() override { port_->halted(); }
     void event(std::string_view event_type, Results results) override { port_->event(event_type, std::move(results)); }
     void error(ErrorType type, std::string text, Report report) override { port_->error(type, std::move(text), report); }
 

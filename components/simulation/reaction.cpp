@@ -12,7 +12,8 @@ namespace {
 
 class Reaction final : public Action {
 public:
-    explicit Reaction(Fitting fitting) : Action{taking_identifiers(std::move(fitting), "reaction_ref", {codebook::reaction})} {}
+    explicit Reaction(Fitting fitting)
+        : Action{taking_identifiers(moving(std::move(fitting)), "reaction_ref", {codebook::reaction})} {}
 
     ParameterList readable_parameters() const override {
         std::vector<std::string> codes;

@@ -49,6 +49,11 @@ Fitting taking_identifiers(Fitting fitting, std::string parameter, std::vector<s
     return fitting;
 }
 
+Fitting moving(Fitting fitting) {
+    fitting.description.moves = true;
+    return fitting;
+}
+
 RobotComponent::RobotComponent(Fitting fitting) : fitting_{std::move(fitting)} {}
 
 RobotComponent::~RobotComponent() { fitting_.simulation->part(*this); }

@@ -28,6 +28,9 @@ Fitting taking_positions(Fitting, std::string parameter);
 // Of a component that takes identifiers from these codebooks as values of this parameter; the first codebook is the default.
 Fitting taking_identifiers(Fitting, std::string parameter, std::vector<std::string_view> const& codebooks);
 
+// Of a component that moves the robot or a part of it (decision 33).
+Fitting moving(Fitting);
+
 // Of a component of the robot that is named `name`, or with the robot's name before it (component_refs.hpp).
 Fitting fitting(std::shared_ptr<Simulation> const&, std::shared_ptr<media::Media> const&, Robot const&, std::string_view name,
                 std::shared_ptr<ComponentProfile const>);

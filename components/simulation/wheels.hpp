@@ -10,7 +10,7 @@ namespace rois::simulation {
 class WheelAction : public Action {
 public:
     // `owner` names the component to the drive; a literal.
-    WheelAction(Fitting fitting, std::string_view owner) : Action{std::move(fitting)}, owner_{owner} {}
+    WheelAction(Fitting fitting, std::string_view owner) : Action{moving(std::move(fitting))}, owner_{owner} {}
 
 protected:
     // Begins a motion; when the wheels are another's, ends the action with OUT_OF_RESOURCES.

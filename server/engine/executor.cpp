@@ -1,6 +1,7 @@
 #include "engine/executor.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include "engine/parameters.hpp"
@@ -339,7 +340,15 @@ void Executor::abort_all(Session& session, Instant now) {
 }
 
 void Executor::stop_all(std::string const& reason, Instant now) {
-    for (auto const& [ref, component] : registry_.all()) halt(*component, CompletedStatus::abort, reason, now);
+    std::exception_ptr failed;  // for want of memory, say: the others are halted nevertheless
+    for (auto const& [ref, component] : registry_.all()) {
+        try {
+            halt(*component, CompletedStatus::abort, reason, now);
+        } catch (...) {
+            failed = std::current_exception();
+        }
+    }
+    if (failed) std::rethrow_exception(failed);
     while (!live_.empty()) end(SharedCommand{live_.begin()->second}, CompletedStatus::abort, reason, now);
 }
 

@@ -13,13 +13,13 @@ namespace rois {
 // How a service application is linked to its session (decision 2): by a WebSocket, or by an event stream or a pending long poll.
 enum class Link : std::uint8_t { websocket, stream };
 
-// How a link ended: a long poll was answered; or the application closed it, or it broke.
+// How a link ended: as a long poll that was answered, which is a request like any other; or the application closed it, or it broke.
 enum class Closing : std::uint8_t { answered, lost };
 
 class MotionLease {
 public:
     struct Terms {
-        std::chrono::milliseconds linked;  // on a WebSocket, and after a long poll was answered
+        std::chrono::milliseconds linked;  // on a WebSocket
         std::chrono::milliseconds http;    // with requests only
         bool pongs_count = true;           // else a WebSocket is proven by requests alone
     };
@@ -42,7 +42,8 @@ public:
     }
     void closed(Link link, Closing closing, Steady now) {
         if (count(link) > 0) --count(link);
-        if (links() == 0) end_after_link_ = now + (closing == Closing::answered ? terms_.linked : for_a_successor);
+        if (closing == Closing::answered) heard_request(now);
+        if (closing == Closing::lost && links() == 0) end_after_link_ = now + for_a_successor;
     }
 
     std::size_t links() const { return websockets_ + streams_; }

@@ -260,6 +260,12 @@ std::vector<Key> session_keys() {
             "resume_window", "for a lost session to be resumed in, before it ends",
             [](Settings & s) -> auto& { return s.engine.resume_window; }, 0),
         seconds(
+            "motion_lease", "without a sign of life on a WebSocket, until what moves is held",
+            [](Settings & s) -> auto& { return s.engine.motion_lease; }, 0.5, 3600),
+        seconds(
+            "motion_lease_http", "without a request, until what moves is held, for applications that send requests only",
+            [](Settings & s) -> auto& { return s.engine.motion_lease_http; }, 0.5, 3600),
+        seconds(
             "event_details", "after an event, in which its details can be fetched",
             [](Settings & s) -> auto& { return s.engine.event_details; }),
         seconds(

@@ -126,6 +126,8 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const 
         case Endpoint::metrics:
             return metrics();
         case Endpoint::rois:
+        case Endpoint::stop:
+        case Endpoint::clear:
         case Endpoint::notifications:
         case Endpoint::unknown:
             break;

@@ -70,10 +70,12 @@ Task<HttpAnswer> poll(Wire& wire, Gateway& gateway, Telemetry& telemetry, Wakes&
     auto const reading = std::get<std::unique_ptr<Reading>>(std::move(read));
     bool gone = false;
     auto taken = reading->take(most_a_poll);
-    auto const watch = wire.watch([&gone, signal] {
-        gone = true;
-        signal->raise();
-    });
+    auto const watch = wire.watch(
+        [&gone, signal] {
+            gone = true;
+            signal->raise();
+        },
+        [&reading](Steady now) { return reading->wants_signs_of_life(now); });
     while (taken.notifications.empty() && taken.then == Reading::Then::wait && wanted.wait.count() > 0 && !gone) {
         auto const woken = co_await signal->wait_until(until);
         if (woken == Signal::Woken::time_passed) break;
@@ -99,10 +101,12 @@ Task<std::optional<HttpAnswer>> stream(Wire& wire, Gateway& gateway, Telemetry& 
     std::string out;
     append_endless(out, head);
     bool gone = false;
-    auto const watch = wire.watch([&gone, signal] {
-        gone = true;
-        signal->raise();
-    });
+    auto const watch = wire.watch(
+        [&gone, signal] {
+            gone = true;
+            signal->raise();
+        },
+        [&reading](Steady now) { return reading->wants_signs_of_life(now); });
     while (!gone) {
         auto const taken = reading->take(most_at_once);
         for (auto const& numbered : taken.notifications) append_event(out, numbered);

@@ -162,8 +162,9 @@ Task<Wire::Outcome> Wire::send(std::string_view text) {
     co_return text.empty() ? Outcome::done : Outcome::closed;
 }
 
-Wire::Watch Wire::watch(std::function<void()> gone) {
+Wire::Watch Wire::watch(std::function<void()> gone, std::function<bool(Steady now)> is_proof) {
     watching_ = std::move(gone);
+    is_proof_ = std::move(is_proof);
     if (readable_) look_whether_gone();
     return Watch{*this};
 }
@@ -178,6 +179,18 @@ void Wire::look_whether_gone() {
     }
     auto const gone = std::exchange(watching_, nullptr);
     if (size <= 0) gone();
+}
+
+// The system does it: the first probe after a second of silence, then one every second; it gives up at the second one that is due
+// without an answer, and what was sent must be confirmed in that time, too.
+void Wire::probe(bool on) {
+    if (socket_ < 0 || on == probed_) return;
+    probed_ = on;
+    auto const set = [this](int level, int option, int value) { ::setsockopt(socket_, level, option, &value, sizeof value); };
+    set(IPPROTO_TCP, TCP_KEEPIDLE, 1);
+    set(IPPROTO_TCP, TCP_KEEPINTVL, 1);
+    set(IPPROTO_TCP, TCP_USER_TIMEOUT, on ? 1'500 : 0);
+    set(SOL_SOCKET, SO_KEEPALIVE, on ? 1 : 0);
 }
 
 void Wire::finish() {
@@ -195,6 +208,7 @@ Task<> Wire::linger(Steady until) {
 }
 
 void Wire::sweep(Steady now) {
+    probe(is_proof_ && is_proof_(now));
     if (now >= output_due_) {
         spdlog::warn("a connection was cut: its reader took nothing for {} s",
                      std::chrono::duration<double>(write_timeout_).count());

@@ -49,8 +49,9 @@ public:
     Task<Outcome> send(std::string_view);
 
     // While nothing is received: calls `gone` when the peer closes. Once it has sent something, nothing is watched any more.
+    // While `is_proof`, the peer is probed, and has gone when it does not answer for two seconds (decision 33).
     class Watch;
-    Watch watch(std::function<void()> gone);
+    Watch watch(std::function<void()> gone, std::function<bool(Steady now)> is_proof);
 
     // Says that nothing more will be sent.
     void finish();
@@ -72,6 +73,7 @@ private:
     void changed(std::uint32_t events) override;
     std::optional<std::size_t> read_some(std::span<char>);
     void look_whether_gone();
+    void probe(bool on);
 
     Executor executor_;
     Poller& poller_;
@@ -89,14 +91,19 @@ private:
     bool failed_ = false;    // nothing can be written any more
     Waiter reader_;
     Waiter writer_;
-    std::function<void()> watching_;  // what to call; empty: nobody watches
+    std::function<void()> watching_;            // what to call; empty: nobody watches
+    std::function<bool(Steady now)> is_proof_;  // beside it
+    bool probed_ = false;                       // the system probes the peer now
 };
 
 // Watches as long as it lives.
 class Wire::Watch {
 public:
     explicit Watch(Wire& wire) : wire_{wire} {}
-    ~Watch() { wire_.watching_ = nullptr; }
+    ~Watch() {
+        wire_.watching_ = nullptr;
+        wire_.is_proof_ = nullptr;
+    }
     Watch(Watch const&) = delete;
     Watch& operator=(Watch const&) = delete;
 

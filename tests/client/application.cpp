@@ -93,7 +93,10 @@ private:
 
     std::string next_text() {
         auto frame = client_.next();
-        while (frame.kind == Kind::ping) frame = client_.next();
+        while (frame.kind == Kind::ping) {
+            client_.send(frame.payload, Kind::pong);
+            frame = client_.next();
+        }
         if (frame.kind != Kind::text) throw LineEnded{"closed with " + std::to_string(frame.close_code())};
         return frame.payload;
     }

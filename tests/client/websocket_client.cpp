@@ -64,7 +64,10 @@ Frame WebSocketClient::next() {
 
 pugi::xml_node WebSocketClient::next_document() {
     auto frame = next();
-    while (frame.kind == Kind::ping) frame = next();
+    while (frame.kind == Kind::ping) {
+        send(frame.payload, Kind::pong);
+        frame = next();
+    }
     if (frame.kind != Kind::text) throw LineEnded{"closed with " + std::to_string(frame.close_code())};
     document_.load_string(frame.payload.c_str());
     give_known_prefixes(document_);

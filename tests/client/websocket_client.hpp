@@ -38,7 +38,7 @@ public:
     void ask(std::string const& operation, Xml const& children = {}, Attributes const& attributes = {});
 
     Frame next();
-    // The next text frame's root element; pings are passed over.
+    // The next text frame's root element; pings are answered.
     pugi::xml_node next_document();
     // Asks, and gives what comes next.
     pugi::xml_node call(std::string const& operation, Xml const& children = {}, Attributes const& attributes = {});

@@ -102,6 +102,7 @@ public:
     // Otherwise only the last command may complete.
     void allow_any_command() { any_command_ = true; }
 
+    void halted() override {}
     void started(CommandHandle) override { tell("started", {}); }
     void completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards,
                    std::string reason) override {

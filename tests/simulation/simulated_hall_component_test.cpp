@@ -63,6 +63,7 @@ public:
     }
     Results visitors() { return component->query("visitors", now_).at(0); }
 
+    void halted() override {}
     void started(CommandHandle) override {}
     void completed(CommandHandle command, CompletedStatus status, Results, Afterwards, std::string reason) override {
         auto const text = std::string{to_text(status)} + (reason.empty() ? "" : " " + reason);
