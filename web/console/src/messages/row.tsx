@@ -2,7 +2,7 @@ import { clock_time } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import { Badge, Icon, StatusBadge } from '../ui';
 import { category_of, is_gap, type Row } from './feed';
-import { command_of, component_of, expire_of, summary } from './summary';
+import { command_of, component_of, expire_of, name_of, summary } from './summary';
 import * as t from './texts';
 
 export function RowView({ row, is_live }: { row: Row; is_live: boolean }) {
@@ -21,12 +21,12 @@ export function RowView({ row, is_live }: { row: Row; is_live: boolean }) {
   const look = row.name === 'completed' && status !== 'OK' ? 'stopped' : category_of(row);
   return (
     <>
-      <span class="messages-time">{clock_time(row.at)}</span>
+      <span class="messages-time">{clock_time(row.at, false)}<span class="messages-ms">{clock_time(row.at).slice(-4)}</span></span>
       <span class={`messages-way messages-way-${row.direction}`}>
         <Icon name={row.direction === 'out' ? 'up' : 'down'} size={12} />
         <span class="unseen">{row.direction === 'out' ? t.outward() : t.inward()}</span>
       </span>
-      <span class={`messages-name messages-is-${look}`}>{row.name === '' ? '—' : row.name}</span>
+      <span class={`messages-name messages-is-${look}`} title={row.name}>{name_of(row) || '—'}</span>
       <span class="messages-component">{command?.component ?? component_of(row)}</span>
       <span class="messages-summary">{summary(row)}{command && `  ${command.component} ${command.command_type}`}</span>
       {is_expired && <Badge>{t.expired()}</Badge>}

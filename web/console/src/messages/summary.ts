@@ -4,7 +4,7 @@ import { unescaped } from '../ui/xml_text';
 
 const known = new WeakMap<LoggedDocument, string>();
 
-/** `number: 2` of an event, `start speech_synthesis` of an execute, the reason of a refusal. */
+/** `person-1 1.00, 2.00 m` or `number: 2` of an event, `speech_synthesis start` of an execute, the reason of a refusal. */
 export function summary(document: LoggedDocument): string {
   const before = known.get(document);
   if (before !== undefined) return before;
@@ -13,8 +13,9 @@ export function summary(document: LoggedDocument): string {
   return made;
 }
 
-function event_type_of({ text }: LoggedDocument): string {
-  return first_text(text, 'event_type');
+/** Its name; of an event the type of the event. */
+export function name_of({ name, text }: LoggedDocument): string {
+  return (name === 'receive_event' && first_text(text, 'event_type')) || name;
 }
 
 /** The component that a document names, be it in a condition; empty: none. */
@@ -86,14 +87,16 @@ function values(text: string, element: string): string[] {
 function of_event(document: LoggedDocument): string {
   const those = located(document.text);
   const more = values(document.text, 'result').filter((one) => those.length === 0 || !/^(\w+_ref|position_data):/.test(one));
-  return [event_type_of(document), ...those, ...more].join('  ');
+  return [...those, ...more].join('  ');
 }
 
-// `person-1 1000, 2000`: in mm.
+// `person-1 1.00, 2.00 m`
 function located(text: string): string[] {
   const each = new RegExp(`<(?:[\\w.-]+:)?located\\s[^>]*?${attribute('ref')}[^>]*>[^]*?<(?:[\\w.-]+:)?position>\\s*(\\S+)\\s+(\\S+)`, 'g');
-  return [...first_of(text.matchAll(each))].map(([, ref, x, y]) => `${unescaped(ref!)} ${x}, ${y}`);
+  return [...first_of(text.matchAll(each))].map(([, ref, x, y]) => `${unescaped(ref!)} ${metres(x)}, ${metres(y)} m`);
 }
+
+const metres = (mm: string | undefined) => (Number(mm) / 1000).toFixed(2);
 
 function commands(text: string): string[] {
   const each = new RegExp(`<[^>]*?${attribute('command_type')}[^>]*>\\s*<(?:[\\w.-]+:)?component_ref\\s[^>]*?${attribute('code')}`, 'g');

@@ -41,6 +41,10 @@ export interface HallParts {
   may_ask: () => boolean;
 }
 
+const period = 150; // ms
+const period_at_rest = 1000; // ms
+const rests_after = 3000; // ms without a step
+
 export class HallState {
   /** The component; undefined when the engine has none. */
   readonly component = computed(() => this.parts.profile.of_type('Hall')[0]);
@@ -53,14 +57,16 @@ export class HallState {
   readonly visitors = new Map<string, Visitor>();
   readonly pulse: Pulse;
   readonly poll: Poll;
+  /** When the engine said last who is there; 0 before it has. ms since 1970. */
+  told_at = 0;
+  private moved_at = 0;
 
   constructor(
-    environment: Environment,
+    private readonly environment: Environment,
     private readonly parts: HallParts,
-    period = 150, // ms
   ) {
     this.pulse = new Pulse(environment);
-    this.poll = new Poll(environment, period, () => this.look(), () => parts.may_ask() && this.component.value !== undefined);
+    this.poll = new Poll(environment, period, () => this.look(), () => parts.may_ask() && this.component.value !== undefined && this.is_due());
   }
 
   // --- What visitors are told. Each ends when they have done it; rejects with RoisError when the engine refuses. ---
@@ -85,6 +91,7 @@ export class HallState {
   /** Lets so many ms of a world pass that stands still; a multiple of 20. */
   async let_pass(ms: number): Promise<Outcome> {
     const outcome = await this.tell('let_pass', { time: Math.max(20, Math.round(ms / 20) * 20) });
+    this.moved_at = this.environment.now();
     this.poll.now();
     return outcome;
   }
@@ -108,7 +115,14 @@ export class HallState {
 
   forget(): void {
     this.visitors.clear();
+    this.told_at = 0;
     this.pulse.touch();
+  }
+
+  private is_due(): boolean {
+    const now = this.environment.now();
+    const is_at_work = this.parts.commands.open().some((one) => one.component === this.component.value?.ref);
+    return is_at_work || now - this.moved_at < rests_after || now - this.told_at >= period_at_rest;
   }
 
   private async tell(command_type: string, named: Arguments): Promise<Outcome> {
@@ -127,7 +141,7 @@ export class HallState {
     const [places, known, steered] = [results.texts('position_data').map(pose_of), results.texts('known'), results.texts('steered')];
     const is = (text: string | undefined) => text === 'true' || text === '1';
     const refs = results.texts('visitor_ref');
-    let changed = refs.length !== this.visitors.size;
+    let changed = refs.length !== this.visitors.size || this.told_at === 0;
     const before = new Map(this.visitors);
     this.visitors.clear();
     refs.forEach((ref, i) => {
@@ -136,7 +150,10 @@ export class HallState {
       changed ||= !then || then.x !== now.x || then.y !== now.y || then.th !== now.th || then.known !== now.known || then.steered !== now.steered;
       this.visitors.set(ref, now);
     });
-    if (changed) this.pulse.touch();
+    this.told_at = this.environment.now();
+    if (!changed) return;
+    this.moved_at = this.told_at;
+    this.pulse.touch();
   }
 }
 

@@ -71,12 +71,12 @@ export class SubscriptionsState {
       const inline_results = /^(true|1)$/.test(wanted.attribute('inline_results') ?? '');
       const entry = { id, event_type: wanted.text_of('event_type'), condition, inline_results, since: at, count: 0, ...(before && { count: before.count, since: before.since }) };
       this.all.value = new Map([...this.all.value, [id, entry]]);
-      if (!inline_results) this.restore(id);
+      if (!inline_results) this.want_results(id);
     }
     if (name === 'unsubscribe_response') {
       const id = parse_xml(asked.text).text_of('subscribe_id');
       this.remove(id);
-      this.restore(id);
+      this.make_again(id);
     }
   }
 
@@ -98,12 +98,25 @@ export class SubscriptionsState {
     return subscription;
   }
 
-  // A document that the user has written may say the same as the console's own request, or name its id.
-  private restore(id: string): void {
-    const own = this.held_as(id).find(([, { is_own }]) => is_own)?.[0];
-    if (!own || own.ended) return;
+  // A document that the user has written may say the same as the console's own request.
+  private want_results(id: string): void {
+    const own = this.own_as(id);
+    if (!own) return;
     const text = request('subscribe', { inline_results: true }, text_element('event_type', own.wanted.event_type) + condition_xml(own_condition));
     this.documents.as_own(() => this.client().send(text)).catch(() => undefined); // the badge of the map says it
+  }
+
+  // Or it may unsubscribe from it: the engine gives the next one another id.
+  private make_again(id: string): void {
+    const own = this.own_as(id);
+    if (!own) return;
+    this.held.delete(own);
+    this.documents.as_own(() => own.close()).catch(() => undefined); // the client must not make it again, too
+    this.subscribe_own(own.wanted.event_type).catch(() => undefined); // the badge of the map says it
+  }
+
+  private own_as(id: string): Subscription | undefined {
+    return this.held_as(id).find(([one, { is_own }]) => is_own && !one.ended)?.[0];
   }
 
   private held_as(id: string): [Subscription, { is_own: boolean }][] {

@@ -4,6 +4,7 @@ import { parse_xml } from 'rois-client';
 import { why } from '../forms/why';
 import { clock_time, duration } from '../i18n/i18n';
 import type { CommandEntry } from '../state/commands_state';
+import type { EventEntry } from '../state/events_state';
 import * as shell from '../shell/texts';
 import type { Span } from '../state/history';
 import type { Phase } from '../state/link_state';
@@ -88,9 +89,12 @@ export function of_mark(mark: Mark): Description {
   const component = mark_ref(mark);
   if (mark.kind === 'refused') return { at, kind: t.refused(), title: mark.entry.request?.name ?? mark.entry.name, component, state: mark.entry.return_code ?? '', facts: [...facts, [t.reason(), reason_in(mark.entry.text)]] };
   if (mark.kind === 'error') return { at, kind: t.error(), title: mark.entry.error.error_type, component, state: '', facts };
-  const { results, event_type } = mark.entry.event;
-  for (const { ref, position: [x, y] } of results.located.slice(0, most_located)) facts.push([ref, `x ${(x / 1000).toFixed(2)} m, y ${(y / 1000).toFixed(2)} m`]);
-  return { at, kind: t.event(), title: event_type, component, state: '', facts };
+  return { at, kind: t.event(), title: mark.entry.event.event_type, component, state: '', facts: [...facts, ...located(mark.entry)] };
+}
+
+/** Who is where, as an event tells it. */
+export function located({ event: { results } }: EventEntry): Description['facts'] {
+  return results.located.slice(0, most_located).map(({ ref, position: [x, y] }) => [ref, `${(x / 1000).toFixed(2)}, ${(y / 1000).toFixed(2)} m`]);
 }
 
 function of_many(marks: readonly Mark[]): Description {

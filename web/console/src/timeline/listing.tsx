@@ -2,7 +2,7 @@
 import { clock_time, duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import { EmptyState, StatusBadge, Table } from '../ui';
-import { describe, type Description, sentence } from './describe';
+import { describe, type Description, located, sentence } from './describe';
 import { lay_out } from './layout';
 import { key_of, type Thing } from './things';
 import * as t from './texts';
@@ -14,6 +14,7 @@ interface Row extends Description {
   thing: Thing;
   key: string;
   lasted: string;
+  where: string; // of an event: who is where
 }
 
 export function Listing({ view, open }: { view: TimeView; open: (thing: Thing) => void }) {
@@ -36,7 +37,7 @@ export function Listing({ view, open }: { view: TimeView; open: (thing: Thing) =
             title: t.what(),
             cell: (row) => (
               <button type="button" class="timeline-row" aria-label={t.open(sentence(row))} onClick={() => open(row.thing)}>
-                <span class="timeline-kind">{row.kind}</span> {row.title}
+                <span class="timeline-kind">{row.kind}</span> {row.title}{row.where && ` ${row.where}`}
               </button>
             ),
           },
@@ -56,8 +57,13 @@ function rows_of(view: TimeView, at: number): { rows: Row[]; count: number } {
   for (const { thing } of placed)
     for (const one of thing.kind === 'marks' ? thing.marks.filter((mark) => mark.kind !== 'failed').map((mark): Thing => ({ kind: 'marks', marks: [mark] })) : [thing]) things.set(key_of(one), one);
   const newest = [...things.values()].sort((a, b) => time_of_thing(b) - time_of_thing(a)).slice(0, most_rows);
-  const rows = newest.map((thing): Row => ({ ...describe(thing, at), thing, key: key_of(thing), lasted: lasted(thing, at) }));
+  const rows = newest.map((thing): Row => ({ ...describe(thing, at), thing, key: key_of(thing), lasted: lasted(thing, at), where: where(thing) }));
   return { rows, count: things.size };
+}
+
+function where(thing: Thing): string {
+  const [mark] = thing.kind === 'marks' ? thing.marks : [];
+  return mark?.kind === 'event' ? located(mark.entry).map((one) => one.join(' ')).join('; ') : '';
 }
 
 function time_of_thing(thing: Thing): number {

@@ -1,6 +1,7 @@
 // People in the simulated hall: let in, sent about, given words and gestures; and time, in a world that stands still.
 import './visitors.css';
 
+import { duration } from '../i18n/i18n';
 import { useConsole, useWatch } from '../shell/context';
 import { gestures, type Visitor } from '../state/hall_state';
 import { Badge, Button, Checkbox, EmptyState, Form, Loading, SelectField, TextField } from '../ui';
@@ -28,11 +29,11 @@ export default function VisitorsPanel() {
     <div class="visitors-panel">
       {hall.stands_still.value && <Time steering={steering} />}
       <Floor map={view.state === 'there' ? view.map : undefined} />
-      <div class="visitors-people">
+      <fieldset class="visitors-people" disabled={!console.link.is_open}>
         <Entering steering={steering} />
         <Who steering={steering} />
         {chosen?.steered ? <Orders key={chosen.ref} steering={steering} visitor={chosen} /> : <p class="soft">{chosen ? w.of_scenario_hint() : w.choose_somebody()}</p>}
-      </div>
+      </fieldset>
     </div>
   );
 }
@@ -54,14 +55,16 @@ function Entering({ steering }: { steering: Steering }) {
 }
 
 function Who({ steering }: { steering: Steering }) {
-  const { hall, commands } = useConsole();
+  const console = useConsole();
+  const { hall, commands, link } = console;
   void hall.pulse.beat.value;
   void commands.pulse.beat.value;
+  const is_known = hall.told_at > 0;
   const all = [...hall.visitors.values()];
   return (
     <section class="visitors-who" aria-label={w.who()}>
-      <h2>{w.in_hall(all.length)}</h2>
-      {all.length === 0 && <p class="soft">{w.nobody()}</p>}
+      <h2>{is_known ? w.in_hall(all.length) : w.not_known()}</h2>
+      {is_known && !link.is_open ? <p class="soft">{w.as_it_was(duration(console.time() - hall.told_at))}</p> : is_known && all.length === 0 && <p class="soft">{w.nobody()}</p>}
       <ul>
         {all.map((one) => {
           const doing = hall.orders_of(one.ref).map(({ command_type }) => w.doing(command_type));
@@ -133,13 +136,14 @@ const spans = [100, 1000, 10_000]; // ms
 
 function Time({ steering }: { steering: Steering }) {
   const flows = steering.flows.value;
+  const { is_open } = useConsole().link;
   return (
     <section class="visitors-time" aria-label={w.time()}>
       <p title={w.stands_still_hint()}>{w.stands_still()}</p>
       {spans.map((ms) => (
-        <Button key={ms} small disabled={flows} aria-label={w.pass_label(ms / 1000)} onClick={() => void steering.pass(ms)}>{`+ ${w.pass(String(ms / 1000))}`}</Button>
+        <Button key={ms} small disabled={flows || !is_open} aria-label={w.pass_label(ms / 1000)} onClick={() => void steering.pass(ms)}>{`+ ${w.pass(String(ms / 1000))}`}</Button>
       ))}
-      <Button small icon={flows ? 'pause' : 'play'} aria-pressed={flows} onClick={() => (flows ? steering.halt() : void steering.flow())}>{flows ? w.halt() : w.flow()}</Button>
+      <Button small icon={flows ? 'pause' : 'play'} aria-pressed={flows} disabled={!flows && !is_open} onClick={() => (flows ? steering.halt() : void steering.flow())}>{flows ? w.halt() : w.flow()}</Button>
     </section>
   );
 }

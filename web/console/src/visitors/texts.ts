@@ -16,6 +16,8 @@ export const none_here = text('This engine has no visitors to steer', 'このエ
 export const none_here_hint = text('People can be steered in the simulated hall. Start the gateway with', 'シミュレーションのホールでは人を動かせます。次を付けてゲートウェイを起動してください:');
 export const nobody = text('Nobody is in the hall. Let somebody in.', 'ホールには誰もいません。誰かを入れてください。');
 export const in_hall = text_of((n: number) => [n === 1 ? '1 person in the hall' : `${n} people in the hall`, `ホールに ${n} 人`]);
+export const not_known = text('Who is in the hall is not known yet', 'ホールに誰がいるかはまだ分かりません');
+export const as_it_was = text_of((age: string) => [`Not connected: as it was ${age} ago`, `接続していません: ${age}前の様子`]);
 
 // Coming in
 export const let_in = text('Let in', '入れる');

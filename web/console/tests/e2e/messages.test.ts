@@ -43,7 +43,7 @@ async function event_comes(page: Page, world = hall): Promise<void> {
   await page.getByRole('button', { name: 'Subscribe', exact: true }).click();
   await page.locator('.exchange-came').getByText('OK', { exact: true }).waitFor();
   await command(page, 'person_detection', world);
-  await world.pass_until(page, row(page, 'receive_event'), 200);
+  await world.pass_until(page, row(page, 'person_detected'), 200);
 }
 
 describe('events and messages', () => {
@@ -110,7 +110,7 @@ describe('events and messages', () => {
   test('an event without its values has its details fetched', () =>
     stage.page(async (page) => {
       await event_comes(page);
-      await row(page, 'receive_event').first().click();
+      await row(page, 'person_detected').first().click();
       await page.getByRole('button', { name: 'Fetch the details' }).click();
       await page.getByRole('region', { name: 'Details' }).getByText('number').waitFor();
       await picture(page, 'messages-event');
@@ -123,8 +123,8 @@ describe('events and messages', () => {
     await forgetful.page(
       async (page) => {
         await event_comes(page, world);
-        await row(page, 'receive_event').first().getByText('expired').waitFor();
-        await row(page, 'receive_event').first().click();
+        await row(page, 'person_detected').first().getByText('expired').waitFor();
+        await row(page, 'person_detected').first().click();
         await page.getByRole('button', { name: 'Fetch the details' }).click();
         await page.getByText('The details are gone.').waitFor();
         await page.getByText(/expired/, { exact: false }).first().waitFor();

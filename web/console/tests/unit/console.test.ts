@@ -335,10 +335,13 @@ describe('people', () => {
 
     test('and unsubscribes from the id by hand, the console subscribes again', async () => {
       const before = asked_with('subscribe').length;
+      world.answers.set('subscribe', () => '<subscribe_id>another</subscribe_id>');
       await console.send(request('unsubscribe', {}, text_element('subscribe_id', 'own')));
       await settled();
       expect(asked_with('subscribe').length).toBe(before + 1);
-      expect(console.subscriptions.all.value.has('own')).toBe(true);
+      expect([...console.subscriptions.all.value.keys()]).toEqual(['another']);
+      expect([console.subscriptions.is_own('own'), console.subscriptions.is_own('another')]).toEqual([false, true]);
+      expect(console.entities.is_blind()).toBe(false);
     });
   });
 

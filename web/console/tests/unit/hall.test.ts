@@ -93,8 +93,10 @@ describe('the hall', () => {
 
   test('is looked at while somebody looks', async () => {
     world.answers.set('query', () => `<component_ref rois:code="simulated_hall"/><results>${result('visitor_ref', 'string[]', 'anna', 'tanaka')}${result('position_data', 'string[]', '1000, 2000, 90', '5, 6, -90')}${result('known', 'bool[]', 'false true')}${result('steered', 'bool[]', 'true false')}</results>`);
+    expect(console.hall.told_at).toBe(0);
     const stop = console.hall.poll.watch();
     await settled();
+    expect(console.hall.told_at).toBe(world.now());
     expect([...console.hall.visitors.values()]).toEqual([
       { ref: 'anna', x: 1000, y: 2000, th: 90, known: false, steered: true },
       { ref: 'tanaka', x: 5, y: 6, th: -90, known: true, steered: false },
@@ -105,6 +107,28 @@ describe('the hall', () => {
     await world.passes(300);
     world.draws();
     expect(beat.value).toBe(before); // nobody has moved
+    stop();
+  });
+
+  test('is looked at less often while nobody moves and nobody has been told anything', async () => {
+    let x = 1000;
+    world.answers.set('query', () => `<component_ref rois:code="simulated_hall"/><results>${result('visitor_ref', 'string[]', 'anna')}${result('position_data', 'string[]', `${x}, 2000, 90`)}</results>`);
+    const stop = console.hall.poll.watch();
+    const asked_in = async (ms: number) => {
+      const before = world.names().filter((one) => one === 'query').length;
+      await world.passes(ms);
+      return world.names().filter((one) => one === 'query').length - before;
+    };
+    await asked_in(4000);
+    expect(await asked_in(6000)).toBeLessThanOrEqual(6);
+    x = 1500;
+    await asked_in(1050);
+    expect(await asked_in(1500)).toBe(10); // anna moves
+    await asked_in(3000);
+    expect(await asked_in(6000)).toBeLessThanOrEqual(6);
+    void console.hall.walk('anna', 'desk');
+    await settled();
+    expect(await asked_in(1500)).toBe(10);
     stop();
   });
 

@@ -81,9 +81,9 @@ describe('the list', () => {
   test('says in short what each says', () => {
     const { documents } = stage();
     const said = (direction: 'in' | 'out', text: string) => summary(documents.note(direction, text));
-    expect(said('in', event)).toBe('person_detected  number: 2');
+    expect(said('in', event)).toBe('number: 2');
     const localized = event.replace('person_detected', 'person_localized').replace('</results>', '<result rois:name="person_ref"><rois:value>person-1</rois:value></result><located of="position_data" ref="person-1" crs="hall"><position>1000 2000 0</position></located></results>');
-    expect(said('in', localized)).toBe('person_localized  person-1 1000, 2000  number: 2');
+    expect(said('in', localized)).toBe('person-1 1.00, 2.00 m  number: 2');
     expect(said('in', completed)).toBe('ERROR  c-1');
     expect(said('out', execute)).toBe('navigation start');
     expect(said('in', refused)).toBe('command_unit_list[1]: "x" & so on');
