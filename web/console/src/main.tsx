@@ -7,7 +7,7 @@ import './order';
 import { render } from 'preact';
 
 import { Console } from './state/console';
-import { kept_text, restore } from './state/keeping';
+import { keep, restore } from './state/keeping';
 import { type Language, language, wished_language } from './i18n/i18n';
 import { panels } from './panels';
 import { App } from './shell/app';
@@ -32,7 +32,7 @@ addEventListener('beforeunload', (event) => {
   if (state.commands.open().length > 0 || desk_of(state).is_running.value) event.preventDefault();
 });
 addEventListener('pagehide', () => {
-  visit.remember(kept_text(state));
+  keep(state, visit.remember);
   void state.close();
 });
 addEventListener('pageshow', (event) => {

@@ -1,7 +1,7 @@
 // The robots that can be sent about, with the components that move them, and what they are doing for this console.
 import { value } from 'rois-client';
 
-import { show_panel } from '../shell/layout';
+import { show_document, show_panel } from '../shell/layout';
 import { tried } from '../ui/error_text';
 import { type CommandEntry, has_ended } from '../state/commands_state';
 import type { Console } from '../state/console';
@@ -87,10 +87,7 @@ async function drive(console: Console, driver: Driver, ref: string, named: Param
       if (status === 'OK') notices.tell('good', done, { about });
       else if (status !== 'ABORT') {
         const reason = entry && (await commands.fetch_results(entry))?.text('reason');
-        const open = () => {
-          console.selection.document.value = entry?.completed;
-          show_panel('messages');
-        };
+        const open = () => (entry?.completed === undefined ? show_panel('messages') : show_document(console, entry.completed));
         notices.tell('error', texts.failed(whither), { about, detail: reason || status!, action: { label: texts.why(), act: open } });
       } else if (motions_of(console, driver).length === 0) notices.tell('info', texts.stopped(driver.name), { about });
     },

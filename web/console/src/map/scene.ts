@@ -10,8 +10,8 @@ export type Kind = 'robot' | Entity['kind'];
  * - `live`: told of just now;
  * - `quiet`: sensed, but not told of for a while: who stands still is not told of;
  * - `old`: sensed, and not told of for so long that one should not rely on it;
- * - `unknown`: the events of its component have no results, so nobody knows whether it is still there;
- * - `gone`: out of sight, or nobody senses any longer, or the link is lost. It was there.
+ * - `unknown`: the link is lost, nobody senses any longer, or the events come without results: nobody knows whether it is still there;
+ * - `gone`: its component has told that it is out of sight, or a robot tells nothing. It was there.
  */
 export type Freshness = 'live' | 'quiet' | 'old' | 'unknown' | 'gone';
 
@@ -77,10 +77,10 @@ export function scene_of({ robots, entities, map, now, is_live, senses }: Told):
   for (const entity of all) {
     const { kind, identity } = entity;
     const age = now - entity.at;
-    const is_there = is_live && entity.is_seen && (age < surely_sensed || senses(entity.component));
+    const is_sensed = is_live && (age < surely_sensed || senses(entity.component));
     const is_over = age > quiet_after[kind] && (kind === 'sound' || (kind === 'face' && !people.some((one) => distance(one, entity) < head)));
-    const freshness: Freshness = !is_there || is_over ? 'gone' : entity.unknown_since !== undefined ? 'unknown' : age > old_after ? 'old' : age > quiet_after[kind] ? 'quiet' : 'live';
-    if (is_live && freshness === 'gone' && age > (kind === 'person' ? shown_for : echo)) continue;
+    const freshness: Freshness = !entity.is_seen || (is_sensed && is_over) ? 'gone' : !is_sensed || entity.unknown_since !== undefined ? 'unknown' : age > old_after ? 'old' : age > quiet_after[kind] ? 'quiet' : 'live';
+    if (is_live && (freshness === 'gone' || !is_sensed) && age > (kind === 'person' ? shown_for : echo)) continue;
     add(entity, kind, { name: identity?.ref ?? entity.ref, radius: radii[kind], freshness, identity });
   }
   for (const robot of robots) {

@@ -40,6 +40,7 @@ export const observing = text_of((on: number, of: number) => [
 ]);
 export const observe_age = text_of((age: string) => [`news ${age} ago`, `通知 ${age}前`]);
 export const observe_silent = text('no news yet', 'まだ通知なし');
+export const observe_unlinked = text('not connected', '接続していません');
 export const observe_blind = text('their results do not arrive', '結果が届いていません');
 export const observe_refused = text('Not everything can be observed', '一部は観察できません');
 export const observe_none = text('This engine has nothing that looks for people', 'このエンジンには人を検出するものがありません');

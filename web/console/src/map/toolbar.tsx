@@ -60,7 +60,8 @@ function Observe() {
         <span class="map-switch-track" aria-hidden="true" />
         {t.observe()}
       </button>
-      {is_wanted && (
+      {is_wanted && !console.link.is_open && <Badge>{t.observe_unlinked()}</Badge>}
+      {is_wanted && console.link.is_open && (
         <Badge tone={refused.length > 0 || is_blind ? 'warning' : on.length === of && is_fresh ? 'good' : 'busy'} title={why || undefined}>
           {t.observing(on.length, of)}, {is_blind ? t.observe_blind() : entities.told_at === 0 ? t.observe_silent() : t.observe_age(age(old))}
         </Badge>

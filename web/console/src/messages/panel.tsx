@@ -40,15 +40,16 @@ export default function MessagesPanel() {
   const picked = console.selection.document;
   const choice = tape ? chosen_of_recording : picked;
   const chosen = choice.value;
-  // Whoever picks a document elsewhere wants to see what happens.
+  const { subscription, wanted } = console.selection;
   useEffect(() => {
-    if (picked.value === undefined) return;
-    recording.value = undefined;
-    const wanted = console.documents.ring.numbered(picked.value);
-    if (wanted && !new Feed(live(console), filter.value).passes(wanted)) filter.value = { ...no_filter, with_own: wanted.is_own };
-    if (paused.value && !paused.value.rows.some((row) => !is_gap(row) && row.number === picked.value)) paused.value = undefined;
-  }, [picked.value]);
-  const { subscription } = console.selection;
+    const number = wanted.value;
+    if (number === undefined) return;
+    recording.value = wanted.value = undefined;
+    picked.value = number;
+    const document = console.documents.ring.numbered(number);
+    if (document && !new Feed(live(console), filter.value).passes(document)) filter.value = { ...no_filter, with_own: document.is_own };
+    if (paused.value && !paused.value.rows.some((row) => !is_gap(row) && row.number === number)) paused.value = undefined;
+  }, [wanted.value]);
   useEffect(() => {
     if (subscription.value === '') return;
     filter.value = { ...no_filter, hidden: new Set(categories.slice(1)), text: `subscribe_id>${subscription.value}<` };
@@ -75,7 +76,7 @@ export default function MessagesPanel() {
         {(tape || !is_bare) && <Button onClick={() => (filter.value = { ...no_filter, with_own: true })}>{t.clear()}</Button>}
       </EmptyState>
     );
-  const reader = document ? <Reader key={document.number} document={document} tape={tape} choose={(one) => (choice.value = one.number)} /> : <EmptyState icon="messages" title={t.pick()} />;
+  const reader = document ? <Reader key={document.number} document={document} tape={tape} choose={({ number }) => ((tape ? chosen_of_recording : wanted).value = number)} /> : <EmptyState icon="messages" title={t.pick()} />;
   const direction = is_wide ? 'row' : 'column';
   return (
     <div class="messages" ref={frame}>

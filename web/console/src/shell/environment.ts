@@ -14,11 +14,13 @@ export const visit = {
       return undefined;
     }
   },
-  remember: (text: string) => {
+  /** Whether it was taken: it may be too much, or the user's settings forbid it. */
+  remember: (text: string): boolean => {
     try {
       sessionStorage.setItem(prefix + 'past', text);
+      return true;
     } catch {
-      // too much, or the user's settings forbid it
+      return false;
     }
   },
 };

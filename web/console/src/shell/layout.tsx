@@ -36,7 +36,7 @@ export function show_component({ selection }: Console, ref: string): void {
 
 /** Shows a document among the others. */
 export function show_document({ selection }: Console, number: number): void {
-  selection.document.value = number;
+  selection.wanted.value = number;
   show_panel('messages');
 }
 

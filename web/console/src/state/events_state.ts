@@ -73,7 +73,8 @@ export class EventsState {
   }
 
   /** Takes what was told to the page that was here before. */
-  recall(events: readonly EventEntry[], own_events: readonly EventEntry[], errors: readonly ErrorEntry[]): void {
+  recall(events: readonly EventEntry[], own_events: readonly EventEntry[], errors: readonly ErrorEntry[], gaps: readonly GapEntry[]): void {
+    for (const one of gaps) this.gaps.push(one);
     for (const one of events) this.events.push({ ...one, number: this.next_event++ });
     for (const one of own_events) this.own_events.push({ ...one, number: this.next_event++ });
     for (const one of errors) this.errors.push({ ...one, number: this.next_error++ });

@@ -4,11 +4,12 @@ import { Results } from 'rois-client';
 
 import type { CommandEntry } from './commands_state';
 import type { Console } from './console';
-import type { EventEntry, ErrorEntry } from './events_state';
+import type { LoggedDocument } from './documents';
+import type { EventEntry, ErrorEntry, GapEntry } from './events_state';
 import type { Span } from './history';
 
-/** Of each kind; the newest. About 1 MB in all. */
-const most = 1000;
+/** Rows of each kind, the newest: about 1 MB in all. A browser that refuses that is offered less. */
+const offers = [1000, 200, 40];
 const no_document = -1; // its number, when it is not there any more
 
 interface Kept {
@@ -17,9 +18,16 @@ interface Kept {
   events: EventEntry[];
   own_events: EventEntry[];
   errors: ErrorEntry[];
+  gaps: GapEntry[];
+  refused: LoggedDocument[];
 }
 
-export function kept_text({ history, commands, events }: Console): string {
+/** `remember` gives whether the browser has taken the text. */
+export function keep(console: Console, remember: (text: string) => boolean): void {
+  offers.some((most) => remember(kept_text(console, most)));
+}
+
+function kept_text({ history, commands, events, traffic }: Console, most: number): string {
   const newest = <T>(rows: Iterable<T>) => [...rows].slice(-most);
   const kept: Kept = {
     spans: newest([...history.past, ...history.present.values()]),
@@ -27,6 +35,8 @@ export function kept_text({ history, commands, events }: Console): string {
     events: newest(events.events),
     own_events: newest(events.own_events),
     errors: newest(events.errors),
+    gaps: newest(events.gaps),
+    refused: newest(traffic.refused).map(in_short),
   };
   // Commands refer to their sequence, which refers to them.
   return JSON.stringify(kept, (key, value: unknown) => (key === 'units' || (key === 'commands' && value !== kept.commands) ? [] : value));
@@ -36,14 +46,23 @@ export function kept_text({ history, commands, events }: Console): string {
 export function restore(console: Console, text: string | undefined): void {
   if (text === undefined) return;
   try {
-    const { spans, commands, events, own_events, errors } = JSON.parse(text) as Kept;
+    const { spans, commands, events, own_events, errors, gaps, refused } = JSON.parse(text) as Kept;
     const details = <T extends EventEntry | ErrorEntry>(entry: T): T => ({ ...entry, document: no_document, details: with_results(entry) });
     console.history.recall(spans);
     console.commands.recall(commands.map((one) => ({ ...one, ...(one.results && { results: results_of(one.results) }) })));
-    console.events.recall(events.map(revived).map(details), own_events.map(revived).map(details), errors.map(details));
+    console.events.recall(events.map(revived).map(details), own_events.map(revived).map(details), errors.map(details), gaps);
+    console.traffic.recall(refused.map((one, i) => ({ ...one, number: no_document - i })));
   } catch {
     // it was written by another version of the page
   }
+}
+
+// What the time line and the log of errors say of it.
+function in_short({ at, direction, kind, name, return_code, text, component, request, is_own }: LoggedDocument): LoggedDocument {
+  const reason = /<(?:[\w.-]+:)?reason>([^<]*)</.exec(text)?.[1] ?? '';
+  const about = request?.component ?? component;
+  const short = { number: no_document, at, direction, kind, is_own, ...(about !== undefined && { component: about }) };
+  return { ...short, name, text: `<refused><reason>${reason}</reason></refused>`, ...(return_code !== undefined && { return_code }), ...(request && { request: { ...short, name: request.name, text: '' } }) };
 }
 
 function revived(entry: EventEntry): EventEntry {

@@ -39,6 +39,11 @@ export class Traffic {
     this.ping = new Poll(environment, period, () => this.ask(), may_ask);
   }
 
+  /** Takes what was refused to the page that was here before. */
+  recall(refused: readonly LoggedDocument[]): void {
+    for (const one of refused) this.refused.push(one);
+  }
+
   private heard(document: LoggedDocument): void {
     const second = this.second_of(document.at);
     if (document.direction === 'out') {

@@ -2,7 +2,11 @@
 import { beforeEach, describe, expect, test } from 'vitest';
 
 import type { Console } from '../../src/state/console';
+import { log_of, reason_of } from '../../src/health/log';
+import { Console as Another } from '../../src/state/console';
 import { History, type Span } from '../../src/state/history';
+import { keep, restore } from '../../src/state/keeping';
+import { of_mark } from '../../src/timeline/describe';
 import { median } from '../../src/state/traffic';
 import { profile_xml, settled, World } from './world';
 
@@ -139,5 +143,43 @@ describe('traffic', () => {
 
   test('the middle of numbers', () => {
     expect([[], [3], [5, 1], [9, 1, 2]].map(median)).toEqual([undefined, 3, 3, 2]);
+  });
+});
+
+describe('a reload', () => {
+  const kept = () => {
+    const texts: string[] = [];
+    keep(console, (text) => texts.push(text) > 0);
+    return texts.at(-1);
+  };
+  const reloaded = () => {
+    const another = new Another(world);
+    restore(another, kept());
+    return another;
+  };
+
+  test('leaves gaps, and what was refused and why', async () => {
+    world.answers.set('bind', () => 'ERROR');
+    world.reasons.set('bind', 'navigation &lt;is&gt; taken');
+    await console.bindings.bind('navigation').catch(() => undefined);
+    console.events.gap({ reason: 'lost', first: 1, last: 3, count: 3 });
+    const before = console.traffic.refused.at(0)!;
+    const after = reloaded();
+    const [refused] = after.traffic.refused.list();
+    expect(of_mark({ kind: 'refused', entry: refused! })).toEqual(of_mark({ kind: 'refused', entry: before }));
+    expect(of_mark({ kind: 'refused', entry: refused! })).toMatchObject({ title: 'bind', component: 'navigation', state: 'ERROR' });
+    expect(reason_of(refused!)).toBe('navigation <is> taken');
+    expect(after.events.gaps.list()).toEqual(console.events.gaps.list());
+    expect(log_of(after).map((one) => one.kind).sort()).toEqual(['gap', 'refused']);
+    expect(after.documents.ring.numbered(refused!.number)).toBeUndefined();
+    console = after;
+    expect(reason_of(reloaded().traffic.refused.at(0)!)).toBe('navigation <is> taken'); // once more
+  });
+
+  test('leaves fewer when the browser does not take them all', () => {
+    for (let i = 0; i < 500; ++i) console.events.gaps.push({ at: i, gap: { reason: 'lost', first: i, last: i, count: 1 } });
+    const sizes: number[] = [];
+    keep(console, (text) => sizes.push((JSON.parse(text) as { gaps: unknown[] }).gaps.length) > 2);
+    expect(sizes).toEqual([100, 100, 40]);
   });
 });

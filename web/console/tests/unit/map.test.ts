@@ -222,14 +222,17 @@ describe('what is on the floor', () => {
     expect(lost.map((one) => one.ref)).toEqual(['b']);
   });
 
-  test('people are quiet when they stand, gone when out of sight, when nobody senses, and when the link is lost', () => {
+  test('people are quiet when they stand, gone when out of sight, unknown when nobody senses and when the link is lost', () => {
     expect(states({ entities: [person('a')] })).toEqual(['live']);
     expect(states({ entities: [person('a', { at: now - 9000 })] })).toEqual(['quiet']);
     expect(states({ entities: [person('a', { at: now - 31_000 })] })).toEqual(['old']); // whatever is said to sense
     expect(states({ entities: [person('a', { is_seen: false })] })).toEqual(['gone']);
-    expect(states({ entities: [person('a', { at: now - 9000 })], senses: () => false })).toEqual(['gone']);
+    expect(states({ entities: [person('a', { at: now - 9000 })], senses: () => false })).toEqual(['unknown']);
+    expect(states({ entities: [person('a', { at: now - 31_000 })], senses: () => false })).toEqual([]);
+    expect(states({ entities: [person('a', { is_seen: false })], is_live: false })).toEqual(['gone']);
+    expect(states({ entities: [person('s', { kind: 'sound', at: now - 60_000 })], is_live: false })).toEqual(['unknown']);
     expect(states({ entities: [person('a')], senses: () => false })).toEqual(['live']); // told just now, whatever is known of bindings
-    expect(states({ entities: [person('a')], is_live: false })).toEqual(['gone']);
+    expect(states({ entities: [person('a')], is_live: false })).toEqual(['unknown']);
     expect(states({ entities: [person('a', { at: now - 9000, unknown_since: now - 50 })] })).toEqual(['unknown']);
   });
 
