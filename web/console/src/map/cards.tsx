@@ -13,6 +13,7 @@ import { age, certainty, degrees, metres, position } from './says';
 import type { Shown } from './scene';
 import { session_of } from './session';
 import * as t from './texts';
+import { PlaceChoice } from './toolbar';
 
 const no_radius = 250; // mm
 
@@ -201,6 +202,11 @@ function OwnRobot({ driver }: { driver: Driver }) {
   const voice = those.find((one) => one.type_name === 'SpeechSynthesis')?.ref;
   return (
     <>
+      {driver.navigation !== undefined && (
+        <p class="map-fact">
+          <PlaceChoice /> <span>{t.or_point()}</span>
+        </p>
+      )}
       {voice !== undefined && <Speaking voice={voice} />}
       <details class="map-commands">
         <summary>{t.commands()}</summary>

@@ -2,8 +2,7 @@
 import { value } from 'rois-client';
 
 import { show_document, show_panel } from '../shell/layout';
-import { tried } from '../ui/error_text';
-import { type CommandEntry, has_ended } from '../state/commands_state';
+import type { CommandEntry } from '../state/commands_state';
 import type { Console } from '../state/console';
 import type { Robot } from '../state/things';
 import type { Target } from './interaction';
@@ -49,14 +48,14 @@ export function target_text({ x, y, th, place }: Target): string {
 export async function go(console: Console, driver: Driver, target: Target, time_limit: number): Promise<void> {
   const named = { target_position: value.strings([target_text(target)]), time_limit: value.int(time_limit) };
   const said = target_words(target);
-  await drive(console, driver, driver.navigation!, named, said, texts.going(driver.name, said), texts.arrived(driver.name, said));
+  await drive(console, driver, driver.navigation!, named, said, texts.arrived(driver.name, said));
 }
 
 /** Has it follow somebody, by the permanent name when it is known. */
 export async function follow(console: Console, driver: Driver, { thing, identity, name }: Shown, distance: number): Promise<void> {
   const { ref: code, codebook } = identity ?? thing;
   const whom = value.identifier(codebook === '' ? code : { code, codebook_ref: codebook });
-  await drive(console, driver, driver.follow!, { target_object_ref: whom, distance: value.int(distance) }, name, texts.following(driver.name, name), texts.followed(driver.name, name));
+  await drive(console, driver, driver.follow!, { target_object_ref: whom, distance: value.int(distance) }, name, texts.followed(driver.name, name));
 }
 
 /** Stops what this console has it do. */
@@ -70,20 +69,25 @@ async function end_all(console: Console, motions: readonly CommandEntry[]): Prom
   await Promise.all(stops.map((one) => one.ends));
 }
 
-// Another component of the same wheels is stopped first; a new start of the same one replaces what it did.
-async function drive(console: Console, driver: Driver, ref: string, named: Parameters<Console['run']>[2], whither: string, begun: string, done: string): Promise<void> {
-  await end_all(console, motions_of(console, driver).filter((one) => one.component !== ref));
-  const { command_ids, ends } = await console.run(ref, 'start', named, { give_back: true });
+// Where commands lead, as the user was told: the engine knows a point alone.
+const whithers = new WeakMap<CommandEntry, string>();
+
+/** In words, when this page has sent it. */
+export function whither_of(entry: CommandEntry | undefined): string | undefined {
+  return entry && whithers.get(entry);
+}
+
+// Another component of the same wheels is stopped first; a new start of the same one replaces what it did. The map shows the motion with a button to stop it.
+async function drive(console: Console, driver: Driver, ref: string, named: Parameters<Console['run']>[2], whither: string, done: string): Promise<void> {
   const { notices, commands } = console;
   const about = `drive ${driver.engine}`;
+  notices.dismiss(about);
+  await end_all(console, motions_of(console, driver).filter((one) => one.component !== ref));
+  const { command_ids, ends } = await console.run(ref, 'start', named, { give_back: true });
   const entry = commands.find(command_ids[0] ?? '');
-  const halt = () => {
-    if (entry && !has_ended(entry)) tried(console, driver.engine, stop(console, driver));
-  };
-  const notice = notices.tell('info', begun, { about, action: { label: texts.stop(), act: halt } });
+  if (entry) whithers.set(entry, whither);
   ends.then(
     async ([status]) => {
-      notices.dismiss(notice);
       if (status === 'OK') notices.tell('good', done, { about });
       else if (status !== 'ABORT') {
         const reason = entry && (await commands.fetch_results(entry))?.text('reason');
@@ -91,6 +95,6 @@ async function drive(console: Console, driver: Driver, ref: string, named: Param
         notices.tell('error', texts.failed(whither), { about, detail: reason || status!, action: { label: texts.why(), act: open } });
       } else if (motions_of(console, driver).length === 0) notices.tell('info', texts.stopped(driver.name), { about });
     },
-    () => notices.dismiss(notice), // the session is gone; the link says so
+    () => undefined, // the session is gone; the link says so
   );
 }

@@ -5,7 +5,7 @@ import { pose_of, type Parameter } from 'rois-client';
 import { useConsole } from '../shell/context';
 import type { Console } from '../state/console';
 import type { FloorMap } from '../state/floor_map';
-import { type Driver, drivers_of, motions_of } from './driving';
+import { type Driver, drivers_of, motions_of, whither_of } from './driving';
 import { distance, on_map } from '../state/floor';
 import { position } from './says';
 import type { Shown } from './scene';
@@ -37,7 +37,7 @@ function goal_of(console: Console, driver: Driver, shown: readonly Shown[]): Goa
     const goal = ref === driver.follow ? followed(given('target_object_ref'), shown) : place_of(given('target_position'), view.state === 'there' ? view.map : undefined);
     if (!goal) continue;
     const is_there = driver.robot !== undefined && distance(driver.robot, goal) < arrived;
-    if (mine || !is_there) return { ...goal, driver, is_mine: mine !== undefined };
+    if (mine || !is_there) return { ...goal, text: whither_of(mine) ?? goal.text, driver, is_mine: mine !== undefined };
   }
   return undefined;
 }

@@ -1,5 +1,5 @@
 // What outlives the panel when another one is shown in its place: where one looked, what was chosen, whether it observes.
-import { signal } from '@preact/signals';
+import { effect, signal, untracked } from '@preact/signals';
 
 import type { Console } from '../state/console';
 import type { FloorMap } from '../state/floor_map';
@@ -26,6 +26,12 @@ export class MapSession {
     const hidden = new Set((console.environment.recall('map.hidden') ?? '').split(' '));
     this.layers.value = Object.fromEntries(Object.keys(all_layers).map((name) => [name, !hidden.has(name)])) as unknown as Layers;
     this.shows_table.value = console.environment.recall('map.table') === 'shown';
+    // A robot that was chosen is the one that is sent.
+    effect(() => {
+      const { chosen } = this.interaction.value;
+      const driver = untracked(() => this.drivers().find(({ robot }) => robot !== undefined && `robot ${robot.ref}` === chosen));
+      if (driver) this.engine.value = driver.engine;
+    });
   }
 
   get map(): FloorMap | undefined {

@@ -86,7 +86,6 @@ export const turn_hint = text('Drag its arrow (or press Q, E) for the final dire
 export const blocked = text_of((what: string) => obstacles[what] ?? what);
 export const no_navigation = text('This engine has no component that can be sent somewhere.', 'このエンジンには移動できるコンポーネントがありません。');
 export const unlinked = text('The link is not open.', '接続していません。');
-export const going = text_of((robot: string, where: string) => [`${robot} is going to ${where}`, `${robot} が ${where} へ向かっています`]);
 export const arrived = text_of((robot: string, where: string) => [`${robot} has reached ${where}`, `${robot} が ${where} に着きました`]);
 export const stopped = text_of((robot: string) => [`${robot} was stopped`, `${robot} を止めました`]);
 export const failed = text_of((what: string) => [`Not reached: ${what}`, `到達できませんでした: ${what}`]);
@@ -124,9 +123,9 @@ export const follow_whom = text_of((name: string) => [`Follow ${name}`, `${name}
 export const distance = text('Distance', '距離');
 export const gap = text('How near it comes', '保つ間隔');
 export const go_there = text('Go there', 'そこへ行く');
-export const following = text_of((robot: string, whom: string) => [`${robot} follows ${whom}`, `${robot} が ${whom} を追っています`]);
 export const followed = text_of((robot: string, whom: string) => [`${robot} no longer follows ${whom}`, `${robot} は ${whom} を追うのをやめました`]);
 export const follow_or_go = text('Follow keeps near them as they move. Go there sends it once, to where they are now.', '「追う」は動きに合わせて付いて行き、「そこへ行く」は今いる場所へ一度だけ行きます。');
+export const or_point = text('Or choose a point on the floor.', '床の上の点を選ぶこともできます。');
 export const speak = text('Speak', '話す');
 export const speak_hint = text('A sentence', '文を入力');
 export const commands = text('All that it can do', 'できること一覧');

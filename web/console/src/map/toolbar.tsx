@@ -81,7 +81,8 @@ function Observe() {
   );
 }
 
-function PlaceChoice() {
+/** Of the target: sets it. */
+export function PlaceChoice() {
   const session = session_of(useConsole());
   const places = session.map?.places ?? [];
   const target = session.interaction.value.target;
