@@ -7,8 +7,8 @@ import type { Plugin } from 'vite';
 /** What tests ask the page for, and developer tools, keeps its name: classes and members. */
 export const kept = new Set(`
   app-main button-danger component-list conditions-add conditions-chips conditions-count conditions-found conditions-picker conditions-radio
-  conditions-subscription conditions-tools engine-component exchange-came field-error floor-ground health-figures health-legend health-log
-  health-plot link-mark map-bar map-canvas map-fact map-form map-motion map-pointer map-scale map-switch scenario-edge-last scenario-panel
+  conditions-subscription conditions-tools engine-component engine-ref exchange-came field-error floor-ground health-figures health-legend health-log
+  health-plot link-age link-mark map-bar map-canvas map-fact map-floor map-form map-motion map-pointer map-scale map-switch scenario-edge-last scenario-panel
   scenario-printed scenario-value sequence-add sequence-add-branch sequence-beginning sequence-box sequence-branch sequence-choices
   sequence-fields sequence-form sequence-lane sequence-last sequence-parallel sequence-target sequence-title sequence-toolbar sequence-whole
   tabs-row timeline-canvas timeline-frame timeline-listing timeline-name timeline-place timeline-tip virtual-list virtual-list-row

@@ -33,10 +33,10 @@ export default function MapPanel() {
       <div class="map-floor">
         <div class="map-board">
           <Board begun={(one) => (drawing.value = one)} pointed={(at) => (pointer.value = at)} send={() => sending.send?.()} />
-          <div class="map-corner map-top">
-            <Remarks />
-            <Motions />
-          </div>
+        </div>
+        <div class="map-top">
+          <Remarks />
+          <Motions />
         </div>
         <Chosen sending={sending} drawing={drawing.value} />
       </div>

@@ -50,7 +50,7 @@ export function show_events({ selection }: Console, subscribe_id: string): void 
 export function begin_layout(all: readonly Panel[], recalled: string | undefined): void {
   panels = all;
   follow('(min-width: 1100px)', wide);
-  follow('(max-width: 900px)', is_narrow);
+  follow('(max-width: 1099px)', is_narrow);
   const from_address = () => show_panel(location.hash.slice(1));
   addEventListener('hashchange', from_address);
   for (const id of (recalled ?? '').split(' ')) {

@@ -31,7 +31,7 @@ export function Listing({ view, open }: { view: TimeView; open: (thing: Thing) =
         rows={rows}
         key_of={(row) => row.key}
         columns={[
-          { id: 'when', title: t.when(), cell: (row) => clock_time(row.at) },
+          { id: 'when', title: t.when(), cell: ({ at }) => <>{clock_time(at, false)}<span class="timeline-ms">{clock_time(at).slice(-4)}</span></> },
           {
             id: 'what',
             title: t.what(),
