@@ -10,6 +10,9 @@ import { Checkbox, Form } from '../ui';
 import { Pick } from './pick';
 import * as t from './texts';
 
+// What is over when its `start` has completed. All else works on, and releasing would stop it.
+const ending = /^(SpeechSynthesis|Reaction|Navigation|Move|Follow)$/;
+
 export function CommandsTab({ view }: { view: ComponentView }) {
   const names = in_order(view.commands.map((one) => one.name));
   const [name, choose] = useDraft(`${view.ref} command`, names[0] ?? '');
@@ -37,7 +40,7 @@ function in_order(names: string[]): string[] {
 function CommandForm({ view, name }: { view: ComponentView; name: string }) {
   const console = useConsole();
   const [inputs, change] = useDraft<Inputs>(`${view.ref} ${name}`, {});
-  const [give_back, set_give_back] = useDraft(`${view.ref} ${name} give back`, false);
+  const [give_back, set_give_back] = useDraft(`${view.ref} ${name} give back`, name === 'start' && ending.test(view.type_name));
   const [was_tried, set_tried] = useState(false);
   const asked = asked_by(view, name);
   const problems = problems_in(console, view.ref, asked, inputs);

@@ -1,8 +1,9 @@
 // What was chosen on the floor, and what can be done with it: a target to send a robot to, a person to follow, a robot.
 import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
-import { value } from 'rois-client';
+import { command } from 'rois-client';
 
+import { asked_by, parameters_from } from '../forms';
 import { useConsole } from '../shell/context';
 import { show_component } from '../shell/layout';
 import { Button, error_text, Fact, Form, IconButton, SelectField, TextField } from '../ui';
@@ -229,10 +230,11 @@ function Speaking({ voice }: { voice: string }) {
   const console = useConsole();
   const deed = useDeed();
   const words = useSignal('');
-  // Not that of a speech before: a bound component keeps it.
-  const language = console.profile.component(voice)?.parameters.find((one) => one.name === 'language')?.default_value;
   const say = async () => {
-    const { command_ids, ends } = await console.run(voice, 'start', { speech_text: value.string(words.value.trim()), ...(language !== undefined && { language: value.string(language) }) }, { give_back: true });
+    // With all that is optional as it is by default: a component that stays bound keeps what was set for a speech before.
+    const asked = asked_by(console.profile.component(voice)!, 'start');
+    const inputs = Object.fromEntries(asked.map(({ name, default_value }) => [name, { texts: [name === 'speech_text' ? words.value.trim() : (default_value ?? '')] }]));
+    const { command_ids, ends } = await console.execute([{ ...command(voice, 'start'), arguments: parameters_from(asked, inputs) }], { give_back: true });
     words.value = '';
     const [status] = await ends;
     if (status !== 'ERROR') return;

@@ -45,8 +45,12 @@ describe('components', () => {
       await is_told(page, 'It is done.');
       expect(await item(page, 'speech_synthesis').getByText('running').count()).toBe(0);
       expect(await page.getByRole('region', { name: 'Answer: speech_synthesis start' }).textContent()).toContain('execute_response');
-      await page.getByText('bound by me').first().waitFor();
       await picture(page, 'components-command');
+      // It was released, so its parameters are not there for the next speech.
+      expect(await page.getByLabel(/^Release the component when/).isChecked()).toBe(true);
+      await page.getByText('0 bound').waitFor();
+      await open(page, 'person_detection');
+      expect(await page.getByLabel(/^Release the component when/).isChecked()).toBe(false);
       expect(await violations(page)).toBe('');
     }));
 

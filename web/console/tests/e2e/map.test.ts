@@ -219,7 +219,7 @@ describe('the robot', () => {
       await page.keyboard.press('Enter');
       await page.getByText('1 bound').waitFor();
       const spoken = () => page.evaluate(() => (window as unknown as { rois: Console }).rois.commands.all.list().filter((one) => one.command_type === 'start').map((one) => one.arguments.map(({ name, values }) => `${name}=${values.join()}`)));
-      await expect.poll(spoken).toEqual([['speech_text=Welcome.', 'language=en']]);
+      await expect.poll(spoken).toEqual([['speech_text=Welcome.', 'volume=50', 'language=en', 'character=default']]);
       await hall.pass(3000);
       await expect.poll(() => page.evaluate(() => (window as unknown as { rois: Console }).rois.commands.all.list().filter((one) => one.command_type === 'start').map((one) => `${one.component} ${one.state}`))).toEqual(['speech_synthesis OK']);
       await page.evaluate(() => (window as unknown as { rois: Console }).rois.bindings.release('speech_synthesis'));
