@@ -22,7 +22,6 @@ export function Plots() {
   const { traffic, metrics, now: clock } = useConsole();
   const cursor = useSignal<number | undefined>(undefined);
   void language.value;
-  void metrics.latest.value;
   const now = clock.value;
   const from = now - shown_for;
   const { middle, slowest } = latencies(traffic.seconds, from);

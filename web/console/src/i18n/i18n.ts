@@ -26,6 +26,11 @@ export function text_of<Given extends unknown[]>(made: (...given: Given) => Both
   return (...given) => said(made(...given));
 }
 
+/** Whether fingers point: then texts do not speak of keys and of a mouse. */
+export function is_touched(): boolean {
+  return globalThis.matchMedia?.('(pointer: coarse)').matches ?? false;
+}
+
 function said(both: Both): string {
   return typeof both === 'string' ? both : both[language.value === 'ja' ? 1 : 0];
 }

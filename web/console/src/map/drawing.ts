@@ -7,7 +7,7 @@ import { bearing, distance, type FloorPose, obstacle_at } from '../state/floor';
 import { radius_of } from './glyphs';
 import { Glide } from './glide';
 import { goals_of } from './goals';
-import { draw_ground } from './ground';
+import { draw_ground, frames_of } from './ground';
 import { type Hit, type Input, stepped, type Surroundings } from './interaction';
 import { Labels } from './labels';
 import type { Palette } from './palette';
@@ -244,6 +244,7 @@ export class Drawing {
       pose,
       goals: goals_of(this.console, this.shown),
       places: this.session.map?.places ?? [],
+      frames: this.session.map ? frames_of(this.session.map) : [],
       layers: layers.value,
       chosen,
       hovered: hovered.value,

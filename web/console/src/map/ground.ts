@@ -28,7 +28,7 @@ export function draw_ground(pen: Pen, map: FloorMap | undefined, layers: Layers)
   context.fillRect(0, 0, size.width, size.height);
   if (!map) {
     if (layers.grid) draw_grid(pen);
-    return draw_axes(pen, { x: 0, y: 0, heading: 0 }, '');
+    return draw_axes(pen, { x: 0, y: 0, heading: 0, name: '' });
   }
   box(pen, map.bounds, () => pen.fill(palette.panel));
   context.save();
@@ -45,8 +45,20 @@ export function draw_ground(pen: Pen, map: FloorMap | undefined, layers: Layers)
   const names: Name[] | undefined = layers.names ? [] : undefined;
   if (layers.places) for (const place of map.places) draw_place(pen, place, names);
   if (!layers.frames) return;
-  draw_axes(pen, { x: 0, y: 0, heading: 0 }, short_name(map.crs));
-  for (const { frame } of map.robots) if (frame) draw_axes(pen, frame, short_name(frame.crs));
+  for (const frame of frames_of(map)) draw_axes(pen, frame);
+}
+
+/** A frame of reference, where it is in that of the map. */
+export interface Axes {
+  x: number;
+  y: number;
+  heading: number;
+  name: string;
+}
+
+export function frames_of(map: FloorMap): Axes[] {
+  const own = map.robots.flatMap(({ frame }) => (frame ? [{ ...frame, name: short_name(frame.crs) }] : []));
+  return [{ x: 0, y: 0, heading: 0, name: short_name(map.crs) }, ...own];
 }
 
 /** The part of a frame's name that tells it from others. */
@@ -157,7 +169,14 @@ export function name_box(pen: Pen, place: Place, width: number): { x: number; y:
   return { x: at.x - width / 2, y: at.y + name_below - 2, width, height: 16 };
 }
 
-function draw_axes(pen: Pen, frame: { x: number; y: number; heading: number }, name: string): void {
+/** Where a frame's name stands: beside its origin; at the edge before it. */
+export function frame_box(pen: Pen, frame: Axes, width: number): { x: number; y: number; width: number; height: number } {
+  const at = pen.at(frame);
+  const room = pen.size.width - 8 - width;
+  return { x: at.x > pen.size.width ? at.x + 8 : Math.min(at.x + 8, room), y: at.y + 12 < pen.size.height - 6 ? at.y + 4 : at.y - 20, width, height: 16 };
+}
+
+function draw_axes(pen: Pen, frame: Axes): void {
   const { context, palette } = pen;
   const at = pen.at(frame);
   for (const [turn, letter, side] of [[0, 'x', 1], [90, 'y', -1]] as const) {
@@ -180,7 +199,7 @@ function draw_axes(pen: Pen, frame: { x: number; y: number; heading: number }, n
   }
   pen.circle(at, 2.5);
   pen.fill(palette.ink, 0.75);
-  if (name === '') return;
-  const room = pen.size.width - 8 - context.measureText(name).width; // one at the edge is written before it
-  pen.text(name, { x: at.x > pen.size.width ? at.x + 8 : Math.min(at.x + 8, room), y: at.y + 12 < pen.size.height - 6 ? at.y + 12 : at.y - 12 }, palette.soft);
+  if (frame.name === '') return;
+  const box = frame_box(pen, frame, context.measureText(frame.name).width);
+  pen.text(frame.name, { x: box.x, y: box.y + 8 }, palette.soft);
 }

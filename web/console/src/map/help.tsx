@@ -1,4 +1,5 @@
 // How the map is worked with, and what its signs mean.
+import { is_touched } from '../i18n/i18n';
 import { Dialog, Fact } from '../ui';
 import * as t from './texts';
 
@@ -25,14 +26,18 @@ export function Help({ open, close }: { open: boolean; close: () => void }) {
       <div class="map-help">
         <h3>{t.pointers()}</h3>
         <p>{t.pointer_click()}</p>
-        <p>{t.pointer_aim()}</p>
+        {!is_touched() && <p>{t.pointer_aim()}</p>}
         <p>{t.pointer_pan()}</p>
-        <h3>{t.keys()}</h3>
-        <dl class="map-keys">
-          {keys.map(([those, what]) => (
-            <Fact key={what} name={those.map((key) => <kbd key={key}>{key}</kbd>)}>{what}</Fact>
-          ))}
-        </dl>
+        {!is_touched() && (
+          <>
+            <h3>{t.keys()}</h3>
+            <dl class="map-keys">
+              {keys.map(([those, what]) => (
+                <Fact key={what} name={those.map((key) => <kbd key={key}>{key}</kbd>)}>{what}</Fact>
+              ))}
+            </dl>
+          </>
+        )}
         <h3>{t.signs()}</h3>
         <ul class="map-signs">
           {signs.map(([sign, what]) => (

@@ -3,7 +3,7 @@ import type { Place } from '../state/floor_map';
 import { bearing, type FloorPose } from '../state/floor';
 import { draw_certainty, draw_choice, draw_thing, radius_of } from './glyphs';
 import type { Goal } from './goals';
-import { type Layers, name_box, place_name } from './ground';
+import { type Axes, frame_box, type Layers, name_box, place_name } from './ground';
 import type { Target } from './interaction';
 import { type Label, Labels, type Place as LabelBox } from './labels';
 import type { Pen } from './pen';
@@ -26,6 +26,7 @@ export interface Picture {
   goals: readonly Goal[];
   /** Of the map. */
   places: readonly Place[];
+  frames: readonly Axes[];
   layers: Layers;
   chosen: string | undefined;
   hovered: string | undefined;
@@ -147,7 +148,7 @@ export function label_of({ name, freshness, age }: Shown, age_text: (ms: number)
   return freshness === 'live' ? name : `${name} · ${age_text(age)}`;
 }
 
-function draw_names(pen: Pen, { chosen, hovered, age_text, places: named, layers }: Picture, seen: readonly [Shown, FloorPose, Point][], labels: Labels): void {
+function draw_names(pen: Pen, { chosen, hovered, age_text, places: named, frames, layers }: Picture, seen: readonly [Shown, FloorPose, Point][], labels: Labels): void {
   const { context, palette, size } = pen;
   context.font = palette.font;
   context.textBaseline = 'middle';
@@ -162,6 +163,7 @@ function draw_names(pen: Pen, { chosen, hovered, age_text, places: named, layers
   }
   wanted.sort((a, b) => Number(b.must) - Number(a.must));
   const taken = layers.places ? named.map((place) => name_box(pen, place, width_of(pen, place_name(place)))) : [];
+  if (layers.frames) for (const frame of frames) taken.push(frame_box(pen, frame, width_of(pen, frame.name)));
   for (const [one, , at] of seen) if (one.kind === 'robot' || one.kind === 'person') taken.push(box_of(at, radius_of(pen, one)));
   const places = labels.placed(wanted, size, taken);
   for (const [one] of seen) {

@@ -1,4 +1,4 @@
-import { type Both, text, text_of } from '../i18n/i18n';
+import { type Both, is_touched, text, text_of } from '../i18n/i18n';
 
 const layer_names: Record<string, Both> = {
   grid: ['Grid', '方眼'],
@@ -82,7 +82,11 @@ export const no_gap = text('A number above 0, please', '0 より大きい数値�
 export const no_number = text('A number, please', '数値を入れてください');
 export const send = text('Send here', 'ここへ送る');
 export const cancel = text('Cancel', '取り消し');
-export const turn_hint = text('Drag its arrow (or press Q, E) for the final direction', '矢印をドラッグするか Q・E キーで最後の向きを決めます');
+export const turn_hint = text_of(() =>
+  is_touched()
+    ? ['Drag its arrow for the final direction', '矢印をドラッグして最後の向きを決めます']
+    : ['Drag its arrow (or press Q, E) for the final direction', '矢印をドラッグするか Q・E キーで最後の向きを決めます'],
+);
 export const blocked = text_of((what: string) => obstacles[what] ?? what);
 export const no_navigation = text('This engine has no component that can be sent somewhere.', 'このエンジンには移動できるコンポーネントがありません。');
 export const unlinked = text('The link is not open.', '接続していません。');
@@ -148,13 +152,17 @@ export const key_send = text('sends the robot to the target', 'ロボットを�
 export const key_step = text('next and previous person or robot', '次・前の人やロボット');
 export const key_zoom = text('larger, smaller, all of the floor', '拡大・縮小・全体');
 export const key_escape = text('drops target, choice, cursor', '行き先・選択・カーソルを消す');
-export const pointers = text('Mouse and fingers', 'マウスと指');
-export const pointer_click = text(
-  'Click the floor for a target, drag its arrow to turn it. Nothing moves until you press Send here.',
-  '床をクリックすると行き先になり、矢印をドラッグすると向きが変わります。「ここへ送る」を押すまで何も動きません。',
-);
+export const pointers = text_of(() => (is_touched() ? ['Fingers', '指'] : ['Mouse and fingers', 'マウスと指']));
+export const pointer_click = text_of(() => [
+  `${is_touched() ? 'Tap' : 'Click'} the floor for a target, drag its arrow to turn it. Nothing moves until you press Send here.`,
+  `床を${is_touched() ? 'タップ' : 'クリック'}すると行き先になり、矢印をドラッグすると向きが変わります。「ここへ送る」を押すまで何も動きません。`,
+]);
 export const pointer_aim = text('Shift and drag: target and direction in one go.', 'Shift を押しながらドラッグ: 行き先と向きを一度に決めます。');
-export const pointer_pan = text('Drag the floor to move the map; wheel or two fingers to zoom.', '床をドラッグすると地図が動き、ホイールか二本指で拡大・縮小します。');
+export const pointer_pan = text_of(() =>
+  is_touched()
+    ? ['Drag the floor to move the map; two fingers zoom.', '床をドラッグすると地図が動き、二本指で拡大・縮小します。']
+    : ['Drag the floor to move the map; wheel or two fingers to zoom.', '床をドラッグすると地図が動き、ホイールか二本指で拡大・縮小します。'],
+);
 export const signs = text('Signs', '記号');
 export const sign_known = text('full: identified', '塗りつぶし: 識別済み');
 export const sign_gone = text('dashed: out of sight, or not told of any more, with its age', '破線: 見えない、または古い(経過時間つき)');

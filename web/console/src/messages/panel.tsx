@@ -3,6 +3,7 @@ import './messages.css';
 
 import { useEffect, useMemo, useState } from 'preact/hooks';
 
+import { is_touched } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import type { Console } from '../state/console';
 import type { LoggedDocument } from '../state/documents';
@@ -64,7 +65,7 @@ export default function MessagesPanel() {
       <VirtualList<Row>
         label={t.list()}
         rows={rows}
-        row_height={matchMedia('(pointer: coarse)').matches ? 40 : 26}
+        row_height={is_touched() ? 40 : 26}
         key_of={key_of}
         render={(row) => <RowView row={row} is_live={!tape} />}
         chosen={chosen}

@@ -10,7 +10,7 @@ import type { Scenario, State } from './model';
 import { arrow_head, neighbour, picture_of, shown_name } from './picture';
 import * as w from './texts';
 
-const smallest = 0.68; // below that one scrolls
+const smallest = 0.5; // below that one scrolls
 
 export function Diagram({ desk, scenario, edit }: { desk: Desk; scenario: Scenario; edit: (state: string) => void }) {
   const frame = useRef<HTMLDivElement>(null);

@@ -1,4 +1,6 @@
-import { text, text_of } from '../i18n/i18n';
+import { is_touched, text, text_of } from '../i18n/i18n';
+
+const with_keys = (en: string, ja: string, keys: string, ja_keys: string) => text_of(() => (is_touched() ? [en, ja] : [`${en} (${keys})`, `${ja} (${ja_keys})`]));
 
 export const title = text('Sequences', 'シーケンス');
 export const no_profile = text('Nothing is known of the engine yet', 'エンジンについてまだ何も分かっていません');
@@ -15,10 +17,10 @@ export const stop = text('Stop', '停止');
 export const add = text('Add a step', 'ステップを追加');
 export const add_here = text('Add a step here', 'ここにステップを追加');
 export const duplicate = text('Duplicate the step', 'ステップを複製');
-export const earlier = text('Move the step forward (Alt+Left)', '前へ移す (Alt+←)');
-export const later = text('Move the step back (Alt+Right)', '後ろへ移す (Alt+→)');
-export const up = text('Move the step to the branch above (Alt+Up)', '上の分岐へ移す (Alt+↑)');
-export const down = text('Move the step to the branch below (Alt+Down)', '下の分岐へ移す (Alt+↓)');
+export const earlier = with_keys('Move the step forward', '前へ移す', 'Alt+Left', 'Alt+←');
+export const later = with_keys('Move the step back', '後ろへ移す', 'Alt+Right', 'Alt+→');
+export const up = with_keys('Move the step to the branch above', '上の分岐へ移す', 'Alt+Up', 'Alt+↑');
+export const down = with_keys('Move the step to the branch below', '下の分岐へ移す', 'Alt+Down', 'Alt+↓');
 export const remove = text('Remove the step (Delete)', 'ステップを削除 (Delete)');
 export const undo = text('Undo (Ctrl+Z)', '元に戻す (Ctrl+Z)');
 export const unnamed = text('unnamed', '名前なし');
@@ -49,9 +51,13 @@ export const choose = text('choose …', '選んでください…');
 export const delay = text('Waits before it starts', '開始までの待ち時間');
 export const wait_time = text('How long', '時間');
 export const choose_step = text('Choose a step to see what it does', 'ステップを選ぶと内容が表示されます');
-export const keys = text(
-  'Arrows go from step to step, Alt and arrows move it, Insert adds one behind it, Delete removes it, Enter opens its form. The mouse drags steps.',
-  '矢印で移動、Alt+矢印で並べ替え、Insert で後ろに追加、Delete で削除、Enter で内容へ。マウスではドラッグできます。',
+export const keys = text_of(() =>
+  is_touched()
+    ? ['The buttons above add, move and remove steps.', '上のボタンで追加・移動・削除できます。']
+    : [
+        'Arrows go from step to step, Alt and arrows move it, Insert adds one behind it, Delete removes it, Enter opens its form. The mouse drags steps.',
+        '矢印で移動、Alt+矢印で並べ替え、Insert で後ろに追加、Delete で削除、Enter で内容へ。マウスではドラッグできます。',
+      ],
 );
 export const running = text('running', '実行中');
 export const stopped = text('stopped', '停止');
