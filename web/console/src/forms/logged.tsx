@@ -10,7 +10,7 @@ import { ResultsTable } from './results_table';
 /** The document, or the one of this number as long as it is remembered. */
 export function LoggedXml({ label, document }: { label: string; document: LoggedDocument | number }) {
   const console = useConsole();
-  const logged = typeof document === 'number' ? console.documents.ring.numbered(document) : document;
+  const logged = typeof document === 'number' ? console.documents.ring.numbered(document) : document.number < 0 ? undefined : document; // below 0: of the page that was here before
   if (!logged) return <p>{t.document_gone()}</p>;
   return (
     <>

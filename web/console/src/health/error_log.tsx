@@ -97,7 +97,7 @@ function Entry({ entry }: { entry: LogEntry }) {
       {is_open && (
         <div class="health-opened">
           {entry.kind === 'error' && <DetailsOf details={entry.entry.details} label={`${t.details()}: ${at}`} none={t.no_details()} />}
-          {entry.kind === 'refused' && entry.document.request && (
+          {entry.kind === 'refused' && entry.document.request?.text && (
             <>
               <h4>{t.request()}</h4>
               <XmlView text={entry.document.request.text} label={`${t.request()}, ${at}`} />

@@ -2,7 +2,7 @@
 import './map.css';
 
 import { useSignal } from '@preact/signals';
-import { useEffect, useMemo, useRef } from 'preact/hooks';
+import { useLayoutEffect, useMemo, useRef } from 'preact/hooks';
 
 import { useConsole, useWatch } from '../shell/context';
 import { Button, IconButton } from '../ui';
@@ -69,7 +69,7 @@ function Chosen({ sending, drawing }: { sending: ReturnType<typeof useSending>; 
   const cards = useRef<HTMLDivElement>(null);
   const about = target ? 'target' : chosen;
   const before = useRef<string>();
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (before.current !== undefined && document.activeElement === document.body)
       (cards.current?.querySelector<HTMLElement>('[type=submit]:enabled') ?? document.querySelector<HTMLElement>('.map-canvas'))?.focus();
     before.current = about;

@@ -112,7 +112,14 @@ describe('health', () => {
           await log(page).first().scrollIntoViewIfNeeded();
           await picture(page, 'health-log');
           await refused.getByRole('button', { name: 'Show in messages' }).click();
-          await page.locator('.panel-messages').getByRole('option', { selected: true }).getByText('bind').first().waitFor();
+          const chosen = page.locator('.panel-messages').getByRole('option', { selected: true }).getByText('bind').first();
+          await chosen.waitFor();
+          // The same document once more, while the filter hides it.
+          await page.getByLabel('Search in the text').fill('nothing has this text');
+          await page.getByText('Nothing passes the filter').waitFor();
+          await refused.getByRole('button', { name: 'Show in messages' }).click();
+          await chosen.waitFor();
+          expect(await page.getByLabel('Search in the text').inputValue()).toBe('');
         }),
       wide,
       '/#health',

@@ -182,7 +182,7 @@ describe('the robot', () => {
       await page.keyboard.up('Shift');
       await page.locator('.map-fact code', { hasText: /^(39|40)\d\d, (39|40)\d\d, 90$/ }).waitFor();
       await page.getByRole('button', { name: 'Send here' }).click();
-      await page.getByText(/^robot1 is going to x [34]\.\d\d m/).waitFor();
+      await page.locator('.map-motion').getByText(/^robot1 → x [34]\.\d\d m/).waitFor();
       await page.getByRole('button', { name: 'Stop robot1' }).waitFor();
       await pass_until(page, row(page, 'robot1').getByText(/x [45]\.[2-9]/), 200);
       await picture(page, 'map-going');
@@ -192,13 +192,13 @@ describe('the robot', () => {
       await page.getByText('0 bound').waitFor();
     }));
 
-  test('is stopped by the undo of the notice', () =>
+  test('is stopped by the button beside its way', () =>
     stage.page(async (page) => {
       await ready(page);
       await page.getByLabel('Place to go to').selectOption('exhibit');
       await page.getByRole('button', { name: 'Send here' }).click();
       await hall.pass(2000);
-      await page.getByRole('region', { name: 'Notices' }).getByRole('button', { name: 'Stop' }).click();
+      await page.locator('.map-motion').getByRole('button', { name: 'Stop robot1' }).click();
       await pass_until(page, page.getByText('robot1 was stopped'), 100);
       expect(await page.getByText(/has reached/).count()).toBe(0);
       await page.getByText('0 bound').waitFor();
@@ -475,6 +475,29 @@ describe('people', () => {
       is_there = false;
       await pass_until(page, row(page, /tanaka|person-/).getByText('Out of sight'), 500);
     }));
+
+  test('are unknown, not out of sight, while the link is lost and when nobody observes', () =>
+    stage.page(
+      async (page) => {
+        await ready(page);
+        await hall.visit('ueno', 'desk');
+        await observe(page);
+        const anybody = row(page, /ueno|person-/).first();
+        await pass_until(page, anybody, 200);
+        stage.front.cut();
+        await anybody.getByText('Unknown').waitFor();
+        await page.locator('.map-bar').getByText('not connected', { exact: true }).waitFor();
+        expect(await page.locator('.map-bar').getByText(/components look/).count()).toBe(0);
+        stage.front.mend();
+        await ready(page);
+        await page.getByText('5 components look').waitFor();
+        await page.getByRole('switch', { name: 'Observe' }).click();
+        await anybody.getByText('Unknown').waitFor();
+        expect(await page.getByText('Out of sight').count()).toBe(0);
+        await hall.leave('ueno');
+      },
+      { may_complain: broken_link },
+    ));
 
   test('are looked for as far as other applications let it', async () => {
     const other = await connect(stage.gateway.url);

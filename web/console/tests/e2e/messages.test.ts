@@ -25,6 +25,7 @@ afterAll(async () => {
 });
 
 const row = (page: Page, text: string | RegExp) => page.getByRole('option').filter({ hasText: text });
+const event_row = (page: Page) => row(page, 'person_detected').filter({ has: page.getByTitle('receive_event') });
 const kind = (page: Page, name: string) => page.getByRole('group', { name: 'Kinds' }).getByRole('button', { name, exact: true });
 
 async function command(page: Page, ref: string, world = hall): Promise<void> {
@@ -43,7 +44,7 @@ async function event_comes(page: Page, world = hall): Promise<void> {
   await page.getByRole('button', { name: 'Subscribe', exact: true }).click();
   await page.locator('.exchange-came').getByText('OK', { exact: true }).waitFor();
   await command(page, 'person_detection', world);
-  await world.pass_until(page, row(page, 'person_detected'), 200);
+  await world.pass_until(page, event_row(page), 200);
 }
 
 describe('events and messages', () => {
@@ -110,7 +111,7 @@ describe('events and messages', () => {
   test('an event without its values has its details fetched', () =>
     stage.page(async (page) => {
       await event_comes(page);
-      await row(page, 'person_detected').first().click();
+      await event_row(page).first().click();
       await page.getByRole('button', { name: 'Fetch the details' }).click();
       await page.getByRole('region', { name: 'Details' }).getByText('number').waitFor();
       await picture(page, 'messages-event');
@@ -123,8 +124,8 @@ describe('events and messages', () => {
     await forgetful.page(
       async (page) => {
         await event_comes(page, world);
-        await row(page, 'person_detected').first().getByText('expired').waitFor();
-        await row(page, 'person_detected').first().click();
+        await event_row(page).first().getByText('expired').waitFor();
+        await event_row(page).first().click();
         await page.getByRole('button', { name: 'Fetch the details' }).click();
         await page.getByText('The details are gone.').waitFor();
         await page.getByText(/expired/, { exact: false }).first().waitFor();

@@ -50,7 +50,7 @@ describe('a new user', () => {
         await click_map(page, { x: 12_500, y: 5500 });
         await page.getByRole('region', { name: /^Person/ }).getByRole('button', { name: 'Go there' }).click();
         await page.getByRole('button', { name: 'Send here' }).click();
-        await page.getByText(/^robot1 is going to/).waitFor();
+        await page.getByText(/^robot1 → /).waitFor();
         await hall.sets_out('courier', '15000, 4000');
         await hall.pass_until(page, row(page, /robot1/).getByText(/x [89]\./), 100);
         await shown(page, 'map');

@@ -5,7 +5,7 @@ import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
 import type { Console } from '../../src/state/console';
 import { still_hall } from './hall';
-import { looks, picture, root, sizes, Stage, violations } from './harness';
+import { broken_link, looks, picture, root, sizes, Stage, violations } from './harness';
 
 const data = `${root}/tests/server/data`;
 let stage: Stage;
@@ -34,6 +34,25 @@ async function leaves(page: Page, name: string): Promise<void> {
   await page.locator('.visitors-orders .button-danger').click();
   await pass_until(page, visitor(page, name), 0);
 }
+
+test('who is there is not known before the engine has said it, and has its age while the link is lost', () =>
+  stage.page(
+    async (page) => {
+      await page.getByText('0 people in the hall').waitFor();
+      stage.front.cut();
+      await page.getByText(/^Not connected: as it was \d.* ago$/).waitFor();
+      expect(await page.getByText('Nobody is in the hall').count()).toBe(0);
+      expect(await page.getByRole('button', { name: 'Let in' }).isDisabled()).toBe(true);
+      expect(await page.getByRole('button', { name: 'Let 1 second pass' }).isDisabled()).toBe(true);
+      expect(await violations(page)).toBe('');
+      stage.front.mend();
+      await page.getByText('Nobody is in the hall').waitFor();
+      await page.getByText('Disconnect', { exact: true }).click();
+      await page.getByText('Who is in the hall is not known yet').waitFor();
+    },
+    { may_complain: broken_link },
+    '/#visitors',
+  ));
 
 describe('in a world that stands still', () => {
   test('somebody comes in, is dragged, says and waves, and time is let pass', () =>
