@@ -35,12 +35,12 @@ describe('the page', () => {
         expect(await page.evaluate(() => document.documentElement.lang)).toBe(language);
         const tabs = page.locator('.app-main .tabs-row').first().getByRole('tab');
         const boxes = await tabs.evaluateAll((all) => all.map((one) => one.getBoundingClientRect()));
-        if (sizes[size].width > 900) expect(Math.max(...boxes.map((one) => one.right)), 'all tabs are seen').toBeLessThanOrEqual(sizes[size].width);
+        if (sizes[size].width > 1099) expect(Math.max(...boxes.map((one) => one.right)), 'all tabs are seen').toBeLessThanOrEqual(sizes[size].width);
         else expect(new Set(boxes.map((one) => one.top)).size, 'one row of tabs, which scrolls').toBe(1);
         await tabs.last().click();
         expect(await is_in_view(tabs.last())).toBe(true);
         const menu = page.locator('.head summary');
-        if (sizes[size].width > 900) expect(await menu.count()).toBe(0);
+        if (sizes[size].width > 1099) expect(await menu.count()).toBe(0);
         else {
           await menu.click();
           expect(await is_in_view(page.locator('.head select').first())).toBe(true);
