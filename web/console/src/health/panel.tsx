@@ -1,6 +1,8 @@
 // How the link, the gateway and the session are: numbers, plots of the last minute, who has what, limits, and what went wrong.
 import './health.css';
 
+import { untracked } from '@preact/signals';
+
 import { useConsole, useWatch } from '../shell/context';
 import { Figures } from './figures';
 import { ErrorLog } from './error_log';
@@ -12,8 +14,11 @@ export default function HealthPanel() {
   const { metrics, traffic, now } = useConsole();
   useWatch(metrics.poll);
   useWatch(traffic.ping);
+  const at = now.value;
+  // Once a second: not with each answer, too.
+  const is_stale = untracked(() => metrics.is_stale(at));
   return (
-    <div class={metrics.is_stale(now.value) ? 'health health-stale' : 'health'} role="region" aria-label={t.all()} tabIndex={0}>
+    <div class={is_stale ? 'health health-stale' : 'health'} role="region" aria-label={t.all()} tabIndex={0}>
       <h2 class="unseen">{t.title()}</h2>
       <Figures />
       <Plots />

@@ -49,6 +49,17 @@ describe('health', () => {
         await page.getByText(/^Slowest in the last minute: \w+/).waitFor();
         await plot(page, /^The gateway/).locator('.health-legend li').filter({ hasText: /Requests\s*[1-9][\d.]* \/s/ }).waitFor();
         await plot(page, /^This console/).locator('.health-legend li').filter({ hasText: /Received\s*[1-9][\d.]* \/s/ }).waitFor();
+        // The lines are drawn once a second: with the clock, not with each answer.
+        const drawn = await page.locator('.health-plot canvas').first().evaluate(async (canvas: HTMLCanvasElement) => {
+          const pen = canvas.getContext('2d')!;
+          let n = 0;
+          const clear = pen.clearRect.bind(pen);
+          pen.clearRect = (...box) => ((n += 1), clear(...box));
+          await new Promise((passed) => setTimeout(passed, 4000));
+          return n;
+        });
+        expect(drawn).toBeLessThanOrEqual(5);
+        expect(drawn).toBeGreaterThan(1);
         // Once more as a table, and by keys.
         await latency.getByText('As a table').click();
         await expect.poll(() => table(page, 'How long answers take, ms: values').locator('tbody tr').first().innerText()).toMatch(/^[\d:]+\s+[\d.]+ ms\s+[\d.]+ ms/);

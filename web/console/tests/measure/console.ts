@@ -2,8 +2,9 @@
 //   first view: when something is painted and when the map stands (ms after the page was asked for), what came over the wire (KiB),
 //     and what all files of the console are together;
 //   20 people at 20 Hz: pictures a second, the longest time between two (ms), the share of a core that the page's thread works;
-//   at rest: the share of a core that the page's process and the GPU process take, all threads, while the robot and three people stand still.
-// cd web/console && npm run build && ROIS_BINARY_DIR=../../build/release npx vite-node tests/measure/console.ts [SECONDS]
+//   at rest: the share of a core that the page's process and the GPU process take, all threads, while two robots and three people stand still; with
+//     these panels in front.
+// cd web/console && npm run build && ROIS_BINARY_DIR=../../build/release npx vite-node tests/measure/console.ts [SECONDS [PANEL...]]
 import { execFileSync } from 'node:child_process';
 import { existsSync, readdirSync } from 'node:fs';
 
@@ -14,6 +15,7 @@ import { Gateway, root } from '../../../client/tests/gateway.js';
 
 const people = 20;
 const seconds = Number(process.argv[2] ?? 8);
+const panels = process.argv.length > 3 ? process.argv.slice(3) : ['map'];
 const here = `${root}/web/console/tests/measure`;
 const size = { width: 1600, height: 900 };
 const things = '.map table tbody tr'; // what is on the map, in words
@@ -28,7 +30,7 @@ try {
   await browser.close();
   await gateway.stop();
 }
-console.log(JSON.stringify({ row: 'at rest', ...(await rest()) }));
+for (const panel of panels) console.log(JSON.stringify({ row: panel === 'map' ? 'at rest' : `at rest, ${panel}`, ...(await rest(panel)) }));
 
 /** Of a browser that has nothing of it in store. */
 async function view(browser: Browser, url: string) {
@@ -121,8 +123,8 @@ async function crowd(browser: Browser) {
 }
 
 /** A browser of its own, which nothing looks into but for the time that its processes have taken. */
-async function rest() {
-  const hall = await Gateway.start('--scenario', `${here}/rest.xml`, '--seed', '7');
+async function rest(panel: string) {
+  const hall = await Gateway.start('--scenario', `${here}/rest.xml`, '--floor-plan', `${root}/components/simulation/data/two-robots.xml`, '--steering', 'on', '--seed', '7');
   const sensing = await connect(hall.url);
   for (const ref of ['person_detection', 'person_localization', 'person_identification', 'face_localization', 'sound_localization']) {
     await sensing.bind(ref);
@@ -131,7 +133,7 @@ async function rest() {
   const window = await chromium.launch({ executablePath: process.env['CHROMIUM'] ?? '/usr/bin/chromium', args: ['--disable-dev-shm-usage'] });
   try {
     const page = await window.newPage({ viewport: size, reducedMotion: 'no-preference' });
-    await page.goto(hall.url);
+    await page.goto(`${hall.url}/#${panel}`);
     await new Promise((passed) => setTimeout(passed, 40_000)); // everybody has come in and stands
     const inside = await window.newBrowserCDPSession();
     const taken = async () => {

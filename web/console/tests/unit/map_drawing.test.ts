@@ -5,7 +5,9 @@ import { beforeEach, describe, expect, test, vi } from 'vitest';
 import { Drawing, type Sheet } from '../../src/map/drawing';
 import { drivers_of, follow, go, motions_of, stop } from '../../src/map/driving';
 import { goals_of } from '../../src/map/goals';
+import { frame_box, frames_of } from '../../src/map/ground';
 import type { Palette } from '../../src/map/palette';
+import { Pen } from '../../src/map/pen';
 import { knob_distance } from '../../src/map/picture';
 import { age } from '../../src/map/says';
 import { MapSession } from '../../src/map/session';
@@ -314,6 +316,26 @@ describe('driving', () => {
     expect(console.bindings.mine.value.size).toBe(0);
     expect(said()).toEqual([]);
   });
+});
+
+test('no name of a person is written over the name of a frame', async () => {
+  const boxes: [x: number, y: number, width: number, height: number][] = [];
+  const recording = sheet();
+  const context = recording.getContext('2d') as unknown as Record<string, unknown>;
+  context['roundRect'] = (x: number, y: number, width: number, height: number) => boxes.push([x, y, width, height]);
+  const palette = new Proxy({}, { get: () => 'black' }) as Palette;
+  const made = new Drawing(console, session, { ...recording, getContext: () => context as never }, { make_sheet: sheet, read_palette: () => palette, theme: () => 'dark', age_text: age, distance_text: String });
+  made.resize({ width: 800, height: 600 }, 2);
+  await settled();
+  await world.notifies('receive_event', people([100, -300])); // its name would stand where that of the frame does
+  boxes.length = 0;
+  made.resize({ width: 800, height: 600 }, 2);
+  const pen = new Pen(context as never, made.view, { width: 800, height: 600 }, palette);
+  const taken = frame_box(pen, frames_of(session.map!)[0]!, 40);
+  expect(boxes).toHaveLength(1);
+  const [[x, y, width, height]] = boxes as [(typeof boxes)[0]];
+  const is_over = x < taken.x + taken.width && taken.x < x + width && y < taken.y + taken.height && taken.y < y + height;
+  expect(is_over).toBe(false);
 });
 
 test('of two robots the one that was chosen is sent', async () => {
