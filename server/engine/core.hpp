@@ -117,6 +117,7 @@ private:
     // Sessions (engine.cpp)
     void end(Session&, std::string_view why, Instant now);
     static SessionStatistics statistics(Session const&);
+    Session* longest_idle() const;
     void await_end_of_window(Session&);
     void end_if_lost(SessionId const&, Instant now);
     void settle(Instant now);
@@ -150,6 +151,7 @@ private:
     std::uint64_t events_published_ = 0;
     std::uint64_t errors_published_ = 0;
     std::uint64_t last_session_ = 0;
+    std::uint64_t sessions_replaced_ = 0;
     // How often there would have been too many.
     struct {
         std::uint64_t sessions = 0;

@@ -175,7 +175,10 @@ void Engine::Core::shut_down(Instant now) {
 }
 
 void Engine::Core::heard_from(SessionId const& id, Instant now) {
-    if (auto* session = find(id)) session->quiet_until = std::max(session->quiet_until, now.steady + settings_.session_timeout);
+    auto* session = find(id);
+    if (session == nullptr) return;
+    session->heard = now.steady;
+    session->quiet_until = std::max(session->quiet_until, now.steady + settings_.session_timeout);
 }
 
 void Engine::Core::heard_pong(SessionId const& id, Instant now) {
@@ -190,9 +193,24 @@ void Engine::Core::link_closed(SessionId const& id, Link link, Closing closing, 
     auto* session = find(id);
     if (session == nullptr) return;
     session->lease.closed(link, closing, now.steady);
+    session->heard = now.steady;
     auto const grace = link == Link::stream ? settings_.session_timeout : std::chrono::milliseconds{0};
     session->quiet_until = std::max(session->quiet_until, now.steady + grace);
     await_end_of_window(*session);
+}
+
+// Null if none is idle: without a link, a binding, a subscription and a command on its way.
+Session* Engine::Core::longest_idle() const {
+    Session* longest = nullptr;
+    for (auto const& [id, session] : sessions_) {
+        bool const idle = session->lease.links() == 0 && session->bound.empty() && session->subscriptions.empty() &&
+                          session->live_commands() == 0;
+        auto const earlier = [](Session const& a, Session const& b) {
+            return std::pair{a.heard, a.number} < std::pair{b.heard, b.number};
+        };
+        if (idle && (longest == nullptr || earlier(*session, *longest))) longest = session.get();
+    }
+    return longest;
 }
 
 // One look a session, however often its links come and go.
@@ -222,6 +240,7 @@ std::vector<ComponentEntry> Engine::Core::components() const {
 EngineStatistics Engine::Core::statistics() const {
     EngineStatistics numbers;
     numbers.sessions = sessions_.size();
+    numbers.sessions_replaced = sessions_replaced_;
     numbers.components = registry_.all().size();
     numbers.subscriptions = subscriptions_.size();
     std::ranges::copy(executor_.completed_by_status(), numbers.commands_completed);

@@ -57,6 +57,7 @@ struct LimitStatistics {
 
 struct EngineStatistics {
     std::size_t sessions = 0;                  // now
+    std::uint64_t sessions_replaced = 0;       // idle ones that ended for a new one
     std::size_t components = 0;                // now
     std::size_t subscriptions = 0;             // now: distinct event types with conditions
     std::uint64_t commands_completed[5] = {};  // by CompletedStatus
@@ -100,8 +101,9 @@ public:
     void describe(Places);
 
     // Performs an operation for the session (an empty id: for nobody yet). The notifications that it causes are in the session's
-    // queue when it returns. `Connect` opens a session unless `session` is one already. `Resume` only checks that its session
-    // can be taken over from `last_sequence`; reading on from there is the caller's.
+    // queue when it returns. `Connect` opens a session unless `session` is one already;
+    // when all places are taken, it ends the one that has been idle for longest, without link, binding and subscription. `Resume`
+    // only checks that its session can be taken over from `last_sequence`; reading on from there is the caller's.
     std::variant<Reply, Refusal> handle(SessionId const& session, Operation const&, Instant now);
 
     // Does what is due by now: devices, delays, timeouts, expiry, sessions whose link was lost.

@@ -13,7 +13,8 @@ namespace rois {
 // How a service application is linked to its session (decision 2): by a WebSocket, or by an event stream or a pending long poll.
 enum class Link : std::uint8_t { websocket, stream };
 
-// How a link ended: as a long poll that was answered, which is a request like any other; or the application closed it, or it broke.
+// How a link ended: as a long poll that was answered, which is a request like any other; or the application closed it, or it
+// broke.
 enum class Closing : std::uint8_t { answered, lost };
 
 class MotionLease {

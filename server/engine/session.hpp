@@ -25,7 +25,7 @@ struct Subscription;
 
 // Owned by the engine; state only.
 struct Session {
-    Session(MotionLease::Terms const& terms, Steady now) : connected{now}, lease{terms, now}, quiet_until{now} {}
+    Session(MotionLease::Terms const& terms, Steady now) : connected{now}, lease{terms, now}, heard{now}, quiet_until{now} {}
 
     std::shared_ptr<NotificationQueue> notifications;
     SessionId id;
@@ -43,6 +43,7 @@ struct Session {
 
     // The link (decision 2): which are open and when something was heard, and until when silence is no loss.
     MotionLease lease;
+    Steady heard;  // when something was heard last over HTTP, or a link closed
     Steady quiet_until;
     std::optional<Deadlines::Ticket> end_of_window;  // when to look whether the link was lost for good
 };

@@ -39,8 +39,14 @@ std::variant<Reply, Refusal> Engine::Core::connect(SessionId const& id, Connect 
         return perform(*known, asked, now);
     }
     if (sessions_.size() >= settings_.max_sessions) {
-        ++refused_.sessions;
-        return Refusal::too_many_sessions;
+        auto* const idle = longest_idle();
+        if (idle == nullptr) {
+            ++refused_.sessions;
+            return Refusal::too_many_sessions;
+        }
+        ++sessions_replaced_;
+        end(*idle, "it was idle, and a new session needed its place", now);
+        settle(now);
     }
     auto session = std::make_unique<Session>(terms, now.steady);
     session->id.text = fresh_secret_();

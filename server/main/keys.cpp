@@ -173,6 +173,23 @@ bool set_origins(Settings& settings, std::string const& text) {
     return true;
 }
 
+bool set_proxies(Settings& settings, std::string const& text) {
+    std::vector<net::Network> proxies;
+    for (auto const& word : words_of(text)) {
+        auto const network = net::read_network(word);
+        if (!network) return false;
+        proxies.push_back(*network);
+    }
+    settings.net.proxies = std::move(proxies);
+    return true;
+}
+
+std::string show_proxies(Settings const& settings) {
+    std::vector<std::string> words;
+    for (auto const& network : settings.net.proxies) words.push_back(net::text_of(network));
+    return joined(words);
+}
+
 bool set_hosts(Settings& settings, std::string const& text) {
     std::vector<std::string> hosts;
     for (auto const& word : words_of(text)) {
@@ -299,6 +316,21 @@ std::vector<Key> network_keys() {
         whole_number<std::size_t>(
             "max_connections", "connections", [](Settings & s) -> auto& { return s.net.max_connections; }, 1, 1e6),
         whole_number<std::size_t>(
+            "max_connections_per_address", "connections of one remote address, except the loopback and proxies",
+            [](Settings & s) -> auto& { return s.net.max_connections_per_address; }, 1, 1e6),
+        whole_number<std::size_t>(
+            "max_sessions_per_address", "sessions opened by one remote address, except the loopback and proxies",
+            [](Settings & s) -> auto& { return s.net.max_sessions_per_address; }, 1, 1e6),
+        whole_number<std::size_t>(
+            "max_sessions_per_connection", "sessions opened on one connection, except those of proxies",
+            [](Settings & s) -> auto& { return s.net.max_sessions_per_connection; }, 1, 1e6),
+        whole_number<std::size_t>(
+            "max_streams_per_session", "event streams of a session",
+            [](Settings & s) -> auto& { return s.net.max_streams_per_session; }, 1, 1e6),
+        {"proxies", "addresses of reverse proxies, whose connections the limits per address and per connection do not hold for",
+         "ADDRESSES", "IP addresses or networks such as 192.0.2.1 10.0.0.0/8 2001:db8::/32, separated by spaces", Key::Kind::text,
+         set_proxies, show_proxies},
+        whole_number<std::size_t>(
             "max_requests_in_flight", "answers that wait for one WebSocket before it is read again",
             [](Settings & s) -> auto& { return s.net.max_requests_in_flight; }, 1, 1'024),
         whole_number<std::size_t>(
@@ -319,6 +351,9 @@ std::vector<Key> network_keys() {
                                 {{"fast", xml::Validation::fast}, {"full", xml::Validation::full}}),
         seconds(
             "request_timeout", "for a request to arrive", [](Settings & s) -> auto& { return s.net.request_timeout; }),
+        seconds(
+            "connect_timeout", "for a WebSocket to open or resume a session",
+            [](Settings & s) -> auto& { return s.net.connect_timeout; }),
         seconds(
             "idle_timeout", "between two requests of an HTTP connection",
             [](Settings & s) -> auto& { return s.net.idle_timeout; }),

@@ -22,6 +22,7 @@
 #include "net/foreign.hpp"
 #include "net/gateway.hpp"
 #include "net/health_check.hpp"
+#include "net/open_files.hpp"
 #include "net/secrets.hpp"
 #include "net/server.hpp"
 #include "simulation/component_refs.hpp"
@@ -106,6 +107,27 @@ net::Settings with_all_hosts(Settings const& settings) {
     return all;
 }
 
+net::ClientLimits client_limits(net::Settings const& settings) {
+    return {.sessions_per_connection = settings.max_sessions_per_connection,
+            .sessions_per_address = settings.max_sessions_per_address,
+            .streams_per_session = settings.max_streams_per_session};
+}
+
+// Raises the limit of open files to what all connections need; if it cannot be raised so far, fewer connections are accepted.
+void make_room_for_connections(net::Settings& net, media::Settings const& media) {
+    constexpr std::size_t own = 64, of_thread = 8;  // files that are open beside connections, with some to spare
+    auto const others = own + of_thread * net.threads + (media.host.empty() ? 0 : media.max_connections);
+    auto const wanted = others + net.max_connections;
+    auto const possible = net::raise_open_files(wanted);
+    if (possible >= wanted) return;
+    auto const fit = std::max<std::size_t>(possible, others + 1) - others;
+    spdlog::warn(
+        "the limit of open files is {} and cannot be raised to {}, which max_connections = {} needs: at most {} connections are "
+        "accepted; raise the hard limit (ulimit -Hn, LimitNOFILE, docker run --ulimit nofile)",
+        possible, wanted, net.max_connections, fit);
+    net.max_connections = fit;
+}
+
 // Null when nothing is to be streamed.
 std::shared_ptr<media::Server> make_media(media::Settings settings, net::Settings const& net) {
     if (settings.host.empty()) return nullptr;
@@ -177,7 +199,8 @@ int serve(CommandLine const& command) {
         return done;
     }
     set_up_logging(settings.log_format, settings.log_level);
-    auto const net_settings = with_all_hosts(settings);
+    auto net_settings = with_all_hosts(settings);
+    make_room_for_connections(net_settings, settings.media);
     for (auto const& warning : command.warnings) spdlog::warn("{}", warning);
     auto const media = make_media(settings.media, net_settings);
     net::Readers readers;
@@ -188,7 +211,7 @@ int serve(CommandLine const& command) {
     if (has_steering(settings)) engine.add(simulation::simulated_hall(simulation, profile_of_hall(schemas)));
     SpeechLog const speech_log{simulation};
     net::Telemetry telemetry;
-    net::Gateway gateway{engine, readers, telemetry};
+    net::Gateway gateway{engine, readers, telemetry, client_limits(net_settings)};
     UserComponents user_components{
         schemas, {simulation, media, schemas}, profiles, own_refs(settings, simulation->hall().plan()), settings.profiles};
     if (!settings.profiles.empty()) gateway.change(user_components.read());

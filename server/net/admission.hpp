@@ -1,10 +1,14 @@
-// How many connections may be open at once, over all loops.
+// How many connections may be open at once, over all loops: in all, and of one remote address.
 #pragma once
 
 #include <atomic>
 #include <cstddef>
-#include <optional>
+#include <map>
+#include <mutex>
 #include <utility>
+#include <variant>
+
+#include "net/addresses.hpp"
 
 namespace rois::net {
 
@@ -14,37 +18,60 @@ public:
     // What a connection has for as long as it lives.
     class Place {
     public:
-        Place(Place&& other) noexcept : of_{std::exchange(other.of_, nullptr)} {}
+        Place(Place&& other) noexcept
+            : of_{std::exchange(other.of_, nullptr)}, address_{other.address_}, limits_{other.limits_} {}
         Place& operator=(Place&&) = delete;
         ~Place() {
-            if (of_ != nullptr) --of_->taken_;
+            if (of_ != nullptr) of_->leave(*this);
         }
+
+        Address const& address() const { return address_; }
+        Limits limits() const { return limits_; }
 
     private:
         friend class Admission;
-        explicit Place(Admission& of) : of_{&of} {}
+        Place(Admission& of, Address const& address, Limits limits) : of_{&of}, address_{address}, limits_{limits} {}
 
         Admission* of_;
+        Address address_;
+        Limits limits_;
     };
 
-    explicit Admission(std::size_t most) : most_{most} {}
+    enum class Refused : unsigned char {
+        full,            // all places are taken
+        full_of_address  // this address has as many as it may
+    };
 
-    // None while all are taken.
-    std::optional<Place> enter() {
-        if (taken_++ >= most_) {
-            --taken_;
-            return {};
-        }
+    Admission(std::size_t most, std::size_t most_of_address) : most_{most}, most_of_address_{most_of_address} {}
+
+    std::variant<Place, Refused> enter(Address const& address, Limits limits) {
+        std::lock_guard const lock{mutex_};
+        auto const counted = limits == Limits::all ? of_address_.find(address) : of_address_.end();
+        if (counted != of_address_.end() && counted->second >= most_of_address_) return Refused::full_of_address;
+        if (taken_ >= most_) return Refused::full;
+        if (limits == Limits::all) ++of_address_[address];
+        ++taken_;
         full_ = false;
-        return Place{*this};
+        return Place{*this, address, limits};
     }
 
     // Whether this is the first to be told since there was room.
     bool is_news() { return !full_.exchange(true); }
 
 private:
+    void leave(Place const& place) {
+        std::lock_guard const lock{mutex_};
+        --taken_;
+        if (place.limits_ != Limits::all) return;
+        auto const counted = of_address_.find(place.address_);
+        if (--counted->second == 0) of_address_.erase(counted);
+    }
+
     std::size_t most_;
-    std::atomic<std::size_t> taken_ = 0;
+    std::size_t most_of_address_;
+    std::mutex mutex_;  // guards the next two
+    std::size_t taken_ = 0;
+    std::map<Address, std::size_t> of_address_;
     std::atomic<bool> full_ = false;
 };
 

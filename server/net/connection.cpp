@@ -23,6 +23,7 @@ Fault too_slow() { return {FaultCode::too_slow, "the request did not arrive in t
 Connection::Connection(Loop& loop, Socket socket, Admission::Place place)
     : loop_{loop},
       place_{std::move(place)},
+      opener_{std::make_shared<Opener>(place_.address(), place_.limits(), 0U)},
       wire_{std::move(socket), loop.poller(), loop.shared().settings.write_timeout, loop.shared().telemetry},
       counted_{std::in_place, loop.shared().telemetry, Telemetry::Kind::http} {
     loop.add(*this);
@@ -145,8 +146,8 @@ Task<Connection::Then> Connection::receive() {
 }
 
 Answer Connection::operate() {
-    auto answer =
-        loop_.shared().gateway.answer(loop_.reader(), session_, wire_.text().substr(0, head().content_length), Via::http);
+    auto answer = loop_.shared().gateway.answer(loop_.reader(), session_, wire_.text().substr(0, head().content_length),
+                                                Via::http, opener_);
     wire_.use(head().content_length);
     return answer;
 }
@@ -215,7 +216,7 @@ Task<> Connection::serve_websocket() {
     auto const& shared = loop_.shared();
     counted_.emplace(shared.telemetry, Telemetry::Kind::websocket);
     auto const websocket = std::make_shared<WebSocket>(std::shared_ptr<Wire>{shared_from_this(), &wire_}, shared.gateway,
-                                                       shared.telemetry, loop_.reader(), loop_.wakes(), shared.settings);
+                                                       shared.telemetry, loop_.reader(), loop_.wakes(), shared.settings, opener_);
     websocket_ = websocket;
     if (loop_.draining()) websocket->shut_down();
     co_await websocket->run();

@@ -64,6 +64,7 @@ private:
     Loop& loop_;
     std::size_t seat_ = 0;  // among the loop's connections: the loop's own
     Admission::Place place_;
+    std::shared_ptr<Opener> opener_;
     Wire wire_;
     std::optional<Telemetry::Counted> counted_;
     // The request that is being received or served.

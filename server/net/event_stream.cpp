@@ -65,7 +65,7 @@ Task<HttpAnswer> poll(Wire& wire, Gateway& gateway, Telemetry& telemetry, Wakes&
                       NotificationsWanted const& wanted) {
     auto const until = std::chrono::steady_clock::now() + wanted.wait;
     auto const signal = std::make_shared<Signal>(wakes);
-    auto read = gateway.read(session, Link::stream, wanted.after, *signal);
+    auto read = gateway.read(session, Link::stream, wanted.after, *signal, Readers::Until::answered);
     if (auto const* fault = std::get_if<Fault>(&read)) co_return answer_of(*fault);
     auto const reading = std::get<std::unique_ptr<Reading>>(std::move(read));
     bool gone = false;

@@ -105,13 +105,21 @@ void NotificationDocument::append_to(std::string& out) const {
     out.append(before_).append(digits_.data(), digits_size_).append(after_);
 }
 
-Gateway::Gateway(Engine& engine, Readers& readers, Telemetry& telemetry)
-    : engine_{engine}, readers_{readers}, telemetry_{telemetry} {
+Gateway::Gateway(Engine& engine, Readers& readers, Telemetry& telemetry, ClientLimits limits)
+    : engine_{engine},
+      readers_{readers},
+      telemetry_{telemetry},
+      quota_{limits.sessions_per_connection, limits.sessions_per_address},
+      streams_per_session_{limits.streams_per_session},
+      log_{[this](std::uint64_t session) { quota_.ended(session); }} {
     engine_.report_to(log_);
+    telemetry.set(Telemetry::Limit::sessions_per_connection, limits.sessions_per_connection);
+    telemetry.set(Telemetry::Limit::sessions_per_address, limits.sessions_per_address);
+    telemetry.set(Telemetry::Limit::streams_per_session, limits.streams_per_session);
 }
 
 Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std::string_view text, Via via,
-                       Reading const* reading) {
+                       std::shared_ptr<Opener> const& opener, Reading const* reading) {
     auto const begun = present();
     Answer answer;
     auto const refuse = [&](Fault fault, std::string const& request_id) {
@@ -131,9 +139,9 @@ Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std
         return answer;
     }
 
-    auto const said = perform(session, request.operation, via, reading, begun, answer);
+    auto const said = perform(session, request.operation, via, opener, reading, begun, answer);
     if (auto const* refusal = std::get_if<Refusal>(&said))
-        return refuse(fault_of(*refusal), request.request_id), std::move(answer);
+        return refuse(answer.fault ? *answer.fault : fault_of(*refusal), request.request_id), std::move(answer);
     auto const& reply = std::get<Reply>(said);
     answer.document = xml::encode(reply, request.request_id);
     auto const code = std::visit([](Outcome const& outcome) { return outcome.return_code; }, reply);
@@ -143,17 +151,44 @@ Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std
 }
 
 std::variant<Reply, Refusal> Gateway::perform(SessionId const& session, Operation const& operation, Via via,
-                                              Reading const* reading, Instant now, Answer& answer) {
+                                              std::shared_ptr<Opener> const& opener, Reading const* reading, Instant now,
+                                              Answer& answer) {
     std::lock_guard const lock{mutex_};
     auto queue = reading != nullptr ? reading->queue_ : engine_.notifications(session);
     bool const known = queue != nullptr;
     // The readers of a session that disconnects hear the last of it before the answer (decision 3): then nothing is held.
     if (known && !std::holds_alternative<Disconnect>(operation)) answer.hold = Hold{*this, std::move(queue)};
     if (via == Via::http) engine_.heard_from(session, now);
+    bool const opens = opener && !known && std::holds_alternative<Connect>(operation);
+    if (opens && (answer.fault = refusal_of(*opener))) return Refusal::too_many_sessions;
     auto handled = engine_.handle(session, operation, now);
     answer.session_number = log_.take_joined();
+    if (opens && answer.session_number != 0) quota_.opened(answer.session_number, opener);
     if (via == Via::http && !known) heard_from_opened(handled, now);
     return handled;
+}
+
+// Why this connection may not open another session, or nothing.
+std::optional<Fault> Gateway::refusal_of(Opener const& opener) {
+    auto const refused = [](std::string_view holder, std::size_t sessions, std::string_view instead, std::string_view key) {
+        return Fault{FaultCode::too_many,
+                     std::string{holder} + " has " + std::to_string(sessions) + " sessions open already: disconnect one" +
+                         std::string{instead} + "; the key " + std::string{key} + " sets the limit",
+                     {},
+                     {}};
+    };
+    switch (quota_.verdict(opener)) {
+        case SessionQuota::Verdict::full_connection:
+            telemetry_.reached(Telemetry::Limit::sessions_per_connection);
+            return refused("this connection", quota_.most_of_connection(), ", or use another connection",
+                           "max_sessions_per_connection");
+        case SessionQuota::Verdict::full_address:
+            telemetry_.reached(Telemetry::Limit::sessions_per_address);
+            return refused("this address", quota_.most_of_address(), "", "max_sessions_per_address");
+        case SessionQuota::Verdict::open:
+            break;
+    }
+    return {};
 }
 
 // A session that was opened over HTTP has been heard from (decision 2).
@@ -164,13 +199,21 @@ void Gateway::heard_from_opened(std::variant<Reply, Refusal> const& handled, Ins
 }
 
 std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& session, Link link, std::uint64_t after,
-                                                            Reader& reader) {
+                                                            Reader& reader, Readers::Until until) {
     std::lock_guard const lock{mutex_};
     auto queue = engine_.notifications(session);
     if (!queue || queue->closed()) return no_such_session();
     if (auto const last = queue->last_sequence(); after > last) return beyond(after, last);
+    if (until == Readers::Until::closed && link == Link::stream && Readers::streams(*queue) >= streams_per_session_) {
+        telemetry_.reached(Telemetry::Limit::streams_per_session);
+        return Fault{FaultCode::too_many,
+                     "this session has " + std::to_string(streams_per_session_) +
+                         " event streams open already: close one; the key max_streams_per_session sets the limit",
+                     {},
+                     {}};
+    }
     engine_.link_opened(session, link, present());
-    readers_.join(*queue, link, reader);
+    readers_.join(*queue, link, reader, until);
     return std::make_unique<Reading>(*this, link, after, reader, std::move(queue));
 }
 

@@ -17,6 +17,7 @@
 #include "engine/prefetch.hpp"
 #include "net/log.hpp"
 #include "net/readers.hpp"
+#include "net/session_quota.hpp"
 #include "net/telemetry.hpp"
 #include "xml/codec.hpp"
 
@@ -103,6 +104,13 @@ private:
 
 enum class Via : std::uint8_t { http, websocket };
 
+// What one client may take (docs/metrics.md).
+struct ClientLimits {
+    std::size_t sessions_per_connection = 16;
+    std::size_t sessions_per_address = 64;
+    std::size_t streams_per_session = 8;
+};
+
 // What an operation's request is answered with, and what it means for the connection that it came by.
 struct Answer {
     std::string document;
@@ -117,15 +125,18 @@ struct Answer {
 class Gateway {
 public:
     // All three must outlive the gateway; `readers` is the engine's outbox.
-    Gateway(Engine&, Readers& readers, Telemetry&);
+    Gateway(Engine&, Readers& readers, Telemetry&, ClientLimits = {});
 
     // Reads the request's text, performs the operation for the session (an empty id: for nobody yet) and encodes the answer.
-    // Only the operation itself is done with the engine locked. `reading`: of the session, if there is one, which spares a
-    // search.
-    Answer answer(xml::RequestReader&, SessionId const&, std::string_view text, Via, Reading const* reading = nullptr);
+    // Only the operation itself is done with the engine locked. `opener`: the connection, whose sessions are counted; null: they
+    // are not. `reading`: of the session, if there is one, which spares a search.
+    Answer answer(xml::RequestReader&, SessionId const&, std::string_view text, Via,
+                  std::shared_ptr<Opener> const& opener = nullptr, Reading const* reading = nullptr);
 
-    // A fault if there is no such session, or if `after` is above the last sequence that was given out in it.
-    std::variant<std::unique_ptr<Reading>, Fault> read(SessionId const&, Link, std::uint64_t after, Reader&);
+    // A fault if there is no such session, if `after` is above the last sequence that was given out in it, or if it has as many
+    // event streams as it may.
+    std::variant<std::unique_ptr<Reading>, Fault> read(SessionId const&, Link, std::uint64_t after, Reader&,
+                                                       Readers::Until = Readers::Until::closed);
 
     // To be called every few milliseconds: lets the engine do what is due.
     void tick();
@@ -151,13 +162,17 @@ private:
     friend class Hold;
     friend class Reading;
 
-    std::variant<Reply, Refusal> perform(SessionId const&, Operation const&, Via, Reading const*, Instant now, Answer&);
+    std::variant<Reply, Refusal> perform(SessionId const&, Operation const&, Via, std::shared_ptr<Opener> const&, Reading const*,
+                                         Instant now, Answer&);
+    std::optional<Fault> refusal_of(Opener const&);
     void heard_from_opened(std::variant<Reply, Refusal> const&, Instant now);
 
     Engine& engine_;
     Readers& readers_;
     Telemetry& telemetry_;
-    mutable std::mutex mutex_;  // guards the engine and the readers
+    mutable std::mutex mutex_;  // guards the engine, the readers and the quota
+    SessionQuota quota_;
+    std::size_t streams_per_session_;
     EngineLog log_;
     std::atomic<bool> shutting_down_ = false;
 };

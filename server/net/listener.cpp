@@ -3,8 +3,11 @@
 #include <spdlog/spdlog.h>
 #include <sys/socket.h>
 
+#include <array>
 #include <boost/asio/post.hpp>
+#include <string>
 
+#include "net/http_answer.hpp"
 #include "net/loop.hpp"
 
 namespace rois::net {
@@ -14,6 +17,31 @@ namespace {
 using ReusePort = asio::detail::socket_option::boolean<SOL_SOCKET, SO_REUSEPORT>;
 
 constexpr auto between_tries = std::chrono::milliseconds{50};
+
+// Nothing if the peer has gone already.
+std::optional<Address> remote_address(Socket const& socket) {
+    boost::system::error_code error;
+    auto const endpoint = socket.remote_endpoint(error);
+    return error ? std::nullopt : read_address(endpoint.address().to_string());
+}
+
+// Says why, as far as the peer takes it at once: a connection that is refused gets no time.
+void refuse(Socket& socket, Shared const& shared) {
+    shared.telemetry.reached(Telemetry::Limit::connections_per_address);
+    shared.telemetry.faulted(FaultCode::too_many);
+    std::string text;
+    append(text,
+           answer_of({FaultCode::too_many,
+                      "this address has " + std::to_string(shared.settings.max_connections_per_address) +
+                          " connections open already: close one; the key max_connections_per_address sets the limit",
+                      {},
+                      {}}),
+           {.body = true, .close = true});
+    ::send(socket.native_handle(), text.data(), text.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+    ::shutdown(socket.native_handle(), SHUT_WR);
+    std::array<char, 4096> ignored{};
+    ::recv(socket.native_handle(), ignored.data(), ignored.size(), MSG_DONTWAIT);  // what is unread would reset the connection
+}
 
 }  // namespace
 
@@ -45,7 +73,7 @@ Task<> Listener::accept() {
         boost::system::error_code error;
         auto socket = co_await acceptor_.async_accept(into(error));
         if (!error) {
-            auto place = co_await this->place();
+            auto place = co_await this->place(socket);
             if (place) loop_.serve(std::move(socket), std::move(*place));
         } else if (error != asio::error::operation_aborted) {
             spdlog::warn("cannot accept a connection: {}", error.message());
@@ -56,11 +84,20 @@ Task<> Listener::accept() {
 }
 
 // A connection that finds all places taken waits, and those behind it in the kernel. None when the listener is closed meanwhile.
-Task<std::optional<Admission::Place>> Listener::place() {
+// It is refused at once if its address has as many as it may.
+Task<std::optional<Admission::Place>> Listener::place(Socket& socket) {
+    auto const address = remote_address(socket);
+    if (!address) co_return std::nullopt;
+    auto const limits = limits_of(*address, loop_.shared().settings.proxies);
     while (acceptor_.is_open()) {
-        if (auto place = admission_.enter()) co_return place;
+        auto entered = admission_.enter(*address, limits);
+        if (auto* place = std::get_if<Admission::Place>(&entered)) co_return std::move(*place);
+        if (std::get<Admission::Refused>(entered) == Admission::Refused::full_of_address) {
+            refuse(socket, loop_.shared());
+            co_return std::nullopt;
+        }
         if (admission_.is_news()) {
-            loop_.shared().telemetry.full();
+            loop_.shared().telemetry.reached(Telemetry::Limit::connections);
             spdlog::warn("{} connections are open; more must wait", loop_.shared().settings.max_connections);
         }
         boost::system::error_code error;

@@ -35,7 +35,7 @@ public:
 
 private:
     void open(Endpoint const&);
-    Task<std::optional<Admission::Place>> place();
+    Task<std::optional<Admission::Place>> place(Socket&);
 
     Loop& loop_;
     Admission& admission_;

@@ -44,7 +44,10 @@ std::string clean(std::string_view reason) {
 
 std::uint64_t EngineLog::take_joined() { return std::exchange(joined_, 0); }
 
-void EngineLog::session_ended(std::uint64_t session, std::string_view why) { spdlog::info("session {} ended: {}", session, why); }
+void EngineLog::session_ended(std::uint64_t session, std::string_view why) {
+    ended_(session);
+    spdlog::info("session {} ended: {}", session, why);
+}
 
 void EngineLog::bound(std::uint64_t session, std::string const& ref) { spdlog::debug("session {} binds {}", session, ref); }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "engine/journal.hpp"
 #include "types/messages.hpp"
@@ -13,6 +15,9 @@ namespace rois::net {
 // Sessions are logged at the level info, the rest at debug. Called with the engine locked.
 class EngineLog : public Journal {
 public:
+    // `ended` is called with the number of each session that ends, with the engine locked.
+    explicit EngineLog(std::function<void(std::uint64_t session)> ended) : ended_{std::move(ended)} {}
+
     // The number of the session that the last operation opened or resumed; 0 if it did neither.
     std::uint64_t take_joined();
 
@@ -26,6 +31,7 @@ private:
     void command_begun(Command const&) override;
     void command_ended(Command const&) override;
 
+    std::function<void(std::uint64_t session)> ended_;
     std::uint64_t joined_ = 0;
 };
 

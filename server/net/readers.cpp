@@ -11,6 +11,7 @@ struct rois::Audience {
     struct Joined {
         Link link;
         net::Reader* reader;
+        net::Readers::Until until;
     };
     boost::container::small_vector<Joined, 1> joined;
 };
@@ -38,7 +39,7 @@ void Reader::serve() {
     woken();
 }
 
-void Readers::join(NotificationQueue& queue, Link link, Reader& reader) {
+void Readers::join(NotificationQueue& queue, Link link, Reader& reader, Until until) {
     auto& audience = audiences_[queue.session()];
     if (!audience) audience = queue.audience() ? queue.audience() : std::make_shared<Audience>();
     if (link == Link::websocket) {
@@ -46,14 +47,14 @@ void Readers::join(NotificationQueue& queue, Link link, Reader& reader) {
             if (other.link == Link::websocket) other.reader->take_over();
         take_out(audience->joined, [](Audience::Joined const& other) { return other.link == Link::websocket; });
     }
-    audience->joined.push_back({link, &reader});
+    audience->joined.push_back({link, &reader, until});
     queue.set_audience(audience);
 }
 
 void Readers::join(SessionId const& session, Reader& reader) {
     auto& audience = audiences_[session];
     if (!audience) audience = std::make_shared<Audience>();
-    audience->joined.push_back({Link::stream, &reader});
+    audience->joined.push_back({Link::stream, &reader, Until::answered});
 }
 
 void Readers::leave(SessionId const& session, Reader const& reader) {
@@ -68,6 +69,13 @@ void Readers::leave(SessionId const& session, Reader const& reader) {
 std::size_t Readers::count(SessionId const& session) const {
     auto const found = audiences_.find(session);
     return found == audiences_.end() ? 0 : found->second->joined.size();
+}
+
+std::size_t Readers::streams(NotificationQueue const& queue) {
+    if (!queue.audience()) return 0;
+    return static_cast<std::size_t>(std::ranges::count_if(queue.audience()->joined, [](Audience::Joined const& one) {
+        return one.link == Link::stream && one.until == Until::closed;
+    }));
 }
 
 void Readers::notify(NotificationQueue& queue) {

@@ -52,12 +52,16 @@ private:
 // The engine's outbox: wakes the readers of a session. Guarded by the gateway's mutex, as the engine is.
 class Readers : public Outbox {
 public:
+    // Until when the reader is there: a long poll until its answer.
+    enum class Until : std::uint8_t { answered, closed };
     // A WebSocket that joins takes over from one that is there.
-    void join(NotificationQueue&, Link, Reader&);
+    void join(NotificationQueue&, Link, Reader&, Until = Until::closed);
     // The same for a session that has ended: to see how the others leave.
     void join(SessionId const&, Reader&);
     void leave(SessionId const&, Reader const&);
     std::size_t count(SessionId const&) const;
+    // How many event streams read this queue.
+    static std::size_t streams(NotificationQueue const&);
 
     void notify(NotificationQueue&) override;
     void approach(NotificationQueue const&) const override;

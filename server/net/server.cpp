@@ -33,12 +33,13 @@ public:
     Running(Settings settings, Gateway& gateway, Telemetry& telemetry, Documents const& documents,
             std::shared_ptr<xml::Schemas const> schemas)
         : shared_{std::move(settings), gateway, telemetry, documents, std::move(schemas)},
-          admission_{shared_.settings.max_connections},
+          admission_{shared_.settings.max_connections, shared_.settings.max_connections_per_address},
           loops_{make_loops()},
           listeners_{make_listeners()},
           signals_{loops_.front()->executor()},
           hang_ups_{loops_.front()->executor()} {
-        telemetry.may_open(shared_.settings.max_connections);
+        telemetry.set(Telemetry::Limit::connections, shared_.settings.max_connections);
+        telemetry.set(Telemetry::Limit::connections_per_address, shared_.settings.max_connections_per_address);
         gateway.tick();  // time begins before anybody can ask
         listen();
         signals_.add(SIGTERM);

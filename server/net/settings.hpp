@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "net/addresses.hpp"
 #include "xml/codec.hpp"
 
 namespace rois::net {
@@ -16,6 +17,11 @@ struct Settings {
     std::uint16_t port = 8080;       // 0: any free one
     std::size_t threads = 1;
     std::size_t max_connections = 10'000;
+    std::size_t max_connections_per_address = 256;
+    std::size_t max_sessions_per_address = 64;
+    std::size_t max_sessions_per_connection = 16;
+    std::size_t max_streams_per_session = 8;  // event streams
+    std::vector<Network> proxies;             // whose connections none of the four limits holds for
 
     std::size_t max_header = 16 * 1024;  // bytes of a request line with its header fields
     std::size_t max_fields = 100;
@@ -28,6 +34,7 @@ struct Settings {
     std::vector<std::string> allowed_origins;  // of web pages, beside this server's own: "https://console.example"
 
     std::chrono::milliseconds request_timeout = std::chrono::seconds{30};  // for a request to arrive whole
+    std::chrono::milliseconds connect_timeout = std::chrono::seconds{10};  // for a WebSocket to have a session
     std::chrono::milliseconds idle_timeout = std::chrono::seconds{75};     // of an HTTP connection between two requests
     std::chrono::milliseconds write_timeout = std::chrono::seconds{30};    // for a reader to take what was sent
     std::chrono::milliseconds ping_interval = std::chrono::seconds{20};    // of WebSockets and event streams

@@ -39,6 +39,8 @@ static_assert(operation_names.size() == std::variant_size_v<Operation>);
 
 constexpr std::array<char const*, 3> kind_names{"http", "websocket", "stream"};
 constexpr std::array<char const*, 2> way_names{"fast", "full"};
+constexpr std::array<char const*, 5> limit_names{"connections", "connections_per_address", "sessions_per_address",
+                                                 "sessions_per_connection", "streams_per_session"};
 
 double cpu_seconds() {
     rusage usage{};
@@ -91,6 +93,8 @@ public:
     void engine(EngineStatistics const& s) {
         auto const number = [](auto n) { return static_cast<double>(n); };
         gauge("rois_sessions", "Open sessions.", number(s.sessions));
+        counter("rois_sessions_replaced_total", "Idle sessions that ended because a new one needed their place.",
+                number(s.sessions_replaced));
         gauge("rois_components", "Components of the engine.", number(s.components));
         gauge("rois_subscriptions", "Distinct event types with conditions that are subscribed to.", number(s.subscriptions));
         counter("rois_events_total", "Events that components fired.", number(s.events));
@@ -126,7 +130,8 @@ public:
     }
 
     void limits(std::vector<LimitStatistics> all, Telemetry const& t) {
-        all.push_back({"connections", t.most_open_, t.full_});
+        for (std::size_t i = 0; i < limit_names.size(); ++i)
+            all.push_back({limit_names[i], t.limits_[i].most, t.limits_[i].reached});
         begin("rois_limit", "How many there may be.", MetricType::Gauge);
         for (auto const& limit : all) add({{"limit", std::string{limit.of}}}, static_cast<double>(limit.most));
         begin("rois_limit_reached_total", "How often something was refused, dropped, ended or had to wait because of a limit.",

@@ -41,8 +41,16 @@ public:
     void faulted(FaultCode code) { ++faults_[static_cast<std::size_t>(code)]; }
     void delivered(std::size_t notifications) { delivered_ += notifications; }
     void cut() { ++cut_; }  // a connection that was closed because its reader was too slow
-    void may_open(std::size_t connections) { most_open_ = connections; }
-    void full() { ++full_; }  // no connection was accepted until another one closed
+    // Limits of the network layer; how many there may be, and that one was reached.
+    enum class Limit : std::uint8_t {
+        connections,  // reached: no connection was accepted until another one closed
+        connections_per_address,
+        sessions_per_address,
+        sessions_per_connection,
+        streams_per_session
+    };
+    void set(Limit limit, std::size_t most) { limits_[static_cast<std::size_t>(limit)].most = most; }
+    void reached(Limit limit) { ++limits_[static_cast<std::size_t>(limit)].reached; }
 
     // The Prometheus text format.
     std::string text(EngineStatistics const&) const;
@@ -63,8 +71,11 @@ private:
     std::atomic<std::uint64_t> accepted_ = 0;
     std::atomic<std::uint64_t> delivered_ = 0;
     std::atomic<std::uint64_t> cut_ = 0;
-    std::atomic<std::uint64_t> most_open_ = 0;
-    std::atomic<std::uint64_t> full_ = 0;
+    struct Reached {
+        std::atomic<std::size_t> most = 0;
+        std::atomic<std::uint64_t> reached = 0;
+    };
+    std::array<Reached, 5> limits_{};
 };
 
 }  // namespace rois::net

@@ -28,7 +28,7 @@ Steady now() { return std::chrono::steady_clock::now(); }
 }  // namespace
 
 WebSocket::WebSocket(std::shared_ptr<Wire> wire, Gateway& gateway, Telemetry& telemetry, xml::RequestReader& reader, Wakes& wakes,
-                     Settings const& settings)
+                     Settings const& settings, std::shared_ptr<Opener> opener)
     : Reader{wakes},
       wire_{std::move(wire)},
       telemetry_{telemetry},
@@ -36,7 +36,8 @@ WebSocket::WebSocket(std::shared_ptr<Wire> wire, Gateway& gateway, Telemetry& te
       settings_{settings},
       gateway_{gateway},
       reader_{reader},
-      messages_{settings.document.bytes, settings.max_fragments} {}
+      messages_{settings.document.bytes, settings.max_fragments},
+      opener_{std::move(opener)} {}
 
 Task<> WebSocket::run() {
     std::optional outcome = Wire::Outcome::done;
@@ -75,7 +76,8 @@ bool WebSocket::take_frames() {
 
 void WebSocket::take(MessageReader::Heard const& heard) {
     std::visit(Overloaded{[&](MessageReader::Text message) {
-                              auto answer = gateway_.answer(reader_, session_, message.text, Via::websocket, reading_.get());
+                              auto answer =
+                                  gateway_.answer(reader_, session_, message.text, Via::websocket, opener_, reading_.get());
                               if (answer.turn == Answer::Turn::disconnected) {
                                   farewell_ = std::make_unique<Answer>(std::move(answer));
                               } else {
@@ -208,11 +210,15 @@ void WebSocket::sweep(Steady at) {
     }
     bool const late = at >= message_due_ && !ending_;
     bool const silent = at >= heard_ + settings_.ping_interval && !std::exchange(pinged_, true);
+    if (reading_) session_due_ = Steady::max();
+    if (!reading_ && session_due_ == Steady::max()) session_due_ = at + settings_.connect_timeout;
+    bool const without_session = at >= session_due_ && !ending_;
     if (late) close({CloseCode::policy_violation, "the message did not arrive in time"});
+    if (without_session) close({CloseCode::policy_violation, "no session was opened or resumed in time"});
     bool const proof_due = at >= proof_due_ && reading_ && reading_->wants_signs_of_life(at);
     if (proof_due) proof_due_ = at + between_signs_of_life;
     if (silent || proof_due) ping_due_ = true;
-    if (late || ping_due_) flush();
+    if (late || ping_due_ || without_session) flush();
 }
 
 void WebSocket::shut_down() {

@@ -18,7 +18,7 @@ namespace rois::net {
 // which writes at once as long as the peer keeps up, and leaves the rest to `drain` when it does not.
 class WebSocket : public Reader {
 public:
-    WebSocket(std::shared_ptr<Wire>, Gateway&, Telemetry&, xml::RequestReader&, Wakes&, Settings const&);
+    WebSocket(std::shared_ptr<Wire>, Gateway&, Telemetry&, xml::RequestReader&, Wakes&, Settings const&, std::shared_ptr<Opener>);
 
     // After the handshake has been answered: until the connection is over.
     Task<> run();
@@ -74,6 +74,7 @@ private:
     bool close_gathered_ = false;   // the close frame is in out_; nothing follows
     std::optional<Ending> ending_;  // decided: the close frame goes out behind what was said before
     Steady close_due_ = Steady::max();
+    Steady session_due_ = Steady::max();  // when it must have a session; max: it has one, or nobody has looked yet
 
     bool heard_something_ = false;        // from the peer, since the last sweep
     bool pinged_ = false;                 // since it was heard
@@ -87,6 +88,7 @@ private:
     xml::RequestReader& reader_;
     MessageReader messages_;
     SessionId session_;
+    std::shared_ptr<Opener> opener_;
     std::unique_ptr<Answer> farewell_;  // to a disconnect: waits for the session's last notifications to be heard
     std::string out_;                   // what `drain` writes; empty while everything is taken at once
 };

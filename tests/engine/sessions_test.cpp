@@ -63,6 +63,32 @@ TEST(Session, ThereAreNoMoreThanAllowed) {
     EXPECT_TRUE(std::holds_alternative<Reply>(world.say({}, Connect{})));
 }
 
+TEST(Session, ThatIsIdleForLongestMakesRoomForANewOne) {
+    EngineSettings settings;
+    settings.max_sessions = 5;
+    World world{{navigation, detection}, settings};
+    auto linked = world.connect(), bound = world.connect_without_link(), subscribed = world.connect_without_link(),
+         first = world.connect_without_link(), second = world.connect_without_link();
+    bound.bind("navigation");
+    subscribed.subscribe("person_detected");
+    world.advance(1s);
+    world.engine->heard_from(first.session, world.now);
+    auto const known = [&](Application& session) { return session.refusal_of(Search{}) == std::nullopt; };
+    auto third = world.connect_without_link();
+    EXPECT_FALSE(known(second)) << "the other one was heard from later";
+    EXPECT_TRUE(known(first));
+    auto fourth = world.connect();
+    EXPECT_FALSE(known(first));
+    auto fifth = world.connect();
+    EXPECT_FALSE(known(third)) << "though it is new";
+    EXPECT_EQ(std::get<Refusal>(world.say({}, Connect{})), Refusal::too_many_sessions) << "nobody is idle";
+    for (auto* busy : {&linked, &bound, &subscribed, &fourth, &fifth}) EXPECT_TRUE(known(*busy));
+    EXPECT_EQ(world.engine->statistics().sessions_replaced, 3U);
+    bound.release("navigation");
+    EXPECT_TRUE(std::holds_alternative<Reply>(world.say({}, Connect{})));
+    EXPECT_FALSE(known(bound));
+}
+
 TEST(Session, DisconnectStopsWhatItStarted) {
     World world{navigation, detection};
     auto desk = world.connect();

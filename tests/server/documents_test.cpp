@@ -208,12 +208,15 @@ TEST(Metrics, SayWhichLimitsThereAreAndWhichWereReached) {
     GatewayProcess gateway{{"--max-sessions", "1", "--max-connections", "2"}};
     HttpClient desk{gateway}, guest{gateway};
     desk.call("connect");
+    desk.call("bind", component_ref("navigation"));
     EXPECT_EQ(guest.call("connect").fault(), "too_many");
     EXPECT_EQ(guest.call("connect").fault(), "too_many");
     auto const reply = desk.get("/metrics");
     for (auto const* line :
          {"rois_limit{limit=\"sessions\"} 1", "rois_limit_reached_total{limit=\"sessions\"} 2",
-          "rois_limit{limit=\"connections\"} 2", "rois_limit{limit=\"commands\"} 1024",
+          "rois_limit{limit=\"connections\"} 2", "rois_limit{limit=\"connections_per_address\"} 256",
+          "rois_limit{limit=\"sessions_per_address\"} 64", "rois_limit{limit=\"sessions_per_connection\"} 16",
+          "rois_limit{limit=\"streams_per_session\"} 8", "rois_limit{limit=\"commands\"} 1024",
           "rois_limit_reached_total{limit=\"commands\"} 0", "rois_limit{limit=\"subscribed_predicates\"} 10000",
           "rois_limit{limit=\"waiting_notifications\"} 1024", "rois_session_commands{session=\"1\"} 0",
           "rois_session_subscriptions{session=\"1\"} 0", "rois_session_notifications_waiting{session=\"1\"} 0"})

@@ -101,7 +101,9 @@ TEST(Session, IsOneTooManyAboveTheLimit) {
     GatewayProcess gateway{{"--max-sessions", "2"}};
     HttpClient first{gateway}, second{gateway}, third{gateway};
     first.call("connect");
+    first.call("bind", component_ref("navigation"));
     second.call("connect");
+    second.call("bind", component_ref("follow"));
     auto const reply = third.call("connect");
     EXPECT_EQ(reply.status, 429);
     EXPECT_EQ(reply.fault(), "too_many");

@@ -60,6 +60,7 @@ TEST_P(SystemOperations, ConnectOfOneSessionTooManyIsAFault) {
     GatewayProcess small{{"--max-sessions", "1"}};
     Application first{GetParam(), small}, second{GetParam(), small};
     EXPECT_THAT(first.connect(), IsOk());
+    EXPECT_THAT(first.bind("navigation"), IsOk());
     EXPECT_EQ(second.ask("connect").fault(), "too_many");
 }
 
