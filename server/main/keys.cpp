@@ -186,6 +186,7 @@ bool set_proxies(Settings& settings, std::string const& text) {
 
 std::string show_proxies(Settings const& settings) {
     std::vector<std::string> words;
+    words.reserve(settings.net.proxies.size());
     for (auto const& network : settings.net.proxies) words.push_back(net::text_of(network));
     return joined(words);
 }
