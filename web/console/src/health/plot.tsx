@@ -1,5 +1,5 @@
 // A plot of the last minute. What the lines are is told beside them, with the values under the pointer; keys move along them, and a table has the same.
-import { type Signal } from '@preact/signals';
+import { type Signal, useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 
 import { clock_time } from '../i18n/i18n';
@@ -39,6 +39,7 @@ export function Plot({ title, lines, now, text, short, cursor }: PlotProps) {
   void shown_theme.value;
   const from = now - shown_for;
   const pointed = cursor.value !== undefined && cursor.value >= from ? cursor.value : undefined;
+  const is_open = useSignal(false);
   const left = useRef(0); // px, where the lines begin
   const { canvas } = useDrawing((sheet) => (left.current = draw(sheet, { lines, from, now, short, pointed })));
   const point_at = (event: PointerEvent) => {
@@ -90,9 +91,9 @@ export function Plot({ title, lines, now, text, short, cursor }: PlotProps) {
         <canvas ref={canvas} aria-hidden="true" onPointerMove={point_at} onPointerLeave={() => (cursor.value = undefined)} />
         {pointed !== undefined && <span class="health-time" aria-hidden="true">{clock_time(pointed, false)}</span>}
       </div>
-      <details>
+      <details onToggle={(event) => (is_open.value = event.currentTarget.open)}>
         <summary>{t.as_table()}</summary>
-        <Values title={title} lines={lines} now={now} text={text} />
+        {is_open.value && <Values title={title} lines={lines} now={now} text={text} />}
       </details>
     </figure>
   );

@@ -3,9 +3,10 @@ import { useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 
 import { useConsole, useWatch } from '../shell/context';
-import { bounds_around, type FloorPose, nearest_of, on_map, type Point } from '../state/floor';
+import { bounds_around, distance, type FloorPose, nearest_of, on_map, type Point, turned } from '../state/floor';
 import type { FloorMap } from '../state/floor_map';
 import type { Visitor } from '../state/hall_state';
+import { ellipse_of, type Robot } from '../state/things';
 import { joined } from '../ui';
 import { floor_point, SmallFloor } from '../ui/small_floor';
 import { steering_of } from './steering';
@@ -29,6 +30,7 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
   const steering = steering_of(console);
   const aim = useSignal<Aim | undefined>(undefined);
   const svg = useRef<SVGSVGElement>(null);
+  const drawn = useRef(new Map<string, FloorPose>());
   const pressed_at = useRef<Point>({ x: 0, y: 0 });
   void hall.pulse.beat.value;
   void robots.pulse.beat.value;
@@ -82,7 +84,7 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
     <div class="visitors-floor">
       <SmallFloor svg={svg} bounds={bounds} map={map} onClick={clicked} role="group" aria-label={`${w.map()} ${w.map_hint()}`}>
         {[...robots.all.values()].map((robot) => {
-          const at = on_map(map, robot.crs, robot);
+          const at = on_map(map, robot.crs, steady(drawn.current, robot));
           const radius = map?.robots.find((one) => one.name === robot.ref)?.radius ?? person_radius;
           return at && <Body key={robot.ref} at={at} radius={radius} kind="robot" name={w.robot(robot.ref)} />;
         })}
@@ -117,6 +119,20 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
   function metres({ x, y }: Point): string {
     return w.metres((x / 1000).toFixed(2), (y / 1000).toFixed(2));
   }
+}
+
+const noise = 4; // standard deviations that a robot at rest may seem to move
+const least_turn = 6; // degrees
+
+// Where it was drawn, until it is farther from there than the noise of its position.
+function steady(drawn: Map<string, FloorPose>, robot: Robot): FloorPose {
+  const before = drawn.get(robot.ref);
+  const slack = noise * (ellipse_of(robot)?.a ?? 0);
+  if (before && distance(before, robot) <= slack && Math.abs(turned((robot.th ?? 0) - (before.th ?? 0))) <= least_turn) return before;
+  const { x, y, th } = robot;
+  const now = th === undefined ? { x, y } : { x, y, th };
+  drawn.set(robot.ref, now);
+  return now;
 }
 
 // A disc, and a nose where it looks.
