@@ -2,11 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <ifaddrs.h>
+#include <linux/capability.h>
 #include <netdb.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 
 #include <array>
 #include <chrono>
+#include <cstdlib>
 #include <list>
 #include <memory>
 #include <optional>
@@ -215,6 +218,22 @@ TEST_F(OpenFiles, AreAsManyAsConnectionsNeed) {
     setrlimit(RLIMIT_NOFILE, &own);
     for (int i = 0; i < 290; ++i) all.push_back(std::make_unique<HttpClient>(gateway));
     for (auto& each : all) ASSERT_EQ(each->get("/healthz").status, 200);
+}
+
+// In a process of its own, which may not raise its limit.
+TEST_F(OpenFiles, ThatAreTooFewAreToldInOneLine) {
+    auto const starts = [] {
+        prctl(PR_CAPBSET_DROP, CAP_SYS_RESOURCE, 0, 0, 0);
+        rlimit const low{200, 200};
+        setrlimit(RLIMIT_NOFILE, &low);
+        GatewayProcess gateway{{"--max-connections", "1000", "--threads", "1"}};
+        auto const log = gateway.log_with("listening on");
+        bool const told = log.find(
+                              "the limit of open files is 200 and cannot be raised to 1072, which max_connections = 1000 needs: "
+                              "at most 128 connections are accepted") != std::string::npos;
+        return told && HttpClient{gateway}.get("/healthz").status == 200 ? 0 : 1;
+    };
+    EXPECT_EXIT(std::exit(starts()), testing::ExitedWithCode(0), "");
 }
 
 TEST(Networks, HoldTheirAddresses) {
