@@ -160,7 +160,8 @@ std::variant<Reply, Refusal> Gateway::perform(SessionId const& session, Operatio
     if (known && !std::holds_alternative<Disconnect>(operation)) answer.hold = Hold{*this, std::move(queue)};
     if (via == Via::http) engine_.heard_from(session, now);
     bool const opens = opener && !known && std::holds_alternative<Connect>(operation);
-    if (opens && (answer.fault = refusal_of(*opener))) return Refusal::too_many_sessions;
+    if (opens) answer.fault = refusal_of(*opener);
+    if (answer.fault) return Refusal::too_many_sessions;
     auto handled = engine_.handle(session, operation, now);
     answer.session_number = log_.take_joined();
     if (opens && answer.session_number != 0) quota_.opened(answer.session_number, opener);

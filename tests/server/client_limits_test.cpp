@@ -38,7 +38,7 @@ std::optional<std::string> own_address() {
         std::array<char, NI_MAXHOST> name{};
         if (one->ifa_addr == nullptr || one->ifa_addr->sa_family != AF_INET) continue;
         if (getnameinfo(one->ifa_addr, sizeof(sockaddr_in), name.data(), name.size(), nullptr, 0, NI_NUMERICHOST) != 0) continue;
-        std::string const address = name.data();
+        std::string address = name.data();
         if (!net::is_loopback(net::read_address(address).value())) return address;
     }
     return {};
@@ -135,6 +135,7 @@ TEST_F(ClientLimits, DoNotHoldForProxies) {
 TEST(ClientLimitsOfTheLoopback, AreThoseOfAConnectionAlone) {
     GatewayProcess const gateway{{"--max-connections-per-address", "2", "--max-sessions-per-address", "2"}};
     std::vector<std::unique_ptr<HttpClient>> all;
+    all.reserve(4);
     for (int i = 0; i < 4; ++i) all.push_back(std::make_unique<HttpClient>(gateway));
     for (auto& each : all) EXPECT_EQ(open_session(*each).status, 200);
     auto& one = *all.front();
@@ -204,8 +205,8 @@ TEST(WebSocketWithoutASession, ClosesAfterAWhile) {
 // Leaves the tests' own limit as it was.
 class OpenFiles : public testing::Test {
 protected:
-    OpenFiles() { getrlimit(RLIMIT_NOFILE, &before_); }
-    ~OpenFiles() override { setrlimit(RLIMIT_NOFILE, &before_); }
+    void SetUp() override { getrlimit(RLIMIT_NOFILE, &before_); }
+    void TearDown() override { setrlimit(RLIMIT_NOFILE, &before_); }
     rlimit before_{};
 };
 
@@ -214,6 +215,7 @@ TEST_F(OpenFiles, AreAsManyAsConnectionsNeed) {
     setrlimit(RLIMIT_NOFILE, &low);
     GatewayProcess const gateway{{"--max-connections", "300"}};
     std::vector<std::unique_ptr<HttpClient>> all;
+    all.reserve(290);
     rlimit const own{1'024, before_.rlim_max};
     setrlimit(RLIMIT_NOFILE, &own);
     for (int i = 0; i < 290; ++i) all.push_back(std::make_unique<HttpClient>(gateway));
@@ -233,7 +235,7 @@ TEST_F(OpenFiles, ThatAreTooFewAreToldInOneLine) {
                               "at most 128 connections are accepted") != std::string::npos;
         return told && HttpClient{gateway}.get("/healthz").status == 200 ? 0 : 1;
     };
-    EXPECT_EXIT(std::exit(starts()), testing::ExitedWithCode(0), "");
+    EXPECT_EXIT(std::_Exit(starts()), testing::ExitedWithCode(0), "");
 }
 
 TEST(Networks, HoldTheirAddresses) {
