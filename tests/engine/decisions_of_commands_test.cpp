@@ -1,4 +1,4 @@
-// Decisions 10 to 17 by number: sequences of commands, and what remains of them.
+// Decisions 10 to 17 and 35 by number: sequences of commands, and what remains of them; stop.
 #include <gmock/gmock.h>
 
 #include <set>
@@ -197,6 +197,22 @@ TEST_F(Decision17, ResultsSayHowFarACommandIs) {
     world["speech"].finishes();
     for (int i = 0; i < 1'000; ++i) desk.execute(stop("speech")), desk.heard();
     EXPECT_EQ(desk.result_of("say"), "BAD_PARAMETER") << "a thousand have come since";
+}
+
+TEST(Decision35, StopAlwaysReachesTheComponentAndIsOkOnlyWhenThatStandsStill) {
+    World world{navigation};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.execute(named("idle", stop("navigation")));
+    EXPECT_THAT(world["navigation"].told, ElementsAre("halt"));
+    world["navigation"].throws_in = {"halt"};
+    desk.execute(named("fails", stop("navigation")));
+    EXPECT_EQ(desk.status_of("navigation"), "ERROR");
+    EXPECT_THAT(desk.heard(),
+                ElementsAre("1 completed idle OK", "2 completed fails ERROR", "3 COMPONENT_INTERNAL_ERROR navigation"));
+    world["navigation"].throws_in = {};
+    world.advance(200ms);
+    EXPECT_EQ(desk.status_of("navigation"), "READY") << "the halt was repeated";
 }
 
 }  // namespace rois

@@ -271,7 +271,8 @@ TEST_P(Robots, AreEnginesOfTheHall) {
             desk.ask("get_profile", condition).root().child("rois:HRIEngineProfile").child("gml:name").text().get()};
     };
     auto const whole = name_of_profile({});
-    auto const profile = desk.ask("get_profile").root().child("rois:HRIEngineProfile");
+    auto const answer = desk.ask("get_profile");
+    auto const profile = answer.root().child("rois:HRIEngineProfile");
     EXPECT_FALSE(profile.child("rois:HRIComponent"));
     std::vector<std::string> subs;
     for (auto const sub : profile.children("rois:SubProfile")) {

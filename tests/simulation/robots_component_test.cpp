@@ -103,7 +103,7 @@ protected:
         for (auto& component : robot_components(simulation_, std::make_shared<FakeMedia>(), profiles_))
             engine_->add(std::move(component));
         session_ = std::get<Connect::Reply>(ask(Connect{})).session;
-        engine_->link_opened(session_, Link::websocket, now_);
+        engine_->link_opened(session_, Link::stream, now_);
     }
 
     Reply ask(Operation const& operation) { return std::get<Reply>(engine_->handle(session_, operation, now_)); }

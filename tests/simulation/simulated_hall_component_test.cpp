@@ -192,21 +192,17 @@ TEST(SimulatedHall, KnowsWhoIsThereInTruth) {
     EXPECT_TRUE(other.component->query("weather", {}).empty());
 }
 
-// What ends its commands from outside (release, the end of a session) ends them for the visitors, too; `stop` ends what `start`
-// began, which is nothing.
+// What ends its commands from outside (stop, release, the end of a session) ends them for the visitors, too.
 TEST(SimulatedHall, IsHalted) {
     Steerer steerer;
     steerer.advance();
     steerer.enter("anna");
     steerer.let_pass(20);
     steerer.advance();
-    steerer.component->start(CommandHandle{1'000}, {}, {});
-    EXPECT_EQ(steerer.outcome(1'000), "OK");
     auto const walks = steerer.walk("anna", {"desk"}), waits = steerer.let_pass(10'000);
-    steerer.component->halt({});
     steerer.simulation->advance({});
     EXPECT_EQ(steerer.simulation->hall().now(), WorldTime{60}) << "it goes on";
-    steerer.component->halt({});
+    EXPECT_EQ(steerer.component->halt({}), Halted::confirmed);
     steerer.advance();
     steerer.advance();
     EXPECT_EQ(steerer.simulation->hall().now(), WorldTime{60}) << "it stands still";
