@@ -15,7 +15,7 @@ namespace rois::command {
 namespace {
 
 // The configuration keys of rois-gateway (server/main/keys.cpp) as variables.
-constexpr std::array<std::string_view, 48> keys{"ROIS_ALLOWED_ORIGINS",
+constexpr std::array<std::string_view, 50> keys{"ROIS_ALLOWED_ORIGINS",
                                                 "ROIS_COMMAND_RESULTS",
                                                 "ROIS_CONNECT_TIMEOUT",
                                                 "ROIS_ENGINE_NAME",

@@ -162,7 +162,8 @@ TEST_P(Streaming, TheHallIsSeenFromAbove) {
     auto const picture = decoded_jpeg(receiving.next_picture());
     ASSERT_EQ(picture.width, 1'000u);
     ASSERT_EQ(picture.height, 600u);
-    std::string const robot = desk.query("robot_position").root().child("results").child("located").child("position").text().get();
+    std::string const robot =
+        desk.query("robot_position").root().child("results").child("located").child("position").text().get();
     double x = 0, y = 0;
     ASSERT_EQ(std::sscanf(robot.c_str(), "%lf %lf", &x, &y), 2);
     auto const [red, green, blue] = picture.at(static_cast<int>(x / 20), 599 - static_cast<int>(y / 20));
