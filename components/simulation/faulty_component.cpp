@@ -50,6 +50,7 @@ public:
     }
 
     Halted halt(Instant now) override {
+        if (is(Fault::Kind::unstoppable)) return Halted::not_yet;
         running_.reset();
         return component_->halt(now);
     }

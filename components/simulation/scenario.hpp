@@ -89,7 +89,8 @@ struct Fault {
     enum class Kind : std::uint8_t {
         silent,      // takes commands and begins none, answers no query
         failed,      // its status is ERROR, and whatever it is asked or told ends with an error
-        complaining  // works, but its status is WARNING, and it tells a USER_DEFINED_ERROR when that begins
+        complaining,  // works, but its status is WARNING, and it tells a USER_DEFINED_ERROR when that begins
+        unstoppable   // what it does goes on when it is told to halt, and no halt is confirmed
     };
 
     std::string component;  // its ref

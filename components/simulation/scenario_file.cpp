@@ -125,7 +125,8 @@ private:
 
 Fault::Kind kind_of_fault(std::string_view name) {
     if (name == "failed") return Fault::Kind::failed;
-    return name == "complaining" ? Fault::Kind::complaining : Fault::Kind::silent;
+    if (name == "complaining") return Fault::Kind::complaining;
+    return name == "unstoppable" ? Fault::Kind::unstoppable : Fault::Kind::silent;
 }
 
 Fault fault(xml::Element const& element, std::vector<std::string> const& refs) {

@@ -53,8 +53,8 @@ std::shared_ptr<EngineProfile const> Engine::Core::profile() const {
     return told_profile_;
 }
 
-void Engine::Core::enter(SharedComponent component) {
-    auto const& entry = registry_.add(std::move(component)).entry();
+void Engine::Core::enter(SharedComponent const& component) {
+    auto const& entry = registry_.add(component).entry();
     list(profile_, entry.engine, entry.ref);
     told_profile_.reset();
 }
@@ -95,7 +95,10 @@ void Engine::Core::change(ComponentChange change, Instant now) {
     for (auto const& ref : change.going) leave(*registry_.find(ref), now);
     if (!change.going.empty()) unlist(profile_, {change.going.begin(), change.going.end()});
     told_profile_.reset();
-    for (auto& component : coming) enter(std::move(component));
+    for (auto& component : coming) {
+        enter(component);
+        executor_.halt(*component, CompletedStatus::abort, "it has just come", now);
+    }
     if (change.going.empty() && coming.empty()) return;
     auto const notification = std::make_shared<OutgoingNotification const>(ProfileChanged{});
     for (auto const& [id, session] : sessions_) notifier_.tell(*session, notification);

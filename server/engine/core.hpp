@@ -36,6 +36,7 @@ public:
     void describe(Places places) { places_ = std::move(places); }
 
     std::variant<Reply, Refusal> handle(SessionId const&, Operation const&, Instant now);
+    void begin(Instant now);
     void tick(Instant now);
 
     Session* find(SessionId const&) const;
@@ -58,7 +59,7 @@ private:
     // Components (components.cpp)
     using SharedComponent = std::shared_ptr<RegisteredComponent>;
     SharedComponent made(std::unique_ptr<Component>, std::vector<ComponentProfile> const& known);
-    void enter(SharedComponent);
+    void enter(SharedComponent const&);
     void leave(RegisteredComponent&, Instant now);
     void check(ComponentChange const&) const;
 

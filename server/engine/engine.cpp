@@ -49,6 +49,11 @@ std::variant<Reply, Refusal> Engine::Core::handle(SessionId const& id, Operation
     return reply;
 }
 
+void Engine::Core::begin(Instant now) {
+    executor_.stop_all("the gateway starts", now);
+    tick(now);
+}
+
 void Engine::Core::tick(Instant now) {
     hold_unproven_motion(now);
     constexpr int most_turns = 100;  // of devices; what is left waits for the next tick
@@ -136,6 +141,8 @@ void Engine::Core::end(SessionId const& id, Instant now) {
 // Decision 3. The last notifications are in the queue before it is closed.
 void Engine::Core::end(Session& session, std::string_view why, Instant now) {
     if (settings_.on_session_end == OnSessionEnd::continue_) {
+        for (auto* component : session.bound)
+            if (component->moves()) executor_.halt(*component, CompletedStatus::abort, "its session has ended", now);
         executor_.let_run_on(session);
     } else {
         // First what moves, then the rest.
@@ -289,6 +296,7 @@ std::variant<Reply, Refusal> Engine::handle(SessionId const& session, Operation 
     return core_->handle(session, operation, now);
 }
 
+void Engine::begin(Instant now) { core_->begin(now); }
 void Engine::tick(Instant now) { core_->tick(now); }
 
 std::shared_ptr<NotificationQueue> Engine::notifications(SessionId const& id) const {

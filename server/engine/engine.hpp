@@ -93,7 +93,7 @@ public:
 
     // At any time; all of it or nothing: throws std::runtime_error for a ref that is taken or unknown, or a sub component profile
     // that is unknown. What runs on a component that goes, or waits for it, completes with ABORT; its bindings are lost;
-    // subscriptions stay, and hear it again should it come back. All sessions are told when any component came or went.
+    // subscriptions stay, and hear it again should it come back. Those that come are halted first. All sessions are told when any component came or went.
     void change(ComponentChange, Instant now);
 
     // The frames that components and applications tell positions in, and the places that conditions speak of; none is known
@@ -105,6 +105,10 @@ public:
     // when all places are taken, it ends the one that has been idle for longest, without link, binding and subscription. `Resume`
     // only checks that its session can be taken over from `last_sequence`; reading on from there is the caller's.
     std::variant<Reply, Refusal> handle(SessionId const& session, Operation const&, Instant now);
+
+    // Halts all components, which may have moved before the engine was there, and begins its time. Once, before anything is
+    // handled.
+    void begin(Instant now);
 
     // Does what is due by now: devices, delays, timeouts, expiry, sessions whose link was lost.
     void tick(Instant now);

@@ -23,6 +23,9 @@ std::vector<std::shared_ptr<Command>> live_commands(Session const& session) {
     return live;
 }
 
+// An ended session has no lease.
+bool is_proven_alive(Session const* session, Instant now) { return session != nullptr && now.steady < session->lease.end(); }
+
 }  // namespace
 
 // A command knows its sequence and its component, which know it: what still runs is parted here.
@@ -108,7 +111,7 @@ void Executor::run(SharedCommand const& command, Instant now) {
         return end(command, CompletedStatus::abort, "its component was released before its turn came", now);
     command->state = Command::State::running;
     journal_->command_begun(*command);
-    if (command->component->moves() && begins_action(command->type) && now.steady >= command->session->lease.end())
+    if (command->component->moves() && begins_action(command->type) && !is_proven_alive(command->session, now))
         return end(command, CompletedStatus::abort, "nothing was heard from its application before its turn came", now);
     if (command->type == "set_parameter") return run_set_parameter(command, now);
     if (command->type == "start") return run_start(command, now);
@@ -148,6 +151,7 @@ void Executor::go_on_with_start(SharedCommand const& command, Instant now) {
     if (component.halting) return wait_for_halt(command, now);
     component.activity = RegisteredComponent::Activity::running;
     component.start = command;
+    component.something_begins();
     await_start(command, now);
     auto const arguments = component.for_start(component.parameters, command->arguments);
     auto const changed = component.in_own_frame(arguments);
@@ -155,6 +159,7 @@ void Executor::go_on_with_start(SharedCommand const& command, Instant now) {
     if (component.call([&](Component& c) { c.start(command->handle, parameters, now); }) == Called::ok) return;
     component.activity = RegisteredComponent::Activity::idle;
     component.start = nullptr;
+    halt_what_moves(component, now);
     end(command, Called::failed, now);
 }
 
@@ -169,21 +174,26 @@ void Executor::run_stop(SharedCommand const& command, Instant now) {
 
 void Executor::run_suspend(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
-    bool const idle = component.activity == RegisteredComponent::Activity::idle && component.functions.empty();
-    if (idle || component.suspended)
-        return end(command, CompletedStatus::error,
-                   component.suspended ? "the component is suspended already" : "nothing runs that could be suspended", now);
+    if (!component.works())
+        return end(
+            command, CompletedStatus::error,
+            component.suspended == Suspended::all ? "the component is suspended already" : "nothing runs that could be suspended",
+            now);
     auto const called = component.call([&](Component& c) { c.suspend(now); });
-    component.suspended = called == Called::ok;
+    if (called == Called::ok) component.suspended = Suspended::all;
     end(command, called, now);
 }
 
 void Executor::run_resume(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
     if (component.halting) return end(command, CompletedStatus::error, not_halted, now);
-    if (!component.suspended) return end(command, CompletedStatus::error, "nothing is suspended that could be resumed", now);
+    if (component.suspended == Suspended::nothing)
+        return end(command, CompletedStatus::error, "nothing is suspended that could be resumed", now);
     auto const called = component.call([&](Component& c) { c.resume(now); });
-    component.suspended = called != Called::ok;
+    if (called == Called::ok)
+        component.suspended = Suspended::nothing;
+    else
+        halt_what_moves(component, now);
     end(command, called, now);
 }
 
@@ -191,11 +201,15 @@ void Executor::run_function(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
     if (component.halting) return end(command, CompletedStatus::error, not_halted, now);
     component.functions.push_back(command);
+    component.something_begins();
     await_start(command, now);
     auto const changed = component.in_own_frame(command->arguments);
     auto const& arguments = changed ? *changed : command->arguments;
     auto const called = component.call([&](Component& c) { c.perform(command->handle, command->type, arguments, now); });
-    if (called == Called::failed) end(command, called, now);
+    if (called != Called::failed) return;
+    std::erase(component.functions, command);
+    halt_what_moves(component, now);
+    end(command, called, now);
 }
 
 void Executor::await_start(SharedCommand const& command, Instant now) {
@@ -258,7 +272,7 @@ void Executor::follow_up(RegisteredComponent& component, SharedCommand const& co
     bool const active = afterwards == Afterwards::active ||
                         (afterwards == Afterwards::as_before && !starts && component.activity == Activity::active);
     component.activity = active ? Activity::active : Activity::idle;
-    component.suspended = component.suspended && (active || !component.functions.empty());
+    if (!active && component.functions.empty()) component.suspended = Suspended::nothing;
 }
 
 void Executor::end(SharedCommand const& command, Called called, Instant now) {

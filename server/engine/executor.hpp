@@ -85,6 +85,7 @@ private:
     using SharedCommand = std::shared_ptr<Command>;
 
     using Called = RegisteredComponent::Called;
+    using Suspended = RegisteredComponent::Suspended;
 
     SharedCommand make(Session&, CommandMessage const&);
     void give_turns(std::shared_ptr<Execution> const&, std::vector<Execution::Turn> const&, Instant now);
@@ -97,6 +98,7 @@ private:
     void run_resume(SharedCommand const&, Instant now);
     void run_function(SharedCommand const&, Instant now);
     void go_on_with_start(SharedCommand const&, Instant now);
+    void halt_what_moves(RegisteredComponent&, Instant now);
     void ask_to_halt(RegisteredComponent&, Instant now);
     void halt_failed(RegisteredComponent&, CompletedStatus, std::string const& reason, Instant now);
     void halt_again_later(RegisteredComponent&, Instant now);

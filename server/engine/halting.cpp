@@ -16,13 +16,18 @@ constexpr std::chrono::milliseconds between_attempts{200};
 void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_start, std::string const& reason, Instant now) {
     ask_to_halt(component, now);
     component.activity = RegisteredComponent::Activity::idle;
-    component.suspended = false;
+    component.suspended = Suspended::nothing;
     if (auto const start = std::exchange(component.start, nullptr)) end(start, status_of_start, reason, now);
     for (auto const& function : std::exchange(component.functions, {})) end(function, CompletedStatus::abort, reason, now);
     if (!component.halting) return;
     auto const waiting = component.halting->waiting;
     for (auto const& command : waiting)
         if (command->type == "start") end(command, CompletedStatus::abort, reason, now);
+}
+
+// After it failed to begin something: it may have begun nevertheless.
+void Executor::halt_what_moves(RegisteredComponent& component, Instant now) {
+    if (component.moves()) halt(component, CompletedStatus::abort, "the component failed", now);
 }
 
 void Executor::ask_to_halt(RegisteredComponent& component, Instant now) {
@@ -101,9 +106,11 @@ void Executor::forget_halt(RegisteredComponent& component, Instant now) {
 }
 
 void Executor::hold(RegisteredComponent& component, std::string const& reason, Instant now) {
-    component.suspended = component.call([&](Component& c) { c.suspend(now); }) == Called::ok;
-    bool const held = component.suspended;
-    if (!held) halt(component, CompletedStatus::abort, reason, now);
+    bool const held = component.call([&](Component& c) { c.suspend(now); }) == Called::ok;
+    if (held)
+        component.suspended = Suspended::all;
+    else
+        halt(component, CompletedStatus::abort, reason, now);
     agenda_.add(ErrorOccurred{&component, ErrorType::user_defined_error,
                               (held ? "its motion is held: " : "its motion was stopped: ") + reason +
                                   (held ? "; resume goes on, and so does a new command" : "")});

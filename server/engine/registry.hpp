@@ -105,9 +105,13 @@ public:
     bool is_free() const { return bound_to == nullptr && !halting; }
     ParameterList parameters;  // stored for the session that has it bound; the defaults without a binding
     Activity activity = Activity::idle;
-    bool suspended = false;
+    // `some`: another command has begun since all was suspended.
+    enum class Suspended : std::uint8_t { nothing, some, all } suspended = Suspended::nothing;
+    void something_begins() {
+        if (suspended == Suspended::all) suspended = Suspended::some;
+    }
     // Whether something of it goes on.
-    bool works() const { return !suspended && (activity != Activity::idle || !functions.empty()); }
+    bool works() const { return suspended != Suspended::all && (activity != Activity::idle || !functions.empty()); }
     std::shared_ptr<Command> start;                   // whose action runs, or null
     std::vector<std::shared_ptr<Command>> functions;  // those of its own profile that run
 

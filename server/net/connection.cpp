@@ -67,7 +67,12 @@ Task<Connection::Then> Connection::serve() {
         bool const is_request = head().method == "POST" && route_.endpoint == Endpoint::rois;
         if (whole && !is_request) then = co_await serve_other();
         if (whole && is_request) {
-            auto answer = operate();
+            Answer answer;
+            if (LongDocuments::is_long(head().content_length))
+                answer = co_await operate_apart();
+            else
+                answer = operate();
+            wire_.use(head().content_length);
             if (answer.turn == Answer::Turn::disconnected) {
                 co_await flush();
                 co_await others_heard(loop_.shared().gateway, session_, loop_.wakes());
@@ -145,11 +150,14 @@ Task<Connection::Then> Connection::receive() {
     co_return Then::next;
 }
 
-Answer Connection::operate() {
-    auto answer = loop_.shared().gateway.answer(loop_.reader(), session_, wire_.text().substr(0, head().content_length),
-                                                Via::http, opener_);
-    wire_.use(head().content_length);
-    return answer;
+std::string_view Connection::body() { return wire_.text().substr(0, head().content_length); }
+
+Answer Connection::operate() { return loop_.shared().gateway.answer(loop_.reader(), session_, body(), Via::http, opener_); }
+
+Task<Answer> Connection::operate_apart() {
+    co_await flush();  // answers to earlier requests do not wait for it
+    auto& shared = loop_.shared();
+    co_return co_await shared.long_documents.answer(shared.gateway, session_, body(), Via::http, opener_);
 }
 
 Connection::Then Connection::reply(Answer&& answer) {
@@ -213,10 +221,11 @@ Task<> Connection::serve_websocket() {
     co_await flush();
     heads_.reset();
     std::string{}.swap(out_);
-    auto const& shared = loop_.shared();
+    auto& shared = loop_.shared();
     counted_.emplace(shared.telemetry, Telemetry::Kind::websocket);
-    auto const websocket = std::make_shared<WebSocket>(std::shared_ptr<Wire>{shared_from_this(), &wire_}, shared.gateway,
-                                                       shared.telemetry, loop_.reader(), loop_.wakes(), shared.settings, opener_);
+    auto const websocket =
+        std::make_shared<WebSocket>(std::shared_ptr<Wire>{shared_from_this(), &wire_}, shared.gateway, shared.telemetry,
+                                    loop_.reader(), shared.long_documents, loop_.wakes(), shared.settings, opener_);
     websocket_ = websocket;
     if (loop_.draining()) websocket->shut_down();
     co_await websocket->run();

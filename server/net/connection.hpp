@@ -39,10 +39,12 @@ private:
     RequestHead const& head() const { return heads_->last(); }
     Task<Then> serve();
     Then take_request();
+    std::string_view body();
+    Answer operate();
+    Task<Answer> operate_apart();
     Then take_head();
     Then judge_head();
     Task<Then> receive();
-    Answer operate();
     Then reply(Answer&&);
     Task<Then> serve_other();
     HttpAnswer stop_everything();

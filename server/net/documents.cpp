@@ -180,11 +180,11 @@ HttpAnswer Documents::floor_map(RequestHead const& head) const {
 
 HttpAnswer Documents::readiness() const {
     if (gateway_.shutting_down()) return answer_of(shutting_down());
-    auto answer = plain("ready\n");
-    if (gateway_.everything_is_stopped()) {
-        answer.status = 503;
-        answer.body = "stopped: nothing starts until POST /rois/clear\n";
-    }
+    std::string trouble;
+    if (gateway_.everything_is_stopped()) trouble = "stopped: nothing starts until POST /rois/clear\n";
+    for (auto const& ref : gateway_.not_halted()) trouble += ref + " has not confirmed that it stands still\n";
+    auto answer = plain(trouble.empty() ? "ready\n" : trouble);
+    if (!trouble.empty()) answer.status = 503;
     return answer;
 }
 

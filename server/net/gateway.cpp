@@ -218,6 +218,12 @@ std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& ses
     return std::make_unique<Reading>(*this, link, after, reader, std::move(queue));
 }
 
+void Gateway::begin() {
+    auto const now = present();
+    std::lock_guard const lock{mutex_};
+    engine_.begin(now);
+}
+
 void Gateway::tick() {
     auto const now = present();
     std::lock_guard const lock{mutex_};
@@ -245,6 +251,11 @@ void Gateway::clear() {
 bool Gateway::everything_is_stopped() const {
     std::lock_guard const lock{mutex_};
     return engine_.everything_is_stopped();
+}
+
+std::vector<std::string> Gateway::not_halted() const {
+    std::lock_guard const lock{mutex_};
+    return engine_.not_halted();
 }
 
 void Gateway::shut_down() {

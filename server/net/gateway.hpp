@@ -138,6 +138,9 @@ public:
     std::variant<std::unique_ptr<Reading>, Fault> read(SessionId const&, Link, std::uint64_t after, Reader&,
                                                        Readers::Until = Readers::Until::closed);
 
+    // Halts all components and begins the engine's time. Once, before anything is answered.
+    void begin();
+
     // To be called every few milliseconds: lets the engine do what is due.
     void tick();
 
@@ -148,6 +151,7 @@ public:
     std::vector<std::string> stop_everything();
     void clear();
     bool everything_is_stopped() const;
+    std::vector<std::string> not_halted() const;
 
     // Ends all sessions; what comes later is refused.
     void shut_down();

@@ -27,7 +27,7 @@ std::size_t sweeps_for_all(Settings const& settings) {
 
 }  // namespace
 
-Loop::Loop(Shared const& shared)
+Loop::Loop(Shared& shared)
     : shared_{shared},
       reader_{shared.schemas, shared.settings.document, shared.settings.validation},
       sweeps_for_all_{sweeps_for_all(shared.settings)} {}

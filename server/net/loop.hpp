@@ -8,6 +8,7 @@
 #include "net/asio.hpp"
 #include "net/documents.hpp"
 #include "net/gateway.hpp"
+#include "net/long_documents.hpp"
 #include "net/poller.hpp"
 #include "net/settings.hpp"
 #include "net/telemetry.hpp"
@@ -24,11 +25,12 @@ struct Shared {
     Telemetry& telemetry;
     Documents const& documents;
     std::shared_ptr<xml::Schemas const> schemas;
+    LongDocuments long_documents{schemas, settings.document, settings.validation};
 };
 
 class Loop {
 public:
-    explicit Loop(Shared const&);
+    explicit Loop(Shared&);
     ~Loop();
     Loop(Loop const&) = delete;
     Loop& operator=(Loop const&) = delete;
@@ -42,7 +44,7 @@ public:
     // On the loop's own thread.
     void serve(Socket, Admission::Place);
     bool draining() const { return last_moment_ != Steady::max(); }
-    Shared const& shared() const { return shared_; }
+    Shared& shared() const { return shared_; }
     xml::RequestReader& reader() { return reader_; }
     Executor executor() { return io_.get_executor(); }
     Wakes& wakes() { return wakes_; }
@@ -56,7 +58,7 @@ private:
     void add(Connection&);
     void remove(Connection const&);
 
-    Shared const& shared_;
+    Shared& shared_;
     xml::RequestReader reader_;
     std::vector<Connection*> connections_;
     std::size_t sweeps_for_all_;

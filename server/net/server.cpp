@@ -40,7 +40,7 @@ public:
           hang_ups_{loops_.front()->executor()} {
         telemetry.set(Telemetry::Limit::connections, shared_.settings.max_connections);
         telemetry.set(Telemetry::Limit::connections_per_address, shared_.settings.max_connections_per_address);
-        gateway.tick();  // time begins before anybody can ask
+        gateway.begin();  // before anybody can ask
         listen();
         signals_.add(SIGTERM);
         signals_.add(SIGINT);
@@ -62,10 +62,12 @@ public:
         std::vector<std::jthread> threads;
         for (std::size_t i = 1; i < loops_.size(); ++i) threads.emplace_back([loop = loops_[i].get()] { loop->run(); });
         loops_.front()->run();
+        threads.clear();
+        await_halts();
     }
 
 private:
-    std::vector<std::unique_ptr<Loop>> make_loops() const {
+    std::vector<std::unique_ptr<Loop>> make_loops() {
         std::vector<std::unique_ptr<Loop>> loops;
         loops.reserve(shared_.settings.threads);
         for (std::size_t i = 0; i < shared_.settings.threads; ++i) loops.push_back(std::make_unique<Loop>(shared_));
@@ -104,6 +106,16 @@ private:
         }
     }
 
+    // When nobody is connected any more: the engine goes on with telling components to halt until they confirm it.
+    void await_halts() {
+        while (!shared_.gateway.not_halted().empty() && std::chrono::steady_clock::now() < last_moment_) {
+            std::this_thread::sleep_for(shared_.settings.tick);
+            shared_.gateway.tick();
+        }
+        for (auto const& ref : shared_.gateway.not_halted())
+            spdlog::critical("{} did not confirm that it stands still: make sure that the robot does", ref);
+    }
+
     Task<> wait_for_hang_ups() {
         while (true) {
             co_await hang_ups_.async_wait(asio::use_awaitable_t<Executor>{});
@@ -115,6 +127,7 @@ private:
         auto const signal = co_await signals_.async_wait(asio::use_awaitable_t<Executor>{});
         spdlog::info("shutting down after {}", signal == SIGTERM ? "SIGTERM" : "SIGINT");
         for (auto const& listener : listeners_) listener->close();
+        last_moment_ = std::chrono::steady_clock::now() + shared_.settings.shutdown_timeout;
         shared_.gateway.shut_down();
         for (auto const& loop : loops_) loop->shut_down(shared_.settings.shutdown_timeout);
         co_await signals_.async_wait(asio::use_awaitable_t<Executor>{});
@@ -129,6 +142,7 @@ private:
     Signals hang_ups_;
     std::function<void()> on_hang_up_;
     std::uint16_t port_ = 0;
+    Steady last_moment_;  // once it shuts down
 };
 
 Server::Server(Settings settings, Gateway& gateway, Telemetry& telemetry, Documents const& documents,

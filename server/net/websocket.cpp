@@ -27,8 +27,8 @@ Steady now() { return std::chrono::steady_clock::now(); }
 
 }  // namespace
 
-WebSocket::WebSocket(std::shared_ptr<Wire> wire, Gateway& gateway, Telemetry& telemetry, xml::RequestReader& reader, Wakes& wakes,
-                     Settings const& settings, std::shared_ptr<Opener> opener)
+WebSocket::WebSocket(std::shared_ptr<Wire> wire, Gateway& gateway, Telemetry& telemetry, xml::RequestReader& reader,
+                     LongDocuments& long_documents, Wakes& wakes, Settings const& settings, std::shared_ptr<Opener> opener)
     : Reader{wakes},
       wire_{std::move(wire)},
       telemetry_{telemetry},
@@ -36,6 +36,7 @@ WebSocket::WebSocket(std::shared_ptr<Wire> wire, Gateway& gateway, Telemetry& te
       settings_{settings},
       gateway_{gateway},
       reader_{reader},
+      long_documents_{long_documents},
       messages_{settings.document.bytes, settings.max_fragments},
       opener_{std::move(opener)} {}
 
@@ -61,7 +62,7 @@ Task<> WebSocket::run() {
 // Takes the whole frames that have arrived. False: some may be left, to be taken after a pause.
 bool WebSocket::take_frames() {
     while (!ending_ && !broken_) {
-        if (farewell_ || full()) return false;
+        if (farewell_ || full() || !long_message_.empty()) return false;
         std::size_t used = 0;
         auto const heard = messages_.next(wire_->received(), used);
         bool const incomplete = std::holds_alternative<MessageReader::Incomplete>(heard);
@@ -75,31 +76,37 @@ bool WebSocket::take_frames() {
 }
 
 void WebSocket::take(MessageReader::Heard const& heard) {
-    std::visit(Overloaded{[&](MessageReader::Text message) {
-                              auto answer =
-                                  gateway_.answer(reader_, session_, message.text, Via::websocket, opener_, reading_.get());
-                              if (answer.turn == Answer::Turn::disconnected) {
-                                  farewell_ = std::make_unique<Answer>(std::move(answer));
-                              } else {
-                                  say(answer);
-                              }
-                          },
-                          [&](MessageReader::Ping ping) {
-                              note_control();
-                              if (!ending_) say_pong(ping.payload);
-                          },
-                          [&](MessageReader::Pong) {
-                              note_control();
-                              if (reading_ && reading_->wants_signs_of_life(now())) reading_->heard_pong();
-                          },
-                          [&](MessageReader::Closed closed) {
-                              close({closed.code, ""});
-                          },
-                          [&](MessageReader::Violation wrong) {
-                              close({wrong.code, wrong.reason});
-                          },
-                          [](auto) {}},
-               heard);
+    std::visit(
+        Overloaded{[&](MessageReader::Text message) {
+                       if (LongDocuments::is_long(message.text.size()))
+                           long_message_ = message.text;
+                       else
+                           answered(gateway_.answer(reader_, session_, message.text, Via::websocket, opener_, reading_.get()));
+                   },
+                   [&](MessageReader::Ping ping) {
+                       note_control();
+                       if (!ending_) say_pong(ping.payload);
+                   },
+                   [&](MessageReader::Pong) {
+                       note_control();
+                       if (reading_ && reading_->wants_signs_of_life(now())) reading_->heard_pong();
+                   },
+                   [&](MessageReader::Closed closed) {
+                       close({closed.code, ""});
+                   },
+                   [&](MessageReader::Violation wrong) {
+                       close({wrong.code, wrong.reason});
+                   },
+                   [](auto) {}},
+        heard);
+}
+
+void WebSocket::answered(Answer&& answer) {
+    if (answer.turn == Answer::Turn::disconnected) {
+        farewell_ = std::make_unique<Answer>(std::move(answer));
+    } else {
+        say(answer);
+    }
 }
 
 void WebSocket::say(Answer const& answer) {
@@ -120,8 +127,14 @@ void WebSocket::say_pong(std::string_view payload) {
 
 // Until the next frame may be taken.
 Task<> WebSocket::pause() {
+    if (!long_message_.empty()) co_await answer_long_message();
     if (farewell_) co_await say_farewell();
     if (full()) co_await wait_for_room();
+}
+
+Task<> WebSocket::answer_long_message() {
+    auto const message = std::exchange(long_message_, {});
+    answered(co_await long_documents_.answer(gateway_, session_, message, Via::websocket, opener_));
 }
 
 Task<> WebSocket::say_farewell() {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "net/gateway.hpp"
+#include "net/long_documents.hpp"
 #include "net/settings.hpp"
 #include "net/signal.hpp"
 #include "net/websocket_frames.hpp"
@@ -18,7 +19,8 @@ namespace rois::net {
 // which writes at once as long as the peer keeps up, and leaves the rest to `drain` when it does not.
 class WebSocket : public Reader {
 public:
-    WebSocket(std::shared_ptr<Wire>, Gateway&, Telemetry&, xml::RequestReader&, Wakes&, Settings const&, std::shared_ptr<Opener>);
+    WebSocket(std::shared_ptr<Wire>, Gateway&, Telemetry&, xml::RequestReader&, LongDocuments&, Wakes&, Settings const&,
+              std::shared_ptr<Opener>);
 
     // After the handshake has been answered: until the connection is over.
     Task<> run();
@@ -40,11 +42,13 @@ private:
 
     bool take_frames();
     void take(MessageReader::Heard const&);
+    void answered(Answer&&);
     void say(Answer const&);
     void say_pong(std::string_view payload);
     void join(Answer const&);
     bool full() const { return answers_waiting_ >= settings_.max_requests_in_flight; }
     Task<> pause();
+    Task<> answer_long_message();
     Task<> say_farewell();
     Task<> wait_for_room();
     Task<> something_written();
@@ -86,6 +90,8 @@ private:
     Settings const& settings_;
     Gateway& gateway_;
     xml::RequestReader& reader_;
+    LongDocuments& long_documents_;
+    std::string long_message_;  // waits for the other thread; no more is taken meanwhile
     MessageReader messages_;
     SessionId session_;
     std::shared_ptr<Opener> opener_;

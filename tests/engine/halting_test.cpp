@@ -25,6 +25,22 @@ protected:
 
 }  // namespace
 
+TEST_F(Halting, IsTheFirstThingThatComponentsAreTold) {
+    robot.halts_later = true;
+    world.engine->begin(world.now);
+    EXPECT_THAT(world["speech"].told, ElementsAre("halt"));
+    EXPECT_THAT(world.engine->not_halted(), ElementsAre("navigation"));
+    desk.execute(named("go", go("go")));
+    EXPECT_THAT(robot.told, ElementsAre("halt")) << "nothing starts before";
+    robot.stands_still();
+    EXPECT_THAT(robot.told, ElementsAre("halt", "start"));
+}
+
+TEST_F(Halting, IsTheFirstThingThatANewComponentIsTold) {
+    world.change({}, {named("arm", navigation)});
+    EXPECT_THAT(world["arm"].told, ElementsAre("halt"));
+}
+
 TEST_F(Halting, StopReachesAComponentThatTheEngineBelievesIdle) {
     desk.execute(named("stop", stop("navigation")));
     EXPECT_THAT(robot.told, ElementsAre("halt"));

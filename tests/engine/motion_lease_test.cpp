@@ -236,4 +236,47 @@ TEST_F(Lease, DoesNotDependOnTheCalendar) {
     EXPECT_THAT(robot.told, ElementsAre("start"));
 }
 
+TEST_F(Lease, CoversWhatBeginsWhileTheRestIsHeld) {
+    open();
+    desk.execute(go("go"));
+    world.advance(2s);
+    desk.execute(command("dock", "navigation"));
+    robot.begins();
+    world.advance(2s);
+    EXPECT_THAT(robot.told, ElementsAre("start", "suspend", "dock", "suspend"));
+}
+
+TEST_F(Lease, CoversAStartWhileACommandOfItsOwnIsSuspended) {
+    open();
+    desk.execute(command("dock", "navigation"));
+    robot.begins();
+    desk.execute(suspend("navigation"));
+    desk.execute(go("go"));
+    world.advance(2s);
+    EXPECT_THAT(robot.told, ElementsAre("dock", "suspend", "start", "suspend"));
+}
+
+TEST_F(Lease, IsOverWhenTheSessionEndsWhateverElseMayRunOn) {
+    EngineSettings settings;
+    settings.on_session_end = OnSessionEnd::continue_;
+    World lasting{{moving(navigation), speech}, settings};
+    auto visitor = lasting.connect();
+    visitor.bind("navigation");
+    visitor.bind("speech");
+    visitor.execute(go("go"));
+    visitor.execute(rois::say("greet"));
+    visitor.execute(after(1s, go("later")));
+    visitor.leave();
+    lasting.advance(2s);
+    EXPECT_THAT(lasting["navigation"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(lasting["speech"].told, ElementsAre("start"));
+}
+
+TEST_F(Lease, IsNotNeededByWhatFailedToBegin) {
+    robot.throws_in = {"start", "perform"};
+    desk.execute(go("go"));
+    desk.execute(command("dock", "navigation"));
+    EXPECT_THAT(robot.told, ElementsAre("start", "halt", "dock", "halt")) << "it may have begun nevertheless";
+}
+
 }  // namespace rois

@@ -76,6 +76,23 @@ TEST(Shutdown, AnswersRequestsOnTheirWayWith503) {
     EXPECT_EQ(gateway.wait().exit_code, 0);
 }
 
+TEST(Shutdown, WaitsUntilAllStandsStill) {
+    GatewayProcess gateway{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--shutdown-timeout", "60"}};
+    gateway.signal(SIGTERM);
+    auto const ended = gateway.wait();
+    EXPECT_EQ(ended.exit_code, 0);
+    EXPECT_THAT(ended.error, testing::Not(testing::HasSubstr("navigation")));
+}
+
+TEST(Shutdown, NamesWhatDidNotHaltInTime) {
+    GatewayProcess gateway{
+        {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--sim-speed", "0", "--shutdown-timeout", "0.5"}};
+    gateway.signal(SIGTERM);
+    auto const ended = gateway.wait();
+    EXPECT_EQ(ended.exit_code, 0);
+    EXPECT_THAT(ended.error, testing::HasSubstr("navigation did not confirm that it stands still"));
+}
+
 TEST(Shutdown, DoesNotWaitForWhoNeverReads) {
     GatewayProcess gateway{{"--shutdown-timeout", "0.5"}};
     WebSocketClient deaf{gateway};

@@ -124,6 +124,23 @@ TEST_P(StillHall, StandsStillWhenTheSessionEnds) {
     EXPECT_THAT(HttpClient{gateway}.get("/metrics").body, HasSubstr("rois_stray_component_answers_total 0\n"));
 }
 
+TEST(Gateway, IsReadyOnlyWhenAllStandsStill) {
+    GatewayProcess gateway{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--sim-speed", "0"}};
+    HttpClient watching{gateway};
+    auto const not_ready = watching.get("/readyz");
+    EXPECT_EQ(not_ready.status, 503);
+    EXPECT_EQ(not_ready.body, "navigation has not confirmed that it stands still\n");
+    Application desk{Way::websocket, gateway};
+    desk.connect();
+    EXPECT_THAT(desk.bind("navigation"), IsRefused("ERROR", "stands still"));
+    EXPECT_THAT(desk.bind("simulated_hall"), IsOk());
+    desk.execute(let_pass(1'000, "pass"));
+    EXPECT_EQ(desk.status_of("pass"), "OK");
+    while (watching.get("/readyz").status != 200) {
+    }
+    EXPECT_THAT(desk.bind("navigation"), IsOk());
+}
+
 // What is said to the robot, and where it is, after the same commands at the same world times.
 std::vector<std::string> story(std::vector<int> const& passes) {
     GatewayProcess gateway{{"--sim-speed", "0", "--seed", "5"}};

@@ -73,6 +73,18 @@ TEST_F(Faults, OfAComplainingSystemInformationAreTheStatusOfTheEngine) {
     EXPECT_EQ(told(), "READY");
 }
 
+TEST_F(Faults, LetAnUnstoppableComponentGoOnAndConfirmNoHalt) {
+    auto stage = unwell("speech_synthesis", Fault::Kind::unstoppable, 0, 0.5);
+    auto& speaker = stage["speech_synthesis"];
+    speaker.start(speech());
+    stage.step();
+    EXPECT_EQ(speaker.component().halt(stage.now()), Halted::not_yet);
+    EXPECT_TRUE(stage.robot_state().speaking);
+    stage.run(0.6);
+    EXPECT_EQ(speaker.component().halt(stage.now()), Halted::confirmed);
+    EXPECT_FALSE(stage.robot_state().speaking);
+}
+
 TEST_F(Faults, LetASilentComponentGoOnWithWhatItDoes) {
     auto stage = unwell("speech_synthesis", Fault::Kind::silent, 0.1);
     stage["speech_synthesis"].start(speech());

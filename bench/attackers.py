@@ -1,0 +1,273 @@
+"""What floods a gateway: each kind of docs/safety.md as a program, `attackers.py KIND PORT`, until it is ended."""
+
+import base64
+import itertools
+import os
+import socket
+import struct
+import sys
+import threading
+import time
+
+from documents import MESSAGE, ROIS, execute, is_equal, parameter, query, subscribe, unit
+
+BIG = 880_000  # bytes of one text, below the limit of a document
+CONNECT = f'<connect xmlns="{MESSAGE}"/>'
+HOST = "127.0.0.1"
+
+
+def bind(component):
+    return f'<bind xmlns="{MESSAGE}" xmlns:rois="{ROIS}"><component_ref rois:code="{component}"/></bind>'
+
+
+class Line:
+    """One connection. Whatever goes wrong with it, it begins anew: an attacker does not give up."""
+
+    def __init__(self, port):
+        self.port = port
+        self.session = ""
+        self.socket = None
+        self.open()
+
+    def open(self):
+        if self.socket:
+            self.socket.close()
+        self.session = ""
+        self.socket = socket.create_connection((HOST, self.port))
+        self.socket.settimeout(5)
+
+    def head(self, length, path="/rois"):
+        session = f"RoIS-Session: {self.session}\r\n" if self.session else ""
+        kind = "Content-Type: text/xml\r\n" if length else ""
+        return f"POST {path} HTTP/1.1\r\nHost: {HOST}\r\n{session}{kind}Content-Length: {length}\r\n\r\n"
+
+    def post(self, body, path="/rois"):
+        """The answer's head and body as one text, or nothing when the connection was closed."""
+        try:
+            self.socket.sendall((self.head(len(body), path) + body).encode())
+            return self.take_answer()
+        except OSError:
+            time.sleep(0.001)
+            self.open()
+            return ""
+
+    def take_answer(self):
+        text = b""
+        while b"\r\n\r\n" not in text:
+            part = self.socket.recv(65_536)
+            if not part:
+                raise OSError
+            text += part
+        head, rest = text.split(b"\r\n\r\n", 1)
+        length = 0
+        for line in head.lower().split(b"\r\n"):
+            if line.startswith(b"content-length:"):
+                length = int(line[15:])
+        while len(rest) < length:
+            part = self.socket.recv(65_536)
+            if not part:
+                raise OSError
+            rest += part
+        return (head + b"\r\n\r\n" + rest).decode()
+
+    def connect(self):
+        answer = self.post(CONNECT)
+        if "<session>" in answer:
+            self.session = answer.split("<session>")[1].split("<")[0]
+        return bool(self.session)
+
+    def is_connected(self):
+        return bool(self.session) or self.connect()
+
+
+def each(port, count, act):
+    """So many connections at once, each of which acts again and again; `act` takes the connection and how often it has acted."""
+
+    def go_on():
+        one = Line(port)
+        for turn in itertools.count():
+            act(one, turn)
+
+    for _ in range(count):
+        threading.Thread(target=go_on, daemon=True).start()
+    threading.Event().wait()
+
+
+def requests(port):
+    """Short requests, 16 at a time on each of 64 connections."""
+    body = query("engine_status")
+
+    def act(one, _):
+        try:
+            one.is_connected()
+            one.socket.sendall((one.head(len(body)) + body).encode() * 16)
+            answers = 0
+            while answers < 16:
+                part = one.socket.recv(65_536)
+                answers += part.count(b"HTTP/1.1 ") if part else 16
+        except OSError:
+            one.open()
+
+    each(port, 64, act)
+
+
+def predicates(port):
+    """30 sessions that subscribe with conditions of 1,000 predicates, up to their limit and beyond."""
+    every = [
+        subscribe("person_detected", [is_equal("number", f"{number}") for number in range(first, first + 1_000)])
+        for first in range(0, 30_000, 1_000)
+    ]
+    each(port, 30, lambda one, turn: one.is_connected() and one.post(every[turn % 30]))
+
+
+def literals(port):
+    """Conditions with a literal of 0.9 MB, in subscriptions and queries, of 60 sessions."""
+
+    def act(one, turn):
+        equal = [is_equal("component_ref", f"{turn}" + "x" * BIG)]
+        if one.is_connected():
+            one.post(subscribe("person_detected", equal) if turn % 2 else query("engine_status", equal))
+
+    each(port, 60, act)
+
+
+def bodies(port):
+    """200 bodies of 0.9 MB that are never finished."""
+
+    def act(one, _):
+        try:
+            one.open()
+            one.socket.sendall((one.head(BIG + 1) + "<" + " " * (BIG - 1)).encode())
+            one.socket.recv(1)
+        except OSError:
+            time.sleep(0.01)
+
+    each(port, 200, act)
+
+
+def commands(port):
+    """Commands with arguments of 0.9 MB, that end at once."""
+
+    def act(one, turn):
+        if not one.session and one.connect():
+            one.post(bind("speech_synthesis"))
+        text = parameter("rois:parameter", "speech_text", "string", f"{turn} " + "x" * BIG)
+        one.post(execute([unit("speech_synthesis", "set_parameter", text)]))
+
+    each(port, 8, act)
+
+
+def sessions(port):
+    """Sessions without end: as many as a connection may open, then another connection; and WebSockets without any."""
+    idle = []
+
+    def act(one, _):
+        for _ in range(20):
+            one.post(CONNECT)
+        one.open()
+        idle.append(websocket(port))
+        if len(idle) > 300:
+            idle.pop(0).close()
+
+    each(port, 4, act)
+
+
+def speeches(port):
+    """Speeches one after another, each of which is a line of the log."""
+    one = Line(port)
+    while True:
+        if not one.session and one.connect():
+            one.post(bind("speech_synthesis"))
+        say = unit("speech_synthesis", "start", parameter("rois:parameter", "speech_text", "string", "x"))
+        one.post(execute([say, unit("speech_synthesis", "stop")]))
+
+
+def websocket(port):
+    one = socket.create_connection((HOST, port))
+    one.settimeout(5)
+    key = base64.b64encode(os.urandom(16)).decode()
+    one.sendall(
+        f"GET /rois HTTP/1.1\r\nHost: {HOST}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        f"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {key}\r\n\r\n".encode()
+    )
+    one.recv(4_096)
+    return one
+
+
+def frame(opcode, content, final=True):
+    head = bytes([(0x80 if final else 0) | opcode])
+    size = len(content)
+    head += bytes([0x80 | size]) if size < 126 else bytes([0x80 | 126]) + struct.pack(">H", size)
+    return head + b"\0\0\0\0" + content
+
+
+def controls(port):
+    """Pings as fast as they go."""
+    pings = frame(9, b"x") * 100
+    every = [websocket(port) for _ in range(8)]
+    for turn in itertools.count():
+        place = turn % len(every)
+        try:
+            every[place].sendall(pings)
+        except OSError:
+            every[place].close()
+            try:
+                every[place] = websocket(port)
+            except OSError:
+                pass
+
+
+def trickles(port):
+    """Blank lines before a request that never comes, and messages in fragments of one byte."""
+    blank = [Line(port) for _ in range(32)]
+    fragments = [websocket(port) for _ in range(32)]
+    for one in fragments:
+        one.sendall(frame(1, b"<", final=False))
+    for turn in itertools.count():
+        place = turn % 32
+        try:
+            blank[place].socket.sendall(b"\r\n" * 500)
+            fragments[place].sendall(frame(0, b" ", final=False) * 100)
+        except OSError:
+            try:
+                blank[place].open()
+                fragments[place].close()
+                fragments[place] = websocket(port)
+                fragments[place].sendall(frame(1, b"<", final=False))
+            except OSError:
+                pass
+
+
+def namespaces(port):
+    """Documents of 0.6 MB with 60 namespace declarations in scope, and with 20,000."""
+    allowed = "".join(f'<a xmlns:n{number}="urn:{number}">' for number in range(60)) + "<n1:b/>" * 80_000
+    many = "".join(f'<a xmlns:n{number}="urn:{number}">' for number in range(20_000))
+    each(port, 8, lambda one, turn: one.post(f'<query xmlns="{MESSAGE}">{allowed if turn % 2 else many}</query>'))
+
+
+def long_documents(port):
+    """Documents of 0.9 MB that are nearly right, so that all of the validation is done for them."""
+    wrong = query("engine_status", [is_equal("component_ref", f"x{number}") for number in range(6_000)])
+    wrong = wrong.replace("</query>", "<more/></query>")
+    each(port, 8, lambda one, _: one.is_connected() and one.post(wrong))
+
+
+KINDS = {
+    one.__name__: one
+    for one in (
+        requests,
+        predicates,
+        literals,
+        bodies,
+        commands,
+        sessions,
+        speeches,
+        controls,
+        trickles,
+        namespaces,
+        long_documents,
+    )
+}
+
+if __name__ == "__main__":
+    KINDS[sys.argv[1]](int(sys.argv[2]))

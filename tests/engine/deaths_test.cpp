@@ -1,0 +1,216 @@
+// Links and applications die at random moments of random commands: nothing that moves goes on for longer than its lease
+// (decision 33), whatever its component does about it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <stdexcept>
+
+#include "world.hpp"
+
+namespace rois {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+class Dice {
+public:
+    explicit Dice(std::uint32_t seed) : engine_{seed} {}
+
+    int below(int end) { return static_cast<int>(engine_() % static_cast<std::uint32_t>(end)); }
+    bool one_in(int chances) { return below(chances) == 0; }
+    std::chrono::milliseconds time(std::chrono::milliseconds most) {
+        return std::chrono::milliseconds{below(static_cast<int>(most.count()))};
+    }
+
+private:
+    std::mt19937 engine_;
+};
+
+// Moves when it is told to, and does it badly at times: throws in the middle, confirms late, ends by itself.
+class Mover final : public Component {
+public:
+    Mover(std::string const& ref, Dice& dice) : dice_{dice} {
+        description_.ref.code = ref;
+        description_.profile = std::make_shared<ComponentProfile>(navigation.profile);
+        description_.moves = true;
+    }
+
+    bool moves() const { return moves_; }
+
+    // What it does by itself, once a tick.
+    void live() {
+        if (ticks_to_halt_ > 0 && --ticks_to_halt_ == 0) {
+            moves_ = false;
+            port_->halted();
+        }
+        if (moves_ && dice_.one_in(200)) {
+            moves_ = false;
+            port_->completed(command_, dice_.one_in(2) ? CompletedStatus::ok : CompletedStatus::error);
+        }
+    }
+
+    ComponentDescription const& description() const override { return description_; }
+    void attach(ComponentPort& port) override { port_ = &port; }
+    ComponentStatus status() const override { return ComponentStatus::ready; }
+    std::optional<std::string> refusal(std::string_view, ParameterList const&) const override { return {}; }
+    void start(CommandHandle command, ParameterList const&, Instant) override { begin(command); }
+    void perform(CommandHandle command, std::string_view, ParameterList const&, Instant) override { begin(command); }
+    void resume(Instant) override { begin(command_); }
+    void suspend(Instant) override {
+        fail_at_times();
+        moves_ = false;
+    }
+    Halted halt(Instant) override {
+        fail_at_times();
+        if (moves_ && ticks_to_halt_ == 0 && dice_.one_in(3)) ticks_to_halt_ = 1 + dice_.below(6);
+        moves_ = ticks_to_halt_ > 0;
+        return moves_ ? Halted::not_yet : Halted::confirmed;
+    }
+
+private:
+    void begin(CommandHandle command) {
+        command_ = command;
+        moves_ = true;
+        fail_at_times();
+        if (!dice_.one_in(20)) port_->started(command);
+    }
+    void fail_at_times() {
+        failed_ = !failed_ && dice_.one_in(8);
+        if (failed_) throw std::runtime_error("it was a bad moment");
+    }
+
+    Dice& dice_;
+    ComponentDescription description_;
+    ComponentPort* port_ = nullptr;
+    CommandHandle command_{};
+    bool moves_ = false;
+    int ticks_to_halt_ = 0;  // while it halts
+    bool failed_ = false;    // the last time: it does not fail twice in a row
+};
+
+// An application that commands at random while it lives. It asks for leases of 2 s, however it is connected.
+class Mortal {
+public:
+    enum class Way : std::uint8_t { websocket, stream, requests };
+
+    Mortal(World& world, Dice& dice, std::vector<std::string> refs)
+        : world_{world}, dice_{dice}, refs_{std::move(refs)}, way_{static_cast<Way>(dice.below(3))}, dies_{dice.time(6'000ms)} {
+        Connect const asked{.motion_lease = 2'000ms, .motion_lease_http = 2'000ms, .motion_proof = {}};
+        session_ = std::get<Connect::Reply>(std::get<Reply>(world_.say({}, asked))).session;
+        if (way_ != Way::requests) world_.engine->link_opened(session_, link(), world_.now);
+    }
+
+    std::vector<std::string> const& refs() const { return refs_; }
+    bool lives() const { return !died_; }
+    Steady last_alive() const { return last_alive_; }
+
+    void live(std::chrono::milliseconds passed) {
+        if (died_) return;
+        last_alive_ = world_.now.steady;
+        dies_ -= passed;
+        if (dies_ <= 0ms) return die();
+        if (way_ == Way::websocket) world_.engine->heard_pong(session_, world_.now);
+        if (way_ == Way::requests || dice_.one_in(10)) act();
+    }
+
+private:
+    Link link() const { return way_ == Way::websocket ? Link::websocket : Link::stream; }
+
+    // A stream that breaks is closed by the system, when it misses the answers to its probes: at once here. A WebSocket falls
+    // silent, or closes.
+    void die() {
+        died_ = true;
+        if (way_ == Way::stream || (way_ == Way::websocket && dice_.one_in(2)))
+            world_.engine->link_closed(session_, link(), Closing::lost, world_.now);
+        else if (dice_.one_in(6))
+            world_.say(session_, Disconnect{});
+    }
+
+    void act() {
+        auto const ref = refs_[static_cast<std::size_t>(dice_.below(static_cast<int>(refs_.size())))];
+        auto const id = Application::identifier(ref);
+        switch (dice_.below(12)) {
+            case 0:
+                return say(Release{id});
+            case 1:
+                return command(stop(ref));
+            case 2:
+                return command(suspend(ref));
+            case 3:
+                return command(resume(ref));
+            case 4:
+                say(Bind{id});
+                return command(after(dice_.time(4'000ms), go("", ref)));
+            case 5:
+                say(Bind{id});
+                return command(in_sequence({rois::command("dock", ref), pause(dice_.time(1'500ms)), go("", ref)}));
+            case 6:
+                return command(rois::command("dock", ref));
+            case 7:
+            case 8:
+                say(Bind{id});
+                return command(go("", ref));
+            default:
+                return say(Search{});
+        }
+    }
+    void command(CommandUnit unit) { say(Execute{{{std::move(unit)}}}); }
+    void say(Operation const& operation) { world_.say(session_, operation); }
+
+    World& world_;
+    Dice& dice_;
+    std::vector<std::string> refs_;
+    Way way_;
+    std::chrono::milliseconds dies_;
+    SessionId session_;
+    Steady last_alive_;
+    bool died_ = false;
+};
+
+// The longest that something moved after the death of the only application that can command it.
+std::chrono::nanoseconds longest_afterlife(std::uint32_t seed, int& moved) {
+    Dice dice{seed};
+    World world{std::vector<Part>{}, EngineSettings{}};
+    std::vector<Mover*> movers;
+    for (auto const* ref : {"base", "arm", "chair"}) {
+        auto mover = std::make_unique<Mover>(ref, dice);
+        movers.push_back(mover.get());
+        world.engine->add(std::move(mover));
+    }
+    std::vector<Mortal> mortals;
+    mortals.emplace_back(world, dice, std::vector<std::string>{"base"});
+    mortals.emplace_back(world, dice, std::vector<std::string>{"arm", "chair"});
+    auto const commander = [&](Mover const& mover) -> Mortal const& {
+        return mortals[mover.description().ref.code == "base" ? 0 : 1];
+    };
+    std::chrono::nanoseconds longest{0};
+    auto const is_over = [&](Mortal const& mortal) { return !mortal.lives() && world.now.steady >= mortal.last_alive() + 3s; };
+    while (!std::ranges::all_of(mortals, is_over)) {
+        auto const passed = 10ms + dice.time(40ms);
+        world.now = world.now + passed;
+        for (auto& mortal : mortals) mortal.live(passed);
+        world.happen([&] {
+            for (auto* mover : movers) mover->live();
+        });
+        for (auto const* mover : movers) {
+            if (!mover->moves()) continue;
+            ++moved;
+            if (commander(*mover).lives()) continue;
+            longest = std::max(longest, world.now.steady - commander(*mover).last_alive());
+        }
+    }
+    return longest;
+}
+
+}  // namespace
+
+TEST(Deaths, OfLinksAndApplicationsEndTheirMotion) {
+    int moved = 0;
+    for (std::uint32_t seed = 1; seed <= 10'000; ++seed)
+        ASSERT_LE(longest_afterlife(seed, moved), 2'500ms) << "with the seed " << seed;
+    EXPECT_GT(moved, 1'000'000) << "else the test says little";
+}
+
+}  // namespace rois
