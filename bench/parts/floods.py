@@ -7,7 +7,8 @@ import time
 import attackers
 from processes import BIN, CORES, ROOT, Server, running
 
-STOPS = ("stop", "release", "disconnect", "stop-all")
+WAYS = ("stop", "release", "disconnect", "stop-all")
+STOPS = [f"{way}_p99_ms" for way in WAYS]
 
 
 def round(keep, settings):
@@ -36,7 +37,7 @@ def probe(server, seconds):
     clock = (~server.pid << 3) | 2
     neighbour.connect()
     begun, used, most = time.perf_counter(), time.clock_gettime(clock), 0
-    times = {"neighbour": [], **{stop: [] for stop in STOPS}}
+    times = {"neighbour": [], **{way: [] for way in WAYS}}
 
     def timed(name, line, *request):
         sent = time.perf_counter()

@@ -77,7 +77,7 @@ TEST(Shutdown, AnswersRequestsOnTheirWayWith503) {
 }
 
 TEST(Shutdown, WaitsUntilAllStandsStill) {
-    GatewayProcess gateway{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--shutdown-timeout", "60"}};
+    GatewayProcess gateway{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--shutdown-timeout", "8"}};
     gateway.signal(SIGTERM);
     auto const ended = gateway.wait();
     EXPECT_EQ(ended.exit_code, 0);
