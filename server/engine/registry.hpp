@@ -23,6 +23,13 @@ namespace rois {
 
 struct Session;
 
+// A halt that a component has not confirmed (decision 35).
+struct UnconfirmedHalt {
+    bool failed = false;                            // it threw, or did not confirm in time: its status is ERROR
+    Deadlines::Ticket due;                          // the end of that time, or the next attempt
+    std::vector<std::shared_ptr<Command>> waiting;  // which go on when it is confirmed; none once it has failed
+};
+
 // A component as the engine has it. It is the component's port.
 class RegisteredComponent final : public ComponentPort, public std::enable_shared_from_this<RegisteredComponent> {
 public:
@@ -115,13 +122,7 @@ public:
     std::shared_ptr<Command> start;                   // whose action runs, or null
     std::vector<std::shared_ptr<Command>> functions;  // those of its own profile that run
 
-    // A halt that it has not confirmed (decision 35).
-    struct Halting {
-        bool failed = false;                            // it threw, or did not confirm in time: its status is ERROR
-        Deadlines::Ticket due;                          // the end of that time, or the next attempt
-        std::vector<std::shared_ptr<Command>> waiting;  // which go on when it is confirmed; none once it has failed
-    };
-    std::optional<Halting> halting;
+    std::optional<UnconfirmedHalt> halting;
 
     // A command or query of it: what failed before is over.
     void succeeded();

@@ -41,9 +41,12 @@ public:
 
     // What it does by itself, once a tick.
     void live() {
-        if (ticks_to_halt_ > 0 && --ticks_to_halt_ == 0) {
-            moves_ = false;
-            port_->halted();
+        if (ticks_to_halt_ > 0) {
+            --ticks_to_halt_;
+            if (ticks_to_halt_ == 0) {
+                moves_ = false;
+                port_->halted();
+            }
         }
         if (moves_ && dice_.one_in(200)) {
             moves_ = false;
