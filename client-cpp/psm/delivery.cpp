@@ -26,19 +26,47 @@ bool Delivery::post(Kind kind, std::function<void()> run) {
             }
         }
         waiting_.push_back({kind, std::move(run)});
-        if (!thread_.joinable()) {
-            thread_ = std::thread{[this] { this->run(); }};
-            here_ = thread_.get_id();
-        }
+        begin_thread();
     }
     news_.notify_all();
     return all_kept;
 }
 
+void Delivery::begin_signs(std::function<void()> sign, std::chrono::milliseconds every) {
+    {
+        std::lock_guard const lock{mutex_};
+        if (sign_) return;
+        sign_ = std::move(sign);
+        every_ = every;
+        begin_thread();
+    }
+    news_.notify_all();
+}
+
+void Delivery::begin_thread() {
+    if (thread_.joinable()) return;
+    thread_ = std::thread{[this] { this->run(); }};
+    here_ = thread_.get_id();
+}
+
+void Delivery::wait_for_notice(std::unique_lock<std::mutex>& lock) {
+    auto const ready = [&] { return over_ || !waiting_.empty(); };
+    for (;;) {
+        if (!sign_) {
+            news_.wait(lock, [&] { return ready() || sign_; });
+            if (ready()) return;
+        }
+        lock.unlock();
+        sign_();
+        lock.lock();
+        if (news_.wait_for(lock, every_, ready)) return;
+    }
+}
+
 void Delivery::run() {
     std::unique_lock lock{mutex_};
     for (;;) {
-        news_.wait(lock, [&] { return over_ || !waiting_.empty(); });
+        wait_for_notice(lock);
         if (over_) return;
         auto const notice = std::move(waiting_.front());
         waiting_.pop_front();

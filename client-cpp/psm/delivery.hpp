@@ -1,6 +1,7 @@
 // The notification thread of the C++ PSM: calls the functions of the application's receivers, one after the other.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -14,7 +15,7 @@ namespace rois::psm {
 // What a receiver is registered by: the address of its ServiceApplicationBase or Event.
 using Receiver = void const*;
 
-// Thread-safe. The thread begins with the first notice.
+// Thread-safe. The thread begins with the first notice or `begin_signs`.
 class Delivery {
 public:
     enum class Kind : unsigned char {
@@ -29,6 +30,10 @@ public:
     ~Delivery();
     Delivery(Delivery const&) = delete;
     Delivery& operator=(Delivery const&) = delete;
+
+    // From now on the notification thread calls this again and again after the time, and between two notices; not while a
+    // receiver's function runs. Once.
+    void begin_signs(std::function<void()> sign, std::chrono::milliseconds every);
 
     // Queues a function for the notification thread. Returns false if an event had to be dropped to make room.
     bool post(Kind, std::function<void()>);
@@ -50,9 +55,13 @@ private:
     };
 
     void run();
+    void begin_thread();
+    void wait_for_notice(std::unique_lock<std::mutex>&);
 
     std::mutex mutex_;
     std::condition_variable news_;
+    std::function<void()> sign_;
+    std::chrono::milliseconds every_{};
     std::deque<Notice> waiting_;
     std::vector<Receiver> receivers_;
     Receiver called_ = nullptr;  // whose function runs

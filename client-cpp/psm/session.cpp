@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "psm/documents.hpp"
+#include "rois/psm/alive.hpp"
 #include "rois/psm/reason.hpp"
 #include "types/texts.hpp"
 
@@ -119,8 +120,14 @@ ReturnCode_t Session::connect() try {
         subscriptions_.clear();
         running_.clear();
         last_command_ = 0;
+        speaks_itself_ = false;
         new_.insert(events_.begin(), events_.end());
     }
+    delivery_.begin_signs(
+        [this] {
+            if (!speaks_itself_) give_sign_of_life();
+        },
+        fresh->between_signs_of_life());
     activate(fresh);
     return RoIS_HRI::OK;
 } catch (std::exception const& problem) {
@@ -152,6 +159,19 @@ ReturnCode_t Session::disconnect() try {
     set_reason("disconnect: " + std::string{problem.what()});
     return RoIS_HRI::ERROR;
 }
+
+// The session's client may end meanwhile: it does so when nobody else holds it.
+void Session::give_sign_of_life() const {
+    std::lock_guard const lock{mutex_};
+    if (client_) client_->alive();
+}
+
+void Session::alive() {
+    speaks_itself_ = true;
+    give_sign_of_life();
+}
+
+void alive() { Session::instance().alive(); }
 
 // New receivers receive from now on. Events for which there is no component are tried again with the next connection.
 void Session::activate(std::shared_ptr<Client> const& client) {

@@ -67,6 +67,9 @@ public:
     RoIS_HRI::ReturnCode_t query(std::string const& component_type, std::string query_type, std::optional<Condition> more,
                                  EventResults& results);
 
+    // The application gives signs of life by itself from now on (alive.hpp).
+    void alive();
+
     // --- Receivers ---
 
     void add(RoIS_Service::ServiceApplicationBase*);
@@ -97,6 +100,7 @@ private:
     std::shared_ptr<Client> ready_client();  // the same; makes new receivers receive
     void activate(std::shared_ptr<Client> const&);
     Observers observers();
+    void give_sign_of_life() const;
     RoIS_HRI::ReturnCode_t failed(Answer const&, Client const&) const;
     // Sends a document and reads its answer. `note` is called with a reply that is OK, on the client's thread, and so before any
     // notification that follows it.
@@ -138,7 +142,8 @@ private:
     unsigned long last_command_ = 0;
     unsigned long last_error_ = 0;
 
-    std::atomic<bool> dropping_ = false;  // a report of dropped events waits: more of them need none of their own
+    std::atomic<bool> speaks_itself_ = false;  // it has called alive()
+    std::atomic<bool> dropping_ = false;       // a report of dropped events waits: more of them need none of their own
 
     Delivery delivery_;  // last: its thread ends first
 };

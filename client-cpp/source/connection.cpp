@@ -86,6 +86,10 @@ Task<std::variant<std::string, NoAnswer>> Connection::send(std::string document,
 
 Task<> Connection::sleep(std::chrono::milliseconds time) { return sleep_on(core_, time); }
 
+void Connection::alive() { core_->alive(); }
+
+std::chrono::milliseconds Connection::between_signs_of_life() const { return core_->between_signs_of_life(); }
+
 void Connection::close() { core_->close(); }
 
 void Connection::spawn(Task<> task) { core_->spawn(std::move(task)); }

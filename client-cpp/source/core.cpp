@@ -113,6 +113,7 @@ std::shared_ptr<Call> Core::send(Call::Kind kind, std::string document, std::str
         return call;
     }
     calls_.push_back(call);
+    sent_raw_ = sent_raw_ || kind == Call::Kind::raw;
     if (call->deadline.due < next_deadline_) watch_deadlines(call->deadline.due);
     if (is_open()) {
         call->sent = true;

@@ -20,7 +20,7 @@
 namespace rois::detail {
 
 // Lives on the client's thread; what is called from others says so. Sources: core.cpp (beginning, end, calls), core_session.cpp
-// (link and session), core_notifications.cpp, core_operations.cpp (what operations mean to it).
+// (link and session), core_life.cpp (signs of life), core_notifications.cpp, core_operations.cpp (what operations mean to it).
 class Core final : public std::enable_shared_from_this<Core>, private client::Link::Listener {
 public:
     Core(Settings, Observers);
@@ -57,6 +57,10 @@ public:
     // Raised when there is a session, and when the connection is closed.
     client::Flag opened;
     bool is_open() const { return phase_ == Phase::open; }
+    // The application's own threads speak for it from now on (Connection::alive).
+    void alive();
+    std::chrono::milliseconds between_signs_of_life() const;
+
     bool is_closed() const { return phase_ == Phase::closing || phase_ == Phase::closed; }
     std::string const& last_reason() const { return last_reason_; }
     NoAnswer closed() const;  // what is said to whoever asks then
@@ -73,6 +77,7 @@ private:
     void attached() override;
     void document(std::string_view) override;
     void failed(std::string const& reason, client::Failure) override;
+    void pinged() override;
     void give_up_link(std::string const& reason, client::Failure);
     void give_up_misunderstood();
     std::shared_ptr<client::Call> take_largest();
@@ -100,6 +105,12 @@ private:
     enum class Farewell : std::uint8_t { due, said };  // the engine's session ends, too, or has ended
     void begin_close(Farewell);
     void finish();
+
+    // --- core_life.cpp ---
+    bool wants_signs_of_life() const;
+    void expect_signs_of_life();
+    void give_sign_of_life();
+    Task<> prove_life();
 
     // --- core_notifications.cpp ---
     void take(xml::Told);
@@ -154,6 +165,14 @@ private:
     client::Subscriptions subscriptions_;
     std::map<std::string, std::string> restoring_;  // request ids, and what is made anew
     std::optional<Gap> gap_;                        // to be told when all is restored
+
+    // Signs of life.
+    std::atomic<bool> spoken_for_ = false;  // by the application's own threads
+    client::Steady pinged_at_;
+    client::Steady said_at_;  // when a document went out last
+    bool sent_raw_ = false;   // in this session: what it does is not known
+    bool proving_ = false;    // a sign is on its way
+    client::Loop::Ticket life_ = 0;
 
     std::vector<std::weak_ptr<client::Flag>> sleeping_;
 

@@ -84,6 +84,7 @@ Task<std::vector<std::shared_ptr<Watch>>> Core::begin(CommandUnitSequence sequen
         watches.push_back(std::make_shared<Watch>(command.command_id));
         if (!is_closed()) watches_.emplace(command.command_id, watches.back());
     });
+    expect_signs_of_life();
     Execute operation{std::move(sequence)};
     auto answer = co_await execute(std::move(operation), settings_.deadline);
     auto const reply = reply_of<Execute>(std::move(answer));
@@ -141,6 +142,7 @@ Task<Answer> Core::execute(Execute operation, std::chrono::milliseconds deadline
 void Core::note_bound(Identifier const& ref) {
     bool const known = std::ranges::any_of(bound_, [&](auto const& bound) { return bound.code == ref.code; });
     if (!known) bound_.push_back(ref);
+    expect_signs_of_life();
 }
 
 void Core::note_released(Identifier const& ref) {

@@ -48,9 +48,15 @@ void Core::connected() {
     }
 }
 
-void Core::open_session() { send_on_link(client::document_of({Connect{}, "connect"})); }
+// Only requests are proof that the application lives: this thread, or the system, answers pings and keeps a stream open also
+// while the application's own thread hangs.
+void Core::open_session() {
+    Connect const connect{.motion_lease = settings_.motion_lease, .motion_lease_http = {}, .motion_proof = MotionProof::request};
+    send_on_link(client::document_of({connect, "connect"}));
+}
 
 void Core::send_on_link(client::Link::Document document) {
+    said_at_ = std::chrono::steady_clock::now();
     if (observers_.tap && !muted_) observers_.tap(Direction::out, *document);
     if (link_) link_->send(std::move(document));
 }
@@ -96,8 +102,12 @@ void Core::take_opening(xml::Heard heard) {
         return;
     }
     auto const* const connected = std::get_if<Connect::Reply>(&reply);
-    if (connected == nullptr || connected->return_code != ReturnCode::ok) {
+    if (connected == nullptr) {
         give_up_link("no session: the gateway does not answer to connect", Failure::passing);
+        return;
+    }
+    if (connected->return_code != ReturnCode::ok) {
+        give_up_link("no session: " + connected->reason, Failure::lasting);
         return;
     }
     {
@@ -105,6 +115,7 @@ void Core::take_opening(xml::Heard heard) {
         session_ = connected->session;
     }
     last_sequence_ = 0;
+    sent_raw_ = false;
     if (settings_.way == Way::http) {
         link_->attach(session_, 0);
     } else {
@@ -314,6 +325,7 @@ void Core::become_open() {
     }
     opened.raise();
     tell_held();
+    expect_signs_of_life();
 }
 
 }  // namespace rois::detail

@@ -30,6 +30,8 @@ public:
         // An answer or a notification; valid during the call.
         virtual void document(std::string_view) = 0;
         virtual void failed(std::string const& reason, Failure) = 0;
+        // The gateway asks whether somebody is there, as it does all the time while a robot moves for the session.
+        virtual void pinged() = 0;
 
     protected:
         ~Listener() = default;

@@ -77,6 +77,9 @@ private:
             request.set(http::field::sec_websocket_protocol, "rois.xml.v1");
             if (!settings_.token.empty()) request.set(http::field::authorization, "Bearer " + settings_.token);
         }));
+        stream_.control_callback([this](websocket::frame_type kind, beast::string_view) {
+            if (kind == websocket::frame_type::ping && listener_ != nullptr) listener_->pinged();
+        });
         stream_.read_message_max(settings_.longest_document);
         stream_.auto_fragment(false);
         stream_.text(true);

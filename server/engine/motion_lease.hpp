@@ -20,9 +20,9 @@ enum class Closing : std::uint8_t { answered, lost };
 class MotionLease {
 public:
     struct Terms {
-        std::chrono::milliseconds linked;  // on a WebSocket
+        std::chrono::milliseconds linked;  // with a link
         std::chrono::milliseconds http;    // with requests only
-        bool pongs_count = true;           // else a WebSocket is proven by requests alone
+        bool links_count = true;           // else neither pongs nor an open stream are proof, but requests alone
     };
 
     MotionLease(Terms const& terms, Steady now) : terms_{terms}, heard_{now} {}
@@ -35,7 +35,7 @@ public:
         end_after_link_.reset();
     }
     void heard_pong(Steady now) {
-        if (terms_.pongs_count) heard_ = now;
+        if (terms_.links_count) heard_ = now;
     }
     void opened(Link link, Steady now) {
         ++count(link);
@@ -43,17 +43,17 @@ public:
     }
     void closed(Link link, Closing closing, Steady now) {
         if (count(link) > 0) --count(link);
-        if (closing == Closing::answered) heard_request(now);
+        if (closing == Closing::answered && terms_.links_count) heard_request(now);
         if (closing == Closing::lost && links() == 0) end_after_link_ = now + for_a_successor;
     }
 
     std::size_t links() const { return websockets_ + streams_; }
 
-    // From then on its motion is held, unless something is heard before. An open stream is proof by itself: the system finds out
-    // when its peer has gone.
+    // From then on its motion is held, unless something is heard before. An open stream is proof by itself, unless the session
+    // asked to be judged by its requests: the system finds out when its peer has gone.
     Steady end() const {
-        if (streams_ > 0) return Steady::max();
-        if (websockets_ > 0) return heard_ + terms_.linked;
+        if (streams_ > 0 && terms_.links_count) return Steady::max();
+        if (links() > 0) return heard_ + terms_.linked;
         return end_after_link_.value_or(heard_ + terms_.http);
     }
 

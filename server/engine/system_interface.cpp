@@ -22,7 +22,7 @@ std::optional<std::string> agree(MotionLease::Terms& terms, Connect const& asked
     };
     if (auto problem = take("motion_lease", asked.motion_lease, most.motion_lease, terms.linked)) return problem;
     if (auto problem = take("motion_lease_http", asked.motion_lease_http, most.motion_lease_http, terms.http)) return problem;
-    if (asked.motion_proof) terms.pongs_count = *asked.motion_proof == MotionProof::pong;
+    if (asked.motion_proof) terms.links_count = *asked.motion_proof == MotionProof::pong;
     return {};
 }
 

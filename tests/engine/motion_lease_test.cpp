@@ -78,6 +78,34 @@ TEST_F(Lease, MayBeRenewedByRequestsAlone) {
     EXPECT_THAT(robot.told, ElementsAre("start", "suspend"));
 }
 
+TEST_F(Lease, OfAnOpenStreamMayBeRenewedByRequestsAlone) {
+    EXPECT_EQ(
+        desk.ask(Connect{.motion_lease = {}, .motion_lease_http = 3000ms, .motion_proof = MotionProof::request}).return_code,
+        ReturnCode::ok);
+    open(Link::stream);
+    desk.execute(go("go"));
+    world.advance(1900ms);
+    desk.query("route");
+    world.advance(1950ms);
+    EXPECT_THAT(robot.told, ElementsAre("start"));
+    world.advance(50ms);
+    EXPECT_THAT(robot.told, ElementsAre("start", "suspend"));
+}
+
+TEST_F(Lease, IsNotRenewedByTheAnswerToALongPollWhereRequestsAloneCount) {
+    EXPECT_EQ(
+        desk.ask(Connect{.motion_lease = {}, .motion_lease_http = 3000ms, .motion_proof = MotionProof::request}).return_code,
+        ReturnCode::ok);
+    desk.execute(go("go"));
+    open(Link::stream);
+    world.advance(1s);
+    close(Link::stream, Closing::answered);
+    world.advance(1950ms);
+    EXPECT_THAT(robot.told, ElementsAre("start"));
+    world.advance(50ms);
+    EXPECT_THAT(robot.told, ElementsAre("start", "suspend"));
+}
+
 TEST_F(Lease, OfAWebSocketThatClosesEndsAtOnce) {
     open();
     desk.execute(go("go"));

@@ -17,6 +17,7 @@
 #include "rois/connection.hpp"
 #include "rois/error.hpp"
 #include "rois/events.hpp"
+#include "rois/everything.hpp"
 #include "rois/settings.hpp"
 #include "rois/task.hpp"
 #include "rois/units.hpp"

@@ -18,6 +18,7 @@
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "rois/error.hpp"
 #include "rois/settings.hpp"
@@ -113,6 +114,16 @@ public:
     // Goes on after this time, or at once when the connection closes.
     Task<> sleep(std::chrono::milliseconds);
 
+    // The application is alive. A robot that this session has set in motion stops within the motion lease (docs/safety.md) when
+    // the application gives no more signs of life. A program that never calls `wait` lives on the client's thread and gives them
+    // while that thread is not blocked. With the first `wait`, its own threads speak for it: one that waits gives signs as long
+    // as it waits, and each `wait` and `alive` is one. Threads that do something else for longer than half a lease while a robot
+    // moves call this meanwhile. From any thread; costs little, and sends nothing while nothing moves.
+    void alive();
+
+    // How often `alive` is to be called at least: a fifth of the lease.
+    std::chrono::milliseconds between_signs_of_life() const;
+
     // Ends the session, then the connection. What is awaited ends with NoAnswer::closed.
     void close();
 
@@ -187,6 +198,8 @@ T Connection::wait(Task<T> task) {
     std::promise<T> promise;
     auto given = promise.get_future();
     spawn(detail::deliver(std::move(task), promise));
+    do alive();
+    while (given.wait_for(between_signs_of_life()) == std::future_status::timeout);
     return given.get();
 }
 

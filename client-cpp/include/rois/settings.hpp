@@ -25,6 +25,10 @@ struct Settings {
     // before is told first. It does not end with the connection; the connection closes when it has ended. Empty: an own one.
     std::string session{};
 
+    // How long a robot that this session has set in motion goes on without a sign of life of the application (Connection::alive):
+    // at least 1 s, at most what the gateway has. Nothing: what the gateway has, 2 s unless it is told otherwise.
+    std::optional<std::chrono::milliseconds> motion_lease{};
+
     std::chrono::milliseconds deadline = std::chrono::seconds{10};         // of a call, with all that happens to it on the way
     std::chrono::milliseconds connect_deadline = std::chrono::seconds{5};  // of one attempt, with TLS and handshake
     // A link is given up when nothing is heard on it for twice as long; on a WebSocket, the engine is pinged after once. An event
