@@ -50,7 +50,7 @@ void hold(Context& context, Until until) {
         if (!usual) printer.state(*change);
         if (auto const* const news = std::get_if<News>(&*heard);
             news != nullptr && std::holds_alternative<ReceiveError>(news->notification))
-            printer.notification(news->notification, news->sequence);
+            tell_error(context, *news);
     }
     bool const over = session.interrupted() || (until && std::chrono::steady_clock::now() >= *until);
     bool const is_lost = context.holds_session_file() && !context.is_found_by_session_file();
@@ -177,6 +177,8 @@ void start(Context& context) {
 }
 
 void stop(Context& context) { run(context, one_command(context.options().ref, "stop", {})); }
+
+void resume(Context& context) { run(context, one_command(context.options().ref, "resume", {})); }
 
 void execute(Context& context) {
     auto const& words = context.options().words;

@@ -26,8 +26,12 @@ bool coloured(Options const& options) {
 
 }  // namespace
 
-Context::Context(Options options, Signals& signals, Background* background)
-    : options_{std::move(options)}, signals_{signals}, background_{background}, printer_{options_.form, coloured(options_)} {
+Context::Context(Options options, Signals& signals, Caller const& caller, Background* background)
+    : options_{std::move(options)},
+      signals_{signals},
+      caller_{caller},
+      background_{background},
+      printer_{options_.form, coloured(options_)} {
     if (background_ != nullptr) take_session_file();
     if (!options_.record.empty()) recorded_ = std::make_shared<RecordingWriter>(options_.record, options_.url);
 }
@@ -52,7 +56,7 @@ Session& Context::session() {
     while (!session_) {
         leave_no_file_if_interrupted();
         try {
-            session_ = std::make_unique<Session>(options_, recorded_);
+            session_ = std::make_unique<Session>(options_, recorded_, caller_);
         } catch (std::invalid_argument const& error) {
             throw Trouble{Exit::usage, error.what()};
         } catch (NoSession const& gone) {
@@ -101,7 +105,7 @@ void Context::end_left_session() {
     options.session = held.session;
     options.span.reset();
     try {
-        Session left{options, nullptr};
+        Session left{options, nullptr, caller_};
         left.request(Disconnect{});
     } catch (Trouble const& trouble) {
         bool const has_ended = dynamic_cast<NoSession const*>(&trouble) != nullptr;
@@ -202,6 +206,26 @@ std::string components_and_types(std::vector<ComponentEntry> const& components) 
     return listed(components, [](ComponentEntry const& entry) {
         return entry.ref + " (" + entry.type.substr(entry.type.rfind(':') + 1) + ")";
     });
+}
+
+void tell_error(Context& context, News const& news) {
+    context.printer().notification(news.notification, news.sequence);
+    explain(context, std::get<ReceiveError>(news.notification));
+}
+
+void explain(Context& context, ReceiveError const& error) {
+    auto const answer = context.session().request(GetErrorDetail{error.error_id, {}});
+    auto const* const reply = std::get_if<Reply>(&answer);
+    auto const* const details = reply != nullptr ? std::get_if<GetErrorDetail::Reply>(reply) : nullptr;
+    auto const* const text = details != nullptr ? find(details->results.parameters, "text") : nullptr;
+    if (text == nullptr || text->values.empty()) return;
+    auto const& words = text->values.front();
+    auto const ref = error.component_ref ? error.component_ref->code : std::string{};
+    bool const is_held = !ref.empty() && words.starts_with("its motion is held");
+    bool const is_shared = context.session().is_joined() || context.options().command == "bind";
+    std::string hint;
+    if (is_held) hint = is_shared ? ": rois resume " + ref : "; interrupt this command and give it anew";
+    remark((ref.empty() ? "" : harmless(ref) + ": ") + harmless(words) + hint);
 }
 
 void remark(std::string const& text) { std::fprintf(stderr, "rois: %s\n", text.c_str()); }

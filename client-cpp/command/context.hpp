@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "command/caller.hpp"
 #include "command/options.hpp"
 #include "command/printer.hpp"
 #include "command/session.hpp"
@@ -20,7 +21,7 @@ namespace rois::command {
 class Context {
 public:
     // `background` may be null: the program runs in the foreground.
-    Context(Options options, Signals&, Background* background = nullptr);
+    Context(Options options, Signals&, Caller const&, Background* background = nullptr);
     ~Context();
     Context(Context const&) = delete;
     Context& operator=(Context const&) = delete;
@@ -97,6 +98,7 @@ private:
 
     Options options_;
     Signals& signals_;
+    Caller const& caller_;
     Background* const background_;
     Printer printer_;
     std::shared_ptr<RecordingWriter> recorded_;
@@ -111,6 +113,12 @@ std::vector<std::string> message_names(std::vector<ComponentEntry> const&, Messa
 // The components with their types: "move (Move), navigation (Navigation)".
 std::string components_and_types(std::vector<ComponentEntry> const&);
 
+// Writes an error of the engine, and explains it.
+void tell_error(Context&, News const&);
+
+// Says on standard error what the engine says more of an error, and how to go on after a hold. Asks the engine.
+void explain(Context&, ReceiveError const&);
+
 // Writes a remark on standard error, such as that a result is empty.
 void remark(std::string const& text);
 
@@ -123,12 +131,15 @@ void search(Context&);
 void query(Context&);
 void get(Context&);
 void health(Options const&, Printer&);
+void stop_all(Options const&, Printer&);
+void clear(Options const&, Printer&);
 
 void bind(Context&);
 void release(Context&);
 void set(Context&);
 void start(Context&);
 void stop(Context&);
+void resume(Context&);
 void execute(Context&);
 
 void subscribe(Context&);

@@ -47,14 +47,16 @@ Address address_of(std::string const& url) {
 
 std::string without_brackets(std::string const& host) { return host.starts_with('[') ? host.substr(1, host.size() - 2) : host; }
 
-using Get = http::request<http::empty_body>;
+using Bare = http::request<http::empty_body>;
 
-Get request_of(Address const& address, HttpServer const& server, std::string const& target, std::string const& session) {
-    Get request{http::verb::get, address.path + target, 11};
+Bare request_of(http::verb verb, Address const& address, HttpServer const& server, std::string const& target,
+                std::string const& session) {
+    Bare request{verb, address.path + target, 11};
     request.set(http::field::host, address.host + ":" + address.port);
     request.set(http::field::connection, "close");
     if (!server.token.empty()) request.set(http::field::authorization, "Bearer " + server.token);
     if (!session.empty()) request.set("RoIS-Session", session);
+    request.prepare_payload();
     return request;
 }
 
@@ -64,7 +66,7 @@ struct Outcome {
 };
 
 template <class Stream>
-asio::awaitable<void> exchange(Stream& stream, Get& request, Outcome& outcome, Failure& failure) {
+asio::awaitable<void> exchange(Stream& stream, Bare& request, Outcome& outcome, Failure& failure) {
     co_await http::async_write(stream, request, into(failure));
     if (failure) co_return;
     beast::flat_buffer buffer;
@@ -83,7 +85,7 @@ void load_trusted(asio::ssl::context& context, std::string const& ca_file) {
                                        " cannot be read: " + failure.message() + "; it must be a readable file in PEM format"};
 }
 
-asio::awaitable<void> exchange_with_tls(beast::tcp_stream stream, Address const& address, HttpServer const& server, Get& request,
+asio::awaitable<void> exchange_with_tls(beast::tcp_stream stream, Address const& address, HttpServer const& server, Bare& request,
                                         Outcome& outcome, Failure& failure) {
     asio::ssl::context context{asio::ssl::context::tls_client};
     load_trusted(context, server.ca_file);
@@ -104,7 +106,7 @@ bool may_be_tls(Failure const& failure) {
     return failure.category() == http::make_error_code(http::error::end_of_stream).category();
 }
 
-asio::awaitable<void> run(Address const& address, HttpServer const& server, Get& request, Outcome& outcome) {
+asio::awaitable<void> run(Address const& address, HttpServer const& server, Bare& request, Outcome& outcome) {
     auto const executor = co_await asio::this_coro::executor;
     Failure failure;
     asio::ip::tcp::resolver resolver{executor};
@@ -147,10 +149,12 @@ bool is_same_gateway(std::string const& url, std::string const& other) {
     return one == two;
 }
 
-HttpAnswer http_get(HttpServer const& server, std::string const& target, std::chrono::milliseconds deadline,
-                    std::string const& session) {
+namespace {
+
+HttpAnswer asked(http::verb verb, HttpServer const& server, std::string const& target, std::chrono::milliseconds deadline,
+                 std::string const& session) {
     auto const address = address_of(server.url);
-    auto request = request_of(address, server, target, session);
+    auto request = request_of(verb, address, server, target, session);
     Outcome outcome;
     auto io = std::make_unique<asio::io_context>(1);
     asio::co_spawn(*io, run(address, server, request, outcome), rethrow);
@@ -160,6 +164,17 @@ HttpAnswer http_get(HttpServer const& server, std::string const& target, std::ch
     if (!io->stopped()) left_alone = io.release();
     if (!outcome.answer) throw Trouble{Exit::no_answer, server.url + ": " + outcome.trouble};
     return std::move(*outcome.answer);
+}
+
+}  // namespace
+
+HttpAnswer http_get(HttpServer const& server, std::string const& target, std::chrono::milliseconds deadline,
+                    std::string const& session) {
+    return asked(http::verb::get, server, target, deadline, session);
+}
+
+HttpAnswer http_post(HttpServer const& server, std::string const& target, std::chrono::milliseconds deadline) {
+    return asked(http::verb::post, server, target, deadline, {});
 }
 
 }  // namespace rois::command

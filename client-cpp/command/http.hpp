@@ -1,4 +1,4 @@
-// Single HTTP requests: the engine's health, and what a session has been told.
+// Single HTTP requests: the engine's health, stop for everything, and what a session has been told.
 #pragma once
 
 #include <chrono>
@@ -22,6 +22,9 @@ struct HttpServer {
 // (no_answer) when there is no answer; (usage) for a URL that is none.
 HttpAnswer http_get(HttpServer const&, std::string const& target, std::chrono::milliseconds deadline,
                     std::string const& session = {});
+
+// Posts to "/rois/stop" or the like, without a body. Throws Trouble like `http_get`.
+HttpAnswer http_post(HttpServer const&, std::string const& target, std::chrono::milliseconds deadline);
 
 // Throws Trouble (usage) for a URL that is none, and if the file of certificates cannot be read.
 void check(HttpServer const&);

@@ -25,6 +25,12 @@ public:
         changed_.notify_all();
     }
 
+    // Nothing is left, and nothing more will come.
+    bool is_over() {
+        std::lock_guard const lock{mutex_};
+        return closed_ && waiting_.empty();
+    }
+
     // The next one; nothing at that time, and when it is closed and empty.
     template <class Until>
     std::optional<T> take(std::optional<Until> until) {

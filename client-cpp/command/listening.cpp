@@ -148,6 +148,8 @@ void listen(Context& context, std::function<void(Heard const&)> const& told, Mea
         auto const* const news = std::get_if<News>(&*heard);
         if (news != nullptr && std::holds_alternative<ReceiveEvent>(news->notification)) ++events;
         told(*heard);
+        if (news != nullptr && std::holds_alternative<ReceiveError>(news->notification))
+            explain(context, std::get<ReceiveError>(news->notification));
         restarting.hear(*heard);
     }
 }

@@ -25,6 +25,7 @@ std::map<std::string_view, std::function<void(Context&)>> const& commands() {
         {"set", set},
         {"start", start},
         {"stop", stop},
+        {"resume", resume},
         {"execute", execute},
         {"query", query},
         {"subscribe", subscribe},
@@ -34,6 +35,8 @@ std::map<std::string_view, std::function<void(Context&)>> const& commands() {
         {"replay", replay},
         {"scenario", scenario},
         {"health", [](Context& context) { health(context.options(), context.printer()); }},
+        {"stop-all", [](Context& context) { stop_all(context.options(), context.printer()); }},
+        {"clear", [](Context& context) { clear(context.options(), context.printer()); }},
     };
     return all;
 }
@@ -51,10 +54,11 @@ int run(int argc, char const* const* argv) {
         return 0;
     }
     auto options = std::get<Options>(std::move(read));
+    Caller const caller;
     std::optional<Background> background;
     if (runs_in_background(options)) background.emplace();
     Signals signals;
-    Context context{std::move(options), signals, background ? &*background : nullptr};
+    Context context{std::move(options), signals, caller, background ? &*background : nullptr};
     commands().at(context.options().command)(context);
     context.keep_recording();
     return 0;

@@ -157,6 +157,8 @@ private:
         ref(get);
         words(get, "NAME", "these parameters; all when left out");
         command("health", "whether the engine is ready; 0 or 1, for docker and others");
+        command("stop-all", "halt all robots of all sessions; nothing starts until clear");
+        command("clear", "let commands start again after stop-all");
     }
 
     void for_commanding() {
@@ -177,6 +179,8 @@ private:
         unwaited(start);
         auto& stop = command("stop", "stop a component");
         ref(stop);
+        auto& resume = command("resume", "let a component go on that was suspended, or whose motion is held");
+        ref(resume);
         auto& execute = command("execute", "run a command of a component, or the sequence in a file");
         words(execute, "FILE|REF",
               "a file with a CommandUnitSequence, - is standard input; or a component, a command, NAME=VALUE...")
@@ -295,9 +299,14 @@ bool has(CLI::App const& app, std::string const& command, std::string const& opt
     return known != nullptr && known->count() > 0;
 }
 
+// Those that ask for no session at all.
+bool needs_no_session(Options const& options) {
+    return options.command == "health" || options.command == "stop-all" || options.command == "clear";
+}
+
 bool has_own_session(Options const& options) {
-    return options.command == "scenario" || options.command == "record" || options.command == "replay" ||
-           options.command == "health";
+    return needs_no_session(options) || options.command == "scenario" || options.command == "record" ||
+           options.command == "replay";
 }
 
 // Takes the session from the session file. `bind` does so later.
@@ -310,6 +319,18 @@ void join_held_session(Options& options) {
     auto const held = find_held_session(options.session_file, options.deadline);
     if (!held) throw no_holder(options.session_file);
     join(options, *held);
+}
+
+// Of `stop-all` and `clear`: where the session of the session file is. Empty if no process holds one: they do without.
+std::string url_of_held_session(Options const& options) {
+    bool const is_for_everything = options.command == "stop-all" || options.command == "clear";
+    if (!is_for_everything || options.session_file.empty()) return {};
+    try {
+        auto const held = find_held_session(options.session_file, std::chrono::milliseconds{0});
+        return held ? held->url : std::string{};
+    } catch (Trouble const&) {
+        return {};
+    }
 }
 
 // An empty value comes from a variable that is not set, and would stand for a default: another engine, or a session of its own.
@@ -336,7 +357,7 @@ void check(Options const& options, Raw const& raw) {
         throw Trouble{Exit::usage, "--no-wait: without --session the command would end with the program"};
     if (options.command == "bind" && options.words.empty() && options.where.empty() && options.condition_file.empty())
         throw Trouble{Exit::usage, "bind: which components? Name them, or say --where CONDITION"};
-    bool const unasked = options.command == "replay" || options.command == "health" || options.check;  // they ask for no session
+    bool const unasked = options.command == "replay" || needs_no_session(options) || options.check;  // they ask for no session
     if (has_own_session(options) && !unasked && !(options.session.empty() && options.session_file.empty()))
         throw Trouble{
             Exit::usage,
@@ -345,7 +366,7 @@ void check(Options const& options, Raw const& raw) {
     bool const others = options.command == "record" && !options.listen.empty();
     if (others && (!options.words.empty() || !options.starts.empty() || options.span || options.count))
         throw Trouble{Exit::usage, "record --listen: the applications say what is subscribed to, started and recorded"};
-    if (!options.record.empty() && (!options.session.empty() || options.command == "health" || options.command == "replay"))
+    if (!options.record.empty() && (!options.session.empty() || needs_no_session(options) || options.command == "replay"))
         throw Trouble{Exit::usage, "--record: there is no session of its own to record"};
 }
 
@@ -376,7 +397,8 @@ std::variant<Options, Said> read_options(int argc, char const* const* argv) {
     if (auto const* const url = std::getenv("ROIS_URL"); url != nullptr && options.url.empty()) options.url = url;
     options.url_is_given = !options.url.empty();
     join_held_session(options);
-    if (options.url.empty()) options.url = options.command == "health" ? url_beside_gateway() : default_url();
+    if (options.url.empty()) options.url = url_of_held_session(options);
+    if (options.url.empty()) options.url = needs_no_session(options) ? url_beside_gateway() : default_url();
     if (raw.xml) options.form = Form::xml;
     if (raw.json) options.form = Form::json;
     options.wait = !raw.no_wait;

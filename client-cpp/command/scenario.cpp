@@ -243,7 +243,7 @@ private:
             throw Trouble{Exit::no_answer, "the session has ended, and what the robot did for it"};
         if (auto const* const news = std::get_if<News>(&heard);
             news != nullptr && std::holds_alternative<ReceiveError>(news->notification) && !context_.options().quiet)
-            context_.printer().notification(news->notification, news->sequence);
+            tell_error(context_, *news);
     }
 
     void check_interrupted() {

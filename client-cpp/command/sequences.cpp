@@ -46,8 +46,7 @@ private:
     void take(Heard const& heard) {
         if (auto const* const news = std::get_if<News>(&heard)) {
             if (auto const* const completed = std::get_if<Completed>(&news->notification)) end(*completed, *news);
-            if (std::holds_alternative<ReceiveError>(news->notification))
-                context_.printer().notification(news->notification, news->sequence);
+            if (std::holds_alternative<ReceiveError>(news->notification)) tell_error(context_, *news);
         } else if (auto const* const gap = std::get_if<Gap>(&heard); gap != nullptr && gap->why == Gap::Why::new_session) {
             throw ended_with_session();
         }

@@ -39,8 +39,10 @@ std::chrono::milliseconds patience(Options const& options) {
 
 }  // namespace
 
-Session::Session(Options const& options, std::shared_ptr<RecordingWriter> recorded)
-    : joined_{!options.session.empty()},
+Session::Session(Options const& options, std::shared_ptr<RecordingWriter> recorded, Caller const& caller)
+    : life_{whose_life(options)},
+      caller_{caller},
+      joined_{!options.session.empty()},
       url_{options.url},
       reports_attempts_{!settings_for(options).attempts && !options.quiet},
       connection_{settings_for(options), observers(std::move(recorded))} {
@@ -48,6 +50,22 @@ Session::Session(Options const& options, std::shared_ptr<RecordingWriter> record
     if (!none) return;
     if (joined_ && id().text.empty()) throw NoSession{none->reason};
     throw Trouble{Exit::no_answer, options.url + ": " + none->reason + hint_for_url(options.url)};
+}
+
+Session::Life Session::whose_life(Options const& options) {
+    if (options.session.empty()) return options.command == "bind" ? Life::of_caller : Life::own;
+    return options.command == "watch" || options.command == "subscribe" ? Life::of_others : Life::own;
+}
+
+bool Session::is_alive() const { return life_ == Life::own || (life_ == Life::of_caller && caller_.is_alive()); }
+
+std::optional<Heard> Session::hear(Until until) {
+    while (true) {
+        if (is_alive()) connection_.alive();
+        auto const next_sign = std::chrono::steady_clock::now() + connection_.between_signs_of_life();
+        auto heard = inbox_.take(Until{until ? std::min(*until, next_sign) : next_sign});
+        if (heard || inbox_.is_over() || (until && std::chrono::steady_clock::now() >= *until)) return heard;
+    }
 }
 
 Observers Session::observers(std::shared_ptr<RecordingWriter> recorded) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <variant>
 
+#include "command/caller.hpp"
 #include "command/exit.hpp"
 #include "command/inbox.hpp"
 #include "command/options.hpp"
@@ -29,7 +30,8 @@ class Session {
 public:
     // Waits until it is open. `recorded` may be null. Throws Trouble when it cannot be opened, NoSession when the one to join is
     // not there, std::invalid_argument for a URL that is none.
-    Session(Options const&, std::shared_ptr<RecordingWriter> recorded);
+    // `caller` lives longer.
+    Session(Options const&, std::shared_ptr<RecordingWriter> recorded, Caller const& caller);
 
     // Whether it goes on when the program ends.
     bool is_joined() const { return joined_; }
@@ -42,8 +44,8 @@ public:
     std::string send(std::string const& document);
 
     // The next one in the order of what happened; nothing at that time, after an interruption, and when the link has closed for
-    // good.
-    std::optional<Heard> hear(Until until = {}) { return inbox_.take(until); }
+    // good. Who hears gives signs of life, which keep what the session moves going (docs/safety.md).
+    std::optional<Heard> hear(Until until = {});
 
     // From any thread: ends the session if it is its own, and all that waits.
     void interrupt();
@@ -52,6 +54,14 @@ public:
 private:
     Observers observers(std::shared_ptr<RecordingWriter> recorded);
 
+    // Whose life keeps going what the session moves: that of this program; of whoever has called it, for a session that it holds
+    // for others; or of somebody else, for those who only listen in another's session.
+    enum class Life { own, of_caller, of_others };
+    static Life whose_life(Options const&);
+    bool is_alive() const;
+
+    Life const life_;
+    Caller const& caller_;
     bool const joined_;
     std::string const url_;
     bool const reports_attempts_;  // of a command that keeps trying

@@ -1,0 +1,213 @@
+// Whose life keeps a robot going that was set in motion by `rois`, and stop for everything.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <optional>
+#include <thread>
+
+#include "client_cpp/rig.hpp"
+#include "command/rois_fixture.hpp"
+
+namespace rois::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+constexpr auto longer = 2500ms;  // than the lease of a second, and what a machine that is busy adds
+constexpr auto way = "target_position=14000, 6000";
+
+// A shell that runs these lines, with `rois` among its commands, and then reads on from its standard input.
+class Shell {
+public:
+    Shell(std::string const& lines, std::string const& url) {
+        int ends[2];
+        EXPECT_EQ(pipe2(ends, O_CLOEXEC), 0);
+        process_ = fork();
+        if (process_ == 0) {
+            dup2(ends[0], STDIN_FILENO);
+            setenv("ROIS_URL", url.c_str(), 1);
+            setenv("PATH", (ROIS_BINARY_DIR "/bin:" + std::string{getenv("PATH")}).c_str(), 1);
+            execlp("sh", "sh", "-c", (lines + "\nread line").c_str(), nullptr);
+            _exit(127);
+        }
+        close(ends[0]);
+        in_ = ends[1];
+    }
+    ~Shell() {
+        signal(SIGKILL);
+        waitpid(process_, nullptr, 0);
+        close(in_);
+    }
+    Shell(Shell const&) = delete;
+    Shell& operator=(Shell const&) = delete;
+
+    void signal(int number) const { kill(process_, number); }
+
+private:
+    pid_t process_ = 0;
+    int in_ = -1;
+};
+
+class RoisAndMotion : public testing::Test {
+protected:
+    RoisAndMotion() { watcher.client().spawn(listen(watcher.client())); }
+    ~RoisAndMotion() override {
+        watcher.client().close();
+        history.await_state("closed");
+    }
+
+    static Task<> listen(Client& client) {
+        auto stream = co_await client.subscribe("reached_target");
+        for (bool is_open = true; is_open;) {
+            auto const event = co_await stream.next_event();
+            is_open = event.has_value();
+        }
+    }
+    // Lines that bind navigation under this file, set out, and bind reaction then.
+    static std::string set_out(std::string const& file) {
+        auto const here = " --session-file " + file;
+        return "rois bind navigation" + here + " && rois start navigation '" + way + "' --no-wait" + here +
+               " && rois bind reaction" + here;
+    }
+    // Why the motion was held.
+    std::string held() {
+        history.await_notifications(1);
+        if (history.notifications().empty()) return "it was not";
+        auto const error = std::get<ReceiveError>(history.notifications().front().second);
+        return find(watcher(watcher.client().get_error_detail(error.error_id)).parameters, "text")->values.front();
+    }
+    void await_busy(std::string const& component) {
+        auto const is_busy = component_ref == component && status == "BUSY";
+        while (watcher.search(is_busy).empty()) watcher(watcher.client().sleep(20ms));
+    }
+    void expect_moving_on() {
+        await_busy("navigation");
+        watcher(watcher.client().sleep(longer));
+        EXPECT_THAT(history.notifications(), IsEmpty());
+    }
+
+    GatewayProcess gateway{
+        {"--sim-speed", "1", "--motion-lease", "1", "--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml"}};
+    Variables const at{{"ROIS_URL", gateway.url()}};
+    History history;
+    Blocking watcher{quick(gateway.url()), history.observers()};
+};
+
+TEST_F(RoisAndMotion, ACommandThatWaitsKeepsTheRobotGoing) {
+    RoisProcess walk{{"start", "navigation", way}, at};
+    expect_moving_on();
+}
+
+TEST_F(RoisAndMotion, ACommandThatIsStoppedLetsTheRobotBeHeldAndSaysSo) {
+    RoisProcess walk{{"start", "navigation", way}, at};
+    await_busy("navigation");
+    walk.signal(SIGSTOP);
+    EXPECT_THAT(held(), HasSubstr("its motion is held: nothing was heard from its application"));
+    walk.signal(SIGCONT);
+    EXPECT_THAT(walk.error_line(), testing::AllOf(StartsWith("rois: navigation: its motion is held: nothing was heard"),
+                                                  testing::EndsWith("; interrupt this command and give it anew")));
+}
+
+TEST_F(RoisAndMotion, AHeldSessionKeepsTheRobotGoingWhileTheShellLives) {
+    auto const file = file_named("walk");
+    Shell const shell{set_out(file), gateway.url()};
+    expect_moving_on();
+    run_rois({"release", "--session-file", file}, {}, at);
+}
+
+TEST_F(RoisAndMotion, AHeldSessionLetsTheRobotBeHeldWhenTheShellHasGoneAndResumesIt) {
+    auto const file = file_named("gone");
+    {
+        Shell const shell{set_out(file), gateway.url()};
+        await_busy("navigation");
+        watcher(watcher.client().sleep(longer));
+        EXPECT_THAT(history.notifications(), IsEmpty());
+    }
+    EXPECT_THAT(held(), HasSubstr("its motion is held"));
+    auto const resumed = run_rois({"resume", "navigation", "--session-file", file}, {}, at);
+    EXPECT_EQ(resumed.exit_code, 0) << resumed.error;
+    EXPECT_THAT(resumed.out, HasSubstr("resume navigation  OK\n"));
+    EXPECT_THAT(resumed.error, HasSubstr("rois: navigation: its motion is held: "));
+    EXPECT_THAT(resumed.error, HasSubstr(": rois resume navigation\n"));
+    run_rois({"release", "--session-file", file}, {}, at);
+}
+
+TEST_F(RoisAndMotion, AHeldSessionLetsTheRobotBeHeldWhenTheShellIsStopped) {
+    auto const file = file_named("stopped");
+    Shell const shell{set_out(file), gateway.url()};
+    await_busy("reaction");
+    shell.signal(SIGSTOP);
+    EXPECT_THAT(held(), HasSubstr("its motion is held"));
+    run_rois({"release", "--session-file", file}, {}, at);
+}
+
+TEST_F(RoisAndMotion, SomebodyWhoOnlyWatchesDoesNotKeepTheRobotGoing) {
+    auto const file = file_named("watched");
+    std::optional<Shell> shell{std::in_place, "rois bind navigation --session-file " + file, gateway.url()};
+    await_busy("navigation");
+    RoisProcess watch{{"watch", "--session-file", file}, at};
+    run_rois({"start", "navigation", way, "--no-wait", "--session-file", file}, {}, at);
+    shell.reset();
+    EXPECT_THAT(held(), HasSubstr("its motion is held"));
+    EXPECT_THAT(watch.error_line(), HasSubstr("its motion is held"));
+    run_rois({"release", "--session-file", file}, {}, at);
+}
+
+// --- Stop for everything ---
+
+TEST_F(RoisAndMotion, StopAllHaltsEverythingUntilClear) {
+    RoisProcess walk{{"start", "navigation", way}, at};
+    await_busy("navigation");
+    auto const stopped = run_rois({"stop-all"}, {}, at);
+    EXPECT_EQ(stopped.exit_code, 0) << stopped.error;
+    EXPECT_EQ(stopped.out, "stopped everything at " + gateway.url() + "; nothing starts until: rois clear\n");
+    EXPECT_EQ(walk.wait().exit_code, 7) << "ABORT";
+
+    auto const refused = run_rois({"start", "navigation", way}, {}, at);
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.out + refused.error, HasSubstr("everything was stopped"));
+    auto const health = run_rois({"health"}, {}, at);
+    EXPECT_EQ(health.exit_code, 1);
+    EXPECT_EQ(health.error,
+              "rois: not healthy: everything is stopped at " + gateway.url() + "; nothing starts until: rois clear\n");
+    EXPECT_TRUE(json::parse(run_rois({"health", "--json"}, {}, at).out)["stopped"]);
+
+    auto const cleared = run_rois({"clear", "--json"}, {}, at);
+    EXPECT_EQ(cleared.exit_code, 0) << cleared.error;
+    EXPECT_EQ(json::parse(cleared.out), (json{{"operation", "clear"}, {"url", gateway.url()}, {"stopped", false}}));
+    EXPECT_EQ(run_rois({"health"}, {}, at).exit_code, 0);
+}
+
+TEST_F(RoisAndMotion, StopAllIsADocumentAsWell) {
+    auto const stopped = run_rois({"stop-all", "--json"}, {}, at);
+    EXPECT_EQ(json::parse(stopped.out),
+              (json{{"operation", "stop_all"}, {"url", gateway.url()}, {"stopped", true}, {"not_confirmed", json::array()}}));
+    EXPECT_THAT(run_rois({"stop-all", "--xml"}, {}, at).out, StartsWith("<stop_all "));
+}
+
+TEST_F(RoisAndMotion, StopAllFindsTheGatewayOfASessionFileAndNeedsNoHolder) {
+    auto const file = file_named("elsewhere");
+    Shell const shell{"rois bind move --session-file " + file, gateway.url()};
+    await_busy("move");
+    Variables const variables{{"ROIS_URL", ""}, {"ROIS_SESSION_FILE", file}};
+    EXPECT_EQ(run_rois({"stop-all"}, {}, variables).out,
+              "stopped everything at " + gateway.url() + "; nothing starts until: rois clear\n");
+    EXPECT_EQ(run_rois({"release"}, {}, variables).exit_code, 0);
+    EXPECT_EQ(run_rois({"clear"}, {}, {{"ROIS_URL", gateway.url()}, {"ROIS_SESSION_FILE", file}}).exit_code, 0);
+}
+
+TEST(RoisStopAll, SaysThatNobodyAnswers) {
+    auto const ended = run_rois({"stop-all"}, {}, {{"ROIS_URL", "http://127.0.0.1:1"}});
+    EXPECT_EQ(ended.exit_code, 8);
+    EXPECT_THAT(ended.error, HasSubstr("Connection refused"));
+}
+
+}  // namespace
+}  // namespace rois::test
