@@ -29,11 +29,16 @@ class Status(str):
 
 class Engine:
     """A session. What gets lost on the way is asked for again, for as long as `deadline` seconds; commands have names, so that none
-    is executed twice."""
+    is executed twice.
+
+    A robot that moves for this session is held when nothing was heard from this program for `motion_lease` seconds: from 1 to what
+    the gateway has (None), which is 10 unless it was told otherwise. While `run` waits it asks once a second, which is sign enough."""
 
     most_kept = 1000  # notifications that nobody wanted until now; the oldest make room
 
-    def __init__(self, url, deadline=10):
+    longest_poll = 1  # seconds: a poll that waits counts as a sign of life, also when this program has been stopped
+
+    def __init__(self, url, deadline=10, motion_lease=None):
         self.url, self.deadline = url.rstrip("/"), deadline
         self.session = ""
         self.after = 0  # the sequence of the last notification that came
@@ -42,7 +47,8 @@ class Engine:
         self.news = []  # notifications that came and were not looked at
         self.kept = []  # those that were looked at, and not wanted yet
         self.names = (f"step-{n}" for n in itertools.count(1))
-        self.session = self.request("connect").findtext(M + "session")
+        lease = f'motion_lease_http="{round(motion_lease * 1000)}"' if motion_lease else ""
+        self.session = self.request("connect", attributes=lease).findtext(M + "session")
 
     def __enter__(self):
         return self
@@ -128,7 +134,7 @@ class Engine:
             left = end - time.monotonic()
             if left <= 0:
                 return None
-            wait = math.ceil(min(30, left))
+            wait = math.ceil(min(self.longest_poll, left))
             for one in self._fetch(f"/rois/notifications?after={self.after}&wait={wait}", patience=wait + 10):
                 self.after = int(one.get("sequence"))
                 if one.tag == M + "lost":

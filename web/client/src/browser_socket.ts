@@ -33,3 +33,5 @@ export const open_browser_socket: OpenSocket = (url, subprotocols, listener) => 
     },
   };
 };
+
+open_browser_socket.answers_pings_alone = true;

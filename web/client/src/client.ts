@@ -24,6 +24,11 @@ export interface ClientOptions {
   deadline?: number;
   /** ms of silence after which the gateway is asked whether it lives: 10,000. The link is given up after as many again. */
   heartbeat?: number;
+  /**
+   * ms that a robot that this session has set in motion goes on without a sign of life: from 1000 to what the gateway has, which is 2000 unless
+   * it was told otherwise.
+   */
+  motion_lease?: number;
   /** ms before the first new try after a loss: 100. Doubled with each further one, and cut at random by up to a half. */
   first_delay?: number;
   /** ms between two tries at most: 5,000. */
@@ -102,6 +107,7 @@ export class Client {
       open_socket,
     };
     if (options.token !== undefined) settings.token = options.token;
+    if (options.motion_lease !== undefined) settings.motion_lease = options.motion_lease;
     if (options.on_state) this.on('state', options.on_state);
     this.link = new Link(settings, {
       state_changed: (state, reason) => this.listeners.tell('state', { state, reason }),

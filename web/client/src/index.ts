@@ -5,6 +5,7 @@ export * from './commands.js';
 export * from './components.js';
 export * from './conditions.js';
 export * from './errors.js';
+export * from './everything.js';
 export { Completion, Execution } from './execution.js';
 export type { State } from './link.js';
 export * from './messages.js';

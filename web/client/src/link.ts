@@ -26,6 +26,7 @@ export interface LinkSettings {
   first_delay: number; // ms before the first new try after a loss; doubled with each further one
   most_delay: number; // ms
   random: () => number; // 0 to 1: each delay is cut by up to a half, so that many clients do not come at once
+  motion_lease?: number; // ms that a robot goes on without a sign of life: less than the gateway's
   open_socket: OpenSocket;
 }
 
@@ -61,6 +62,7 @@ interface Call {
   failed(error: RoisError): void;
 }
 
+const usual_lease = 2000; // ms, of a gateway that was not told otherwise
 const open_within = 10_000; // ms for a link to be opened and greeted
 
 export class Link {
@@ -73,6 +75,9 @@ export class Link {
   private queue: Call[] = []; // to be sent
   private in_flight: Call[] = []; // sent, in order, without their answers
   private heard_at = 0;
+  private said_at = 0;
+  private may_move = false; // something was bound in this session, or executed
+  private proving = false; // a sign of life is on its way
   private tries = 0; // that have failed since a link had a session
   private next_id = 1;
   private closing: Promise<void> | undefined;
@@ -182,14 +187,15 @@ export class Link {
   }
 
   // A call of the link's own, sent at once; what goes wrong with it goes wrong with the link.
-  private greet(operation: Operation, attributes: Record<string, string | number>, answered: (answer: XmlElement) => void): void {
+  private greet(operation: Operation, attributes: Record<string, string | number | undefined>, answered: (answer: XmlElement) => void): void {
     const request_id = `r${this.next_id++}`;
     const text = request(operation, { ...attributes, request_id });
     this.transmit({ text, request_id, repeatable: false, sent_at: 0, settled: false, answered, failed: () => undefined });
   }
 
   private transmit(call: Call): void {
-    call.sent_at = performance.now();
+    call.sent_at = this.said_at = performance.now();
+    if (/[<:](bind|execute)/.test(call.text)) this.may_move = true;
     this.in_flight.push(call);
     this.listener.document('out', call.text);
     this.socket?.send(call.text);
@@ -224,10 +230,17 @@ export class Link {
     else this.resume_session();
   }
 
+  // A browser answers pings by itself, also while the page hangs: only requests are proof that the page lives.
+  private connect(answered: (answer: XmlElement) => void): void {
+    const { motion_lease, open_socket } = this.settings;
+    this.greet('connect', { motion_lease, motion_proof: open_socket.answers_pings_alone ? 'request' : undefined }, answered);
+  }
+
   private begin_session(): void {
-    this.greet('connect', {}, (answer) => {
+    this.connect((answer) => {
       const trouble = trouble_of(answer);
-      if (trouble) this.drop(trouble.message);
+      if (trouble?.failure === 'refused') this.finish(new RoisError('unreachable', trouble.message));
+      else if (trouble) this.drop(trouble.message);
       else this.begun(answer.text_of('session'));
     });
   }
@@ -235,6 +248,7 @@ export class Link {
   private begun(session: string): void {
     this.session = session;
     this.last_sequence = 0;
+    this.may_move = false;
     this.live('open', () => this.listener.session_began());
   }
 
@@ -254,7 +268,10 @@ export class Link {
   private live(state: State, first: () => void): void {
     clearTimeout(this.patience);
     clearInterval(this.heart);
-    this.heart = setInterval(() => this.beat(), for_timer(this.settings.heartbeat / 2));
+    const { heartbeat, motion_lease = usual_lease, open_socket } = this.settings;
+    const often = open_socket.answers_pings_alone ? motion_lease / 4 : heartbeat / 2;
+    this.heart = setInterval(() => this.beat(often / 2), for_timer(Math.min(often, heartbeat / 2)));
+    this.proving = false;
     this.ready = true;
     this.tries = 0;
     first();
@@ -273,17 +290,21 @@ export class Link {
     if (!this.closing) then();
   }
 
-  private beat(): void {
+  // What is due: a sign of life when nothing was said for as long as this, or a look whether the gateway lives.
+  private beat(quiet: number): void {
     const now = performance.now();
     const oldest = this.in_flight[0];
     if (oldest && now - Math.max(this.heard_at, oldest.sent_at) >= this.settings.heartbeat)
       this.drop(`the gateway has not answered for ${this.settings.heartbeat} ms`);
     else if (!oldest && now - this.heard_at >= this.settings.heartbeat) this.ping();
+    else if (this.settings.open_socket.answers_pings_alone && this.may_move && !this.proving && now - this.said_at >= quiet) this.ping();
   }
 
   // `connect` changes nothing in a session that lives (decision 1 of the gateway).
   private ping(): void {
-    this.greet('connect', {}, (answer) => {
+    this.proving = true;
+    this.connect((answer) => {
+      this.proving = false;
       const trouble = trouble_of(answer);
       if (trouble) return this.drop(trouble.message);
       const session = answer.text_of('session');

@@ -24,7 +24,11 @@ export interface Socket {
 }
 
 /** Begins to open a socket; never throws, and tells nothing before it has returned. */
-export type OpenSocket = (url: string, subprotocols: string[], listener: SocketListener) => Socket;
+export interface OpenSocket {
+  (url: string, subprotocols: string[], listener: SocketListener): Socket;
+  /** Pings are answered elsewhere than on the application's thread, and so also while that hangs. */
+  answers_pings_alone?: boolean;
+}
 
 export const subprotocol = 'rois.xml.v1';
 

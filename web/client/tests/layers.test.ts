@@ -11,7 +11,7 @@ const source = `${root}/web/client/src`;
 const layers = [
   ['errors', 'times'],
   ['xml', 'stream', 'listeners', 'socket', 'node_frames'],
-  ['browser_socket', 'node_socket', 'values'],
+  ['browser_socket', 'node_socket', 'values', 'everything'],
   ['commands', 'conditions', 'profiles', 'messages'],
   ['requests', 'execution'],
   ['answers', 'subscriptions'],
