@@ -6,6 +6,7 @@ import { ConsoleContext, useConsole, useWatch } from './context';
 import { Header } from './header';
 import { Layout } from './layout';
 import { LinkBanner } from './link_status';
+import { Holds, StoppedBanner } from './stopped';
 import * as texts from './texts';
 import { TokenDialog } from './token_dialog';
 
@@ -20,12 +21,14 @@ export function App({ console }: { console: Console }) {
     <ConsoleContext.Provider value={console}>
       <div class="app">
         <Header />
+        <StoppedBanner />
         <LinkBanner />
         <main id="panels" class={is_stale ? 'app-main app-stale' : 'app-main'} tabIndex={-1}>
           <Layout />
         </main>
         <TokenDialog />
         <Watch />
+        <Holds />
       </div>
     </ConsoleContext.Provider>
   );

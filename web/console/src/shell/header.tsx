@@ -5,6 +5,7 @@ import { language, type Language, languages } from '../i18n/i18n';
 import { Button } from '../ui/button';
 import { Dialog } from '../ui/dialog';
 import { tried } from '../ui/error_text';
+import { StopButton } from '../ui/stop_button';
 import { Pop } from '../ui/pop';
 import { useConsole } from './context';
 import { is_narrow } from './layout';
@@ -27,6 +28,7 @@ export function Header() {
       </h1>
       <LinkMark />
       <NoticeArea />
+      <StopButton />
       <Menu>
         <Bound />
         <label class="head-choice">

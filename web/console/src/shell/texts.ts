@@ -63,4 +63,12 @@ export const notices = text('Notices', 'お知らせ');
 export const main = text('Main area', '主領域');
 export const below = text('Lower area', '下の領域');
 export const side = text('Side area', '横の領域');
+export const stopped = text('Everything is stopped.', 'すべて停止しています。');
+export const stopped_hint = text('Nothing starts until it is cleared.', '解除するまで何も動きません。');
+export const not_confirmed = text_of((refs: string) => [`Not confirmed yet: ${refs}.`, `停止を確認できていません: ${refs}。`]);
+export const clear = text('Clear', '解除');
+export const clear_title = text('Clear the stop?', '停止を解除しますか?');
+export const clear_hint = text('Commands of all sessions may start robots again.', 'すべてのセッションのコマンドがロボットを動かせるようになります。');
+export const resume = text('Resume', '再開');
+export const held = text_of((ref: string) => [`${ref} is held.`, `${ref} は一時停止しました。`]);
 

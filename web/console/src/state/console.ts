@@ -25,6 +25,7 @@ import { Documents, type LoggedDocument } from './documents';
 import { EntitiesState } from './entities_state';
 import type { Environment, Stop } from './environment';
 import { EventsState } from './events_state';
+import { EverythingState } from './everything';
 import { MapState } from './floor_map';
 import { History } from './history';
 import { HallState } from './hall_state';
@@ -81,6 +82,7 @@ export class Console {
   readonly traffic: Traffic;
   readonly history: History;
   readonly hall: HallState;
+  readonly everything: EverythingState;
   readonly selection = new Selection();
 
   private token: string | undefined;
@@ -99,6 +101,7 @@ export class Console {
     this.status = new StatusState(environment, this.documents, client, components, is_open);
     this.parameters = new ParametersState(environment, this.documents, client, is_open);
     this.metrics = new MetricsState(environment, token, () => !/^(connecting|lost|closed)$/.test(this.link.view.value.phase)); // else nobody is there
+    this.everything = new EverythingState(environment, token, this.metrics, () => [...this.status.all.value].flatMap(([ref, one]) => (one.status === 'ERROR' ? ref : [])));
     this.bindings = new Bindings(
       () => this.client,
       () => this.metrics.bound.value,
@@ -251,6 +254,7 @@ export class Console {
         break;
       case 'receive_error':
         this.events.error(notification, document);
+        this.metrics.poll.now(); // perhaps everything was stopped
         break;
       case 'completed':
         this.commands.ended(notification.command_id, notification.status, document);

@@ -3,6 +3,7 @@ import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useRef } from 'preact/hooks';
 
 import { IconButton } from './button';
+import { StopButton } from './stop_button';
 import * as texts from './texts';
 
 export interface DialogProps {
@@ -37,6 +38,7 @@ export function Dialog({ title, open, close, closable = true, actions, wide = fa
         <>
           <div class="dialog-head">
             <h2 id={id}>{title}</h2>
+            <StopButton />
             {closable && <IconButton icon="close" label={texts.close()} onClick={close} />}
           </div>
           <div class="dialog-body">{children}</div>

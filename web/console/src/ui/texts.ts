@@ -22,4 +22,6 @@ export const session_lost = text('The session was lost, with its bindings, comma
 export const closed = text('The console is not connected.', 'コンソールは接続していません。');
 export const out_of_resources = text('Another application has it. Try again when it has been released.', 'ほかのアプリケーションが使用中です。解放されてからもう一度試してください。');
 export const unsupported = text('No component of this engine can do that.', 'このエンジンにそれができるコンポーネントはありません。');
-
+export const stop_all = text('STOP', '停止');
+export const stop_all_title = text('STOP everything: all robots, of all sessions', '停止: すべてのセッションのすべてのロボットを止めます');
+export const not_stopped = text_of((why: string) => [`Not stopped: ${why}`, `停止できませんでした: ${why}`]);

@@ -27,6 +27,8 @@ const types: Record<string, string> = { '.html': 'text/html', '.js': 'text/javas
 export class Front {
   /** Connections to the gateway are refused while this is set. */
   is_cut = false;
+  /** Plain requests still pass while it is cut. */
+  lets_requests_pass = false;
   /** Demanded of everybody while it is set, as a proxy before a gateway may. */
   token: string | undefined;
   /** Who asks in vain is told that the gateway is shutting down, while this is set: of a real one that takes but a moment. */
@@ -85,7 +87,7 @@ export class Front {
   }
 
   private pass_on(asked: IncomingMessage, answer: import('node:http').ServerResponse): void {
-    if (this.is_cut) return void asked.socket.destroy();
+    if (this.is_cut && !this.lets_requests_pass) return void asked.socket.destroy();
     if (this.token !== undefined && asked.headers.authorization !== `Bearer ${this.token}`) {
       answer.writeHead(401, { 'Content-Type': 'application/xml', 'WWW-Authenticate': 'Bearer' });
       return void answer.end('<fault xmlns="urn:x-rois:psm:xml:message:1" code="unauthorized"><reason>the token is not known here</reason></fault>');

@@ -1,0 +1,64 @@
+// That everything is stopped, until somebody clears it; and that something which moved is held.
+import { useSignal } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
+
+import { Button } from '../ui/button';
+import { Dialog } from '../ui/dialog';
+import { tried } from '../ui/error_text';
+import { useConsole } from './context';
+import * as t from './texts';
+
+export function StoppedBanner() {
+  const console = useConsole();
+  const { everything } = console;
+  const asks = useSignal(false);
+  const { stopped, waiting } = everything.view.value;
+  const clear = () => {
+    asks.value = false;
+    tried(console, 'clear', everything.clear());
+  };
+  return (
+    <div role="alert">
+      {stopped && (
+        <p class="banner banner-stopped">
+          <strong>{t.stopped()}</strong> {t.stopped_hint()} {waiting.length > 0 && <strong>{t.not_confirmed(waiting.join(', '))}</strong>}
+          <Button onClick={() => (asks.value = true)}>{t.clear()}</Button>
+        </p>
+      )}
+      <Dialog
+        title={t.clear_title()}
+        open={asks.value && stopped}
+        close={() => (asks.value = false)}
+        actions={
+          <>
+            <Button look="primary" onClick={clear}>{t.clear()}</Button>
+            <Button onClick={() => (asks.value = false)}>{t.cancel()}</Button>
+          </>
+        }
+      >
+        <p>{t.clear_hint()}</p>
+        {waiting.length > 0 && <p>{t.not_confirmed(waiting.join(', '))}</p>}
+      </Dialog>
+    </div>
+  );
+}
+
+/** A notice for each hold, with a button where it is for this console to go on. */
+export function Holds() {
+  const console = useConsole();
+  const { events, notices, bindings } = console;
+  const seen = useRef(new Set(events.errors.list().map((one) => one.number)));
+  const beat = events.pulse.beat.value;
+  useEffect(() => {
+    for (const one of events.errors.list()) {
+      if (seen.current.has(one.number) || one.details.state !== 'there') continue;
+      seen.current.add(one.number);
+      const ref = one.error.component_ref?.code;
+      const text = one.details.results.text('text') ?? '';
+      if (ref === undefined || !text.startsWith('its motion is held')) continue;
+      const action = { label: t.resume(), act: () => tried(console, ref, console.run(ref, 'resume')) };
+      notices.tell('error', t.held(ref), { detail: text, about: ref, ...(bindings.mine.value.has(ref) && { action }) });
+    }
+  }, [beat]);
+  return null;
+}

@@ -1,0 +1,183 @@
+// The button that stops everything, that it is stopped, and that something is held.
+import type { Page } from 'playwright-core';
+import { clear_everything, command, connect, stop_everything, value } from 'rois-client';
+import { afterAll, afterEach, beforeAll, expect, test } from 'vitest';
+
+import type { Console } from '../../src/state/console';
+import { broken_link, is_in_view, looks, picture, root, sizes, Stage, violations } from './harness';
+
+type Page_ = Window & { rois: Console };
+
+let stage: Stage;
+
+beforeAll(async () => {
+  stage = await Stage.set('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '1', '--motion-lease', '1');
+});
+afterEach(() => clear_everything(stage.gateway.url));
+afterAll(() => stage.strike());
+
+const stop = (page: Page) => page.locator('.head').getByRole('button', { name: /^STOP everything/ });
+const stopped = (page: Page) => page.getByText('Everything is stopped.');
+const connected = (page: Page) => page.getByText('Connected', { exact: true }).waitFor();
+const walk = (page: Page) =>
+  page.evaluate(async () => {
+    const { rois } = window as unknown as Page_;
+    const { ends } = await rois.run('navigation', 'start', { target_position: ['14000, 6000', '1000, 6000', '14000, 6000'] });
+    const ended = { how: [] as string[] };
+    void ends.then((how) => (ended.how = how));
+    (window as unknown as { ended: typeof ended }).ended = ended;
+  });
+
+/** Whether a press on its middle would meet it. */
+const is_on_top = (page: Page) =>
+  page.evaluate(() => {
+    const dialog = document.querySelector('dialog[open]');
+    const button = (dialog ?? document.querySelector('.head')!).querySelector('[aria-label^="STOP everything"]')!;
+    const { left, right, top, bottom } = button.getBoundingClientRect();
+    return button.contains(document.elementFromPoint((left + right) / 2, (top + bottom) / 2)) && left >= 0 && right <= innerWidth;
+  });
+
+test.each(['wide', 'small', 'phone'] as const)('is seen with every panel, in dialogs and over the menu: %s', (size) =>
+  stage.page(
+    async (page) => {
+      await connected(page);
+      for (const name of await page.getByRole('tab').allTextContents()) {
+        const tab = page.getByRole('tab', { name, exact: true });
+        if ((await tab.count()) === 0) continue;
+        await tab.first().click();
+        expect(await is_in_view(stop(page)), name).toBe(true);
+        expect(await is_on_top(page), name).toBe(true);
+      }
+      await page.evaluate(() => {
+        const { notices } = (window as unknown as Page_).rois;
+        notices.tell('error', 'Something went wrong that takes a long line to be said, and some more words after it', { action: { label: 'Undo', act: () => undefined } });
+      });
+      expect(await is_on_top(page), 'with a notice').toBe(true);
+      const menu = page.locator('.head summary');
+      if ((await menu.count()) > 0) await menu.click();
+      expect(await is_on_top(page), 'with the menu').toBe(true);
+      await page.getByRole('button', { name: /^\d+ bound$/ }).click();
+      await page.getByRole('dialog').waitFor();
+      expect(await is_on_top(page), 'in a dialog').toBe(true);
+      await picture(page, `stop-dialog-${size}`);
+      expect(await violations(page)).toBe('');
+      await page.getByRole('dialog').getByRole('button', { name: /^STOP everything/ }).click();
+      await page.keyboard.press('Escape');
+      await stopped(page).waitFor();
+      await picture(page, `stop-notice-${size}`);
+      await page.keyboard.press('Escape');
+      expect(await is_in_view(stopped(page))).toBe(true);
+      expect(await is_on_top(page), 'while it is stopped').toBe(true);
+      expect(await violations(page)).toBe('');
+      await picture(page, `stop-${size}`);
+    },
+    { ...sizes[size], touch: size !== 'wide' },
+  ), 120_000);
+
+test('stops with one press what runs, says so on every page and after a reload, until it is cleared', () =>
+  stage.page(async (page) => {
+    await connected(page);
+    await walk(page);
+    await stage.page(async (other) => {
+      await connected(other);
+      await stop(page).click();
+      await stopped(page).waitFor();
+      await page.waitForFunction(() => (window as unknown as { ended: { how: string[] } }).ended.how[0] === 'ABORT');
+      await stopped(other).waitFor({ timeout: 3000 });
+      await other.reload();
+      await stopped(other).waitFor();
+      await other.getByRole('button', { name: 'Clear', exact: true }).click();
+      expect(await stopped(page).isVisible(), 'it asks first').toBe(true);
+      await other.getByRole('dialog').getByText('may start robots again').waitFor();
+      await other.getByRole('dialog').getByRole('button', { name: 'Clear', exact: true }).click();
+      await stopped(other).waitFor({ state: 'detached' });
+      await stopped(page).waitFor({ state: 'detached', timeout: 5000 });
+    });
+    await walk(page);
+  }), 60_000);
+
+test('names what has not confirmed yet', () =>
+  stage.page(async (page) => {
+    await connected(page);
+    await page.route('**/rois/stop', (route) => route.fulfill({ status: 202, contentType: 'text/plain', body: 'stopped\nnot confirmed yet: navigation\nnot confirmed yet: robot2.move\n' }));
+    await stop(page).click();
+    await page.getByText('Not confirmed yet: navigation, robot2.move.').waitFor();
+    await picture(page, 'stop-not-confirmed');
+  }));
+
+test.each(['wide', 'phone'] as const)('works while there is no WebSocket, and says when it did not get through: %s', (size) =>
+  stage.page(
+    async (page) => {
+      await connected(page);
+      stage.front.lets_requests_pass = true;
+      stage.front.cut();
+      await page.getByText('Connection lost', { exact: true }).waitFor();
+      await stop(page).click();
+      await stopped(page).waitFor();
+      expect((await fetch(`${stage.gateway.url}/readyz`)).status).toBe(503);
+      stage.front.lets_requests_pass = false;
+      await stop(page).click();
+      await page.locator('.head').getByRole('alert').getByText(/^Not stopped: /).waitFor();
+      expect(await is_in_view(page.locator('.head').getByRole('alert'))).toBe(true);
+      await picture(page, `stop-failed-${size}`);
+      stage.front.mend();
+    },
+    { ...sizes[size], may_complain: broken_link },
+  ));
+
+test('is there before there is a session', () =>
+  stage.page(
+    async (page) => {
+      stage.front.token = 'a secret';
+      await page.reload();
+      const dialog = page.getByRole('dialog');
+      await dialog.getByText('This gateway wants a token').waitFor();
+      await dialog.getByRole('button', { name: /^STOP everything/ }).click();
+      await dialog.getByRole('alert').getByText('Not stopped: status 401').waitFor();
+      stage.front.token = undefined;
+      await dialog.getByRole('button', { name: /^STOP everything/ }).click();
+      await dialog.getByRole('alert').waitFor({ state: 'detached' });
+      expect((await fetch(`${stage.gateway.url}/readyz`)).status).toBe(503);
+    },
+    { may_complain: broken_link },
+  ));
+
+test.each(looks)('is accessible: %s, %s, %s', (size, look, language) =>
+  stage.page(
+    async (page) => {
+      await stop_everything(stage.gateway.url);
+      await page.getByRole('button', { name: /^(Clear|解除)$/ }).waitFor();
+      expect(await violations(page)).toBe('');
+      await picture(page, `stop-${size}-${look}-${language}`);
+    },
+    { ...sizes[size], look, language, touch: size !== 'wide' },
+  ));
+
+test('tells of a hold, with a button to go on', () =>
+  stage.page(async (page) => {
+    await connected(page);
+    await walk(page);
+    await page.evaluate(() => {
+      const end = performance.now() + 2500;
+      while (performance.now() < end);
+    });
+    await page.getByText('navigation is held.').waitFor();
+    await picture(page, 'held');
+    await page.getByRole('button', { name: 'Resume' }).click();
+    await page.waitForTimeout(2500);
+    expect(await page.getByText('navigation is held.').count()).toBe(0);
+  }), 30_000);
+
+test('offers nothing to go on with where another application is held', async () => {
+  const driver = await connect(stage.gateway.url);
+  await driver.bind('navigation');
+  await stage.page(async (page) => {
+    await connected(page);
+    await page.evaluate(() => (window as unknown as Page_).rois.subscribe('reached_target').then(() => undefined));
+    await driver.execute([command('navigation', 'start', { target_position: value.strings(['14000, 6000', '1000, 6000', '14000, 6000']) })]);
+    Atomics.wait(new Int32Array(new SharedArrayBuffer(4)), 0, 0, 2500);
+    await page.getByText('navigation is held.').waitFor();
+    expect(await page.getByRole('button', { name: 'Resume' }).count()).toBe(0);
+  });
+  await driver.close();
+});
