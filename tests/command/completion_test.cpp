@@ -79,7 +79,9 @@ TEST(TheCompletion, KnowsCommandsOptionsAndWhatTheEngineHas) {
     };
     for (auto const& [typed, completed] : std::vector<Row>{
              {"rois sea", "rois search "},
-             {"rois re", "rois record release replay "},
+             {"rois re", "rois record release replay resume "},
+             {"rois stop-", "rois stop-all "},
+             {"rois resume navi", "rois resume navigation "},
              {"rois --colour a", "rois --colour always auto "},
              {"rois --xml que", "rois --xml query "},
              {"rois start --no", "rois start --no-wait "},

@@ -116,9 +116,9 @@ public:
 
     // The application is alive. A robot that this session has set in motion stops within the motion lease (docs/safety.md) when
     // the application gives no more signs of life. A program that never calls `wait` lives on the client's thread and gives them
-    // while that thread is not blocked. With the first `wait`, its own threads speak for it: one that waits gives signs as long
-    // as it waits, and each `wait` and `alive` is one. Threads that do something else for longer than half a lease while a robot
-    // moves call this meanwhile. From any thread; costs little, and sends nothing while nothing moves.
+    // while that thread is not blocked. With the first `wait` or `alive`, its own threads speak for it: one that waits gives
+    // signs as long as it waits, and each `wait` and `alive` is one. Threads that do something else for longer than half a lease
+    // while a robot moves call this meanwhile. From any thread; costs little, and sends nothing while nothing moves.
     void alive();
 
     // How often `alive` is to be called at least: a fifth of the lease.

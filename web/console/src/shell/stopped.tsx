@@ -18,9 +18,9 @@ export function StoppedBanner() {
     tried(console, 'clear', everything.clear());
   };
   return (
-    <div role="alert">
+    <>
       {stopped && (
-        <p class="banner banner-stopped">
+        <p class="banner banner-stopped" role="alert">
           <strong>{t.stopped()}</strong> {t.stopped_hint()} {waiting.length > 0 && <strong>{t.not_confirmed(waiting.join(', '))}</strong>}
           <Button onClick={() => (asks.value = true)}>{t.clear()}</Button>
         </p>
@@ -39,7 +39,7 @@ export function StoppedBanner() {
         <p>{t.clear_hint()}</p>
         {waiting.length > 0 && <p>{t.not_confirmed(waiting.join(', '))}</p>}
       </Dialog>
-    </div>
+    </>
   );
 }
 
