@@ -105,15 +105,18 @@ void health(Options const& options, Printer& printer) {
     }();
     bool const ready = answer.status == 200;
     bool const stopped = answer.status == 503 && answer.body.starts_with("stopped");
+    auto const moving = not_confirmed(answer.body);
     if (stopped && printer.form() == Form::human)
-        throw Trouble{Exit::error, "not healthy: everything is stopped at " + options.url + "; nothing starts until: rois clear"};
+        throw Trouble{Exit::error, "not healthy: everything is stopped at " + options.url + "; nothing starts until: rois clear" +
+                                       (moving.empty() ? "" : "; not confirmed that they stand still: " + listed(moving))};
     if (!ready && printer.form() == Form::human) {
         auto const body = harmless(trimmed(answer.body.substr(0, 200)));
         throw Trouble{Exit::error, "not healthy: " + options.url + " answers " + std::to_string(answer.status) +
                                        (body.empty() ? "" : ": " + body) + hint_for_url(options.url)};
     }
-    printer.line(painted("healthy", Colour::good, printer.coloured()), "health",
-                 Json{{"url", options.url}, {"ready", ready}, {"status", answer.status}, {"stopped", stopped}});
+    printer.line(
+        painted("healthy", Colour::good, printer.coloured()), "health",
+        Json{{"url", options.url}, {"ready", ready}, {"status", answer.status}, {"stopped", stopped}, {"not_confirmed", moving}});
     if (!ready) throw Trouble{Exit::error, ""};
 }
 

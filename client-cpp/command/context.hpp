@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -124,6 +125,9 @@ void remark(std::string const& text);
 
 // When the time of --for is over, counted from the start of the program.
 Until end_of(Options const&);
+
+// The components that have not confirmed that they stand still, as the answer to /readyz names them.
+std::vector<std::string> not_confirmed(std::string_view readiness);
 
 // What the commands do. Each throws Trouble when it does not go well.
 void profile(Context&);

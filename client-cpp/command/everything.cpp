@@ -15,29 +15,14 @@ namespace rois::command {
 
 namespace {
 
-// The components that have not confirmed yet that they stand still.
-std::vector<std::string> not_confirmed(std::string const& answer) {
-    constexpr std::string_view mark = "not confirmed yet: ";
-    std::vector<std::string> refs;
-    for (std::string_view rest = answer; !rest.empty();) {
-        auto const line = rest.substr(0, rest.find('\n'));
-        if (line.starts_with(mark)) refs.push_back(harmless(line.substr(mark.size())));
-        rest.remove_prefix(std::min(rest.size(), line.size() + 1));
-    }
-    return refs;
-}
-
-// Whether all components confirm soon, as the gateway's metrics tell.
-bool confirm_soon(HttpServer const& server, std::chrono::milliseconds deadline) {
-    constexpr std::string_view metric = "\nrois_components_not_halted ";
+// Until no component is left that has not confirmed that it stands still, or for a second: the refs of those.
+std::vector<std::string> not_confirmed_soon(HttpServer const& server, std::chrono::milliseconds deadline) {
     auto const end = std::chrono::steady_clock::now() + std::min<std::chrono::milliseconds>(deadline, std::chrono::seconds{1});
-    while (std::chrono::steady_clock::now() < end) {
+    while (true) {
+        auto refs = not_confirmed(http_get(server, "/readyz", deadline).body);
+        if (refs.empty() || std::chrono::steady_clock::now() >= end) return refs;
         std::this_thread::sleep_for(std::chrono::milliseconds{50});
-        auto const text = http_get(server, "/metrics", deadline).body;
-        auto const at = text.find(metric);
-        if (at != text.npos && text.substr(at + metric.size(), 2) == "0\n") return true;
     }
-    return false;
 }
 
 std::string posted(Options const& options, HttpServer const& server, std::string const& target) {
@@ -50,10 +35,28 @@ std::string posted(Options const& options, HttpServer const& server, std::string
 
 }  // namespace
 
+std::vector<std::string> not_confirmed(std::string_view readiness) {
+    constexpr std::string_view mark = " has not confirmed that it stands still";
+    std::vector<std::string> refs;
+    while (!readiness.empty()) {
+        auto const line = readiness.substr(0, readiness.find('\n'));
+        if (line.ends_with(mark)) refs.push_back(harmless(line.substr(0, line.size() - mark.size())));
+        readiness.remove_prefix(std::min(readiness.size(), line.size() + 1));
+    }
+    return refs;
+}
+
 void stop_all(Options const& options, Printer& printer) {
     HttpServer const server{options.url, options.token, options.ca_file};
-    auto refs = not_confirmed(posted(options, server, "/rois/stop"));
-    if (!refs.empty() && confirm_soon(server, options.deadline)) refs.clear();
+    posted(options, server, "/rois/stop");
+    auto const refs = [&] {
+        try {
+            return not_confirmed_soon(server, options.deadline);
+        } catch (Trouble const& trouble) {
+            throw Trouble{trouble.exit(),
+                          std::string{"stopped everything; whether all components stand still is not known: "} + trouble.what()};
+        }
+    }();
     printer.line(painted("stopped everything", Colour::bad, printer.coloured()) + " at " + options.url +
                      "; nothing starts until: rois clear",
                  "stop_all", Json{{"operation", "stop_all"}, {"url", options.url}, {"stopped", true}, {"not_confirmed", refs}});

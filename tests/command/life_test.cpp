@@ -20,6 +20,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
+constexpr auto empty_hall = ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml";
 constexpr auto longer = 2500ms;  // than the lease of a second, and what a machine that is busy adds
 constexpr auto way = "target_position=14000, 6000";
 
@@ -57,8 +58,8 @@ private:
 
 class RoisAndMotion : public testing::Test {
 protected:
-    RoisAndMotion() { watcher.client().spawn(listen(watcher.client())); }
-    ~RoisAndMotion() override {
+    void SetUp() override { watcher.client().spawn(listen(watcher.client())); }
+    void TearDown() override {
         watcher.client().close();
         history.await_state("closed");
     }
@@ -93,8 +94,7 @@ protected:
         EXPECT_THAT(history.notifications(), IsEmpty());
     }
 
-    GatewayProcess gateway{
-        {"--sim-speed", "1", "--motion-lease", "1", "--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml"}};
+    GatewayProcess gateway{{"--sim-speed", "1", "--motion-lease", "1", "--scenario", empty_hall}};
     Variables const at{{"ROIS_URL", gateway.url()}};
     History history;
     Blocking watcher{quick(gateway.url()), history.observers()};
@@ -190,6 +190,19 @@ TEST_F(RoisAndMotion, StopAllIsADocumentAsWell) {
     EXPECT_EQ(json::parse(stopped.out),
               (json{{"operation", "stop_all"}, {"url", gateway.url()}, {"stopped", true}, {"not_confirmed", json::array()}}));
     EXPECT_THAT(run_rois({"stop-all", "--xml"}, {}, at).out, StartsWith("<stop_all "));
+}
+
+TEST(RoisStopAll, NamesWhatHasNotConfirmed) {
+    GatewayProcess const gateway{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--sim-speed", "0"}};
+    Variables const at{{"ROIS_URL", gateway.url()}};
+    auto const stopped = run_rois({"stop-all"}, {}, at);
+    EXPECT_EQ(stopped.exit_code, 6);
+    EXPECT_THAT(stopped.out, StartsWith("stopped everything at "));
+    EXPECT_EQ(stopped.error,
+              "rois: these components have not confirmed that they stand still: navigation; the gateway repeats their halt\n");
+    EXPECT_EQ(json::parse(run_rois({"stop-all", "--json"}, {}, at).out)["not_confirmed"], json{"navigation"});
+    EXPECT_THAT(run_rois({"health"}, {}, at).error, HasSubstr("; not confirmed that they stand still: navigation\n"));
+    EXPECT_EQ(json::parse(run_rois({"health", "--json"}, {}, at).out)["not_confirmed"], json{"navigation"});
 }
 
 TEST_F(RoisAndMotion, StopAllFindsTheGatewayOfASessionFileAndNeedsNoHolder) {

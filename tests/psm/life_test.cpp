@@ -5,6 +5,7 @@
 namespace rois::test::psm {
 namespace {
 
+constexpr auto empty_hall = ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml";
 constexpr auto longer = 2500ms;  // than the lease of a second, and what a machine that is busy adds
 
 class CppPsmAndMotion : public testing::Test {
@@ -24,8 +25,7 @@ protected:
         return results.empty() ? "" : results.back().value;
     }
 
-    GatewayProcess gateway{
-        {"--sim-speed", "1", "--motion-lease", "1", "--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml"}};
+    GatewayProcess gateway{{"--sim-speed", "1", "--motion-lease", "1", "--scenario", empty_hall}};
     RoIS_HRI::SystemIF system;
     Application application;
     ::Navigation::Command navigation;
