@@ -61,7 +61,11 @@ void Engine::Core::tick(Instant now) {
     if (unsettled_) attempts.note(std::exchange(unsettled_, nullptr));
     attempts([&] { hold_unproven_motion(now); });
     constexpr int most_turns = 100;  // of devices; what is left waits for the next tick
-    auto const goes_on = [](Moved const& moved) { return moved.device->goes_on(); };
+    auto const goes_on = [&](Moved const& moved) {
+        bool more = false;
+        attempts([&] { more = moved.device->goes_on(); });
+        return more;
+    };
     for (int turn = 0; turn == 0 || (turn < most_turns && std::ranges::any_of(devices_, goes_on)); ++turn) {
         attempts([&] { advance_devices(now); });
         attempts([&] { settle(now); });
