@@ -190,6 +190,7 @@ TEST_P(MemoryThatRunsOut, AtAnyCallStopsNoClockAndLeavesNothingMoving) {
     EXPECT_GT(n, 500) << "the history needs memory that often";
 }
 
-INSTANTIATE_TEST_SUITE_P(ForCalls, MemoryThatRunsOut, testing::Values(1, 2, 7, 60, 600));
+INSTANTIATE_TEST_SUITE_P(ForCalls, MemoryThatRunsOut, testing::Values(1, 2, 7, 60, 600),
+                         [](auto const& calls) { return std::to_string(calls.param); });
 
 }  // namespace rois

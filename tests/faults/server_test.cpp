@@ -174,7 +174,12 @@ TEST_P(Faults, Of30MillisecondsAreSurvived) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, Faults, testing::Values(Of::memory, Of::send, Of::accept, Of::epoll));
+std::string name(testing::TestParamInfo<Of> const& of) {
+    constexpr std::array names{"Memory", "Send", "Accept", "Epoll"};
+    return names[static_cast<std::size_t>(of.param)];
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, Faults, testing::Values(Of::memory, Of::send, Of::accept, Of::epoll), name);
 
 TEST(Gateway, IsGivenUpWhenEachTickFails) {
     struct Broken : Device {
@@ -195,9 +200,17 @@ TEST(Gateway, SaysThatItIsNotHealthyWhileAComponentHangs) {
     rig.base->on_start = [&] {
         while (hangs) std::this_thread::sleep_for(1ms);
     };
-    std::thread driver{[&] { rig.drive(); }};
-    rig.address.patience = 100ms;  // one of the two threads hangs, and connections to it
-    EXPECT_TRUE(rig.comes([&] { return client::HttpClient{rig.address}.get("/healthz").status == 503; }));
+    std::thread driver{[&] {
+        auto patient = rig.address;
+        patient.patience = 20s;
+        client::WebSocketClient desk{patient};
+        desk.call("connect");
+        desk.call("bind", client::component_ref("base"));
+        desk.call("execute", client::sequence(client::unit({.component = "base"})));
+    }};
+    auto hasty = rig.address;
+    hasty.patience = 100ms;  // one of the two threads hangs, and connections to it
+    EXPECT_TRUE(rig.comes([&] { return client::HttpClient{hasty}.get("/healthz").status == 503; }));
     hangs = false;
     driver.join();
     EXPECT_TRUE(rig.comes([&] { return client::HttpClient{rig.address}.get("/healthz").status == 200; }));
