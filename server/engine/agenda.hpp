@@ -2,7 +2,7 @@
 #pragma once
 
 #include <deque>
-#include <optional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -32,7 +32,7 @@ struct HaltConfirmed {
 struct EventOccurred {
     RegisteredComponent* component;
     std::string event_type;
-    Results results;
+    std::shared_ptr<Results const> results;
 };
 
 struct ErrorOccurred {
@@ -53,15 +53,17 @@ class Agenda {
 public:
     void add(Said said) { said_.push_back(std::move(said)); }
 
-    std::optional<Said> take() {
-        if (said_.empty()) return {};
-        Said next = std::move(said_.front());
-        said_.pop_front();
-        return next;
-    }
+    // The next one, or null. It stays until `pop`: what fails for want of memory is taken again.
+    Said* front() { return said_.empty() ? nullptr : &said_.front(); }
+    void pop() { said_.pop_front(); }
+
+    // A component's answer to a command could not be kept; it says so of itself (RegisteredComponent::answer_lost).
+    void note_lost_answer() noexcept { answers_lost_ = true; }
+    bool take_lost_answers() noexcept { return std::exchange(answers_lost_, false); }
 
 private:
     std::deque<Said> said_;
+    bool answers_lost_ = false;
 };
 
 }  // namespace rois

@@ -1,6 +1,7 @@
 // The engine's inside: its parts, and one `perform` for each operation, in the file of its RoIS interface.
 #pragma once
 
+#include <exception>
 #include <map>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "engine/agenda.hpp"
+#include "engine/attempts.hpp"
 #include "engine/deadlines.hpp"
 #include "engine/details.hpp"
 #include "engine/engine.hpp"
@@ -32,7 +34,7 @@ public:
     void report_to(Journal& journal) { journal_ = &journal; }
     void add(std::unique_ptr<Component>);
     void change(ComponentChange, Instant now);
-    void add(std::shared_ptr<Device> device) { devices_.push_back(std::move(device)); }
+    void add(std::shared_ptr<Device> device) { devices_.push_back({std::move(device), false}); }
     void describe(Places places) { places_ = std::move(places); }
 
     std::variant<Reply, Refusal> handle(SessionId const&, Operation const&, Instant now);
@@ -90,9 +92,10 @@ private:
     Reply perform(Session&, Subscribe const&, Instant now);
     Reply perform(Session&, Unsubscribe const&, Instant now);
     Reply perform(Session&, GetEventDetail const&, Instant now);
-    void publish(EventOccurred, Instant now);
-    void publish(ErrorOccurred, Instant now);
-    ReceiveError noted(ErrorOccurred, Instant now);
+    // A delivery that fails is noted, and keeps the others from nothing.
+    void publish(EventOccurred const&, Instant now, Attempts& deliveries);
+    void publish(ErrorOccurred const&, Instant now, Attempts& deliveries);
+    ReceiveError noted(ErrorOccurred const&, Instant now);
 
     // Conditions (conditions.cpp)
     Vocabulary vocabulary(Declarations const* results = nullptr) const {
@@ -117,13 +120,18 @@ private:
 
     // Sessions (engine.cpp)
     void end(Session&, std::string_view why, Instant now);
+    void part_with(Session&, Instant now);
+    void end_those_that_must(Instant now, Attempts&);
+    void mark_overflowed();
     static SessionStatistics statistics(Session const&);
     Session* longest_idle() const;
-    void await_end_of_window(Session&);
+    void await_end_of_window(Session&, Steady not_before = Steady::min());
     void end_if_lost(SessionId const&, Instant now);
     void settle(Instant now);
     void advance_devices(Instant now);
     void hold_unproven_motion(Instant now);
+    void carry_out_what_is_due(Instant now, Attempts&);
+    void forget_what_is_old(Instant now);
     void unbind(Session&, RegisteredComponent&, Instant now);
 
     Journal nobody_;
@@ -136,7 +144,11 @@ private:
     Agenda agenda_;
     Places places_;
     Registry registry_;
-    std::vector<std::shared_ptr<Device>> devices_;
+    struct Moved {
+        std::shared_ptr<Device> device;
+        bool failed;  // the last time: that was reported
+    };
+    std::vector<Moved> devices_;
     std::unordered_map<SessionId, std::unique_ptr<Session>, IdHash> sessions_;
     Subscriptions subscriptions_;
     Deadlines deadlines_;
@@ -147,6 +159,9 @@ private:
     Steady details_checked_;
     std::vector<std::uint32_t> free_slots_;  // of sessions that have ended, below those of the others (Details::Asker)
     std::optional<Steady> last_tick_;
+    std::exception_ptr
+        unsettled_;  // what went wrong behind an operation that was performed: the next tick goes on, and throws it
+    bool sessions_must_end_ = false;
     bool shutting_down_ = false;
     bool everything_is_stopped_ = false;
     std::uint64_t events_published_ = 0;

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "engine/attempts.hpp"
 #include "types/instant.hpp"
 
 namespace rois {
@@ -24,11 +25,28 @@ public:
 
     void cancel(Ticket const& ticket) { actions_.erase(ticket); }
 
-    // Takes the next action that is due by now; an empty one when there is none.
-    Action take_due(Instant now) {
-        if (actions_.empty() || actions_.begin()->first.first > now.steady) return {};
-        auto node = actions_.extract(actions_.begin());
-        return std::move(node.mapped());
+    // Moves an action to another time, which needs no memory. Returns false if it has ended, or is being carried out.
+    bool postpone(Ticket& ticket, Steady when) noexcept {
+        auto node = actions_.extract(ticket);
+        if (!node) return false;
+        ticket = {when, ++last_};
+        node.key() = ticket;
+        actions_.insert(std::move(node));
+        return true;
+    }
+
+    // One that is before all others.
+    static Ticket first() { return {Steady::min(), 0}; }
+
+    // Carries out the next action behind `last` that is due by now, and moves `last` there. Returns false if there is none. An
+    // action that throws stays, to be carried out again.
+    bool carry_out_next(Ticket& last, Instant now, Attempts& attempts) {
+        auto const next = actions_.upper_bound(last);
+        if (next == actions_.end() || next->first.first > now.steady) return false;
+        auto node = actions_.extract(next);
+        last = node.key();
+        if (!attempts([&] { node.mapped()(now); })) actions_.insert(std::move(node));
+        return true;
     }
 
 private:

@@ -44,8 +44,9 @@ std::variant<Reply, Refusal> Engine::Core::handle(SessionId const& id, Operation
     session->lease.heard_request(now.steady);
     Reply reply = std::visit([&](auto const& known) { return perform(*session, known, now); }, operation);
     auto const& outcome = std::visit([](Outcome const& each) -> Outcome const& { return each; }, reply);
-    if (outcome.return_code != ReturnCode::ok) journal_->refused(number, operation, outcome);
-    settle(now);
+    Attempts attempts;
+    if (outcome.return_code != ReturnCode::ok) attempts([&] { journal_->refused(number, operation, outcome); });
+    if (!attempts([&] { settle(now); })) unsettled_ = attempts.failure();
     return reply;
 }
 
@@ -54,18 +55,34 @@ void Engine::Core::begin(Instant now) {
     tick(now);
 }
 
+// One part of it that fails keeps the others from nothing; what failed is thrown in the end, and done by a later tick.
 void Engine::Core::tick(Instant now) {
-    hold_unproven_motion(now);
+    Attempts attempts;
+    if (unsettled_) attempts.note(std::exchange(unsettled_, nullptr));
+    attempts([&] { hold_unproven_motion(now); });
     constexpr int most_turns = 100;  // of devices; what is left waits for the next tick
-    auto const goes_on = [](std::shared_ptr<Device> const& device) { return device->goes_on(); };
+    auto const goes_on = [&](Moved const& moved) {
+        bool more = false;
+        attempts([&] { more = moved.device->goes_on(); });
+        return more;
+    };
     for (int turn = 0; turn == 0 || (turn < most_turns && std::ranges::any_of(devices_, goes_on)); ++turn) {
-        advance_devices(now);
-        settle(now);
+        attempts([&] { advance_devices(now); });
+        attempts([&] { settle(now); });
     }
-    while (auto const action = deadlines_.take_due(now)) {
-        action(now);
-        settle(now);
-    }
+    carry_out_what_is_due(now, attempts);
+    attempts([&] { executor_.mend(now); });
+    end_those_that_must(now, attempts);
+    attempts([&] { settle(now); });
+    attempts([&] { forget_what_is_old(now); });
+    attempts.rethrow();
+}
+
+void Engine::Core::carry_out_what_is_due(Instant now, Attempts& attempts) {
+    for (auto last = Deadlines::first(); deadlines_.carry_out_next(last, now, attempts);) attempts([&] { settle(now); });
+}
+
+void Engine::Core::forget_what_is_old(Instant now) {
     if (now.steady - details_checked_ < std::chrono::seconds{1}) return;
     details_checked_ = now.steady;
     events_.forget_expired(now);
@@ -75,60 +92,85 @@ void Engine::Core::tick(Instant now) {
 
 // Decision 33. Who commands something that moves is asked for signs of life. When the engine itself stood still, nobody was.
 void Engine::Core::hold_unproven_motion(Instant now) {
-    auto const missed = now.steady - std::exchange(last_tick_, now.steady).value_or(now.steady);
+    auto const missed = now.steady - last_tick_.value_or(now.steady);
+    Attempts attempts;
     for (auto* component : registry_.moving()) {
         auto const* session = component->bound_to;
         if (session == nullptr || (!component->works() && session->live_commands() == 0)) continue;
         session->notifications->want_signs_of_life(now.steady + signs_of_life_wanted);
         if (!component->works()) continue;
-        if (missed >= settings_.motion_lease)
-            executor_.hold(*component, "the engine stood still for " + in_seconds(missed), now);
-        else if (now.steady >= session->lease.end())
-            executor_.hold(*component, "nothing was heard from its application in time", now);
+        attempts([&] {
+            if (missed >= settings_.motion_lease)
+                executor_.hold(*component, "the engine stood still for " + in_seconds(missed), now);
+            else if (now.steady >= session->lease.end())
+                executor_.hold(*component, "nothing was heard from its application in time", now);
+        });
     }
+    attempts.rethrow();  // with the time of the last tick as it was: what is not held yet is held by the next one
+    last_tick_ = now.steady;
     settle(now);
 }
 
-// A device that fails is not advanced again: it would fail for ever.
+// A device that fails is reported once, until it succeeds, and advanced again by the next tick: it may have lacked memory.
 void Engine::Core::advance_devices(Instant now) {
-    std::erase_if(devices_, [&](std::shared_ptr<Device> const& device) {
+    Attempts attempts;
+    for (auto& [device, failed] : devices_) {
         std::string problem;
         try {
             device->advance(now);
-            return false;
+            failed = false;
+            continue;
         } catch (std::exception const& exception) {
-            problem = exception.what();
+            attempts([&] { problem = exception.what(); });
         } catch (...) {
-            problem = "an unknown exception left a device";
+            attempts([&] { problem = "an unknown exception left a device"; });
         }
-        agenda_.add(ErrorOccurred{nullptr, ErrorType::engine_internal_error, std::move(problem)});
-        return true;
-    });
+        if (std::exchange(failed, true)) continue;
+        attempts([&] { agenda_.add(ErrorOccurred{nullptr, ErrorType::engine_internal_error, std::move(problem)}); });
+    }
+    attempts.rethrow();
 }
 
-// Takes in what components said, and what follows from it, until nothing is left.
+// Takes in what components said, and what follows from it, until nothing is left. What fails is taken again by the next tick.
 void Engine::Core::settle(Instant now) {
+    Attempts attempts;
     struct Taker {
         Core& core;
         Instant now;
+        Attempts& deliveries;
         void operator()(CommandStarted const& said) { core.executor_.started(said.command); }
-        void operator()(CommandEnded& said) { core.executor_.completed(std::move(said), now); }
+        void operator()(CommandEnded& said) { core.executor_.completed(said, now); }
         void operator()(HaltConfirmed const& said) { core.executor_.halted(*said.component, now); }
-        void operator()(EventOccurred& said) { core.publish(std::move(said), now); }
-        void operator()(ErrorOccurred& said) { core.publish(std::move(said), now); }
+        void operator()(EventOccurred const& said) { core.publish(said, now, deliveries); }
+        void operator()(ErrorOccurred const& said) { core.publish(said, now, deliveries); }
     };
-    while (true) {
-        while (auto said = agenda_.take()) std::visit(Taker{*this, now}, *said);
-        auto const overflowed = notifier_.take_overflowed();
-        if (overflowed.empty()) return;
-        for (auto const& id : overflowed)
-            if (auto* session = find(id)) end(*session, "too many notifications waited for it", now);
+    auto const take_all = [&] {
+        while (auto* said = agenda_.front()) {
+            if (!attempts([&] { std::visit(Taker{*this, now, attempts}, *said); })) return;
+            agenda_.pop();
+        }
+    };
+    take_all();
+    while (notifier_.take_overflowed()) {
+        mark_overflowed();
+        end_those_that_must(now, attempts);
+        take_all();
+    }
+    attempts.rethrow();
+}
+
+void Engine::Core::mark_overflowed() {
+    for (auto const& [id, session] : sessions_) {
+        if (session->ending || !session->notifications->overflowed()) continue;
+        session->ending = true;
+        session->why_it_ends = "too many notifications waited for it";
+        sessions_must_end_ = true;
     }
 }
 
 Session* Engine::Core::find(SessionId const& id) const {
     auto const found = sessions_.find(id);
-    return found == sessions_.end() ? nullptr : found->second.get();
+    return found == sessions_.end() || found->second->ending ? nullptr : found->second.get();
 }
 
 void Engine::Core::end(SessionId const& id, Instant now) {
@@ -138,32 +180,57 @@ void Engine::Core::end(SessionId const& id, Instant now) {
     settle(now);
 }
 
-// Decision 3. The last notifications are in the queue before it is closed.
+// Nobody finds it from here on; if something fails, the next tick goes on.
 void Engine::Core::end(Session& session, std::string_view why, Instant now) {
+    session.ending = true;
+    session.why_it_ends = why;
+    try {
+        part_with(session, now);
+    } catch (...) {
+        sessions_must_end_ = true;
+        throw;
+    }
+}
+
+void Engine::Core::end_those_that_must(Instant now, Attempts& attempts) {
+    if (!std::exchange(sessions_must_end_, false)) return;
+    for (auto next = sessions_.begin(); next != sessions_.end();) {
+        auto& session = *(next++)->second;
+        if (session.ending) attempts([&] { end(session, session.why_it_ends, now); });
+    }
+}
+
+// Decision 3. The last notifications are in the queue before it is closed. First what moves, then the rest.
+void Engine::Core::part_with(Session& session, Instant now) {
+    Attempts attempts;
     if (settings_.on_session_end == OnSessionEnd::continue_) {
         for (auto* component : session.bound)
-            if (component->moves()) executor_.halt(*component, CompletedStatus::abort, "its session has ended", now);
-        executor_.let_run_on(session);
+            if (component->moves())
+                attempts([&] { executor_.halt(*component, CompletedStatus::abort, "its session has ended", now); });
+        attempts([&] { executor_.let_run_on(session); });
     } else {
-        // First what moves, then the rest.
-        for (auto* component : session.bound) executor_.halt(*component, CompletedStatus::abort, "its session has ended", now);
-        executor_.abort_all(session, now);
-        while (!session.bound.empty()) unbind(session, **session.bound.begin(), now);
+        for (auto* component : session.bound)
+            attempts([&] { executor_.halt(*component, CompletedStatus::abort, "its session has ended", now); });
+        attempts([&] { executor_.abort_all(session, now); });
+        while (!session.bound.empty()) attempts([&] { unbind(session, **session.bound.begin(), now); });
     }
+    attempts.rethrow();
     for (auto* component : session.bound) component->bound_to = nullptr;
     subscriptions_.remove_all(session);
     executor_.forget(session);
     notifier_.close(session);
-    journal_->session_ended(session.number, why);
-    free_slots_.push_back(session.events.slot);
-    sessions_.erase(SessionId{session.id});
+    journal_->session_ended(session.number, session.why_it_ends);
+    free_slots_.push_back(session.events.slot);  // has room
+    sessions_.erase(sessions_.find(session.id));
 }
 
 void Engine::Core::stop_everything(Instant now) {
     everything_is_stopped_ = true;
-    executor_.stop_all("everything was stopped", now);
-    agenda_.add(everything_was_stopped());
-    settle(now);
+    Attempts attempts;
+    attempts([&] { executor_.stop_all("everything was stopped", now); });
+    attempts([&] { agenda_.add(everything_was_stopped()); });
+    attempts([&] { settle(now); });
+    attempts.rethrow();
 }
 
 std::vector<std::string> Engine::Core::not_halted() const {
@@ -176,9 +243,15 @@ std::vector<std::string> Engine::Core::not_halted() const {
 void Engine::Core::shut_down(Instant now) {
     shutting_down_ = true;
     settings_.on_session_end = OnSessionEnd::stop;
-    executor_.stop_all("the engine ends", now);
-    while (!sessions_.empty()) end(*sessions_.begin()->second, "the gateway is shutting down", now);
-    settle(now);
+    Attempts attempts;
+    attempts([&] { executor_.stop_all("the engine ends", now); });
+    for (auto const& [id, session] : sessions_) {
+        session->ending = sessions_must_end_ = true;
+        session->why_it_ends = "the gateway is shutting down";
+    }
+    end_those_that_must(now, attempts);
+    attempts([&] { settle(now); });
+    attempts.rethrow();
 }
 
 void Engine::Core::heard_from(SessionId const& id, Instant now) {
@@ -220,22 +293,23 @@ Session* Engine::Core::longest_idle() const {
     return longest;
 }
 
-// One look a session, however often its links come and go.
-void Engine::Core::await_end_of_window(Session& session) {
-    if (session.end_of_window) deadlines_.cancel(*session.end_of_window);
-    session.end_of_window = deadlines_.add(session.quiet_until + settings_.resume_window,
-                                           [this, id = session.id](Instant then) { end_if_lost(id, then); });
+// One look a session, however often its links come and go. Only the first needs memory.
+void Engine::Core::await_end_of_window(Session& session, Steady not_before) {
+    auto const when = std::max(session.quiet_until + settings_.resume_window, not_before);
+    if (session.end_of_window && deadlines_.postpone(*session.end_of_window, when)) return;
+    session.end_of_window = deadlines_.add(when, [this, id = session.id](Instant then) { end_if_lost(id, then); });
 }
 
-// Looks again later when something was heard in between (decision 2).
+// Looks again later when something was heard in between (decision 2). While there is a link it looks now and then, so that the
+// link's end finds a deadline to move.
 void Engine::Core::end_if_lost(SessionId const& id, Instant now) {
     auto* session = find(id);
-    if (session == nullptr || session->lease.links() > 0) return;
-    if (session->quiet_until + settings_.resume_window <= now.steady) {
-        end(*session, "its link was lost and it was not resumed in time", now);
-    } else {
-        await_end_of_window(*session);
-    }
+    if (session == nullptr) return;
+    bool const linked = session->lease.links() > 0;
+    if (!linked && session->quiet_until + settings_.resume_window <= now.steady)
+        return end(*session, "its link was lost and it was not resumed in time", now);
+    constexpr std::chrono::minutes between_looks{1};
+    await_end_of_window(*session, linked ? now.steady + between_looks : now.steady);
 }
 
 std::vector<ComponentEntry> Engine::Core::components() const {

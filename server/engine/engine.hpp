@@ -23,7 +23,7 @@ namespace rois {
 class Outbox {
 public:
     virtual ~Outbox() = default;
-    // There is something to read in this session's queue, or it was closed.
+    // There is something to read in this session's queue, or it was closed. Must not throw.
     virtual void notify(NotificationQueue&) = 0;
     // `notify` will be called soon: what that needs may be prefetched.
     virtual void approach(NotificationQueue const&) const {}

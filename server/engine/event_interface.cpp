@@ -92,11 +92,9 @@ private:
 
 }  // namespace
 
-void Engine::Core::publish(EventOccurred said, Instant now) {
-    ++events_published_;
+void Engine::Core::publish(EventOccurred const& said, Instant now, Attempts& deliveries) {
     auto const subscriptions = subscriptions_.possible(said.event_type, *said.component);
-    if (subscriptions.empty()) return;
-    auto const results = std::make_shared<Results const>(std::move(said.results));
+    auto const& results = said.results;
     std::string event_id;  // given when somebody hears of it
     Perspective anybodys{registry_, places_, nullptr, Perspective::Of::present};
     ToldCandidate const candidate{anybodys.candidate(*said.component), *results};
@@ -104,29 +102,40 @@ void Engine::Core::publish(EventOccurred said, Instant now) {
         Perspective askers{registry_, places_, &asker, Perspective::Of::present};
         return subscription.filter.match(ToldCandidate{askers.candidate(*said.component), *results}) == Match::yes;
     };
-    for (auto* subscription : subscriptions) {
-        bool const each = subscription->filter.depends_on_asker();
-        if (!each && subscription->filter.match(candidate) != Match::yes) continue;
+    bool begun = false;  // somebody may have heard of it
+    auto const deliver = [&](Subscription& subscription) {
+        bool const each = subscription.filter.depends_on_asker();
+        if (!each && subscription.filter.match(candidate) != Match::yes) return;
         if (event_id.empty()) {
             auto const& profile = said.component->entry().profile;
             event_id = events_.add(results, {profile, find_message(*profile, MessageKind::event, said.event_type)}, now);
         }
         EventNotifications notifications{{.event_id = {event_id},
                                           .event_type = said.event_type,
-                                          .subscribe_id = subscription->id,
+                                          .subscribe_id = subscription.id,
                                           .expire = now.utc + events_.kept_for(),
                                           .component_ref = said.component->ref(),
                                           .results = nullptr},
                                          results};
-        for (std::span<Subscription::Hearer const> hearers{subscription->hearers}; !hearers.empty();
+        begun = true;
+        for (std::span<Subscription::Hearer const> hearers{subscription.hearers}; !hearers.empty();
              hearers = hearers.subspan(1)) {
             call_nearer(hearers, notifier_);
             auto const& hearer = hearers.front();
-            if (each && !matches(*subscription, *hearer.session)) continue;
-            events_.tell(hearer.slot);
-            notifier_.tell(*hearer.queue, notifications.of(hearer.inline_results));
+            deliveries([&] {
+                if (each && !matches(subscription, *hearer.session)) return;
+                events_.tell(hearer.slot);
+                notifier_.tell(*hearer.queue, notifications.of(hearer.inline_results));
+            });
         }
+    };
+    for (auto* subscription : subscriptions) {
+        if (begun)
+            deliveries([&] { deliver(*subscription); });
+        else
+            deliver(*subscription);
     }
+    ++events_published_;
 }
 
 }  // namespace rois

@@ -1,7 +1,8 @@
 #include "engine/executor.hpp"
 
 #include <algorithm>
-#include <exception>
+#include <iterator>
+#include <ranges>
 #include <utility>
 
 #include "engine/parameters.hpp"
@@ -14,11 +15,11 @@ namespace {
 
 constexpr auto not_halted = "the component has not confirmed that it stands still";
 
-// The commands of a session that have not ended, in the order in which they were given.
+// The commands of a session whose end is not done yet, in the order in which they were given.
 std::vector<std::shared_ptr<Command>> live_commands(Session const& session) {
     std::vector<std::shared_ptr<Command>> live;
     for (auto const& [id, command] : session.commands)
-        if (command->state != Command::State::ended) live.push_back(command);
+        if (!command->finished) live.push_back(command);
     std::ranges::sort(live, {}, [](auto const& command) { return command->handle; });
     return live;
 }
@@ -62,15 +63,34 @@ Executor::SharedCommand Executor::make(Session& session, CommandMessage const& m
 }
 
 void Executor::execute(Session& session, CommandUnitSequence const& sequence, Instant now) {
-    auto const execution =
-        std::make_shared<Execution>(sequence, [&](CommandMessage const& message) { return make(session, message); });
+    auto const before = last_handle_;
+    std::shared_ptr<Execution> execution;
+    try {
+        execution = std::make_shared<Execution>(sequence, [&](CommandMessage const& message) { return make(session, message); });
+    } catch (...) {
+        forget_made(session, before);
+        throw;
+    }
     for (auto const& command : execution->commands()) command->execution = execution;
-    give_turns(execution, execution->begin(0), now);
+    try {
+        give_turns(execution, execution->begin(0), now);
+    } catch (...) {
+        give_up_waiting(*execution);
+        throw;
+    }
     run_ready(now);
 }
 
 void Executor::run_alone(Session& session, CommandMessage const& message, Instant now) {
-    run(make(session, message), now);
+    auto const before = last_handle_;
+    SharedCommand command;
+    try {
+        command = make(session, message);
+    } catch (...) {
+        forget_made(session, before);
+        throw;
+    }
+    attempt(command, [&] { run(command, now); });
     run_ready(now);
 }
 
@@ -93,20 +113,22 @@ void Executor::give_turns(std::shared_ptr<Execution> const& execution, std::vect
 // Runs what is ready, and what becomes ready by that; a loop, not a recursion, however long a sequence is.
 void Executor::run_ready(Instant now) {
     if (std::exchange(running_ready_, true)) return;
+    Attempts attempts;
     while (!ready_.empty()) {
         auto const [execution, node] = std::move(ready_.front());
         ready_.pop_front();
         if (auto const& command = execution->command_at(node)) {
-            run(command, now);
-        } else {
-            give_turns(execution, execution->begin(node), now);
+            attempts([&] { attempt(command, [&] { run(command, now); }); });
+        } else if (!attempts([&] { give_turns(execution, execution->begin(node), now); })) {
+            give_up_waiting(*execution);
         }
     }
     running_ready_ = false;
+    attempts.rethrow();
 }
 
 void Executor::run(SharedCommand const& command, Instant now) {
-    if (command->state != Command::State::waiting) return;
+    if (command->state != Command::State::waiting || command->given_up) return;
     if (command->binding_lost || command->component->bound_to != command->session)
         return end(command, CompletedStatus::abort, "its component was released before its turn came", now);
     command->state = Command::State::running;
@@ -221,17 +243,19 @@ void Executor::await_start(SharedCommand const& command, Instant now) {
 
 void Executor::start_timed_out(CommandHandle handle, Instant now) {
     auto const found = live_.find(static_cast<std::uint64_t>(handle));
-    if (found == live_.end()) return;
+    if (found == live_.end() || found->second->state != Command::State::running) return;
     auto const command = found->second;
-    command->start_deadline.reset();
     auto& component = *command->component;
     std::string const reason = "the command '" + command->type + "' did not start in time";
     agenda_.add(ErrorOccurred{&component, ErrorType::component_not_responding, reason});
+    command->start_deadline.reset();
     bool const is_start = component.start == command;
     std::erase(component.functions, command);
-    halt(component, is_start ? CompletedStatus::timeout : CompletedStatus::abort, reason, now);
-    end(command, CompletedStatus::timeout, reason, now);
-    run_ready(now);
+    Attempts attempts;
+    attempts([&] { halt(component, is_start ? CompletedStatus::timeout : CompletedStatus::abort, reason, now); });
+    attempts([&] { end(command, CompletedStatus::timeout, reason, now); });
+    attempts([&] { run_ready(now); });
+    attempts.rethrow();
 }
 
 void Executor::started(CommandHandle handle) {
@@ -243,7 +267,7 @@ void Executor::started(CommandHandle handle) {
     if (auto const deadline = std::exchange(found->second->start_deadline, {})) deadlines_.cancel(*deadline);
 }
 
-void Executor::completed(CommandEnded said, Instant now) {
+void Executor::completed(CommandEnded& said, Instant now) {
     auto const found = live_.find(static_cast<std::uint64_t>(said.command));
     if (found == live_.end() || found->second->state != Command::State::running) {
         ++stray_answers_;
@@ -259,7 +283,7 @@ void Executor::completed(CommandEnded said, Instant now) {
     if (said.status == CompletedStatus::ok) component.succeeded();
     std::erase(component.functions, command);
     follow_up(component, command, said.status == CompletedStatus::ok ? said.afterwards : Afterwards::as_before);
-    end(command, said.status, std::move(said.reason), now, std::move(said.results));
+    end(command, said.status, said.reason, now, std::move(said.results));
     run_ready(now);
 }
 
@@ -280,34 +304,56 @@ void Executor::end(SharedCommand const& command, Called called, Instant now) {
     end(command, ok ? CompletedStatus::ok : CompletedStatus::error, ok ? "" : "the component failed", now);
 }
 
-void Executor::end(SharedCommand const& command, CompletedStatus status, std::string reason, Instant now, Results results) {
+// From here on it has ended, whatever fails: then the next tick finishes that.
+void Executor::end(SharedCommand const& command, CompletedStatus status, std::string_view reason, Instant now, Results results) {
     if (command->state == Command::State::ended) return;
     command->state = Command::State::ended;
     command->status = status;
     command->results = std::move(results);
-    command->reason = std::move(reason);
     command->ended_at = now.steady;
     if (command->start_deadline) deadlines_.cancel(*command->start_deadline);
-    live_.erase(static_cast<std::uint64_t>(command->handle));
     ++completed_by_status_.at(static_cast<std::size_t>(status));
-    journal_->command_ended(*command);
-    if (command->session != nullptr) {
-        notifier_.tell(*command->session, Completed{command->id, status});
-        remember(command, now);
+    attempt(command, [&] {
+        command->reason = reason;
+        finish(command, now);
+    });
+}
+
+// Tells its session, keeps its results, and lets its sequence go on.
+void Executor::finish(SharedCommand const& command, Instant now) {
+    if (command->session != nullptr && !command->told) {
+        journal_->command_ended(*command);
+        notifier_.tell(*command->session, Completed{command->id, command->status});
+        command->told = true;
     }
-    auto const execution = std::exchange(command->execution, nullptr);
-    if (!execution) return;
-    auto const turns = execution->command_ended(command->node, status);
+    if (command->session != nullptr) remember(command, now);
+    if (auto const execution = std::exchange(command->execution, nullptr)) {
+        try {
+            go_on_in_sequence(execution, *command, now);
+        } catch (...) {
+            give_up_waiting(*execution);
+            throw;
+        }
+    }
+    command->finished = true;
+    live_.erase(static_cast<std::uint64_t>(command->handle));
+}
+
+void Executor::go_on_in_sequence(std::shared_ptr<Execution> const& execution, Command const& ended, Instant now) {
+    auto const turns = execution->command_ended(ended.node, ended.status);
     for (auto const& aborted : execution->take_aborted())
         end(aborted, CompletedStatus::abort,
-            "the command " + quoted(command->id.text) + " of its sequence ended with " + std::string{to_text(status)}, now);
+            "the command " + quoted(ended.id.text) + " of its sequence ended with " + std::string{to_text(ended.status)}, now);
     give_turns(execution, turns, now);
 }
 
 void Executor::remember(SharedCommand const& command, Instant now) {
     auto& session = *command->session;
-    if (session.ended.empty()) by_age_.emplace(command->ended_at, &session);
-    session.ended.push_back(command);
+    if (!command->kept) {
+        session.ended.push_back(command);
+        command->kept = true;
+        if (session.ended.size() == 1) by_age_.emplace(command->ended_at, &session);
+    }
     forget_old_results(session, now);
 }
 
@@ -349,21 +395,24 @@ void Executor::part(RegisteredComponent& component, Instant now) {
 }
 
 void Executor::abort_all(Session& session, Instant now) {
-    for (auto const& command : live_commands(session)) end(command, CompletedStatus::abort, "its session has ended", now);
-    run_ready(now);
+    Attempts attempts;
+    for (auto const& command : live_commands(session)) {
+        bool const ended = command->state == Command::State::ended;
+        attempts([&] { ended ? finish(command, now) : end(command, CompletedStatus::abort, "its session has ended", now); });
+    }
+    attempts([&] { run_ready(now); });
+    attempts.rethrow();
 }
 
-void Executor::stop_all(std::string const& reason, Instant now) {
-    std::exception_ptr failed;  // for want of memory, say: the others are halted nevertheless
-    for (auto const& [ref, component] : registry_.all()) {
-        try {
-            halt(*component, CompletedStatus::abort, reason, now);
-        } catch (...) {
-            failed = std::current_exception();
-        }
-    }
-    if (failed) std::rethrow_exception(failed);
-    while (!live_.empty()) end(SharedCommand{live_.begin()->second}, CompletedStatus::abort, reason, now);
+void Executor::stop_all(std::string_view reason, Instant now) {
+    Attempts attempts;
+    for (auto const& [ref, component] : registry_.all()) attempts([&] { halt(*component, CompletedStatus::abort, reason, now); });
+    std::vector<SharedCommand> live;
+    bool const listed = attempts([&] { std::ranges::copy(live_ | std::views::values, std::back_inserter(live)); });
+    if (listed) attempts([&] { end_each(live, CompletedStatus::abort, reason, now); });
+    if (!listed)
+        for (auto const& [handle, command] : live_) give_up(*command);
+    attempts.rethrow();
 }
 
 void Executor::let_run_on(Session& session) {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -46,12 +47,13 @@ public:
 
     // What components said.
     void started(CommandHandle);
-    void completed(CommandEnded, Instant now);
+    void completed(CommandEnded&, Instant now);
     void halted(RegisteredComponent&, Instant now);
 
     // Halts the component, whatever the engine believes it does, and ends all that runs there: `start` with this status, commands
     // of its profile with ABORT. Repeats it until it is confirmed (decision 35).
-    void halt(RegisteredComponent&, CompletedStatus status_of_start, std::string const& reason, Instant now);
+    // The component is told so also when memory is short; what then remains of the commands is left to `mend`.
+    void halt(RegisteredComponent&, CompletedStatus status_of_start, std::string_view reason, Instant now);
 
     // Halts the component, and ends what the session has waiting for it (decision 6).
     void release(Session&, RegisteredComponent&, Instant now);
@@ -60,7 +62,7 @@ public:
     void part(RegisteredComponent&, Instant now);
 
     // Suspends what works on the component, or halts it where that fails, and reports why (decision 33).
-    void hold(RegisteredComponent&, std::string const& reason, Instant now);
+    void hold(RegisteredComponent&, std::string_view reason, Instant now);
 
     // Ends all that the session commanded, with ABORT; halts nothing.
     void abort_all(Session&, Instant now);
@@ -69,11 +71,14 @@ public:
     void let_run_on(Session&);
 
     // Halts every component, and ends all that runs or waits, whoever commanded it.
-    void stop_all(std::string const& reason, Instant now);
+    void stop_all(std::string_view reason, Instant now);
 
     // Removes results, of the session or of all, that are older than they are kept.
     void forget_old_results(Session&, Instant now);
     void forget_old_results(Instant now);
+
+    // At each tick: goes on with what an exception has interrupted. Commands that were given up end, and their components halt.
+    void mend(Instant now);
 
     // Looks no more after what the session keeps.
     void forget(Session&);
@@ -100,7 +105,8 @@ private:
     void go_on_with_start(SharedCommand const&, Instant now);
     void halt_what_moves(RegisteredComponent&, Instant now);
     void ask_to_halt(RegisteredComponent&, Instant now);
-    void halt_failed(RegisteredComponent&, CompletedStatus, std::string const& reason, Instant now);
+    void await_confirmation(RegisteredComponent&, Instant now);
+    void halt_failed(RegisteredComponent&, CompletedStatus, std::string_view reason, Instant now);
     void halt_again_later(RegisteredComponent&, Instant now);
     void go_on(RegisteredComponent&, Instant now);
     void forget_halt(RegisteredComponent&, Instant now);
@@ -109,8 +115,18 @@ private:
     void start_timed_out(CommandHandle, Instant now);
     static void follow_up(RegisteredComponent&, SharedCommand const&, Afterwards);
     // `reason`: why it is not OK, for people.
-    void end(SharedCommand const&, CompletedStatus, std::string reason, Instant now, Results = {});
+    void end(SharedCommand const&, CompletedStatus, std::string_view reason, Instant now, Results = {});
     void end(SharedCommand const& command, Called called, Instant now);
+    void end_each(std::vector<SharedCommand> const&, CompletedStatus, std::string_view reason, Instant now);
+    void finish(SharedCommand const&, Instant now);
+    void go_on_in_sequence(std::shared_ptr<Execution> const&, Command const& ended, Instant now);
+    template <class What>
+    void attempt(SharedCommand const&, What const&);
+    void mend(RegisteredComponent&, Instant now);
+    void give_up(Command&) noexcept;
+    void give_up_waiting(Execution const&) noexcept;
+    void end_given_up(SharedCommand const&, Instant now);
+    void forget_made(Session&, std::uint64_t after) noexcept;
     Called store(Command const&);
     void remember(SharedCommand const&, Instant now);
 
@@ -123,11 +139,23 @@ private:
     std::unordered_map<std::uint64_t, SharedCommand> live_;  // waiting or running, by handle
     std::deque<std::pair<std::shared_ptr<Execution>, std::size_t>> ready_;  // units whose turn has come
     bool running_ready_ = false;
+    bool needs_mending_ = false;                    // some command was given up, or some halt has no deadline
     std::set<std::pair<Steady, Session*>> by_age_;  // the sessions that keep results, by when their oldest one ended
     std::uint64_t last_handle_ = 0;
     std::uint64_t last_id_ = 0;
     std::array<std::uint64_t, 5> completed_by_status_{};
     std::uint64_t stray_answers_ = 0;
 };
+
+// If this fails, the next tick ends the command.
+template <class What>
+void Executor::attempt(SharedCommand const& command, What const& what) {
+    try {
+        what();
+    } catch (...) {
+        give_up(*command);
+        throw;
+    }
+}
 
 }  // namespace rois

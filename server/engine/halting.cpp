@@ -13,16 +13,18 @@ constexpr std::chrono::milliseconds between_attempts{200};
 }  // namespace
 
 // The component first: whatever becomes of the rest, it has been told.
-void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_start, std::string const& reason, Instant now) {
-    ask_to_halt(component, now);
+void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_start, std::string_view reason, Instant now) {
+    Attempts attempts;
+    attempts([&] { ask_to_halt(component, now); });
     component.activity = RegisteredComponent::Activity::idle;
     component.suspended = Suspended::nothing;
-    if (auto const start = std::exchange(component.start, nullptr)) end(start, status_of_start, reason, now);
-    for (auto const& function : std::exchange(component.functions, {})) end(function, CompletedStatus::abort, reason, now);
-    if (!component.halting) return;
-    auto const waiting = component.halting->waiting;
-    for (auto const& command : waiting)
-        if (command->type == "start") end(command, CompletedStatus::abort, reason, now);
+    if (auto const start = std::exchange(component.start, nullptr)) attempts([&] { end(start, status_of_start, reason, now); });
+    attempts([&] { end_each(std::exchange(component.functions, {}), CompletedStatus::abort, reason, now); });
+    for (std::size_t i = 0; component.halting && i < component.halting->waiting.size(); ++i) {
+        auto const waiting = component.halting->waiting[i];
+        if (waiting->type == "start") attempts([&] { end(waiting, CompletedStatus::abort, reason, now); });
+    }
+    attempts.rethrow();
 }
 
 // After it failed to begin something: it may have begun nevertheless.
@@ -37,14 +39,17 @@ void Executor::ask_to_halt(RegisteredComponent& component, Instant now) {
     if (component.has_departed()) return;
     if (called == Called::ok && answer == Halted::confirmed) return go_on(component, now);
     if (called == Called::failed) return halt_failed(component, CompletedStatus::error, "the component failed to halt", now);
-    if (component.halting) {
-        if (component.halting->failed) halt_again_later(component, now);
-        return;
-    }
-    component.halting.emplace().due =
+    if (component.halting && component.halting->failed) return halt_again_later(component, now);
+    if (!component.halting) component.halting.emplace();
+    if (component.halting->due == Deadlines::Ticket{}) await_confirmation(component, now);
+}
+
+void Executor::await_confirmation(RegisteredComponent& component, Instant now) {
+    needs_mending_ = true;  // in case this fails
+    component.halting->due =
         deadlines_.add(now.steady + time_to_confirm, [this, weak = component.weak_from_this()](Instant then) {
             auto const late = weak.lock();
-            if (!late) return;
+            if (!late || !late->halting || late->halting->failed) return;
             std::string const reason = "the component did not confirm that it stands still";
             agenda_.add(ErrorOccurred{late.get(), ErrorType::component_not_responding, reason});
             halt_failed(*late, CompletedStatus::timeout, reason, then);
@@ -53,19 +58,22 @@ void Executor::ask_to_halt(RegisteredComponent& component, Instant now) {
 }
 
 // Only a confirmed halt leads out of this state.
-void Executor::halt_failed(RegisteredComponent& component, CompletedStatus status, std::string const& reason, Instant now) {
+void Executor::halt_failed(RegisteredComponent& component, CompletedStatus status, std::string_view reason, Instant now) {
     if (!component.halting) component.halting.emplace();
     component.halting->failed = true;
-    halt_again_later(component, now);
-    for (auto const& command : std::exchange(component.halting->waiting, {})) end(command, status, reason, now);
+    Attempts attempts;
+    attempts([&] { halt_again_later(component, now); });
+    attempts([&] { end_each(std::exchange(component.halting->waiting, {}), status, reason, now); });
+    attempts.rethrow();
 }
 
 void Executor::halt_again_later(RegisteredComponent& component, Instant now) {
     auto& due = component.halting->due;
-    deadlines_.cancel(due);
+    deadlines_.cancel(std::exchange(due, {}));
+    needs_mending_ = true;  // in case this fails
     due = deadlines_.add(now.steady + between_attempts, [this, weak = component.weak_from_this()](Instant then) {
         auto const failed = weak.lock();
-        if (!failed) return;
+        if (!failed || !failed->halting) return;
         ask_to_halt(*failed, then);
         run_ready(then);
     });
@@ -81,13 +89,17 @@ void Executor::go_on(RegisteredComponent& component, Instant now) {
     if (!halting) return;
     deadlines_.cancel(halting->due);
     if (halting->failed) component.succeeded();
+    Attempts attempts;
     for (auto const& command : halting->waiting) {
-        if (command->type == "stop")
-            end(command, CompletedStatus::ok, {}, now);
-        else
-            go_on_with_start(command, now);
+        attempts([&] {
+            if (command->type == "stop")
+                end(command, CompletedStatus::ok, {}, now);
+            else
+                attempt(command, [&] { go_on_with_start(command, now); });
+        });
     }
-    run_ready(now);
+    attempts([&] { run_ready(now); });
+    attempts.rethrow();
 }
 
 // A `stop`, or a `start` that takes the place of another one, goes on when the halt is confirmed.
@@ -102,19 +114,21 @@ void Executor::forget_halt(RegisteredComponent& component, Instant now) {
     auto const halting = std::exchange(component.halting, {});
     if (!halting) return;
     deadlines_.cancel(halting->due);
-    for (auto const& command : halting->waiting) end(command, CompletedStatus::abort, "its component has gone", now);
+    end_each(halting->waiting, CompletedStatus::abort, "its component has gone", now);
 }
 
-void Executor::hold(RegisteredComponent& component, std::string const& reason, Instant now) {
+void Executor::hold(RegisteredComponent& component, std::string_view reason, Instant now) {
     bool const held = component.call([&](Component& c) { c.suspend(now); }) == Called::ok;
-    if (held)
-        component.suspended = Suspended::all;
-    else
-        halt(component, CompletedStatus::abort, reason, now);
-    agenda_.add(ErrorOccurred{&component, ErrorType::user_defined_error,
-                              (held ? "its motion is held: " : "its motion was stopped: ") + reason +
-                                  (held ? "; resume goes on, and so does a new command" : "")});
-    run_ready(now);
+    if (held) component.suspended = Suspended::all;
+    Attempts attempts;
+    if (!held) attempts([&] { halt(component, CompletedStatus::abort, reason, now); });
+    attempts([&] {
+        agenda_.add(ErrorOccurred{&component, ErrorType::user_defined_error,
+                                  std::string{held ? "its motion is held: " : "its motion was stopped: "}.append(reason).append(
+                                      held ? "; resume goes on, and so does a new command" : "")});
+    });
+    attempts([&] { run_ready(now); });
+    attempts.rethrow();
 }
 
 }  // namespace rois

@@ -39,16 +39,16 @@ bool NotificationQueue::make_room() {
         return std::holds_alternative<ReceiveEvent>(entry.notification->body);
     });
     if (event == entries_.end()) return false;
+    auto const* const gap_before = event == first_waiting ? nullptr : as_lost(*std::prev(event));
+    auto gap = gap_until(event->sequence, gap_before == nullptr ? 1 : gap_before->count + 1);
     --waiting_;
     ++lost_;
-    if (event != first_waiting) {
-        if (auto const* gap = as_lost(*std::prev(event))) {
-            *std::prev(event) = gap_until(event->sequence, gap->count + 1);
-            entries_.erase(event);
-            return true;
-        }
+    if (gap_before == nullptr) {
+        *event = std::move(gap);
+    } else {
+        *std::prev(event) = std::move(gap);
+        entries_.erase(event);
     }
-    *event = gap_until(event->sequence, 1);
     return true;
 }
 
@@ -87,7 +87,10 @@ NotificationQueue::Next NotificationQueue::read_recent(std::uint64_t after, std:
     return after_locked(last);
 }
 
+// All of them or none: only the growth can fail.
 void NotificationQueue::settle_recent() {
+    if (entries_.capacity() < entries_.size() + recent_count_)
+        entries_.reserve(std::max(2 * entries_.size(), entries_.size() + recent_count_));
     for (std::size_t i = 0; i < recent_count_; ++i) entries_.push_back(std::move(recent_[i]));
     recent_count_ = 0;
     forget();

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <utility>
-#include <vector>
 
 #include "engine/engine.hpp"
 #include "engine/prefetch.hpp"
@@ -25,10 +24,10 @@ public:
     void tell(Session& session, SharedNotification notification) { tell(*session.notifications, std::move(notification)); }
 
     void tell(NotificationQueue& queue, SharedNotification notification) {
-        bool const known = queue.overflowed();
         auto const lost = queue.lost(), last = queue.last_sequence();
+        bool const known = queue.overflowed();
         if (queue.push(std::move(notification)) == NotificationQueue::Pushed::overflow && !known) {
-            overflowed_.push_back(queue.session());
+            overflowed_ = true;
             ++overflows_;
         }
         if (queue.last_sequence() == last) return;
@@ -47,8 +46,8 @@ public:
         outbox_.notify(*session.notifications);
     }
 
-    // Sessions that could not be told something, since the last call (decision 23).
-    std::vector<SessionId> take_overflowed() { return std::exchange(overflowed_, {}); }
+    // Whether some session could not be told something since the last call (decision 23).
+    bool take_overflowed() { return std::exchange(overflowed_, false); }
 
     std::uint64_t told() const { return told_; }
     std::uint64_t lost() const { return lost_; }
@@ -56,7 +55,7 @@ public:
 
 private:
     Outbox& outbox_;
-    std::vector<SessionId> overflowed_;
+    bool overflowed_ = false;
     std::uint64_t told_ = 0;
     std::uint64_t lost_ = 0;
     std::uint64_t overflows_ = 0;

@@ -143,9 +143,14 @@ ComponentStatus RegisteredComponent::status_for(Session const* asker) const {
     return status;
 }
 
-void RegisteredComponent::report_failure(std::string problem, Report report) const {
+void RegisteredComponent::report_failure(std::string_view problem, Report report) const noexcept {
     failed_ = true;
-    this->report(ErrorType::component_internal_error, std::move(problem), report);
+    try {
+        this->report(ErrorType::component_internal_error, std::string{problem}, report);
+    } catch (...) {
+        // Its status says ERROR all the same.
+        told_once_.erase(ErrorType::component_internal_error);
+    }
 }
 
 void RegisteredComponent::report(ErrorType type, std::string text, Report report) const {
@@ -316,12 +321,18 @@ void RegisteredComponent::started(CommandHandle command) { agenda_.add(CommandSt
 
 void RegisteredComponent::completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards,
                                     std::string reason) {
-    auto told_results = told(std::move(results), "a command", Report::each);
-    if (!told_results) {
-        status = CompletedStatus::error;
-        reason = "its results are in a frame that cannot be told";
+    try {
+        auto told_results = told(std::move(results), "a command", Report::each);
+        if (!told_results) {
+            status = CompletedStatus::error;
+            reason = "its results are in a frame that cannot be told";
+        }
+        agenda_.add(CommandEnded{command, status, std::move(told_results).value_or(Results{}), afterwards, std::move(reason)});
+    } catch (...) {
+        answer_lost = true;
+        agenda_.note_lost_answer();
+        throw;
     }
-    agenda_.add(CommandEnded{command, status, std::move(told_results).value_or(Results{}), afterwards, std::move(reason)});
 }
 
 void RegisteredComponent::halted() { agenda_.add(HaltConfirmed{this}); }
@@ -329,7 +340,7 @@ void RegisteredComponent::halted() { agenda_.add(HaltConfirmed{this}); }
 void RegisteredComponent::event(std::string_view event_type, Results results) {
     if (check(MessageKind::event, event_type, results, Report::once) == Answer::wrong) return;
     if (auto here = told(std::move(results), event_type, Report::once))
-        agenda_.add(EventOccurred{this, std::string{event_type}, std::move(*here)});
+        agenda_.add(EventOccurred{this, std::string{event_type}, std::make_shared<Results const>(std::move(*here))});
 }
 
 void RegisteredComponent::error(ErrorType type, std::string text, Report report) { this->report(type, std::move(text), report); }
@@ -420,8 +431,8 @@ Registry::Bound Registry::bind(RegisteredComponent& component, Session& session,
         component.bound_anew();
         component.restore_defaults(now);  // what still runs for an ended session (on_session_end) left its own
     }
-    component.bound_to = &session;
     session.bound.insert(&component);
+    component.bound_to = &session;
     return Bound::ok;
 }
 

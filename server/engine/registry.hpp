@@ -124,6 +124,9 @@ public:
 
     std::optional<UnconfirmedHalt> halting;
 
+    // It answered a command, and there was no memory to keep that: nobody knows what it does now.
+    bool answer_lost = false;
+
     // A command or query of it: what failed before is over.
     void succeeded();
     // Whoever has bound it now has heard nothing of it yet.
@@ -138,7 +141,8 @@ public:
 private:
     // What a message tells; null when the profile has no such message.
     TypedProfiles const* results_of(MessageKind, std::string_view message) const;
-    void report_failure(std::string problem, Report) const;
+    // Whatever fails: what cannot be reported for want of memory is not reported.
+    void report_failure(std::string_view problem, Report) const noexcept;
     void report(ErrorType, std::string text, Report) const;
     // Nothing when it failed, because what it told cannot be told in the engine's frame.
     std::optional<Results> told(Results, std::string_view message, Report) const;

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <unordered_map>
 
 #include "engine/command.hpp"
@@ -46,6 +47,10 @@ struct Session {
     Steady heard;  // when something was heard last over HTTP, or a link closed
     Steady quiet_until;
     std::optional<Deadlines::Ticket> end_of_window;  // when to look whether the link was lost for good
+
+    // It ends, but that failed for want of memory so far: nobody finds it any more, and the next tick goes on.
+    bool ending = false;
+    std::string_view why_it_ends;  // a literal
 };
 
 }  // namespace rois

@@ -25,23 +25,26 @@ auto place_of(Session const& session, Subscription& subscription) {
 }  // namespace
 
 void Subscriptions::OfType::add(Subscription& subscription) {
-    by_meaning.emplace(subscription.filter.meaning(), &subscription);
-    auto const demand = subscription.filter.demand();
-    if (!demand) {
-        others.insert(&subscription);
-        return;
+    subscription.demand = subscription.filter.demand();
+    auto const& demand = subscription.demand;
+    try {
+        subscription.meaning = &by_meaning.emplace(subscription.filter.meaning(), &subscription).first->first;
+        if (!demand) others.insert(&subscription);
+        if (!demand) return;
+        for (auto const ref : demand->refs) by_ref[std::string{ref}].insert(&subscription);
+        for (auto const type : demand->types) by_type[std::string{type}].insert(&subscription);
+    } catch (...) {
+        remove(subscription);
+        throw;
     }
-    for (auto const ref : demand->refs) by_ref[std::string{ref}].insert(&subscription);
-    for (auto const type : demand->types) by_type[std::string{type}].insert(&subscription);
 }
 
-void Subscriptions::OfType::remove(Subscription& subscription) {
-    by_meaning.erase(subscription.filter.meaning());
+void Subscriptions::OfType::remove(Subscription& subscription) noexcept {
+    if (subscription.meaning != nullptr) by_meaning.erase(by_meaning.find(*subscription.meaning));
     others.erase(&subscription);
-    auto const demand = subscription.filter.demand();
-    if (!demand) return;
-    for (auto const ref : demand->refs) take_out(by_ref, ref, &subscription);
-    for (auto const type : demand->types) take_out(by_type, type, &subscription);
+    if (!subscription.demand) return;
+    for (auto const ref : subscription.demand->refs) take_out(by_ref, ref, &subscription);
+    for (auto const type : subscription.demand->types) take_out(by_type, type, &subscription);
 }
 
 Subscription* Subscriptions::find(std::string_view event_type, Filter const& filter) const {
@@ -51,6 +54,7 @@ Subscription* Subscriptions::find(std::string_view event_type, Filter const& fil
     return known == alike->second.by_meaning.end() ? nullptr : known->second;
 }
 
+// From the session's own list on, nothing can fail.
 Subscription& Subscriptions::add(Session& session, std::string const& event_type, Filter filter, bool inline_results) {
     auto* subscription = find(event_type, filter);
     if (subscription == nullptr) {
@@ -59,19 +63,38 @@ Subscription& Subscriptions::add(Session& session, std::string const& event_type
         made->id.text = "s-" + std::to_string(last_);
         made->event_type = event_type;
         made->filter = std::move(filter);
-        subscription = made.get();
-        by_type_[event_type].add(*subscription);
-        by_id_.emplace(subscription->id, std::move(made));
+        subscription = &keep(std::move(made));
+    }
+    auto& hearers = subscription->hearers;
+    bool added = false;
+    try {
+        if (hearers.size() == hearers.capacity()) hearers.reserve(2 * hearers.size() + 1);
+        added = session.subscriptions.insert(subscription).second;
+    } catch (...) {
+        forget_if_unheard(*subscription);
+        throw;
     }
     auto const place = place_of(session, *subscription);
-    if (session.subscriptions.insert(subscription).second) {
+    if (added) {
         session.predicates += subscription->filter.predicates();
-        subscription->hearers.insert(
-            place, {&session, session.number, session.events.slot, session.notifications.get(), inline_results});
+        hearers.insert(place, {&session, session.number, session.events.slot, session.notifications.get(), inline_results});
     } else {
         place->inline_results = inline_results;
     }
     return *subscription;
+}
+
+Subscription& Subscriptions::keep(std::unique_ptr<Subscription> made) {
+    auto& of_type = by_type_[made->event_type];
+    auto const place = by_id_.emplace(made->id, nullptr).first;
+    try {
+        of_type.add(*made);
+    } catch (...) {
+        by_id_.erase(place);
+        throw;
+    }
+    place->second = std::move(made);
+    return *place->second;
 }
 
 void Subscriptions::remove(Session& session, SubscribeId const& id) {
@@ -84,7 +107,9 @@ void Subscriptions::remove(Session& session, SubscribeId const& id) {
 }
 
 void Subscriptions::remove_all(Session& session) {
-    for (auto* subscription : std::exchange(session.subscriptions, {})) {
+    while (!session.subscriptions.empty()) {
+        auto* const subscription = *session.subscriptions.begin();
+        session.subscriptions.erase(session.subscriptions.begin());
         part(session, *subscription);
         forget_if_unheard(*subscription);
     }
@@ -123,10 +148,10 @@ std::set<Session*> Subscriptions::hearers(RegisteredComponent const& component, 
     return hearing;
 }
 
-void Subscriptions::forget_if_unheard(Subscription& subscription) {
+void Subscriptions::forget_if_unheard(Subscription& subscription) noexcept {
     if (!subscription.hearers.empty()) return;
-    by_type_[subscription.event_type].remove(subscription);
-    by_id_.erase(subscription.id);
+    by_type_.find(subscription.event_type)->second.remove(subscription);
+    by_id_.erase(by_id_.find(subscription.id));
 }
 
 }  // namespace rois

@@ -27,6 +27,9 @@ struct Subscription {
     SubscribeId id;
     std::string event_type;
     Filter filter;
+    // Kept, so that it can be removed without memory: where it is found by them.
+    std::string const* meaning = nullptr;
+    std::optional<Demand> demand;
     struct Hearer {
         Session* session;
         std::uint64_t number;      // the session's
@@ -72,12 +75,13 @@ private:
         InOrder others;
         std::unordered_map<std::string, Subscription*> by_meaning;  // of their filters
 
-        void add(Subscription&);
-        void remove(Subscription&);
+        void add(Subscription&);  // all of it or nothing
+        void remove(Subscription&) noexcept;
     };
 
+    Subscription& keep(std::unique_ptr<Subscription>);
     static void part(Session&, Subscription&);
-    void forget_if_unheard(Subscription&);
+    void forget_if_unheard(Subscription&) noexcept;
 
     std::unordered_map<SubscribeId, std::unique_ptr<Subscription>, IdHash> by_id_;
     std::map<std::string, OfType, std::less<>> by_type_;

@@ -51,18 +51,18 @@ std::variant<Reply, Refusal> Engine::Core::connect(SessionId const& id, Connect 
     auto session = std::make_unique<Session>(terms, now.steady);
     session->id.text = fresh_secret_();
     session->number = ++last_session_;
-    auto const slot = free_slots_.empty() ? static_cast<std::uint32_t>(sessions_.size()) : free_slots_.back();
-    if (free_slots_.empty()) {
-        free_slots_.reserve(slot + 1);  // so that the end of a session needs no memory
-    } else {
-        free_slots_.pop_back();
-    }
+    bool const new_slot = free_slots_.empty();
+    auto const slot = new_slot ? static_cast<std::uint32_t>(sessions_.size()) : free_slots_.back();
+    if (new_slot) free_slots_.reserve(slot + 1);  // so that the end of a session needs no memory
     session->events = {slot, events_.next()};
     session->errors = {slot, errors_.next()};
     session->notifications =
         std::make_shared<NotificationQueue>(session->id, settings_.max_waiting_notifications, settings_.max_sent_notifications);
-    auto& opened = *sessions_.emplace(session->id, std::move(session)).first->second;
-    await_end_of_window(opened);
+    await_end_of_window(*session);
+    auto& place = sessions_[session->id];
+    place = std::move(session);
+    auto& opened = *place;
+    if (!new_slot) free_slots_.pop_back();
     journal_->session_opened(opened.number);
     if (everything_is_stopped_) {
         auto error = noted(everything_was_stopped(), now);
@@ -146,33 +146,36 @@ Reply Engine::Core::perform(Session& session, GetErrorDetail const& get, Instant
 }
 
 // Decision 24: the engine's errors go to all sessions, a component's to those who have to do with it.
-void Engine::Core::publish(ErrorOccurred said, Instant now) {
+void Engine::Core::publish(ErrorOccurred const& said, Instant now, Attempts& deliveries) {
     auto const* const component = said.component;
-    auto const notification = std::make_shared<OutgoingNotification const>(noted(std::move(said), now));
-    auto const tell = [&](Session& session) {
-        errors_.tell(session.errors.slot);
-        notifier_.tell(session, notification);
-    };
-    if (component == nullptr) {
-        for (auto const& [id, session] : sessions_) tell(*session);
-        return;
+    std::set<Session*> concerned;
+    if (component != nullptr) {
+        Perspective ever{registry_, places_, nullptr, Perspective::Of::ever};
+        concerned = subscriptions_.hearers(*component, ever);
+        if (component->bound_to != nullptr) concerned.insert(component->bound_to);
     }
-    Perspective ever{registry_, places_, nullptr, Perspective::Of::ever};
-    auto concerned = subscriptions_.hearers(*component, ever);
-    if (component->bound_to != nullptr) concerned.insert(component->bound_to);
+    auto const notification = std::make_shared<OutgoingNotification const>(noted(said, now));
+    auto const tell = [&](Session& session) {
+        deliveries([&] {
+            errors_.tell(session.errors.slot);
+            notifier_.tell(session, notification);
+        });
+    };
+    if (component == nullptr)
+        for (auto const& [id, session] : sessions_) tell(*session);
     for (auto* session : concerned) tell(*session);
 }
 
 // Keeps its details.
-ReceiveError Engine::Core::noted(ErrorOccurred said, Instant now) {
-    ++errors_published_;
+ReceiveError Engine::Core::noted(ErrorOccurred const& said, Instant now) {
     auto results = std::make_shared<Results>();
     if (said.component != nullptr)
         results->parameters.push_back(reference("component_ref", said.component->ref().code, said.component->ref().codebook_ref));
     results->parameters.push_back(date_time("time", now.utc));
-    results->parameters.push_back(text("text", std::move(said.text)));
+    results->parameters.push_back(text("text", said.text));
     ReceiveError error{.error_id = {errors_.add(std::move(results), nullptr, now)}, .error_type = said.type, .component_ref = {}};
     if (said.component != nullptr) error.component_ref = said.component->ref();
+    ++errors_published_;
     return error;
 }
 

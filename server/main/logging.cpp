@@ -1,9 +1,11 @@
 #include "main/logging.hpp"
 
+#include <fcntl.h>
 #include <spdlog/pattern_formatter.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -39,16 +41,25 @@ spdlog::level::level_enum level_of(LogLevel level) {
 
 }  // namespace
 
-void set_up_logging(LogFormat format, LogLevel level) {
-    auto logger = spdlog::stderr_color_mt("rois-gateway");
+void protect_standard_files() {
+    std::signal(SIGPIPE, SIG_IGN);
+    for (int file = STDIN_FILENO; file <= STDERR_FILENO; ++file)
+        if (::fcntl(file, F_GETFD) < 0) ::open("/dev/null", O_RDWR);  // gets the lowest number, which is this one
+}
+
+std::shared_ptr<net::LogQueue const> set_up_logging(LogFormat format, LogLevel level) {
+    auto queue = std::make_shared<net::LogQueue>(STDERR_FILENO);
+    auto logger = std::make_shared<spdlog::logger>("rois-gateway", queue);
     auto formatter = std::make_unique<spdlog::pattern_formatter>(spdlog::pattern_time_type::utc);
     formatter->add_flag<JsonText>('*');
     formatter->set_pattern(format == LogFormat::json ? R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ","level":"%l","message":%*})"
                                                      : "%Y-%m-%dT%H:%M:%S.%eZ %^%l%$ %v");
     logger->set_formatter(std::move(formatter));
     logger->set_level(level_of(level));
-    logger->flush_on(spdlog::level::debug);
     spdlog::set_default_logger(std::move(logger));
+    return queue;
 }
+
+LogFlush::~LogFlush() { spdlog::default_logger_raw()->flush(); }
 
 }  // namespace rois

@@ -181,7 +181,7 @@ EngineProfile engine_profile(Settings const& settings, simulation::FloorPlan con
 void read_again(UserComponents& components, net::Gateway& gateway) {
     try {
         spdlog::info("profiles: reading them again after SIGHUP");
-        gateway.change(components.read());
+        gateway.change([&] { return components.read(); });
     } catch (std::exception const& error) {
         spdlog::warn("profiles: all stay as they are: {}", error.what());
     }
@@ -198,7 +198,8 @@ int serve(CommandLine const& command) {
         std::puts("configuration ok");
         return done;
     }
-    set_up_logging(settings.log_format, settings.log_level);
+    auto const log = set_up_logging(settings.log_format, settings.log_level);
+    LogFlush const flush;
     auto net_settings = with_all_hosts(settings);
     make_room_for_connections(net_settings, settings.media);
     for (auto const& warning : command.warnings) spdlog::warn("{}", warning);
@@ -211,10 +212,11 @@ int serve(CommandLine const& command) {
     if (has_steering(settings)) engine.add(simulation::simulated_hall(simulation, profile_of_hall(schemas)));
     SpeechLog const speech_log{simulation};
     net::Telemetry telemetry;
+    telemetry.show(log);
     net::Gateway gateway{engine, readers, telemetry, client_limits(net_settings)};
     UserComponents user_components{
         schemas, {simulation, media, schemas}, profiles, own_refs(settings, simulation->hall().plan()), settings.profiles};
-    if (!settings.profiles.empty()) gateway.change(user_components.read());
+    if (!settings.profiles.empty()) gateway.change([&] { return user_components.read(); });
     net::Documents const documents{gateway,
                                    telemetry,
                                    *schemas,
@@ -272,6 +274,7 @@ int complain(std::exception const& error, Exit code) {
 }  // namespace rois
 
 int main(int argc, char** argv) {
+    rois::protect_standard_files();
     try {
         rois::xml::Platform const platform;
         return rois::run(argc, argv);

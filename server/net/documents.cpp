@@ -8,6 +8,8 @@ namespace rois::net {
 
 namespace {
 
+constexpr std::chrono::milliseconds longest_tick{500};  // since the last one, while the engine is healthy
+
 std::string escaped(std::string_view text) {
     std::string html;
     for (char const c : text) {
@@ -120,7 +122,7 @@ HttpAnswer Documents::answer(Route const& route, RequestHead const& head) const 
         case Endpoint::floor_map:
             return floor_map(head);
         case Endpoint::healthz:
-            return plain("alive\n");
+            return health();
         case Endpoint::readyz:
             return readiness();
         case Endpoint::metrics:
@@ -178,8 +180,17 @@ HttpAnswer Documents::floor_map(RequestHead const& head) const {
     return versioned("application/xml; charset=utf-8", site_.floor_map, head);
 }
 
+// Without the engine, which may be locked.
+HttpAnswer Documents::health() const {
+    if (telemetry_.age_of_last_tick(std::chrono::steady_clock::now()) <= longest_tick) return plain("alive\n");
+    auto answer = plain("the engine's clock stands still\n");
+    answer.status = 503;
+    return answer;
+}
+
 HttpAnswer Documents::readiness() const {
     if (gateway_.shutting_down()) return answer_of(shutting_down());
+    if (auto answer = health(); answer.status != 200) return answer;
     std::string trouble;
     if (gateway_.everything_is_stopped()) trouble = "stopped: nothing starts until POST /rois/clear\n";
     for (auto const& ref : gateway_.not_halted()) trouble += ref + " has not confirmed that it stands still\n";

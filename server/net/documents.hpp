@@ -36,6 +36,7 @@ private:
     HttpAnswer schema_list(RequestHead const&) const;
     HttpAnswer schema(std::string const& file, RequestHead const&) const;
     HttpAnswer floor_map(RequestHead const&) const;
+    HttpAnswer health() const;
     HttpAnswer readiness() const;
     HttpAnswer metrics() const;
 

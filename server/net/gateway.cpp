@@ -1,6 +1,7 @@
 #include "net/gateway.hpp"
 
 #include <charconv>
+#include <thread>
 #include <utility>
 
 namespace rois::net {
@@ -64,10 +65,9 @@ void Hold::release() {
     gateway->readers_.notify(*queue_);
 }
 
-Reading::Reading(Gateway& gateway, Link link, std::uint64_t after, Reader& reader, std::shared_ptr<NotificationQueue> queue)
-    : gateway_{gateway}, link_{link}, after_{after}, reader_{reader}, queue_{std::move(queue)} {}
-
+// Neither part of it needs memory.
 Reading::~Reading() {
+    if (!queue_) return;
     std::lock_guard const lock{gateway_.mutex_};
     gateway_.readers_.leave(session(), reader_);
     gateway_.engine_.link_closed(session(), link_, closing_, present());
@@ -162,6 +162,7 @@ std::variant<Reply, Refusal> Gateway::perform(SessionId const& session, Operatio
     bool const opens = opener && !known && std::holds_alternative<Connect>(operation);
     if (opens) answer.fault = refusal_of(*opener);
     if (answer.fault) return Refusal::too_many_sessions;
+    log_.take_joined();  // of an operation that failed
     auto handled = engine_.handle(session, operation, now);
     answer.session_number = log_.take_joined();
     if (opens && answer.session_number != 0) quota_.opened(answer.session_number, opener);
@@ -201,6 +202,7 @@ void Gateway::heard_from_opened(std::variant<Reply, Refusal> const& handled, Ins
 
 std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& session, Link link, std::uint64_t after,
                                                             Reader& reader, Readers::Until until) {
+    auto reading = std::make_unique<Reading>(*this, link, after, reader);
     std::lock_guard const lock{mutex_};
     auto queue = engine_.notifications(session);
     if (!queue || queue->closed()) return no_such_session();
@@ -213,27 +215,44 @@ std::variant<std::unique_ptr<Reading>, Fault> Gateway::read(SessionId const& ses
                      {},
                      {}};
     }
-    engine_.link_opened(session, link, present());
     readers_.join(*queue, link, reader, until);
-    return std::make_unique<Reading>(*this, link, after, reader, std::move(queue));
+    engine_.link_opened(session, link, present());
+    reading->queue_ = std::move(queue);
+    return reading;
 }
 
 void Gateway::begin() {
     auto const now = present();
     std::lock_guard const lock{mutex_};
     engine_.begin(now);
+    telemetry_.ticked(now.steady);
 }
 
 void Gateway::tick() {
     auto const now = present();
-    std::lock_guard const lock{mutex_};
-    engine_.tick(now);
+    {
+        std::lock_guard const lock{mutex_};
+        engine_.tick(now);
+    }
+    telemetry_.ticked(now.steady);
 }
 
-void Gateway::change(ComponentChange change) {
-    auto const now = present();
+// Whoever has the engine locked for so long does not give it back.
+void Gateway::halt_at_last() noexcept {
+    std::unique_lock lock{mutex_, std::defer_lock};
+    for (int tries = 0; tries < 100 && !lock.try_lock(); ++tries) std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    if (!lock.owns_lock()) return;
+    try {
+        engine_.stop_everything(present());
+    } catch (...) {
+        // Each component was told nevertheless.
+    }
+}
+
+void Gateway::change(std::function<ComponentChange()> const& make) {
     std::lock_guard const lock{mutex_};
-    engine_.change(std::move(change), now);
+    auto change = make();
+    engine_.change(std::move(change), present());
 }
 
 std::vector<std::string> Gateway::stop_everything() {

@@ -47,7 +47,9 @@ private:
 // One reader's place in a session's notifications, and its link to the session. The gateway and the reader must outlive it.
 class Reading {
 public:
-    Reading(Gateway&, Link, std::uint64_t after, Reader&, std::shared_ptr<NotificationQueue>);
+    // Not among the readers yet: Gateway::read does that.
+    Reading(Gateway& gateway, Link link, std::uint64_t after, Reader& reader)
+        : gateway_{gateway}, link_{link}, after_{after}, reader_{reader} {}
     ~Reading();
     Reading(Reading const&) = delete;
     Reading& operator=(Reading const&) = delete;
@@ -80,7 +82,7 @@ private:
     Closing closing_ = Closing::lost;
     std::uint64_t after_;
     Reader& reader_;
-    std::shared_ptr<NotificationQueue> queue_;
+    std::shared_ptr<NotificationQueue> queue_;  // null until it is among the readers
 };
 
 // What those hear who name no session, an unknown one or an ended one.
@@ -141,11 +143,15 @@ public:
     // Halts all components and begins the engine's time. Once, before anything is answered.
     void begin();
 
-    // To be called every few milliseconds: lets the engine do what is due.
+    // To be called every few milliseconds: lets the engine do what is due. Throws what went wrong, when all else was done.
     void tick();
 
-    // Components come and go. Throws what the engine throws.
-    void change(ComponentChange);
+    // For a gateway that is given up: halts every component, as far as the engine can be had within a second. Never throws.
+    void halt_at_last() noexcept;
+
+    // Components come and go: those that `make` makes with the engine locked, since their devices move meanwhile. Throws what that
+    // and the engine throw.
+    void change(std::function<ComponentChange()> const& make);
 
     // Stop for everything (decision 34). Returns the refs of components that have not confirmed yet that they stand still.
     std::vector<std::string> stop_everything();

@@ -1,12 +1,12 @@
 #include "net/loop.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/post.hpp>
 #include <exception>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "net/connection.hpp"
@@ -16,6 +16,7 @@ namespace rois::net {
 namespace {
 
 constexpr auto between_sweeps = std::chrono::milliseconds{50};
+constexpr auto between_tries = std::chrono::milliseconds{10};  // to begin what must go on for ever
 
 // In how many sweeps all connections are looked at: in each, while the deadlines are short; in five, when they are as usual. So
 // none is missed by more than an eighth of itself, or by 50 ms.
@@ -30,31 +31,78 @@ std::size_t sweeps_for_all(Settings const& settings) {
 Loop::Loop(Shared& shared)
     : shared_{shared},
       reader_{shared.schemas, shared.settings.document, shared.settings.validation},
-      sweeps_for_all_{sweeps_for_all(shared.settings)} {}
+      sweeps_for_all_{sweeps_for_all(shared.settings)},
+      wakes_{io_.get_executor(), shared.troubles},
+      poller_{io_.get_executor(), shared.troubles} {
+    always(Troubles::Where::sweep, [this] { return sweep(); });
+}
 
 Loop::~Loop() = default;
 
+void Loop::always(Troubles::Where where, std::function<Task<>()> make) { duties_.push_back({where, std::move(make)}); }
+
+// Stops the loop when it ends, however that happens: then `run` looks after it.
+Task<> Loop::perform(Duty& duty) {
+    struct End {
+        Loop& loop;
+        Duty& duty;
+        bool returned = false;
+        ~End() {
+            duty.goes_on = returned;
+            loop.io_.stop();
+        }
+    } end{*this, duty};
+    try {
+        co_await duty.make();
+        end.returned = true;
+    } catch (...) {
+        shared_.troubles.report(duty.where);
+    }
+}
+
+void Loop::look_after() {
+    for (auto& duty : duties_) {
+        if (std::exchange(duty.goes_on, true)) continue;
+        try {
+            asio::co_spawn(io_, perform(duty), asio::detached);
+        } catch (...) {
+            duty.goes_on = false;
+            throw;
+        }
+    }
+    poller_.look_after();
+    wakes_.look_after();
+}
+
 void Loop::run() {
-    asio::co_spawn(io_, sweep(), asio::detached);
-    io_.run();
+    while (!over_) {
+        try {
+            look_after();
+        } catch (...) {
+            shared_.troubles.report(Troubles::Where::loop);
+            std::this_thread::sleep_for(between_tries);
+            continue;
+        }
+        try {
+            io_.run();
+        } catch (...) {
+            shared_.troubles.report(Troubles::Where::loop);
+        }
+        if (io_.stopped()) io_.restart();
+    }
 }
 
 void Loop::serve(Socket socket, Admission::Place place) {
     auto const connection = std::make_shared<Connection>(*this, std::move(socket), std::move(place));
-    asio::co_spawn(io_, connection->run(), [connection](std::exception_ptr const& broken) {
-        if (!broken) return;
-        try {
-            std::rethrow_exception(broken);
-        } catch (std::exception const& error) {
-            spdlog::error("a connection broke off: {}", error.what());
-        }
+    asio::co_spawn(io_, connection->run(), [this, connection](std::exception_ptr const& broken) {
+        if (broken) shared_.troubles.report(Troubles::Where::connection, broken, std::chrono::steady_clock::now());
     });
 }
 
 void Loop::shut_down(std::chrono::milliseconds within) {
     asio::post(io_, [this, within] {
         last_moment_ = std::chrono::steady_clock::now() + within;
-        for (auto* connection : std::vector(connections_)) connection->shut_down();
+        for (std::size_t i = 0; i < connections_.size(); ++i) connections_[i]->shut_down();
     });
 }
 
@@ -62,24 +110,36 @@ void Loop::shut_down(std::chrono::milliseconds within) {
 // wait until ten thousand have been looked at.
 Task<> Loop::sweep() {
     Timer timer{executor()};
-    while (true) {
+    while (!over_) {
         timer.expires_after(between_sweeps);
         co_await timer.async_wait(asio::use_awaitable_t<Executor>{});
-        auto const now = std::chrono::steady_clock::now();
-        if (now >= last_moment_) {
-            for (auto* connection : std::vector(connections_)) connection->cut();
-        } else {
-            sweep_some(now);
-        }
-        if (draining() && connections_.empty()) io_.stop();
+        sweep_now();
     }
 }
 
+void Loop::sweep_now() noexcept {
+    try {
+        poller_.look_after();
+        wakes_.look_after();
+    } catch (...) {
+        shared_.troubles.report(Troubles::Where::poller);
+    }
+    sweep_some(std::chrono::steady_clock::now());
+    over_ = draining() && connections_.empty();
+    if (over_) io_.stop();
+}
+
 void Loop::sweep_some(Steady now) {
-    auto const some = (connections_.size() + sweeps_for_all_ - 1) / sweeps_for_all_;
+    bool const cuts = now >= last_moment_;
+    auto const some = cuts ? connections_.size() : (connections_.size() + sweeps_for_all_ - 1) / sweeps_for_all_;
     for (std::size_t i = 0; i < some && !connections_.empty(); ++i) {
         if (swept_ >= connections_.size()) swept_ = 0;
-        connections_[swept_++]->sweep(now);
+        auto& connection = *connections_[swept_++];
+        try {
+            cuts ? connection.cut() : connection.sweep(now);
+        } catch (...) {
+            shared_.troubles.report(Troubles::Where::sweep);
+        }
     }
 }
 

@@ -1,6 +1,8 @@
 // One I/O thread: its io_context, its request reader, and the connections that live on it.
 #pragma once
 
+#include <deque>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "net/poller.hpp"
 #include "net/settings.hpp"
 #include "net/telemetry.hpp"
+#include "net/troubles.hpp"
 #include "net/wakes.hpp"
 
 namespace rois::net {
@@ -25,6 +28,7 @@ struct Shared {
     Telemetry& telemetry;
     Documents const& documents;
     std::shared_ptr<xml::Schemas const> schemas;
+    Troubles& troubles;
     LongDocuments long_documents{schemas, settings.document, settings.validation};
 };
 
@@ -35,7 +39,11 @@ public:
     Loop(Loop const&) = delete;
     Loop& operator=(Loop const&) = delete;
 
-    // Until the last connection has gone after shut_down.
+    // A coroutine that is to go on until it returns: when an exception ends it, that is reported, and it is made again. Before
+    // `run`.
+    void always(Troubles::Where, std::function<Task<>()>);
+
+    // Until the last connection has gone after shut_down. Survives every exception.
     void run();
 
     // From any thread.
@@ -53,7 +61,16 @@ public:
 private:
     friend class Connection;
 
+    struct Duty {
+        Troubles::Where where;
+        std::function<Task<>()> make;
+        bool goes_on = false;  // or has returned
+    };
+
+    Task<> perform(Duty&);
+    void look_after();
     Task<> sweep();
+    void sweep_now() noexcept;
     void sweep_some(Steady now);
     void add(Connection&);
     void remove(Connection const&);
@@ -62,11 +79,13 @@ private:
     xml::RequestReader reader_;
     std::vector<Connection*> connections_;
     std::size_t sweeps_for_all_;
-    std::size_t swept_ = 0;               // where the next sweep goes on
+    std::size_t swept_ = 0;  // where the next sweep goes on
+    std::deque<Duty> duties_;
+    bool over_ = false;
     Steady last_moment_ = Steady::max();  // set by shut_down: at that time whoever is still there is cut
     asio::io_context io_{1};
-    Wakes wakes_{io_.get_executor()};
-    Poller poller_{io_.get_executor()};
+    Wakes wakes_;
+    Poller poller_;
 };
 
 }  // namespace rois::net

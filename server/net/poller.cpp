@@ -15,7 +15,7 @@ int made_epoll() {
 
 }  // namespace
 
-Poller::Poller(Executor const& executor) : epoll_{executor, made_epoll()} { wait(); }
+Poller::Poller(Executor const& executor, Troubles& troubles) : epoll_{executor, made_epoll()}, troubles_{troubles} {}
 
 bool Poller::add(int descriptor, Watcher& watcher) {
     epoll_event wanted{};
@@ -32,10 +32,17 @@ void Poller::remove(int descriptor, Watcher& watcher) {
 
 void Poller::wait() {
     epoll_.async_wait(Descriptor::wait_read, [this](boost::system::error_code error) {
+        waits_ = false;
         if (error) return;
         tell();
         wait();
     });
+    waits_ = true;
+}
+
+void Poller::look_after() {
+    tell();
+    if (!waits_) wait();
 }
 
 // What is not told this time is told the next.
@@ -45,7 +52,13 @@ void Poller::tell() {
     while (!untold_.empty()) {
         auto const event = untold_.front();
         untold_ = untold_.subspan(1);
-        if (auto* const watcher = static_cast<Watcher*>(event.data.ptr)) watcher->changed(event.events);
+        auto* const watcher = static_cast<Watcher*>(event.data.ptr);
+        if (watcher == nullptr) continue;
+        try {
+            watcher->changed(event.events);
+        } catch (...) {
+            troubles_.report(Troubles::Where::poller);
+        }
     }
 }
 

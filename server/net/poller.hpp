@@ -8,6 +8,7 @@
 #include <span>
 
 #include "net/asio.hpp"
+#include "net/troubles.hpp"
 
 namespace rois::net {
 
@@ -25,13 +26,16 @@ public:
     };
 
     // Throws boost::system::system_error when the system gives no epoll.
-    explicit Poller(Executor const&);
+    Poller(Executor const&, Troubles&);
     Poller(Poller const&) = delete;
     Poller& operator=(Poller const&) = delete;
 
     // From now on the watcher is told, the first time also of what is there already. False when the system refuses.
     bool add(int descriptor, Watcher&);
     void remove(int descriptor, Watcher&);
+
+    // Now and then: tells what could not be told, and waits again if an exception has ended that.
+    void look_after();
 
 private:
     static constexpr std::size_t most_at_once = 64;
@@ -40,6 +44,8 @@ private:
     void tell();
 
     Descriptor epoll_;
+    Troubles& troubles_;
+    bool waits_ = false;
     std::array<epoll_event, most_at_once> events_{};
     std::span<epoll_event> untold_;
 };

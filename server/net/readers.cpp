@@ -24,11 +24,16 @@ void take_out(auto& joined, auto those) { joined.erase(std::remove_if(joined.beg
 
 }  // namespace
 
-void Reader::wake() {
-    if (!waiting_.exchange(true)) wakes_.add(shared_from_this());
+Reader::Reader(Wakes& wakes) : wakes_{wakes} { wakes_.enter(); }
+
+Reader::~Reader() { wakes_.leave(); }
+
+void Reader::wake() noexcept {
+    if (waiting_.exchange(true)) return;
+    if (auto self = weak_from_this().lock()) wakes_.add(std::move(self));
 }
 
-void Reader::take_over() {
+void Reader::take_over() noexcept {
     taken_over_ = true;
     wake();
 }
@@ -39,9 +44,18 @@ void Reader::serve() {
     woken();
 }
 
+// With room for one more.
+std::shared_ptr<Audience> const& Readers::audience_with_room(SessionId const& session, std::shared_ptr<Audience> const& known) {
+    auto found = audiences_.find(session);
+    if (found == audiences_.end())
+        found = audiences_.emplace(session, known != nullptr ? known : std::make_shared<Audience>()).first;
+    auto& joined = found->second->joined;
+    if (joined.size() == joined.capacity()) joined.reserve(2 * joined.size() + 1);
+    return found->second;
+}
+
 void Readers::join(NotificationQueue& queue, Link link, Reader& reader, Until until) {
-    auto& audience = audiences_[queue.session()];
-    if (!audience) audience = queue.audience() ? queue.audience() : std::make_shared<Audience>();
+    auto const& audience = audience_with_room(queue.session(), queue.audience());
     if (link == Link::websocket) {
         for (auto const& other : audience->joined)
             if (other.link == Link::websocket) other.reader->take_over();
@@ -52,9 +66,7 @@ void Readers::join(NotificationQueue& queue, Link link, Reader& reader, Until un
 }
 
 void Readers::join(SessionId const& session, Reader& reader) {
-    auto& audience = audiences_[session];
-    if (!audience) audience = std::make_shared<Audience>();
-    audience->joined.push_back({Link::stream, &reader, Until::answered});
+    audience_with_room(session, nullptr)->joined.push_back({Link::stream, &reader, Until::answered});
 }
 
 void Readers::leave(SessionId const& session, Reader const& reader) {

@@ -4,14 +4,14 @@
 
 #include <spdlog/spdlog.h>
 
-#include <boost/asio/co_spawn.hpp>
-#include <boost/asio/detached.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <csignal>
+#include <cstdlib>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
+#include "net/clock.hpp"
 #include "net/listener.hpp"
 #include "net/loop.hpp"
 
@@ -32,7 +32,8 @@ class Server::Running {
 public:
     Running(Settings settings, Gateway& gateway, Telemetry& telemetry, Documents const& documents,
             std::shared_ptr<xml::Schemas const> schemas)
-        : shared_{std::move(settings), gateway, telemetry, documents, std::move(schemas)},
+        : troubles_{telemetry, [this] { give_up_(); }},
+          shared_{std::move(settings), gateway, telemetry, documents, std::move(schemas), troubles_},
           admission_{shared_.settings.max_connections, shared_.settings.max_connections_per_address},
           loops_{make_loops()},
           listeners_{make_listeners()},
@@ -53,12 +54,15 @@ public:
         hang_ups_.add(SIGHUP);
     }
 
+    void on_too_many_troubles(std::function<void()> what) { give_up_ = std::move(what); }
+
     void run() {
-        auto const first = loops_.front()->executor();
-        for (auto const& listener : listeners_) asio::co_spawn(listener->executor(), listener->accept(), asio::detached);
-        asio::co_spawn(first, tick(), asio::detached);
-        asio::co_spawn(first, wait_for_signal(), asio::detached);
-        if (on_hang_up_) asio::co_spawn(first, wait_for_hang_ups(), asio::detached);
+        auto& first = *loops_.front();
+        for (std::size_t i = 0; i < loops_.size(); ++i)
+            loops_[i]->always(Troubles::Where::accept, [listener = listeners_[i].get()] { return listener->accept(); });
+        first.always(Troubles::Where::loop, [this] { return wait_for_signal(); });
+        if (on_hang_up_) first.always(Troubles::Where::loop, [this] { return wait_for_hang_ups(); });
+        Clock const clock{shared_.settings.tick, [this] { shared_.gateway.tick(); }, troubles_};
         std::vector<std::jthread> threads;
         for (std::size_t i = 1; i < loops_.size(); ++i) threads.emplace_back([loop = loops_[i].get()] { loop->run(); });
         loops_.front()->run();
@@ -97,21 +101,10 @@ private:
         }
     }
 
-    Task<> tick() {
-        Timer timer{loops_.front()->executor()};
-        while (true) {
-            timer.expires_after(shared_.settings.tick);
-            co_await timer.async_wait(asio::use_awaitable_t<Executor>{});
-            shared_.gateway.tick();
-        }
-    }
-
     // When nobody is connected any more: the engine goes on with telling components to halt until they confirm it.
     void await_halts() {
-        while (!shared_.gateway.not_halted().empty() && std::chrono::steady_clock::now() < last_moment_) {
+        while (!shared_.gateway.not_halted().empty() && std::chrono::steady_clock::now() < last_moment_)
             std::this_thread::sleep_for(shared_.settings.tick);
-            shared_.gateway.tick();
-        }
         for (auto const& ref : shared_.gateway.not_halted())
             spdlog::critical("{} did not confirm that it stands still: make sure that the robot does", ref);
     }
@@ -123,9 +116,13 @@ private:
         }
     }
 
+    // Begun again after an exception, it goes on with what the first signal asks for.
     Task<> wait_for_signal() {
-        auto const signal = co_await signals_.async_wait(asio::use_awaitable_t<Executor>{});
-        spdlog::info("shutting down after {}", signal == SIGTERM ? "SIGTERM" : "SIGINT");
+        if (!signalled_) {
+            auto const signal = co_await signals_.async_wait(asio::use_awaitable_t<Executor>{});
+            signalled_ = true;
+            spdlog::info("shutting down after {}", signal == SIGTERM ? "SIGTERM" : "SIGINT");
+        }
         for (auto const& listener : listeners_) listener->close();
         last_moment_ = std::chrono::steady_clock::now() + shared_.settings.shutdown_timeout;
         shared_.gateway.shut_down();
@@ -134,6 +131,17 @@ private:
         for (auto const& loop : loops_) loop->shut_down({});
     }
 
+    // The system may know better what to do than a program that does not work: what supervises it starts it again.
+    void halt_and_exit() {
+        constexpr int internal_software_error = 70;  // EX_SOFTWARE
+        shared_.gateway.halt_at_last();
+        spdlog::critical("too many exceptions in a second: all components were halted, and the gateway ends");
+        spdlog::default_logger_raw()->flush();
+        std::_Exit(internal_software_error);
+    }
+
+    std::function<void()> give_up_ = [this] { halt_and_exit(); };
+    Troubles troubles_;
     Shared shared_;
     Admission admission_;
     std::vector<std::unique_ptr<Loop>> loops_;
@@ -141,6 +149,7 @@ private:
     Signals signals_;
     Signals hang_ups_;
     std::function<void()> on_hang_up_;
+    bool signalled_ = false;
     std::uint16_t port_ = 0;
     Steady last_moment_;  // once it shuts down
 };
@@ -154,6 +163,8 @@ Server::~Server() = default;
 std::string Server::url() const { return running_->url(); }
 
 void Server::on_hang_up(std::function<void()> what) { running_->on_hang_up(std::move(what)); }
+
+void Server::on_too_many_troubles(std::function<void()> what) { running_->on_too_many_troubles(std::move(what)); }
 
 void Server::run() { running_->run(); }
 

@@ -27,6 +27,10 @@ public:
     // Before `run`.
     void on_hang_up(std::function<void()>);
 
+    // What to do when too many exceptions escaped in a short time (docs/safety.md), instead of halting every component and ending
+    // the process with 70. Called on any thread. Before `run`.
+    void on_too_many_troubles(std::function<void()>);
+
     // Serves until SIGTERM or SIGINT: then clients are told, and cut when they do not go within the shutdown timeout. A second
     // signal cuts them at once.
     void run();

@@ -36,9 +36,10 @@ public:
     }
 
     void opened(std::uint64_t session, std::shared_ptr<Opener> opener) {
-        ++opener->sessions;
-        ++of_address_[opener->address];
-        openers_.emplace(session, std::move(opener));
+        auto& of_address = of_address_[opener->address];
+        auto& counted = *openers_.emplace(session, std::move(opener)).first->second;
+        ++counted.sessions;
+        ++of_address;
     }
 
     void ended(std::uint64_t session) {

@@ -1,14 +1,16 @@
 #include "net/telemetry.hpp"
 
+#include <dirent.h>
 #include <prometheus/text_serializer.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <sstream>
+
+#include "net/log_queue.hpp"
 
 namespace rois::net {
 
@@ -42,6 +44,8 @@ constexpr std::array<char const*, 2> way_names{"fast", "full"};
 constexpr std::array<char const*, 5> limit_names{"connections", "connections_per_address", "sessions_per_address",
                                                  "sessions_per_connection", "streams_per_session"};
 
+constexpr std::array<char const*, 7> where_names{"tick", "sweep", "accept", "wake", "poller", "loop", "connection"};
+
 double cpu_seconds() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -56,15 +60,21 @@ double resident_bytes() {
     return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
+// Not with std::filesystem, which ends the process when it has no memory.
 double open_descriptors() {
-    std::error_code error;
-    auto const folder = std::filesystem::directory_iterator{"/proc/self/fd", error};
-    return error ? 0 : static_cast<double>(std::distance(begin(folder), end(folder)));
+    auto* const folder = ::opendir("/proc/self/fd");
+    if (folder == nullptr) return 0;
+    int entries = 0;
+    while (::readdir(folder) != nullptr) ++entries;
+    ::closedir(folder);
+    return std::max(0, entries - 3);  // without ".", ".." and the folder itself
 }
 
 }  // namespace
 
 std::string_view operation_name(Operation const& operation) { return operation_names.at(operation.index()); }
+
+std::string_view name_of(Telemetry::Where where) { return where_names.at(static_cast<std::size_t>(where)); }
 
 // The families of one scrape.
 class Exposition {
@@ -156,6 +166,22 @@ public:
             add({{"validation", way_names[i]}}, static_cast<double>(t.checked_[i]));
         requests(t);
         durations(t);
+        survived(t);
+    }
+
+    void survived(Telemetry const& t) {
+        begin("rois_internal_exceptions_total", "Exceptions that the gateway survived, by where they escaped.",
+              MetricType::Counter);
+        for (std::size_t i = 0; i < where_names.size(); ++i)
+            add({{"where", where_names[i]}}, static_cast<double>(t.survived_[i]));
+        auto const age = t.age_of_last_tick(std::chrono::steady_clock::now());
+        gauge("rois_last_tick_age_seconds", "Since the engine has last done what was due.",
+              std::chrono::duration<double>(age).count());
+        if (!t.log_) return;
+        counter("rois_log_lines_dropped_total", "Lines of the log that could not be written.",
+                static_cast<double>(t.log_->dropped()));
+        counter("rois_log_lines_left_out_total", "Lines of the log above the limit of lines that are alike.",
+                static_cast<double>(t.log_->left_out()));
     }
 
 private:

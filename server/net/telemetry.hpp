@@ -1,19 +1,25 @@
 // What the gateway counts about itself, and how /metrics shows it. Counting is lock-free; any thread.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 
 #include "engine/engine.hpp"
+#include "types/instant.hpp"
 #include "types/messages.hpp"
 #include "xml/codec.hpp"
 
 namespace rois::net {
+
+class LogQueue;
 
 // "bind_any", for example.
 std::string_view operation_name(Operation const&);
@@ -52,6 +58,19 @@ public:
     void set(Limit limit, std::size_t most) { limits_[static_cast<std::size_t>(limit)].most = most; }
     void reached(Limit limit) { ++limits_[static_cast<std::size_t>(limit)].reached; }
 
+    // Where an exception escaped and was survived.
+    enum class Where : std::uint8_t { tick, sweep, accept, wake, poller, loop, connection };
+    void survived(Where where) { ++survived_[static_cast<std::size_t>(where)]; }
+
+    // The engine has done what was due. Any thread may ask how long ago that was, also while the engine is locked.
+    void ticked(Steady now) { last_tick_.store(now, std::memory_order_relaxed); }
+    std::chrono::nanoseconds age_of_last_tick(Steady now) const {
+        return now - std::min(now, last_tick_.load(std::memory_order_relaxed));
+    }
+
+    // Shows what this queue has dropped. Before anybody asks.
+    void show(std::shared_ptr<LogQueue const> log) { log_ = std::move(log); }
+
     // The Prometheus text format.
     std::string text(EngineStatistics const&) const;
 
@@ -71,11 +90,17 @@ private:
     std::atomic<std::uint64_t> accepted_ = 0;
     std::atomic<std::uint64_t> delivered_ = 0;
     std::atomic<std::uint64_t> cut_ = 0;
+    std::array<std::atomic<std::uint64_t>, 7> survived_{};
+    std::atomic<Steady> last_tick_{Steady{}};
+    std::shared_ptr<LogQueue const> log_;  // null: none is shown
     struct Reached {
         std::atomic<std::size_t> most = 0;
         std::atomic<std::uint64_t> reached = 0;
     };
     std::array<Reached, 5> limits_{};
 };
+
+// "tick", for example.
+std::string_view name_of(Telemetry::Where);
 
 }  // namespace rois::net

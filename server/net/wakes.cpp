@@ -18,7 +18,23 @@ constexpr std::size_t bytes_of_a_reader = 256;  // of those that it needs at onc
 
 }  // namespace
 
-void Wakes::add(std::shared_ptr<Reader> reader) {
+void Wakes::enter() {
+    std::lock_guard const lock{mutex_};
+    auto const room = std::min(waiting_.capacity(), serving_.capacity());
+    if (readers_ == room) {
+        waiting_.reserve(2 * room + 1);
+        serving_.reserve(2 * room + 1);
+    }
+    ++readers_;
+}
+
+void Wakes::leave() {
+    std::lock_guard const lock{mutex_};
+    --readers_;
+}
+
+// A reader is in at most once, so there is room.
+void Wakes::add(std::shared_ptr<Reader> reader) noexcept {
     {
         std::lock_guard const lock{mutex_};
         waiting_.push_back(std::move(reader));
@@ -27,8 +43,22 @@ void Wakes::add(std::shared_ptr<Reader> reader) {
     post();
 }
 
-void Wakes::post() {
-    asio::post(executor_, [this] { serve(); });
+void Wakes::post() noexcept {
+    try {
+        asio::post(executor_, [this] { serve(); });
+    } catch (...) {
+        std::lock_guard const lock{mutex_};
+        posted_ = false;
+    }
+}
+
+void Wakes::look_after() noexcept {
+    {
+        std::lock_guard const lock{mutex_};
+        bool const waits = !waiting_.empty() || served_ < serving_.size();
+        if (!waits || std::exchange(posted_, true)) return;
+    }
+    post();
 }
 
 void Wakes::serve() {
@@ -36,7 +66,11 @@ void Wakes::serve() {
     in_a_row_ += end - served_;
     for (; served_ < end; ++served_) {
         approach();
-        std::exchange(serving_[served_], {})->serve();
+        try {
+            std::exchange(serving_[served_], {})->serve();
+        } catch (...) {
+            troubles_.report(Troubles::Where::wake);
+        }
     }
     if (served_ == serving_.size() && !take_more()) {
         in_a_row_ = 0;

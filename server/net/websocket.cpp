@@ -3,7 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <boost/asio/co_spawn.hpp>
-#include <boost/asio/detached.hpp>
+#include <exception>
 #include <utility>
 
 #include "engine/prefetch.hpp"
@@ -40,7 +40,12 @@ WebSocket::WebSocket(std::shared_ptr<Wire> wire, Gateway& gateway, Telemetry& te
       messages_{settings.document.bytes, settings.max_fragments},
       opener_{std::move(opener)} {}
 
+// However it ends, nobody finds it among the session's readers any more when it has.
 Task<> WebSocket::run() {
+    struct End {
+        WebSocket& of;
+        ~End() { of.break_off(); }
+    } const end{*this};
     std::optional outcome = Wire::Outcome::done;
     while (outcome == Wire::Outcome::done && !broken_) {
         while (!take_frames()) co_await pause();
@@ -53,10 +58,14 @@ Task<> WebSocket::run() {
         }
         heard_something_ = true;
     }
+    break_off();
+    while (writing_) co_await something_written();
+}
+
+void WebSocket::break_off() noexcept {
     broken_ = true;
     wire_->cut();
     reading_.reset();
-    while (writing_) co_await something_written();
 }
 
 // Takes the whole frames that have arrived. False: some may be left, to be taken after a pause.
@@ -239,8 +248,19 @@ void WebSocket::shut_down() {
     flush();
 }
 
-// Most writes are taken whole: those are put together where the last one was, of whatever connection, since that memory is near.
+// What fails in the middle may have taken notifications from the session's queue: the client finds them there when it resumes.
 void WebSocket::flush() {
+    try {
+        write();
+    } catch (...) {
+        writing_ = false;
+        break_off();
+        throw;
+    }
+}
+
+// Most writes are taken whole: those are put together where the last one was, of whatever connection, since that memory is near.
+void WebSocket::write() {
     thread_local std::string near;
     while (!writing_ && !broken_) {
         near.clear();
@@ -250,9 +270,15 @@ void WebSocket::flush() {
         if (sent < near.size()) {
             out_.assign(near, sent);
             writing_ = true;
+            auto const self = std::static_pointer_cast<WebSocket>(shared_from_this());
+            auto const drained = [self](std::exception_ptr const& broken) {
+                if (!broken) return;
+                self->writing_ = false;
+                self->break_off();
+                if (self->room_) self->room_->raise();
+            };
             asio::co_spawn(
-                wire_->executor(), [self = std::static_pointer_cast<WebSocket>(shared_from_this())] { return self->drain(); },
-                asio::detached);
+                wire_->executor(), [self] { return self->drain(); }, drained);
             return;
         }
         written();
@@ -280,6 +306,7 @@ bool WebSocket::gather(std::string& out) {
 bool WebSocket::gather_notifications(std::string& out) {
     if (!reading_) return false;
     thread_local std::vector<Numbered> taken;
+    taken.clear();  // of what an exception has left there
     auto const then = reading_->take(most_at_once, taken);
     for (auto const& numbered : taken) {
         NotificationDocument const document{numbered};
@@ -313,8 +340,7 @@ Task<> WebSocket::drain() {
         written();
         flush();
     } else {
-        broken_ = true;
-        wire_->cut();
+        break_off();
     }
     if (room_) room_->raise();
 }

@@ -57,6 +57,8 @@ private:
     void close(Ending);
 
     void flush();
+    void write();
+    void break_off() noexcept;
     bool gather(std::string& out);
     bool gather_notifications(std::string& out);
     void written();

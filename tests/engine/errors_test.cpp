@@ -74,7 +74,7 @@ TEST_F(Errors, OfTheEngineGoToAll) {
     world.advance(200ms);
     EXPECT_THAT(desk.heard(), ElementsAre("1 ENGINE_INTERNAL_ERROR"));
     EXPECT_THAT(hall.heard(), ElementsAre("1 ENGINE_INTERNAL_ERROR"));
-    EXPECT_EQ(broken->advanced, 1) << "it is not asked again";
+    EXPECT_EQ(broken->advanced, 4) << "it is advanced again, and reported once";
     auto const detail = desk.detail_of(desk.last_heard<ReceiveError>().error_id);
     EXPECT_EQ(in_words(detail.results.parameters), "time=" + to_text(world.now.utc - 150ms) + " text=the floor is gone");
 }

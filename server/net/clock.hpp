@@ -1,0 +1,31 @@
+// The engine's clock: a thread of its own, so that no request and no connection can keep it from ticking.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "net/troubles.hpp"
+
+namespace rois::net {
+
+// Ticks as long as it lives. An exception that leaves a tick is reported, and the next tick comes in time.
+class Clock {
+public:
+    Clock(std::chrono::milliseconds between_ticks, std::function<void()> tick, Troubles& troubles)
+        : thread_{[between_ticks, tick = std::move(tick), &troubles](std::stop_token const& stop) {
+              while (!stop.stop_requested()) {
+                  std::this_thread::sleep_for(between_ticks);
+                  try {
+                      tick();
+                  } catch (...) {
+                      troubles.report(Troubles::Where::tick);
+                  }
+              }
+          }} {}
+
+private:
+    std::jthread thread_;
+};
+
+}  // namespace rois::net

@@ -1,0 +1,52 @@
+#include "net/troubles.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace rois::net {
+
+namespace {
+
+constexpr std::chrono::milliseconds one_incident{100};
+constexpr std::chrono::seconds too_short{1};  // for as many incidents as are kept
+
+void log(Telemetry::Where where, std::exception_ptr const& failure) {
+    auto const name = name_of(where);
+    try {
+        std::rethrow_exception(failure);
+    } catch (std::exception const& error) {
+        spdlog::error("an exception was survived ({}): {}", name, error.what());
+    } catch (...) {
+        spdlog::error("an exception was survived ({})", name);
+    }
+}
+
+}  // namespace
+
+void Troubles::report(Where where, std::exception_ptr const& failure, Steady now) noexcept {
+    telemetry_.survived(where);
+    try {
+        log(where, failure);
+    } catch (...) {
+        // It was counted.
+    }
+    if (where != Where::connection && is_too_much(now)) give_up_();
+}
+
+void Troubles::report(Where where) noexcept { report(where, std::current_exception(), std::chrono::steady_clock::now()); }
+
+// Says so once.
+bool Troubles::is_too_much(Steady now) {
+    std::lock_guard const lock{mutex_};
+    bool const first = incidents_.front() == Steady{};
+    if (!first && now - incidents_.front() < one_incident) return false;
+    std::shift_right(incidents_.begin(), incidents_.end(), 1);
+    incidents_.front() = now;
+    bool const full = incidents_.back() != Steady{};
+    if (!full || now - incidents_.back() > too_short) return false;
+    return !std::exchange(given_up_, true);
+}
+
+}  // namespace rois::net

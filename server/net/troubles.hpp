@@ -1,0 +1,38 @@
+// Exceptions that escaped from what must go on for ever, and were survived (docs/safety.md).
+#pragma once
+
+#include <array>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <string_view>
+
+#include "net/telemetry.hpp"
+#include "types/instant.hpp"
+
+namespace rois::net {
+
+// Logs and counts them. What happens within 0.1 s is one incident, however many exceptions that is; at the third incident within
+// a second the gateway is given up. Exceptions of one connection are none: they end that connection. Any thread.
+class Troubles {
+public:
+    using Where = Telemetry::Where;
+
+    // `give_up`: called once, by the thread that reports the third incident. Not with the engine locked.
+    Troubles(Telemetry& telemetry, std::function<void()> give_up) : telemetry_{telemetry}, give_up_{std::move(give_up)} {}
+
+    void report(Where, std::exception_ptr const&, Steady now) noexcept;
+    // The same for the exception that is being handled, now.
+    void report(Where) noexcept;
+
+private:
+    bool is_too_much(Steady now);
+
+    Telemetry& telemetry_;
+    std::function<void()> give_up_;
+    std::mutex mutex_;                   // guards the next two
+    std::array<Steady, 3> incidents_{};  // the beginnings of the last ones, the latest in front
+    bool given_up_ = false;
+};
+
+}  // namespace rois::net

@@ -1,0 +1,128 @@
+// Components that hang, throw, lie, and answer late or twice; a calendar that jumps and a process that stood still: the clock
+// goes on, and what moves stops.
+#include <gmock/gmock.h>
+
+#include "engine/world.hpp"
+
+namespace rois {
+
+using namespace std::chrono_literals;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+namespace {
+
+Part moving(Part part) {
+    part.moves = true;
+    return part;
+}
+
+struct Misbehaving : testing::Test {
+    World world{moving(navigation), speech};
+    ScriptedComponent& robot = world["navigation"];
+    ScriptedComponent& voice = world["speech"];
+    Application desk = world.connect(), other = world.connect();
+
+    Misbehaving() {
+        desk.bind("navigation");
+        other.bind("speech");
+        voice.on_start = OnStart::is_done;
+    }
+
+    auto halts() { return std::ranges::count(robot.told, "halt"); }
+
+    // Whatever the robot does, another application's delay is fired in time.
+    void expect_time_to_pass() {
+        other.execute(after(100ms, say("")));
+        other.heard();
+        world.advance(100ms);
+        EXPECT_THAT(other.heard(), Contains(HasSubstr("completed")));
+    }
+};
+
+}  // namespace
+
+TEST_F(Misbehaving, AComponentThatThrowsInEveryCallIsHaltedUntilItCan) {
+    for (bool const no_exception : {false, true}) {
+        robot.throws_no_exception = no_exception;
+        robot.throws_in = {"start", "halt", "suspend", "resume", "parameters_changed", "status", "query", "perform"};
+        for (auto const& unit : {go(""), command("dock", "navigation"), suspend("navigation"), stop("navigation")})
+            desk.execute(unit);
+        world.advance(1s);
+        EXPECT_THAT(world.engine->not_halted(), ElementsAre("navigation"));
+        expect_time_to_pass();
+        robot.throws_in = {};
+        world.advance(200ms);
+        EXPECT_THAT(world.engine->not_halted(), IsEmpty());
+    }
+}
+
+TEST_F(Misbehaving, AComponentThatFailsToStartIsHalted) {
+    robot.throws_in = {"start"};
+    desk.execute(go("go"));
+    EXPECT_EQ(robot.told.back(), "halt") << "it may move nevertheless";
+    EXPECT_EQ(desk.result_of("go"), "ERROR");
+}
+
+TEST_F(Misbehaving, AComponentThatSaysNothingIsHaltedInTime) {
+    robot.on_start = OnStart::stays_silent;
+    robot.halts_later = true;
+    desk.execute(go("go"));
+    world.advance(5s);
+    EXPECT_EQ(desk.result_of("go"), "TIMEOUT");
+    world.advance(1s);
+    EXPECT_GE(halts(), 3) << "again and again, since it does not confirm";
+    expect_time_to_pass();
+}
+
+TEST_F(Misbehaving, AComponentThatLiesIsHaltedWhenItsSessionEnds) {
+    desk.execute(go("go"));
+    robot.finishes();  // it says so, and drives on
+    EXPECT_EQ(desk.result_of("go"), "OK");
+    desk.leave();
+    EXPECT_THAT(robot.told, Contains("halt"));
+}
+
+TEST_F(Misbehaving, AnswersTwiceAndLateAreCountedAndChangeNothing) {
+    desk.execute(go("go"));
+    auto const first = robot.latest();
+    robot.answers(first);
+    robot.answers(first, CompletedStatus::error);
+    desk.execute(go("again"));
+    desk.execute(stop("navigation"));
+    auto const again = robot.latest();
+    robot.answers(again);
+    robot.stands_still();
+    robot.answers(CommandHandle{4711});
+    EXPECT_EQ(desk.result_of("go"), "OK");
+    EXPECT_EQ(world.stray_answers(), 4);
+    expect_time_to_pass();
+}
+
+TEST_F(Misbehaving, TheCalendarMovesNothing) {
+    for (auto const day : {24h, -48h}) {
+        desk.execute(go(""));
+        world.set_calendar(day);
+        expect_time_to_pass();
+        EXPECT_FALSE(desk.told_of_the_end());
+        world.engine->link_closed(desk.session, Link::websocket, Closing::lost, world.now);
+        world.advance(300ms);
+        EXPECT_EQ(robot.told.back(), "suspend") << "its lease has ended";
+        world.engine->link_opened(desk.session, Link::websocket, world.now);
+    }
+}
+
+TEST_F(Misbehaving, AProcessThatStoodStillFor10SecondsHoldsWhatMoves) {
+    desk.execute(go("go"));
+    other.execute(after(5s, say("say")));
+    world.now = world.now + 10s;
+    world.engine->tick(world.now);
+    EXPECT_EQ(robot.told.back(), "suspend");
+    EXPECT_EQ(other.result_of("say"), "OK") << "what was due meanwhile is done";
+    expect_time_to_pass();
+}
+
+}  // namespace rois

@@ -1,0 +1,196 @@
+// A scripted history of the engine in which memory runs out at every single call: the clock goes on, and what moves stops.
+#include <gmock/gmock.h>
+
+#include <new>
+
+#include "engine/world.hpp"
+#include "faults/faults.hpp"
+#include "faults/wheels.hpp"
+
+namespace rois {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+// Does once what the test put there.
+class Hand final : public Device {
+public:
+    std::function<void()> next;
+    void advance(Instant) override {
+        if (auto const what = std::exchange(next, nullptr)) what();
+    }
+};
+
+struct Hall {
+    World world{speech};
+    Wheels* base = nullptr;
+    Wheels* arm = nullptr;
+    std::shared_ptr<Hand> hand = std::make_shared<Hand>();
+    std::optional<Application> desk, guest;
+    SubscribeId subscription;
+
+    Hall() {
+        auto first = std::make_unique<Wheels>("base", navigation), second = std::make_unique<Wheels>("arm", navigation);
+        base = first.get();
+        arm = second.get();
+        arm->confirms_late = true;
+        world.engine->add(std::move(first));
+        world.engine->add(std::move(second));
+        world.engine->add(hand);
+        world.notified[SessionId{"secret-1"}] = 0;
+        world.notified[SessionId{"secret-2"}] = 0;
+        world.notified[SessionId{"secret-3"}] = 0;
+    }
+
+    void tick(std::function<void()> what = {}) {
+        hand->next = std::move(what);
+        world.advance(50ms);
+    }
+
+    // Everything that the engine can be asked for, step by step.
+    std::vector<std::function<void()>> history() {
+        return {
+            [this] { desk.emplace(world.connect()); },
+            [this] { guest.emplace(world.connect_without_link()); },
+            [this] { desk.value().bind("base"); },
+            [this] { desk.value().bind_any(equal("component_ref", "arm")); },
+            [this] { desk.value().bind("speech"); },
+            [this] { subscription = desk.value().subscribe("reached_target", {}, true).subscribe_id; },
+            [this] { guest.value().subscribe("reached_target", equal("component_ref", "base")); },
+            [this] { desk.value().set_parameter("speech", {value("volume", "int", {"7"})}); },
+            [this] {
+                desk.value().execute(go("go", "base"), after(100ms, say("say")), in_parallel({go("reach", "arm"), pause(50ms)}),
+                                     named("last", command("dock", "base")));
+            },
+            [this] { tick([this] { base->pass("door"); }); },
+            [this] { desk.value().execute(go("again", "base")); },
+            [this] { desk.value().execute(named("hold", suspend("base")), named("on", resume("base"))); },
+            [this] { tick([this] { base->arrive({}); }); },
+            [this] { world["speech"].finishes(); },
+            [this] { tick(); },
+            [this] { desk.value().query("component_status", equal("component_ref", "base")); },
+            [this] { desk.value().execute(named("stop", stop("arm"))); },
+            [this] { tick([this] { arm->stand_still(); }); },
+            [this] { desk.value().execute(go("third", "arm"), go("fourth", "arm")); },
+            [this] { tick([this] { arm->stand_still(); }); },
+            [this] { world["speech"].reports(ErrorType::component_internal_error, "hoarse"); },
+            [this] { desk.value().heard(); },
+            [this] { desk.value().release("base"); },
+            [this] { guest.value().bind("base"); },
+            [this] { guest.value().execute(go("mine", "base")); },
+            [this] { world.advance(300ms); },
+            [this] { guest.value().ask(Disconnect{}); },
+            [this] { world.engine->link_closed(desk.value().session, Link::websocket, Closing::lost, world.now); },
+            [this] { world.advance(400ms); },
+            [this] { world.engine->link_opened(desk.value().session, Link::websocket, world.now); },
+            [this] { desk.value().execute(go("fifth", "arm"), after(200ms, go("sixth", "base"))); },
+            [this] { desk.value().unsubscribe(subscription); },
+            [this] { world.engine->stop_everything(world.now); },
+            [this] { world.engine->clear(); },
+            [this] { desk.value().ask(Disconnect{}); },
+        };
+    }
+
+    // Returns how many steps failed; the next ones do what they can.
+    static int play(std::vector<std::function<void()>> const& steps) {
+        int failed = 0;
+        for (auto const& step : steps) {
+            try {
+                step();
+            } catch (std::exception const&) {
+                ++failed;  // a request, and its application hears of it
+            }
+        }
+        return failed;
+    }
+
+    // Nobody is heard from any more.
+    void end() {
+        for (auto* application : {&desk, &guest})
+            if (*application) world.engine->link_closed((*application)->session, Link::websocket, Closing::lost, world.now);
+    }
+
+    void tick_quietly(std::chrono::milliseconds duration) {
+        for (; duration.count() > 0; duration -= 50ms) {
+            arm->stand_still();
+            try {
+                world.advance(50ms);
+            } catch (std::exception const&) {
+                // What an earlier failure has left, told once.
+            }
+        }
+    }
+};
+
+// A delay is fired, and a component that says nothing misses its deadline.
+void expect_time_to_pass(World& world, std::uint64_t n) {
+    world.notified[SessionId{"secret-9"}] = 0;
+    auto late = world.connect();
+    ASSERT_EQ(late.bind("speech"), ReturnCode::ok) << n;
+    world["speech"].on_start = OnStart::stays_silent;
+    late.execute(after(100ms, say("say")));
+    world.advance(100ms);
+    ASSERT_EQ(late.result_of("say"), "RUNNING") << n;
+    world.advance(2s);
+    ASSERT_EQ(late.result_of("say"), "TIMEOUT") << n;
+    late.leave();
+}
+
+void expect_all_to_stand_still(Hall& hall, std::uint64_t n) {
+    ASSERT_FALSE(hall.base->drives) << n;
+    ASSERT_FALSE(hall.arm->drives) << n;
+    ASSERT_THAT(hall.world.engine->not_halted(), testing::IsEmpty()) << n;
+}
+
+// Each command of the history completes at most once.
+void expect_no_double_answers(Hall& hall, std::uint64_t n) {
+    std::map<std::string, int> completed;
+    if (!hall.desk) return;
+    for (auto const& words : hall.desk->heard()) {
+        auto const at = words.find("completed ");
+        if (at == std::string::npos) continue;
+        ASSERT_EQ(++completed[words.substr(at, words.rfind(' ') - at)], 1) << n << ": " << words;
+    }
+}
+
+// Returns false when the history was over before its n-th call.
+bool survives(std::uint64_t n, std::uint64_t how_many) {
+    Hall hall;
+    auto const history = hall.history();
+    faults::fail_at(faults::Of::memory, n, how_many);
+    Hall::play(history);
+    bool const failed = faults::stop();
+    hall.tick_quietly(100ms);
+    hall.end();
+    hall.tick_quietly(1s);
+    expect_all_to_stand_still(hall, n);
+    hall.tick_quietly(100s);
+    expect_all_to_stand_still(hall, n);
+    expect_no_double_answers(hall, n);
+    auto const left = hall.world.engine->statistics();
+    EXPECT_EQ(left.sessions, 0) << n;
+    EXPECT_EQ(left.subscriptions, 0) << n;
+    expect_time_to_pass(hall.world, n);
+    return failed;
+}
+
+}  // namespace
+
+TEST(History, IsPlayedWholeWithoutFaults) {
+    Hall hall;
+    EXPECT_EQ(Hall::play(hall.history()), 0);
+}
+
+class MemoryThatRunsOut : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(MemoryThatRunsOut, AtAnyCallStopsNoClockAndLeavesNothingMoving) {
+    std::uint64_t n = 1;
+    while (survives(n, GetParam()) && !HasFailure() && n < 20'000) ++n;
+    EXPECT_GT(n, 500) << "the history needs memory that often";
+}
+
+INSTANTIATE_TEST_SUITE_P(ForCalls, MemoryThatRunsOut, testing::Values(1, 2, 7, 60, 600),
+                         [](auto const& calls) { return std::to_string(calls.param); });
+
+}  // namespace rois

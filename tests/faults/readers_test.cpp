@@ -1,0 +1,66 @@
+// A reader that is on its way out, as a WebSocket is that an exception has unwound.
+#include <gtest/gtest.h>
+
+#include <boost/asio/io_context.hpp>
+
+#include "engine/world.hpp"
+#include "files/files.hpp"
+#include "net/gateway.hpp"
+#include "net/secrets.hpp"
+#include "net/wakes.hpp"
+#include "xml/schemas.hpp"
+
+namespace rois::net {
+
+namespace {
+
+// Has its place among the session's readers until all of it is gone.
+class Leaving : public Reader {
+public:
+    Leaving(Wakes& wakes, std::function<void()> meanwhile) : Reader{wakes}, meanwhile_{std::move(meanwhile)} {}
+    ~Leaving() override { meanwhile_(); }
+    Leaving(Leaving const&) = delete;
+    Leaving& operator=(Leaving const&) = delete;
+
+    std::unique_ptr<Reading> reading;
+
+private:
+    void woken() override {}
+
+    std::function<void()> meanwhile_;
+};
+
+EngineProfile profile() {
+    EngineProfile profile;
+    profile.object.name = "main";
+    return profile;
+}
+
+}  // namespace
+
+TEST(AReaderOnItsWayOut, IsNoTroubleForTheRequestsOfOthers) {
+    xml::Platform const platform;
+    auto const schemas = std::make_shared<xml::Schemas const>(files::schemas());
+    xml::RequestReader requests{schemas};
+    Readers readers;
+    Engine engine{profile(), {common}, {}, readers, fresh_secret};
+    Telemetry telemetry;
+    Gateway gateway{engine, readers, telemetry};
+    Troubles troubles{telemetry, [] {}};
+    boost::asio::io_context io;
+    Wakes wakes{io.get_executor(), troubles};
+    auto const ask = [&](SessionId const& session, std::string const& operation) {
+        return gateway.answer(requests, session, "<" + operation + " xmlns=\"urn:x-rois:psm:xml:message:1\"/>", Via::websocket);
+    };
+    auto const session = ask({}, "connect").session;
+    auto const other = ask({}, "connect").session;
+    Answer answer;
+    auto leaving = std::make_shared<Leaving>(wakes, [&] { answer = (gateway.stop_everything(), ask(other, "disconnect")); });
+    auto read = gateway.read(session, Link::websocket, 0, *leaving);
+    leaving->reading = std::move(std::get<std::unique_ptr<Reading>>(read));
+    EXPECT_NO_THROW(leaving.reset()) << "every session is told meanwhile, also this one";
+    EXPECT_EQ(answer.turn, Answer::Turn::disconnected);
+    EXPECT_NO_THROW(ask(session, "disconnect")) << "nobody is woken that is gone";
+}
+
+}  // namespace rois::net

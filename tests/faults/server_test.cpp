@@ -1,0 +1,219 @@
+// The whole gateway in this process, under faults: it answers again, its clock goes on, and what moves stops.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <spdlog/spdlog.h>
+
+#include <thread>
+
+#include "client/vocabulary.hpp"
+#include "client/websocket_client.hpp"
+#include "faults/faults.hpp"
+#include "faults/wheels.hpp"
+#include "files/files.hpp"
+#include "net/secrets.hpp"
+#include "net/server.hpp"
+#include "xml/schemas.hpp"
+
+namespace rois {
+
+using namespace std::chrono_literals;
+using faults::Of;
+
+namespace {
+
+net::Settings settings() {
+    net::Settings settings;
+    settings.port = 0;
+    settings.threads = 2;
+    return settings;
+}
+
+// What a vanished application has bound is soon free again.
+EngineSettings short_windows() {
+    EngineSettings settings;
+    settings.session_timeout = settings.resume_window = 50ms;
+    settings.motion_lease = 1s;
+    return settings;
+}
+
+EngineProfile profile() {
+    EngineProfile profile;
+    profile.object = {
+        .identifier = "urn:x-rois:def:HRIEngine:test", .code_space = {}, .name = "main", .description = {}, .meta_data = {}};
+    return profile;
+}
+
+bool is_ok(pugi::xml_node answer) { return std::string_view{answer.attribute("return_code").value()} == "OK"; }
+
+// Its own threads suffer from faults; that of the test does not.
+struct Rig {
+    faults::Exempt exempt;
+    xml::Platform platform;
+    std::shared_ptr<xml::Schemas const> schemas = std::make_shared<xml::Schemas const>(files::schemas());
+    net::Readers readers;
+    Engine engine{profile(), {common}, short_windows(), readers, net::fresh_secret};
+    Wheels* base = nullptr;
+    net::Telemetry telemetry;
+    std::optional<net::Gateway> gateway;
+    std::optional<net::Documents> documents;
+    std::optional<net::Server> server;
+    std::atomic<int> given_up = 0;
+    std::thread thread;
+    client::Address address;
+
+    explicit Rig(std::shared_ptr<Device> device = nullptr) {
+        spdlog::set_level(spdlog::level::off);
+        auto wheels = std::make_unique<Wheels>("base", navigation);
+        base = wheels.get();
+        engine.add(std::move(wheels));
+        if (device) engine.add(std::move(device));
+        gateway.emplace(engine, readers, telemetry);
+        documents.emplace(*gateway, telemetry, *schemas, net::Site{"", net::WebFiles{{}}, ""});
+        server.emplace(settings(), *gateway, telemetry, *documents, schemas);
+        server->on_too_many_troubles([this] { ++given_up; });
+        auto const url = server->url();
+        address.port = static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
+        address.patience = 2s;
+        thread = std::thread{[this] { server->run(); }};
+        EXPECT_TRUE(comes([&] { return client::HttpClient{address}.get("/healthz").status > 0; }));
+    }
+    ~Rig() {
+        faults::stop();
+        kill(getpid(), SIGTERM);
+        thread.join();
+    }
+
+    // What an application does, as far as it comes: drives, hears of it, and leaves, with or without a word.
+    enum class Leaves : std::uint8_t { with_a_word, without };
+    void drive(Leaves leaves = Leaves::with_a_word) {
+        auto hasty = address;
+        hasty.patience = 300ms;
+        try {
+            client::WebSocketClient desk{hasty};
+            desk.call("connect");
+            desk.call("subscribe", "<event_type>reached_target</event_type>");
+            bool const bound = is_ok(desk.call("bind", client::component_ref("base")));
+            desk.call("execute", client::sequence(client::unit({.component = "base", .id = "go"}) + client::pause(1) +
+                                                  client::unit({.component = "base", .type = "stop", .id = "stop"})));
+            if (bound) desk.next();
+            desk.call("execute", client::sequence(client::unit({.component = "base", .id = "again"})));
+            client::HttpClient other{hasty};
+            other.call("connect");
+            other.notifications(0, 0);
+            other.get("/metrics");
+            other.post("<connect/>");  // is judged by the full validator
+            if (leaves == Leaves::without) desk.vanish();
+        } catch (std::runtime_error const&) {
+            // A connection that broke: its application begins anew.
+        }
+    }
+
+    // Asks until it is so, for two seconds.
+    template <class What>
+    bool comes(What const& what) {
+        for (auto const end = std::chrono::steady_clock::now() + 2s; std::chrono::steady_clock::now() < end;) {
+            try {
+                if (what()) return true;
+            } catch (std::runtime_error const&) {
+                // Not yet.
+            }
+            std::this_thread::sleep_for(5ms);
+        }
+        return false;
+    }
+
+    void expect_to_live(std::string const& after) {
+        EXPECT_TRUE(comes([&] { return !base->drives; })) << after << ": it drives on";
+        EXPECT_TRUE(comes([&] { return client::HttpClient{address}.get("/healthz").status == 200; })) << after;
+        EXPECT_TRUE(comes([&] {
+            client::WebSocketClient desk{address};
+            desk.call("connect");
+            if (!is_ok(desk.call("bind", client::component_ref("base")))) return false;
+            desk.call("execute", client::sequence(client::pause(20) + client::unit({.component = "base", .type = "stop"})));
+            return std::string_view{desk.next_document().name()} == "completed";
+        })) << after
+            << ": no delay is fired";
+    }
+};
+
+}  // namespace
+
+TEST(Gateway, SurvivesMemoryThatRunsOutAtAnyCall) {
+    Rig rig;
+    rig.drive();
+    faults::fail_at(Of::memory, UINT64_MAX);
+    rig.drive();
+    auto const calls = faults::calls(Of::memory);
+    faults::stop();
+    EXPECT_GT(calls, 500);
+    for (std::uint64_t n = 1; n < calls && !testing::Test::HasFailure(); n += 13) {
+        faults::fail_at(Of::memory, n);
+        rig.drive(n % 5 == 0 ? Rig::Leaves::without : Rig::Leaves::with_a_word);
+        faults::stop();
+        if (n % 7 == 0) rig.expect_to_live("the call " + std::to_string(n));
+    }
+    rig.expect_to_live("all calls");
+    EXPECT_EQ(rig.given_up, 0);
+}
+
+class Faults : public testing::TestWithParam<Of> {};
+
+TEST_P(Faults, Of30MillisecondsAreSurvived) {
+    Rig rig;
+    for (int turn = 0; turn < 4; ++turn) {
+        std::thread others{[&] {
+            faults::Exempt const exempt;
+            for (int i = 0; i < 5; ++i) rig.drive();
+        }};
+        std::this_thread::sleep_for(turn * 1ms);
+        faults::fail(GetParam());
+        std::this_thread::sleep_for(30ms);
+        faults::stop();
+        others.join();
+        rig.expect_to_live("turn " + std::to_string(turn));
+    }
+}
+
+std::string name(testing::TestParamInfo<Of> const& of) {
+    constexpr std::array names{"Memory", "Send", "Accept", "Epoll"};
+    return names[static_cast<std::size_t>(of.param)];
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, Faults, testing::Values(Of::memory, Of::send, Of::accept, Of::epoll), name);
+
+TEST(Gateway, IsGivenUpWhenEachTickFails) {
+    struct Broken : Device {
+        void advance(Instant) override {}
+        bool goes_on() const override { return breaks ? throw std::bad_alloc{} : false; }
+        std::atomic<bool> breaks = false;
+    };
+    auto const device = std::make_shared<Broken>();
+    Rig rig{device};
+    device->breaks = true;
+    EXPECT_TRUE(rig.comes([&] { return rig.given_up == 1; }));
+    EXPECT_FALSE(rig.base->drives);
+}
+
+TEST(Gateway, SaysThatItIsNotHealthyWhileAComponentHangs) {
+    Rig rig;
+    std::atomic<bool> hangs = true;
+    rig.base->on_start = [&] {
+        while (hangs) std::this_thread::sleep_for(1ms);
+    };
+    std::thread driver{[&] {
+        auto patient = rig.address;
+        patient.patience = 20s;
+        client::WebSocketClient desk{patient};
+        desk.call("connect");
+        desk.call("bind", client::component_ref("base"));
+        desk.call("execute", client::sequence(client::unit({.component = "base"})));
+    }};
+    auto hasty = rig.address;
+    hasty.patience = 100ms;  // one of the two threads hangs, and connections to it
+    EXPECT_TRUE(rig.comes([&] { return client::HttpClient{hasty}.get("/healthz").status == 503; }));
+    hangs = false;
+    driver.join();
+    EXPECT_TRUE(rig.comes([&] { return client::HttpClient{rig.address}.get("/healthz").status == 200; }));
+}
+
+}  // namespace rois
