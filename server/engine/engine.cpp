@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/core.hpp"
+#include "engine/identifiers.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -42,7 +43,13 @@ std::variant<Reply, Refusal> Engine::Core::handle(SessionId const& id, Operation
     if (session == nullptr) return Refusal::no_session;
     auto const number = session->number;
     session->lease.heard_request(now.steady);
-    Reply reply = std::visit([&](auto const& known) { return perform(*session, known, now); }, operation);
+    auto const too_long = why_too_long(operation);
+    Reply reply = std::visit(
+        [&]<class Known>(Known const& known) -> Reply {
+            if (too_long) return refused<typename Known::Reply>(ReturnCode::bad_parameter, *too_long);
+            return perform(*session, known, now);
+        },
+        operation);
     auto const& outcome = std::visit([](Outcome const& each) -> Outcome const& { return each; }, reply);
     if (outcome.return_code != ReturnCode::ok) journal_->refused(number, operation, outcome);
     settle(now);

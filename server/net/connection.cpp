@@ -6,6 +6,7 @@
 
 #include "net/event_stream.hpp"
 #include "net/upgrade.hpp"
+#include "types/identifier_length.hpp"
 
 namespace rois::net {
 
@@ -109,7 +110,8 @@ Connection::Then Connection::take_head() {
     searched_ = 0;
     if (auto const fault = heads_->read(wire_.text().substr(0, size), settings)) return refuse(*fault);
     wire_.use(size);
-    if (!heads_->repeated()) session_.text.assign(head().field("RoIS-Session").value_or(""));
+    constexpr auto enough = longest_identifier + 1;  // a longer id is unknown, and so is its beginning
+    if (!heads_->repeated()) session_.text.assign(head().field("RoIS-Session").value_or("").substr(0, enough));
     return Then::next;
 }
 
