@@ -62,8 +62,12 @@ Executor::SharedCommand Executor::make(Session& session, CommandMessage const& m
 }
 
 void Executor::execute(Session& session, CommandUnitSequence const& sequence, Instant now) {
-    auto const execution =
-        std::make_shared<Execution>(sequence, [&](CommandMessage const& message) { return make(session, message); });
+    auto made = std::make_unique<Execution>(sequence, [&](CommandMessage const& message) { return make(session, message); });
+    // Delays that are not over yet end with the sequence.
+    std::shared_ptr<Execution> const execution{made.release(), [this](Execution* over) {
+                                                   for (auto const& delay : over->delays) deadlines_.cancel(delay);
+                                                   delete over;
+                                               }};
     for (auto const& command : execution->commands()) command->execution = execution;
     give_turns(execution, execution->begin(0), now);
     run_ready(now);
@@ -80,13 +84,13 @@ void Executor::give_turns(std::shared_ptr<Execution> const& execution, std::vect
             ready_.emplace_back(execution, turn.node);
             continue;
         }
-        // A sequence all of whose commands have ended is gone by then.
-        deadlines_.add(now.steady + turn.delay, [this, waiting = std::weak_ptr{execution}, node = turn.node](Instant then) {
+        auto const action = [this, waiting = std::weak_ptr{execution}, node = turn.node](Instant then) {
             auto const alive = waiting.lock();
             if (!alive) return;
             ready_.emplace_back(alive, node);
             run_ready(then);
-        });
+        };
+        execution->delays.push_back(deadlines_.add(now.steady + turn.delay, action));
     }
 }
 
@@ -291,6 +295,7 @@ void Executor::end(SharedCommand const& command, CompletedStatus status, std::st
     live_.erase(static_cast<std::uint64_t>(command->handle));
     ++completed_by_status_.at(static_cast<std::size_t>(status));
     journal_->command_ended(*command);
+    ParameterList{}.swap(command->arguments);  // only its results are asked for from now on
     if (command->session != nullptr) {
         notifier_.tell(*command->session, Completed{command->id, status});
         remember(command, now);
