@@ -30,6 +30,7 @@ public:
          FreshSecret fresh_secret);
 
     void report_to(Journal& journal) { journal_ = &journal; }
+    void keep_within(MemoryBudget& memory) { memory_ = &memory; }
     void add(std::unique_ptr<Component>);
     void change(ComponentChange, Instant now);
     void add(std::shared_ptr<Device> device) { devices_.push_back(std::move(device)); }
@@ -88,6 +89,7 @@ private:
 
     // Event interface (event_interface.cpp)
     Reply perform(Session&, Subscribe const&, Instant now);
+    std::optional<std::string> no_room_for(Session const&, Filter const&, bool shared);
     Reply perform(Session&, Unsubscribe const&, Instant now);
     Reply perform(Session&, GetEventDetail const&, Instant now);
     void publish(EventOccurred, Instant now);
@@ -122,12 +124,14 @@ private:
     void await_end_of_window(Session&);
     void end_if_lost(SessionId const&, Instant now);
     void settle(Instant now);
+    void save_memory(Instant now);
     void advance_devices(Instant now);
     void hold_unproven_motion(Instant now);
     void unbind(Session&, RegisteredComponent&, Instant now);
 
     Journal nobody_;
-    Journal* journal_ = &nobody_;  // never null
+    Journal* journal_ = &nobody_;                   // never null
+    MemoryBudget* memory_ = &MemoryBudget::none();  // never null
     EngineSettings settings_;
     FreshSecret fresh_secret_;
     std::vector<ComponentProfile> known_profiles_;
@@ -145,6 +149,7 @@ private:
     Details events_;
     Details errors_;
     Steady details_checked_;
+    Steady memory_saved_;
     std::vector<std::uint32_t> free_slots_;  // of sessions that have ended, below those of the others (Details::Asker)
     std::optional<Steady> last_tick_;
     bool shutting_down_ = false;
@@ -158,6 +163,8 @@ private:
         std::uint64_t sessions = 0;
         std::uint64_t commands = 0;
         std::uint64_t predicates = 0;
+        std::uint64_t all_predicates = 0;
+        std::uint64_t condition_bytes = 0;
     } refused_;
 };
 

@@ -63,6 +63,7 @@ void Engine::Core::begin(Instant now) {
 
 void Engine::Core::tick(Instant now) {
     hold_unproven_motion(now);
+    if (memory_->full()) save_memory(now);
     constexpr int most_turns = 100;  // of devices; what is left waits for the next tick
     auto const goes_on = [](std::shared_ptr<Device> const& device) { return device->goes_on(); };
     for (int turn = 0; turn == 0 || (turn < most_turns && std::ranges::any_of(devices_, goes_on)); ++turn) {
@@ -188,6 +189,25 @@ void Engine::Core::shut_down(Instant now) {
     settle(now);
 }
 
+// What is kept for later only, at most every 100 ms: results, details, notifications that were sent, events that wait. The last
+// of them stay; they stand for a moment in which an application was slow. Then sessions that let too much else wait end.
+void Engine::Core::save_memory(Instant now) {
+    constexpr std::size_t kept = 64, most_waiting = 256;
+    if (now.steady - memory_saved_ < std::chrono::milliseconds{100}) return;
+    memory_saved_ = now.steady;
+    events_.keep_last(kept);
+    errors_.keep_last(kept);
+    std::vector<SessionId> slow;
+    for (auto const& [id, session] : sessions_) {
+        executor_.keep_results(*session, kept);
+        notifier_.keep_last(*session, kept);
+        if (session->notifications->waiting() > most_waiting) slow.push_back(id);
+    }
+    for (auto const& id : slow)
+        if (auto* session = find(id)) end(*session, "memory_budget is used up, and too many notifications waited for it", now);
+    settle(now);
+}
+
 void Engine::Core::heard_from(SessionId const& id, Instant now) {
     auto* session = find(id);
     if (session == nullptr) return;
@@ -271,7 +291,13 @@ EngineStatistics Engine::Core::statistics() const {
     numbers.limits = {{"sessions", settings_.max_sessions, refused_.sessions},
                       {"commands", waiting, refused_.commands},
                       {"subscribed_predicates", settings_.max_subscribed_predicates, refused_.predicates},
+                      {"predicates", settings_.max_predicates, refused_.all_predicates},
+                      {"condition_bytes", settings_.max_condition_bytes, refused_.condition_bytes},
                       {"waiting_notifications", waiting, notifier_.lost() + notifier_.overflows()}};
+    if (memory_->total() == MemoryBudget::none().total()) return numbers;
+    numbers.limits.push_back({"memory_budget", memory_->total(), memory_->refusals()});
+    numbers.memory_budget = memory_->total();
+    numbers.memory_used = memory_->used();
     return numbers;
 }
 
@@ -294,6 +320,7 @@ Engine::Engine(EngineProfile profile, std::vector<ComponentProfile> known_profil
 Engine::~Engine() = default;
 
 void Engine::report_to(Journal& journal) { core_->report_to(journal); }
+void Engine::keep_within(MemoryBudget& memory) { core_->keep_within(memory); }
 void Engine::add(std::unique_ptr<Component> component) { core_->add(std::move(component)); }
 void Engine::change(ComponentChange change, Instant now) { core_->change(std::move(change), now); }
 void Engine::add(std::shared_ptr<Device> device) { core_->add(std::move(device)); }

@@ -320,6 +320,15 @@ void Executor::forget_old_results(Session& session, Instant now) {
     auto const is_old = [&](Command const& command) {
         return session.ended.size() > settings_.max_command_results || command.ended_at + settings_.command_results <= now.steady;
     };
+    forget_while(session, is_old);
+}
+
+void Executor::keep_results(Session& session, std::size_t most) {
+    forget_while(session, [&](Command const&) { return session.ended.size() > most; });
+}
+
+// Forgets the oldest results of the session as long as `is_old` says so.
+void Executor::forget_while(Session& session, std::function<bool(Command const&)> const& is_old) {
     if (session.ended.empty() || !is_old(*session.ended.front())) return;
     forget(session);
     while (!session.ended.empty() && is_old(*session.ended.front())) {

@@ -75,6 +75,9 @@ public:
     void forget_old_results(Session&, Instant now);
     void forget_old_results(Instant now);
 
+    // Keeps the results of this many commands of the session, the last ones.
+    void keep_results(Session&, std::size_t most);
+
     // Looks no more after what the session keeps.
     void forget(Session&);
 
@@ -111,6 +114,7 @@ private:
     // `reason`: why it is not OK, for people.
     void end(SharedCommand const&, CompletedStatus, std::string reason, Instant now, Results = {});
     void end(SharedCommand const& command, Called called, Instant now);
+    void forget_while(Session&, std::function<bool(Command const&)> const& is_old);
     Called store(Command const&);
     void remember(SharedCommand const&, Instant now);
 

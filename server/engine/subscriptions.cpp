@@ -60,12 +60,14 @@ Subscription& Subscriptions::add(Session& session, std::string const& event_type
         made->event_type = event_type;
         made->filter = std::move(filter);
         subscription = made.get();
+        predicates_ += subscription->filter.predicates();
         by_type_[event_type].add(*subscription);
         by_id_.emplace(subscription->id, std::move(made));
     }
     auto const place = place_of(session, *subscription);
     if (session.subscriptions.insert(subscription).second) {
         session.predicates += subscription->filter.predicates();
+        session.condition_bytes += subscription->filter.text_bytes();
         subscription->hearers.insert(
             place, {&session, session.number, session.events.slot, session.notifications.get(), inline_results});
     } else {
@@ -93,6 +95,7 @@ void Subscriptions::remove_all(Session& session) {
 void Subscriptions::part(Session& session, Subscription& subscription) {
     subscription.hearers.erase(place_of(session, subscription));
     session.predicates -= subscription.filter.predicates();
+    session.condition_bytes -= subscription.filter.text_bytes();
 }
 
 std::vector<Subscription*> Subscriptions::possible(std::string_view event_type, RegisteredComponent const& component) const {
@@ -125,6 +128,7 @@ std::set<Session*> Subscriptions::hearers(RegisteredComponent const& component, 
 
 void Subscriptions::forget_if_unheard(Subscription& subscription) {
     if (!subscription.hearers.empty()) return;
+    predicates_ -= subscription.filter.predicates();
     by_type_[subscription.event_type].remove(subscription);
     by_id_.erase(subscription.id);
 }

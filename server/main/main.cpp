@@ -22,6 +22,7 @@
 #include "net/foreign.hpp"
 #include "net/gateway.hpp"
 #include "net/health_check.hpp"
+#include "net/memory.hpp"
 #include "net/open_files.hpp"
 #include "net/secrets.hpp"
 #include "net/server.hpp"
@@ -199,6 +200,7 @@ int serve(CommandLine const& command) {
         return done;
     }
     set_up_logging(settings.log_format, settings.log_level);
+    net::release_large_blocks_at_once();
     auto net_settings = with_all_hosts(settings);
     make_room_for_connections(net_settings, settings.media);
     for (auto const& warning : command.warnings) spdlog::warn("{}", warning);
@@ -211,7 +213,8 @@ int serve(CommandLine const& command) {
     if (has_steering(settings)) engine.add(simulation::simulated_hall(simulation, profile_of_hall(schemas)));
     SpeechLog const speech_log{simulation};
     net::Telemetry telemetry;
-    net::Gateway gateway{engine, readers, telemetry, client_limits(net_settings)};
+    MemoryBudget memory{settings.net.memory_budget, net::memory_in_use};
+    net::Gateway gateway{engine, readers, telemetry, client_limits(net_settings), memory};
     UserComponents user_components{
         schemas, {simulation, media, schemas}, profiles, own_refs(settings, simulation->hall().plan()), settings.profiles};
     if (!settings.profiles.empty()) gateway.change(user_components.read());
