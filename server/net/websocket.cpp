@@ -272,6 +272,7 @@ void WebSocket::keep_unsent(std::string_view rest) {
         telemetry_.cut();
         broken_ = true;
         wire_->cut();
+        if (room_) room_->raise();
         return;
     }
     out_.assign(rest);
