@@ -43,8 +43,7 @@ TEST_F(Identifiers, OfMoreThan256CharactersAreBadParameters) {
     EXPECT_THAT(outcome_of(GetParameter{identifier(too_long)}), is_too_long("component_ref"));
     EXPECT_THAT(outcome_of(SetParameter{identifier(too_long), {}}), is_too_long("component_ref"));
     EXPECT_THAT(outcome_of(SetParameter{identifier("lamp"), {value(too_long, "string", {"x"})}}), is_too_long("name"));
-    EXPECT_THAT(outcome_of(SetParameter{identifier("lamp"), {value("label", too_long, {"x"})}}),
-                is_too_long("data_type_ref"));
+    EXPECT_THAT(outcome_of(SetParameter{identifier("lamp"), {value("label", too_long, {"x"})}}), is_too_long("data_type_ref"));
     EXPECT_THAT(outcome_of(SetParameter{identifier("lamp"), {value("owner", "RoISIdentifier", {too_long})}}),
                 is_too_long("parameter 'owner'"));
     EXPECT_THAT(outcome_of(GetCommandResult{{too_long}, {}}), is_too_long("command_id"));
