@@ -32,6 +32,7 @@ public:
          FreshSecret fresh_secret);
 
     void report_to(Journal& journal) { journal_ = &journal; }
+    void keep_within(MemoryBudget& memory) { memory_ = &memory; }
     void add(std::unique_ptr<Component>);
     void change(ComponentChange, Instant now);
     void add(std::shared_ptr<Device> device) { devices_.push_back({std::move(device), false}); }
@@ -90,6 +91,7 @@ private:
 
     // Event interface (event_interface.cpp)
     Reply perform(Session&, Subscribe const&, Instant now);
+    std::optional<std::string> no_room_for(Session const&, Filter const&, bool shared);
     Reply perform(Session&, Unsubscribe const&, Instant now);
     Reply perform(Session&, GetEventDetail const&, Instant now);
     // A delivery that fails is noted, and keeps the others from nothing.
@@ -128,6 +130,7 @@ private:
     void await_end_of_window(Session&, Steady not_before = Steady::min());
     void end_if_lost(SessionId const&, Instant now);
     void settle(Instant now);
+    void save_memory(Instant now);
     void advance_devices(Instant now);
     void hold_unproven_motion(Instant now);
     void carry_out_what_is_due(Instant now, Attempts&);
@@ -135,7 +138,8 @@ private:
     void unbind(Session&, RegisteredComponent&, Instant now);
 
     Journal nobody_;
-    Journal* journal_ = &nobody_;  // never null
+    Journal* journal_ = &nobody_;                   // never null
+    MemoryBudget* memory_ = &MemoryBudget::none();  // never null
     EngineSettings settings_;
     FreshSecret fresh_secret_;
     std::vector<ComponentProfile> known_profiles_;
@@ -157,6 +161,7 @@ private:
     Details events_;
     Details errors_;
     Steady details_checked_;
+    Steady memory_saved_;
     std::vector<std::uint32_t> free_slots_;  // of sessions that have ended, below those of the others (Details::Asker)
     std::optional<Steady> last_tick_;
     std::exception_ptr
@@ -173,6 +178,8 @@ private:
         std::uint64_t sessions = 0;
         std::uint64_t commands = 0;
         std::uint64_t predicates = 0;
+        std::uint64_t all_predicates = 0;
+        std::uint64_t condition_bytes = 0;
     } refused_;
 };
 

@@ -70,14 +70,22 @@ public:
     }
 
     void forget_expired(Instant now) {
-        for (; expired_ < kept_.size() && kept_[expired_].until <= now.steady; ++expired_) {
-            kept_[expired_].results.reset();
-            kept_[expired_].message.reset();
-        }
+        while (expired_ < kept_.size() && kept_[expired_].until <= now.steady) expire();
         for (; !kept_.empty() && kept_.front().until + kept_for_ <= now.steady; ++first_, --expired_) kept_.pop_front();
     }
 
+    // All but the last ones have expired.
+    void keep_last(std::size_t most) {
+        while (kept_.size() - expired_ > most) expire();
+    }
+
 private:
+    void expire() {
+        auto& entry = kept_[expired_++];
+        entry.results.reset();
+        entry.message.reset();
+    }
+
     struct Entry {
         Steady until;
         std::shared_ptr<Results const> results;  // null: expired

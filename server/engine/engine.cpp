@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/core.hpp"
+#include "engine/identifiers.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -42,8 +43,14 @@ std::variant<Reply, Refusal> Engine::Core::handle(SessionId const& id, Operation
     if (session == nullptr) return Refusal::no_session;
     auto const number = session->number;
     session->lease.heard_request(now.steady);
-    Reply reply = std::visit([&](auto const& known) { return perform(*session, known, now); }, operation);
-    auto const& outcome = std::visit([](Outcome const& each) -> Outcome const& { return each; }, reply);
+    auto const too_long = why_too_long(operation);
+    Reply reply = std::visit(
+        [&]<class Known>(Known const& known) -> Reply {
+            if (too_long) return refused<typename Known::Reply>(ReturnCode::bad_parameter, *too_long);
+            return perform(*session, known, now);
+        },
+        operation);
+    auto const& outcome = *std::visit([](Outcome const& each) { return &each; }, reply);
     Attempts attempts;
     if (outcome.return_code != ReturnCode::ok) attempts([&] { journal_->refused(number, operation, outcome); });
     if (!attempts([&] { settle(now); })) unsettled_ = attempts.failure();
@@ -60,6 +67,7 @@ void Engine::Core::tick(Instant now) {
     Attempts attempts;
     if (unsettled_) attempts.note(std::exchange(unsettled_, nullptr));
     attempts([&] { hold_unproven_motion(now); });
+    if (memory_->full()) attempts([&] { save_memory(now); });
     constexpr int most_turns = 100;  // of devices; what is left waits for the next tick
     auto const goes_on = [&](Moved const& moved) {
         bool more = false;
@@ -254,6 +262,25 @@ void Engine::Core::shut_down(Instant now) {
     attempts.rethrow();
 }
 
+// What is kept for later only, at most every 100 ms: results, details, notifications that were sent, events that wait. The last
+// of them stay; they stand for a moment in which an application was slow. Then sessions that let too much else wait end.
+void Engine::Core::save_memory(Instant now) {
+    constexpr std::size_t kept = 64, most_waiting = 256;
+    if (now.steady - memory_saved_ < std::chrono::milliseconds{100}) return;
+    memory_saved_ = now.steady;
+    events_.keep_last(kept);
+    errors_.keep_last(kept);
+    std::vector<SessionId> slow;
+    for (auto const& [id, session] : sessions_) {
+        executor_.keep_results(*session, kept);
+        notifier_.keep_last(*session, kept);
+        if (session->notifications->waiting() > most_waiting) slow.push_back(id);
+    }
+    for (auto const& id : slow)
+        if (auto* session = find(id)) end(*session, "memory_budget is used up, and too many notifications waited for it", now);
+    settle(now);
+}
+
 void Engine::Core::heard_from(SessionId const& id, Instant now) {
     auto* session = find(id);
     if (session == nullptr) return;
@@ -338,7 +365,13 @@ EngineStatistics Engine::Core::statistics() const {
     numbers.limits = {{"sessions", settings_.max_sessions, refused_.sessions},
                       {"commands", waiting, refused_.commands},
                       {"subscribed_predicates", settings_.max_subscribed_predicates, refused_.predicates},
+                      {"predicates", settings_.max_predicates, refused_.all_predicates},
+                      {"condition_bytes", settings_.max_condition_bytes, refused_.condition_bytes},
                       {"waiting_notifications", waiting, notifier_.lost() + notifier_.overflows()}};
+    if (memory_->total() == MemoryBudget::none().total()) return numbers;
+    numbers.limits.push_back({"memory_budget", memory_->total(), memory_->refusals()});
+    numbers.memory_budget = memory_->total();
+    numbers.memory_used = memory_->used();
     return numbers;
 }
 
@@ -361,6 +394,7 @@ Engine::Engine(EngineProfile profile, std::vector<ComponentProfile> known_profil
 Engine::~Engine() = default;
 
 void Engine::report_to(Journal& journal) { core_->report_to(journal); }
+void Engine::keep_within(MemoryBudget& memory) { core_->keep_within(memory); }
 void Engine::add(std::unique_ptr<Component> component) { core_->add(std::move(component)); }
 void Engine::change(ComponentChange change, Instant now) { core_->change(std::move(change), now); }
 void Engine::add(std::shared_ptr<Device> device) { core_->add(std::move(device)); }

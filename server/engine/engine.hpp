@@ -11,6 +11,7 @@
 
 #include "engine/component.hpp"
 #include "engine/journal.hpp"
+#include "engine/memory_budget.hpp"
 #include "engine/motion_lease.hpp"
 #include "engine/notification_queue.hpp"
 #include "engine/places.hpp"
@@ -30,7 +31,7 @@ public:
 };
 
 // Why an operation did not run at all; the network layer makes a fault of it.
-enum class Refusal : std::uint8_t { no_session, too_many_sessions, shutting_down };
+enum class Refusal : std::uint8_t { no_session, too_many_sessions, no_memory, shutting_down };
 
 // Components that come and go at once (profile_changed).
 struct ComponentChange {
@@ -70,6 +71,8 @@ struct EngineStatistics {
     std::size_t not_halted = 0;                   // components that have not confirmed a halt
     std::vector<SessionStatistics> each_session;  // ordered by number
     std::vector<LimitStatistics> limits;
+    std::size_t memory_budget = 0;  // bytes; 0: there is no limit
+    std::size_t memory_used = 0;    // of it
 };
 
 // Plain and single-threaded: all calls, also those to a session's NotificationQueue, are made by one thread at a time. Time is
@@ -87,13 +90,18 @@ public:
     // Reports to this journal from now on; without one, to nobody. It must live until the last call of the engine.
     void report_to(Journal&);
 
+    // Looks at this from now on before anything that stays is taken; without one there is no limit. It must live until the last
+    // call of the engine. It is measured by whoever owns it.
+    void keep_within(MemoryBudget&);
+
     // Before the first session. Throws std::runtime_error for a ref that is taken or a sub component profile that is unknown.
     void add(std::unique_ptr<Component>);
     void add(std::shared_ptr<Device>);
 
     // At any time; all of it or nothing: throws std::runtime_error for a ref that is taken or unknown, or a sub component profile
     // that is unknown. What runs on a component that goes, or waits for it, completes with ABORT; its bindings are lost;
-    // subscriptions stay, and hear it again should it come back. Those that come are halted first. All sessions are told when any component came or went.
+    // subscriptions stay, and hear it again should it come back. Those that come are halted first. All sessions are told when any
+    // component came or went.
     void change(ComponentChange, Instant now);
 
     // The frames that components and applications tell positions in, and the places that conditions speak of; none is known

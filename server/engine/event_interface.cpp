@@ -33,16 +33,28 @@ Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instan
         return refused<Subscribe::Reply>(ReturnCode::unsupported, "no component that has the event can match the condition");
     auto* const known = subscriptions_.find(subscribe.event_type, wanted);
     bool const again = known != nullptr && session.subscriptions.contains(known);
-    if (!again && session.predicates + wanted.predicates() > settings_.max_subscribed_predicates) {
-        ++refused_.predicates;
-        return refused<Subscribe::Reply>(ReturnCode::out_of_resources,
-                                         "the conditions of a session's subscriptions may have " +
-                                             std::to_string(settings_.max_subscribed_predicates) +
-                                             " predicates together: unsubscribe from what is not needed any more");
-    }
+    if (auto problem = again ? std::nullopt : no_room_for(session, wanted, known != nullptr))
+        return refused<Subscribe::Reply>(ReturnCode::out_of_resources, *std::move(problem));
     Subscribe::Reply reply;
     reply.subscribe_id = subscriptions_.add(session, subscribe.event_type, std::move(wanted), subscribe.inline_results).id;
     return reply;
+}
+
+// Why there is no room for one more subscription of the session, or nothing. `shared`: another session has the same.
+std::optional<std::string> Engine::Core::no_room_for(Session const& session, Filter const& wanted, bool shared) {
+    auto const too_many = [](std::string_view whose, std::size_t most, std::string_view what, std::uint64_t& refused) {
+        ++refused;
+        return "the conditions of " + std::string{whose} + " may have " + std::to_string(most) + " " + std::string{what} +
+               " together: unsubscribe from what is not needed any more";
+    };
+    if (session.predicates + wanted.predicates() > settings_.max_subscribed_predicates)
+        return too_many("a session's subscriptions", settings_.max_subscribed_predicates, "predicates", refused_.predicates);
+    if (session.condition_bytes + wanted.text_bytes() > settings_.max_condition_bytes)
+        return too_many("a session's subscriptions", settings_.max_condition_bytes, "bytes of text", refused_.condition_bytes);
+    if (!shared && subscriptions_.predicates() + wanted.predicates() > settings_.max_predicates)
+        return too_many("all subscriptions", settings_.max_predicates, "predicates", refused_.all_predicates);
+    if (memory_->tight()) return memory_->refuse("there is no memory for a new subscription");
+    return {};
 }
 
 Reply Engine::Core::perform(Session& session, Unsubscribe const& unsubscribe, Instant) {

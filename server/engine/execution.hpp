@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/command.hpp"
+#include "engine/deadlines.hpp"
 #include "types/command_units.hpp"
 
 namespace rois {
@@ -42,6 +43,8 @@ public:
 
     // All commands, in document order.
     std::vector<std::shared_ptr<Command>> const& commands() const { return commands_; }
+
+    std::vector<Deadlines::Ticket> delays;  // the executor's: of units whose turn comes later
 
 private:
     enum class Kind : std::uint8_t { sequence, parallel, command, delay };

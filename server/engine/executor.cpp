@@ -64,9 +64,15 @@ Executor::SharedCommand Executor::make(Session& session, CommandMessage const& m
 
 void Executor::execute(Session& session, CommandUnitSequence const& sequence, Instant now) {
     auto const before = last_handle_;
+    // Delays that are not over yet end with the sequence.
+    auto const give_up = [this](Execution* over) {
+        for (auto const& delay : over->delays) deadlines_.cancel(delay);
+        delete over;
+    };
     std::shared_ptr<Execution> execution;
     try {
-        execution = std::make_shared<Execution>(sequence, [&](CommandMessage const& message) { return make(session, message); });
+        auto made = std::make_unique<Execution>(sequence, [&](CommandMessage const& message) { return make(session, message); });
+        execution = {made.release(), give_up};
     } catch (...) {
         forget_made(session, before);
         throw;
@@ -100,13 +106,13 @@ void Executor::give_turns(std::shared_ptr<Execution> const& execution, std::vect
             ready_.emplace_back(execution, turn.node);
             continue;
         }
-        // A sequence all of whose commands have ended is gone by then.
-        deadlines_.add(now.steady + turn.delay, [this, waiting = std::weak_ptr{execution}, node = turn.node](Instant then) {
+        auto const action = [this, waiting = std::weak_ptr{execution}, node = turn.node](Instant then) {
             auto const alive = waiting.lock();
             if (!alive) return;
             ready_.emplace_back(alive, node);
             run_ready(then);
-        });
+        };
+        execution->delays.push_back(deadlines_.add(now.steady + turn.delay, action));
     }
 }
 
@@ -321,6 +327,7 @@ void Executor::end(SharedCommand const& command, CompletedStatus status, std::st
 
 // Tells its session, keeps its results, and lets its sequence go on.
 void Executor::finish(SharedCommand const& command, Instant now) {
+    ParameterList{}.swap(command->arguments);  // only its results are asked for from now on
     if (command->session != nullptr && !command->told) {
         journal_->command_ended(*command);
         notifier_.tell(*command->session, Completed{command->id, command->status});
@@ -361,6 +368,15 @@ void Executor::forget_old_results(Session& session, Instant now) {
     auto const is_old = [&](Command const& command) {
         return session.ended.size() > settings_.max_command_results || command.ended_at + settings_.command_results <= now.steady;
     };
+    forget_while(session, is_old);
+}
+
+void Executor::keep_results(Session& session, std::size_t most) {
+    forget_while(session, [&](Command const&) { return session.ended.size() > most; });
+}
+
+// Forgets the oldest results of the session as long as `is_old` says so.
+void Executor::forget_while(Session& session, std::function<bool(Command const&)> const& is_old) {
     if (session.ended.empty() || !is_old(*session.ended.front())) return;
     forget(session);
     while (!session.ended.empty() && is_old(*session.ended.front())) {

@@ -79,6 +79,8 @@ public:
 
     // At each tick: goes on with what an exception has interrupted. Commands that were given up end, and their components halt.
     void mend(Instant now);
+    // Keeps the results of this many commands of the session, the last ones.
+    void keep_results(Session&, std::size_t most);
 
     // Looks no more after what the session keeps.
     void forget(Session&);
@@ -127,6 +129,7 @@ private:
     void give_up_waiting(Execution const&) noexcept;
     void end_given_up(SharedCommand const&, Instant now);
     void forget_made(Session&, std::uint64_t after) noexcept;
+    void forget_while(Session&, std::function<bool(Command const&)> const& is_old);
     Called store(Command const&);
     void remember(SharedCommand const&, Instant now);
 

@@ -27,6 +27,7 @@ std::variant<Filter, std::string> Filter::compile(std::optional<Condition> const
     filter.predicate_ = compiler.compile(*condition);
     if (compiler.problem()) return *compiler.problem();
     filter.predicates_ = compiler.predicates();
+    filter.text_bytes_ = compiler.text_bytes();
     filter.results_ = compiler.results();
     if (filter.predicate_->met_by_everything()) return Filter{};
     filter.depends_on_asker_ = compiler.depends_on_asker();

@@ -47,6 +47,9 @@ public:
     // How many predicates it is made of: what it costs to hold it against something.
     std::size_t predicates() const { return predicates_; }
 
+    // How long the texts in it are together, points of geometries included: what it costs to keep it.
+    std::size_t text_bytes() const { return text_bytes_; }
+
     // The references to results, in the order of the condition.
     std::vector<Reference> const& results() const { return results_; }
 
@@ -59,6 +62,7 @@ private:
 
     std::unique_ptr<Predicate const> predicate_;  // null: restricts nothing
     std::size_t predicates_ = 0;
+    std::size_t text_bytes_ = 0;
     std::vector<Reference> results_;
     bool depends_on_asker_ = false;
 };

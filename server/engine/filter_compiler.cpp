@@ -28,6 +28,39 @@ std::string with_commas(std::string_view text) {
     return commas;
 }
 
+// How long the texts of a predicate are, without the predicates in it.
+struct TextBytes {
+    std::size_t operator()(PropertyComparison const& p) const { return of(p.left) + of(p.right); }
+    std::size_t operator()(PropertyIsLike const& p) const { return of(p.left) + of(p.right); }
+    std::size_t operator()(PropertyIsNull const& p) const { return of(p.value); }
+    std::size_t operator()(PropertyIsNil const& p) const { return of(p.value); }
+    std::size_t operator()(PropertyIsBetween const& p) const { return of(p.value) + of(p.lower) + of(p.upper); }
+    std::size_t operator()(SpatialComparison const& p) const { return of(p.operands); }
+    std::size_t operator()(DistanceComparison const& p) const { return of(p.operands); }
+    std::size_t operator()(TemporalComparison const& p) const { return of(p.operands); }
+    std::size_t operator()(ResourceId const& p) const { return p.rid.size(); }
+    std::size_t operator()(ComponentGroup const& p) const { return of(p.types) + of(p.aliases); }
+    std::size_t operator()(auto const&) const { return 0; }
+
+    static std::size_t of(Expression const& expression) {
+        if (auto const* reference = std::get_if<ValueReference>(&expression.value)) return reference->path.size();
+        if (auto const* literal = std::get_if<Literal>(&expression.value)) return literal->text.size();
+        if (auto const* function = std::get_if<Function>(&expression.value)) return of(function->arguments);
+        auto const* geometry = std::get_if<Geometry>(&expression.value);
+        if (geometry == nullptr) return 0;
+        auto bytes = geometry->crs.size();
+        for (auto const& path : geometry->paths) bytes += path.size() * sizeof(Geometry::Point);
+        return bytes;
+    }
+    static std::size_t of(std::string const& text) { return text.size(); }
+    template <class Item>
+    static std::size_t of(std::vector<Item> const& items) {
+        std::size_t bytes = 0;
+        for (auto const& item : items) bytes += of(item);
+        return bytes;
+    }
+};
+
 bool may_be_a_position(Reference const& reference) {
     if (reference.part != Reference::Part::value) return false;
     switch (reference.to) {
@@ -74,6 +107,7 @@ std::string Distance::canonical() const {
 PredicatePtr FilterCompiler::compile(Condition const& condition) {
     if (++predicates_ > most_predicates) refuse("the condition has more than " + std::to_string(most_predicates) + " predicates");
     if (problem_) return nullptr;
+    text_bytes_ += std::visit(TextBytes{}, condition.predicate);
     return std::visit(*this, condition.predicate);
 }
 

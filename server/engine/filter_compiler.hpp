@@ -87,6 +87,7 @@ public:
     std::optional<std::string> const& problem() const { return problem_; }
     bool depends_on_asker() const { return depends_on_asker_; }
     std::size_t predicates() const { return predicates_; }
+    std::size_t text_bytes() const { return text_bytes_; }
     std::vector<Reference> const& results() const { return results_; }
     Vocabulary const& vocabulary() const { return vocabulary_; }
 
@@ -113,6 +114,7 @@ private:
     std::vector<Reference> results_;  // the references to results, so far
     bool depends_on_asker_ = false;
     std::size_t predicates_ = 0;
+    std::size_t text_bytes_ = 0;
 };
 
 // What a SortProperty sorts by.

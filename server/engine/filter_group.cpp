@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "engine/filter_compiler.hpp"
+#include "types/identifier_length.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -225,6 +226,14 @@ PredicatePtr FilterCompiler::operator()(ComponentGroup const& group) {
             "the condition looks for components (ComponentCondition, ComponentGroupCondition), which means nothing where results "
             "are chosen");
         return nullptr;
+    }
+    for (auto const& [what, names] : {std::pair{"the type of a component", &group.types}, {"an alias", &group.aliases}}) {
+        for (auto const& name : *names) {
+            if (auto problem = why_too_long(what, name)) {
+                refuse(*std::move(problem));
+                return nullptr;
+            }
+        }
     }
     bool const is_type = in_and_ && group.types.size() == 1 && group.members.empty() && group.filter.empty();
     if (is_type) return std::make_unique<OfType>(group.types.front(), vocabulary_.main_engine);

@@ -4,6 +4,7 @@
 
 #include "engine/filter_compiler.hpp"
 #include "engine/like_pattern.hpp"
+#include "types/identifier_length.hpp"
 #include "types/texts.hpp"
 
 namespace rois {
@@ -147,6 +148,10 @@ PredicatePtr FilterCompiler::operator()(PropertyIsNil const& nil) {
 
 // A component's name is its ref.
 PredicatePtr FilterCompiler::operator()(ResourceId const& id) {
+    if (auto problem = why_too_long("the rid of a ResourceId", id.rid)) {
+        refuse(*std::move(problem));
+        return nullptr;
+    }
     if (vocabulary_.parameters == nullptr) return std::make_unique<Named>(id.rid);
     return (*this)(PropertyComparison{Comparator::equal, {ValueReference{"component_ref"}}, {Literal{id.rid}}});
 }

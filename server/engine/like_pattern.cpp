@@ -1,5 +1,6 @@
 #include "engine/like_pattern.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "types/texts.hpp"
@@ -54,13 +55,22 @@ void LikePattern::set_bits() {
         if (wild_card_before_[i]) put(loops_, i);
     for (std::size_t i = 0; i < elements_.size(); ++i)
         if (elements_[i] == any_one) put(any_, i);
-    for (std::size_t i = 0; i < elements_.size(); ++i)
-        if (elements_[i] != any_one) put(takers_.try_emplace(elements_[i], any_).first->second, i);
-}
-
-LikePattern::Bits const& LikePattern::that_take(char32_t character) const {
-    auto const found = takers_.find(character);
-    return found == takers_.end() ? any_ : found->second;
+    for (std::size_t i = 0; i < elements_.size(); ++i) {
+        if (elements_[i] == any_one) continue;
+        takers_.push_back({elements_[i], static_cast<std::uint32_t>(i / word), std::uint64_t{1} << (i % word)});
+    }
+    auto const place = [](Taker const& taker) { return std::pair{taker.character, taker.word}; };
+    std::ranges::sort(takers_, {}, place);
+    std::size_t last = 0;
+    for (std::size_t i = 1; i < takers_.size(); ++i) {
+        if (place(takers_[last]) == place(takers_[i])) {
+            takers_[last].bits |= takers_[i].bits;
+        } else {
+            takers_[++last] = takers_[i];
+        }
+    }
+    if (!takers_.empty()) takers_.resize(last + 1);
+    takers_.shrink_to_fit();
 }
 
 // A bit for each element that may come next, and one for the end.
@@ -68,11 +78,14 @@ bool LikePattern::matches(std::string_view text) const {
     Bits next(loops_.size());
     put(next, 0);
     while (!text.empty()) {
-        auto const& takers = that_take(take_character(text).value_or(0));
+        auto const character = take_character(text).value_or(0);
+        auto taker = std::ranges::lower_bound(takers_, character, {}, &Taker::character);
         std::uint64_t carried = 0;
         std::uint64_t alive = 0;
         for (std::size_t i = 0; i < next.size(); ++i) {
-            auto const taken = next[i] & takers[i];
+            auto takes = any_[i];
+            if (taker != takers_.end() && taker->character == character && taker->word == i) takes |= (taker++)->bits;
+            auto const taken = next[i] & takes;
             next[i] = (next[i] & loops_[i]) | (taken << 1U) | carried;
             carried = taken >> (word - 1);
             alive |= next[i];

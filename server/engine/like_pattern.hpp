@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -30,14 +29,20 @@ public:
 private:
     using Bits = std::vector<std::uint64_t>;
 
+    // The elements that take this character alone, as far as they are in this word of the bits.
+    struct Taker {
+        char32_t character;
+        std::uint32_t word;
+        std::uint64_t bits;
+    };
+
     void set_bits();
-    Bits const& that_take(char32_t character) const;
 
     std::u32string elements_;                       // without wild cards; any_one for a single_char
     std::vector<bool> wild_card_before_ = {false};  // by element, and one more for the end
     Bits loops_;                                    // the same as bits
     Bits any_;                                      // the elements that take any character
-    std::map<char32_t, Bits> takers_;               // for a character of the pattern, the elements that take it
+    std::vector<Taker> takers_;                     // in the order of characters and words
 };
 
 }  // namespace rois

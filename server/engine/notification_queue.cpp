@@ -52,6 +52,32 @@ bool NotificationQueue::make_room() {
     return true;
 }
 
+void NotificationQueue::keep_last(std::size_t events) {
+    std::lock_guard const lock{mutex_};
+    auto const is_event = [](Numbered const& entry) { return std::holds_alternative<ReceiveEvent>(entry.notification->body); };
+    settle_recent();
+    std::vector<Numbered> kept;
+    auto const first_waiting = entries_.begin() + static_cast<std::ptrdiff_t>(sent_);
+    auto too_many = std::count_if(first_waiting, entries_.end(), is_event) - static_cast<std::ptrdiff_t>(events);
+    for (auto entry = first_waiting; entry != entries_.end(); ++entry) {
+        auto const* gap = kept.empty() ? nullptr : as_lost(kept.back());
+        if (too_many <= 0 || !is_event(*entry)) {
+            kept.push_back(std::move(*entry));
+            continue;
+        }
+        --too_many;
+        --waiting_;
+        ++lost_;
+        if (gap != nullptr) {
+            kept.back() = gap_until(entry->sequence, gap->count + 1);
+        } else {
+            kept.push_back(gap_until(entry->sequence, 1));
+        }
+    }
+    entries_ = std::move(kept);
+    sent_ = forgotten_ = 0;
+}
+
 std::vector<Numbered> NotificationQueue::read(std::uint64_t after, std::size_t most) {
     std::vector<Numbered> entries;
     read(after, most, entries);

@@ -59,6 +59,9 @@ public:
     // when there is no event to drop: then the session must end. From then on it keeps what must not be lost, and no event.
     Pushed push(std::shared_ptr<OutgoingNotification const>);
 
+    // Forgets what was sent, and of the events that wait all but the last ones; `Lost` takes their place.
+    void keep_last(std::size_t events);
+
     // No more will come: the session has ended. As what is told, it shows when nothing is held.
     void close();
 

@@ -40,6 +40,13 @@ public:
     static void approach(NotificationQueue const& queue) { prefetch(queue.audience().get()); }
     void approach_readers(NotificationQueue const& queue) const { outbox_.approach(queue); }
 
+    // Forgets what was sent to the session, and all but so many events that wait for it.
+    void keep_last(Session& session, std::size_t events) {
+        auto const lost = session.notifications->lost();
+        session.notifications->keep_last(events);
+        lost_ += session.notifications->lost() - lost;
+    }
+
     // Nothing more will be told to this session.
     void close(Session& session) {
         session.notifications->close();

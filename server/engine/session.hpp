@@ -38,6 +38,7 @@ struct Session {
     std::set<RegisteredComponent*> bound;
     std::set<Subscription*> subscriptions;
     std::size_t predicates = 0;                                                // in the conditions of these
+    std::size_t condition_bytes = 0;                                           // texts in them
     std::unordered_map<CommandId, std::shared_ptr<Command>, IdHash> commands;  // all that are known (decision 17)
     std::list<std::shared_ptr<Command>> ended;                                 // of these, in the order in which they ended
     std::size_t live_commands() const { return commands.size() - ended.size(); }

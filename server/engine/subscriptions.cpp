@@ -64,6 +64,7 @@ Subscription& Subscriptions::add(Session& session, std::string const& event_type
         made->event_type = event_type;
         made->filter = std::move(filter);
         subscription = &keep(std::move(made));
+        predicates_ += subscription->filter.predicates();
     }
     auto& hearers = subscription->hearers;
     bool added = false;
@@ -77,6 +78,7 @@ Subscription& Subscriptions::add(Session& session, std::string const& event_type
     auto const place = place_of(session, *subscription);
     if (added) {
         session.predicates += subscription->filter.predicates();
+        session.condition_bytes += subscription->filter.text_bytes();
         hearers.insert(place, {&session, session.number, session.events.slot, session.notifications.get(), inline_results});
     } else {
         place->inline_results = inline_results;
@@ -118,6 +120,7 @@ void Subscriptions::remove_all(Session& session) {
 void Subscriptions::part(Session& session, Subscription& subscription) {
     subscription.hearers.erase(place_of(session, subscription));
     session.predicates -= subscription.filter.predicates();
+    session.condition_bytes -= subscription.filter.text_bytes();
 }
 
 std::vector<Subscription*> Subscriptions::possible(std::string_view event_type, RegisteredComponent const& component) const {
@@ -150,6 +153,7 @@ std::set<Session*> Subscriptions::hearers(RegisteredComponent const& component, 
 
 void Subscriptions::forget_if_unheard(Subscription& subscription) noexcept {
     if (!subscription.hearers.empty()) return;
+    predicates_ -= subscription.filter.predicates();
     by_type_.find(subscription.event_type)->second.remove(subscription);
     by_id_.erase(by_id_.find(subscription.id));
 }

@@ -60,6 +60,7 @@ public:
     std::set<Session*> hearers(RegisteredComponent const&, Perspective& ever) const;
 
     std::size_t size() const { return by_id_.size(); }
+    std::size_t predicates() const { return predicates_; }  // in the conditions of all
 
 private:
     struct Earlier {
@@ -86,6 +87,7 @@ private:
     std::unordered_map<SubscribeId, std::unique_ptr<Subscription>, IdHash> by_id_;
     std::map<std::string, OfType, std::less<>> by_type_;
     std::uint64_t last_ = 0;
+    std::size_t predicates_ = 0;
 };
 
 }  // namespace rois

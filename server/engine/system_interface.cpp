@@ -38,6 +38,7 @@ std::variant<Reply, Refusal> Engine::Core::connect(SessionId const& id, Connect 
         known->lease.heard_request(now.steady);
         return perform(*known, asked, now);
     }
+    if (memory_->tight()) return Refusal::no_memory;
     if (sessions_.size() >= settings_.max_sessions) {
         auto* const idle = longest_idle();
         if (idle == nullptr) {

@@ -1,6 +1,7 @@
 #include "main/keys.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -202,6 +203,32 @@ bool set_hosts(Settings& settings, std::string const& text) {
     return true;
 }
 
+struct SizeUnit {
+    std::string_view name;
+    std::size_t bytes;
+};
+constexpr std::array<SizeUnit, 4> size_units{
+    {{"GiB", std::size_t{1} << 30}, {"MiB", std::size_t{1} << 20}, {"KiB", std::size_t{1} << 10}, {"", 1}}};
+
+bool set_memory_budget(Settings& settings, std::string const& text) {
+    constexpr std::size_t least = std::size_t{64} << 20, most = std::size_t{1024} << 30;
+    std::size_t number = 0;
+    auto const* const whole = text.data() + text.size();
+    auto const [end, error] = std::from_chars(text.data(), whole, number);
+    auto const unit =
+        std::ranges::find(size_units, std::string_view{end, static_cast<std::size_t>(whole - end)}, &SizeUnit::name);
+    if (error != std::errc{} || unit == size_units.end() || number > most / unit->bytes) return false;
+    if (number * unit->bytes < least) return false;
+    settings.net.memory_budget = number * unit->bytes;
+    return true;
+}
+
+std::string show_memory_budget(Settings const& settings) {
+    auto const bytes = settings.net.memory_budget;
+    auto const unit = std::ranges::find_if(size_units, [&](SizeUnit const& each) { return bytes % each.bytes == 0; });
+    return std::to_string(bytes / unit->bytes) + std::string{unit->name};
+}
+
 bool set_sim_speed(Settings& settings, std::string const& text) {
     auto const speed = number_within(text, 0, 1'000);
     if (speed && *speed > 0 && *speed < 0.01) return false;
@@ -309,11 +336,21 @@ std::vector<Key> session_keys() {
         whole_number<std::size_t>(
             "max_subscribed_predicates", "predicates in the conditions of a session's subscriptions together",
             [](Settings & s) -> auto& { return s.engine.max_subscribed_predicates; }, 256, 1e6),
+        whole_number<std::size_t>(
+            "max_predicates", "predicates in the conditions of all subscriptions together",
+            [](Settings & s) -> auto& { return s.engine.max_predicates; }, 256, 1e8),
+        whole_number<std::size_t>(
+            "max_condition_bytes", "bytes of text in the conditions of a session's subscriptions together",
+            [](Settings & s) -> auto& { return s.engine.max_condition_bytes; }, 1'024, 1 << 30),
     };
 }
 
 std::vector<Key> network_keys() {
     return {
+        {"memory_budget",
+         "memory that the process may use; from 80 % on, new sessions, subscriptions and long documents are refused", "SIZE",
+         "a whole number of bytes, or of KiB, MiB or GiB, such as 512MiB, from 64MiB to 1024GiB", Key::Kind::text,
+         set_memory_budget, show_memory_budget},
         whole_number<std::size_t>(
             "max_connections", "connections", [](Settings & s) -> auto& { return s.net.max_connections; }, 1, 1e6),
         whole_number<std::size_t>(

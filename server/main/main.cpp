@@ -22,6 +22,7 @@
 #include "net/foreign.hpp"
 #include "net/gateway.hpp"
 #include "net/health_check.hpp"
+#include "net/memory.hpp"
 #include "net/open_files.hpp"
 #include "net/secrets.hpp"
 #include "net/server.hpp"
@@ -200,6 +201,7 @@ int serve(CommandLine const& command) {
     }
     auto const log = set_up_logging(settings.log_format, settings.log_level);
     LogFlush const flush;
+    net::release_large_blocks_at_once();
     auto net_settings = with_all_hosts(settings);
     make_room_for_connections(net_settings, settings.media);
     for (auto const& warning : command.warnings) spdlog::warn("{}", warning);
@@ -213,7 +215,8 @@ int serve(CommandLine const& command) {
     SpeechLog const speech_log{simulation};
     net::Telemetry telemetry;
     telemetry.show(log);
-    net::Gateway gateway{engine, readers, telemetry, client_limits(net_settings)};
+    MemoryBudget memory{settings.net.memory_budget, net::memory_in_use};
+    net::Gateway gateway{engine, readers, telemetry, client_limits(net_settings), memory};
     UserComponents user_components{
         schemas, {simulation, media, schemas}, profiles, own_refs(settings, simulation->hall().plan()), settings.profiles};
     if (!settings.profiles.empty()) gateway.change([&] { return user_components.read(); });

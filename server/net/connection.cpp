@@ -6,12 +6,14 @@
 
 #include "net/event_stream.hpp"
 #include "net/upgrade.hpp"
+#include "types/identifier_length.hpp"
 
 namespace rois::net {
 
 namespace {
 
 constexpr std::size_t most_to_gather = 64 * 1024;  // bytes of answers to pipelined requests
+constexpr std::size_t most_to_keep = 16 * 1024;    // of memory for them, while there are none
 constexpr auto longest_linger = std::chrono::seconds{2};
 
 Steady now() { return std::chrono::steady_clock::now(); }
@@ -45,7 +47,14 @@ Task<> Connection::run() {
 
 void Connection::sweep(Steady at) {
     wire_.sweep(at);
-    if (auto const websocket = websocket_.lock()) websocket->sweep(at);
+    auto const websocket = websocket_.lock();
+    if (websocket) websocket->sweep(at);
+    auto const& memory = loop_.shared().gateway.memory();
+    if (!memory.tight()) return;
+    bool const arriving = websocket || request_due_ != Steady::max();
+    auto const unfinished = arriving ? wire_.received().size() + (websocket ? websocket->gathered() : 0) : 0;
+    bool const unread = memory.full() && wire_.waits_for_reader();
+    if (unread || unfinished > memory.longest_document()) cut_for_memory();
 }
 
 void Connection::shut_down() {
@@ -94,7 +103,12 @@ Connection::Then Connection::take_request() {
         if (wire_.received().size() < head().content_length && !head().http_1_0 && head().lists("Expect", "100-continue"))
             out_.append("HTTP/1.1 100 Continue\r\n\r\n");
     }
-    return wire_.received().size() < head().content_length ? Then::receive : Then::next;
+    if (wire_.received().size() >= head().content_length) return Then::next;
+    auto& memory = loop_.shared().gateway.memory();
+    if (head().content_length <= memory.longest_document()) return Then::receive;
+    auto const refused = refuse(no_memory_for_document(memory));
+    has_head_ = false;
+    return refused;
 }
 
 Connection::Then Connection::take_head() {
@@ -109,7 +123,8 @@ Connection::Then Connection::take_head() {
     searched_ = 0;
     if (auto const fault = heads_->read(wire_.text().substr(0, size), settings)) return refuse(*fault);
     wire_.use(size);
-    if (!heads_->repeated()) session_.text.assign(head().field("RoIS-Session").value_or(""));
+    constexpr auto enough = longest_identifier + 1;  // a longer id is unknown, and so is its beginning
+    if (!heads_->repeated()) session_.text.assign(head().field("RoIS-Session").value_or("").substr(0, enough));
     return Then::next;
 }
 
@@ -135,15 +150,18 @@ Task<Connection::Then> Connection::receive() {
     idle_ = !has_head_ && wire_.received().empty();
     if (idle_ && loop_.draining()) co_return Then::end;
     if (idle_) request_due_ = Steady::max();
+    if (idle_) heads_->forget_if_long();
     if (!idle_ && request_due_ == Steady::max()) request_due_ = now() + settings.request_timeout;
     auto const expected = has_head_ ? head().content_length - wire_.received().size() : 0;
     if (idle_ && idle_due_ == Steady::max()) idle_due_ = now() + settings.idle_timeout;
     auto const until = idle_ ? idle_due_ : request_due_;
+    auto const before = wire_.received().size();
     auto outcome = wire_.receive_now(until, expected);
     while (!outcome) {
         co_await wire_.readable();
         outcome = wire_.receive_now(until, expected);
     }
+    if (has_head_) loop_.shared().gateway.memory().took(wire_.received().size() - before);
     bool const silent = std::exchange(idle_, false);
     if (outcome == Wire::Outcome::closed || (outcome == Wire::Outcome::late && silent)) co_return Then::end;
     if (outcome == Wire::Outcome::late) co_return refuse(too_slow());
@@ -165,6 +183,7 @@ Connection::Then Connection::reply(Answer&& answer) {
     http.body = std::move(answer.document);
     if (answer.fault) {
         http.status = status_of(answer.fault->code);
+        if (http.status == 429) http.set("Retry-After", "1");
         log(*answer.fault, request_line());
     }
     if (answer.turn == Answer::Turn::connected) http.set("RoIS-Session", answer.session.text);
@@ -266,7 +285,9 @@ Connection::Then Connection::refuse(Fault const& fault) {
     loop_.shared().telemetry.faulted(fault.code);
     log(fault, has_head_ ? request_line() : wire_.text().substr(0, wire_.text().find_first_of("\r\n")));
     bool const asks_for_head = has_head_ ? head().method == "HEAD" : wire_.text().starts_with("HEAD ");
-    append(out_, answer_of(fault), {.body = !asks_for_head, .close = true});
+    auto answer = answer_of(fault);
+    if (answer.status == 429) answer.set("Retry-After", "1");
+    append(out_, answer, {.body = !asks_for_head, .close = true});
     return Then::linger;
 }
 
@@ -280,15 +301,31 @@ std::string Connection::request_line() const { return std::string{head().method}
 bool Connection::flush_at_once() {
     out_.erase(0, wire_.send_now(out_));
     if (!out_.empty()) return false;
-    holds_.clear();
+    forget_out();
     return true;
 }
 
+// What the peer does not take at once waits here: not while memory_budget is used up.
 Task<> Connection::flush() {
     if (flush_at_once()) co_return;
+    auto& memory = loop_.shared().gateway.memory();
+    memory.took(out_.size());
+    if (memory.full()) cut_for_memory();
     co_await wire_.send(out_);
     out_.clear();
+    forget_out();
+}
+
+void Connection::forget_out() {
+    if (out_.capacity() > most_to_keep) std::string{}.swap(out_);
     holds_.clear();
+}
+
+void Connection::cut_for_memory() {
+    spdlog::warn("the connection of {} was cut: {}", wire_.peer(),
+                 loop_.shared().gateway.memory().refuse("there is no memory for what it sends or does not read"));
+    loop_.shared().telemetry.cut();
+    wire_.cut();
 }
 
 }  // namespace rois::net

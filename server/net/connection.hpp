@@ -61,6 +61,8 @@ private:
     std::string request_line() const;
     // False when the socket takes only a part at once: then `flush` goes on.
     bool flush_at_once();
+    void forget_out();
+    void cut_for_memory();
     Task<> flush();
 
     Loop& loop_;

@@ -110,9 +110,12 @@ Task<std::optional<HttpAnswer>> stream(Wire& wire, Gateway& gateway, Telemetry& 
     while (!gone) {
         auto const taken = reading->take(most_at_once);
         for (auto const& numbered : taken.notifications) append_event(out, numbered);
+        out.erase(0, wire.send_now(out));
+        if (!out.empty()) gateway.memory().took(out.size());
+        if (!out.empty() && gateway.memory().full()) break;
         auto const sent = co_await wire.send(out);
         if (sent != Wire::Outcome::done) break;
-        out.clear();
+        std::string{}.swap(out);
         telemetry.delivered(taken.notifications.size());
         if (taken.then == Reading::Then::more) continue;
         if (taken.then != Reading::Then::wait) break;

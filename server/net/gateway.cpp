@@ -4,23 +4,17 @@
 #include <thread>
 #include <utility>
 
+#include "net/memory.hpp"
+
 namespace rois::net {
 
 namespace {
 
 Instant present() { return {std::chrono::steady_clock::now(), std::chrono::system_clock::now()}; }
 
-Fault fault_of(Refusal refusal) {
-    switch (refusal) {
-        case Refusal::too_many_sessions:
-            return {FaultCode::too_many, "too many sessions are open", {}, {}};
-        case Refusal::shutting_down:
-            return shutting_down();
-        case Refusal::no_session:
-            break;
-    }
-    return no_such_session();
-}
+// A document takes up to ten times its length while it is read and performed (measured); some to spare.
+constexpr std::size_t work_factor = 16;
+constexpr std::size_t negligible = 1024;  // bytes of a document; most requests are that short
 
 Fault beyond(std::uint64_t after, std::uint64_t last) {
     return {FaultCode::not_well_formed,
@@ -93,6 +87,10 @@ Reading::Taken Reading::take(std::size_t most) {
 
 Fault shutting_down() { return {FaultCode::shutting_down, "the gateway is shutting down", {}, {}}; }
 
+Fault no_memory_for_document(MemoryBudget& memory) {
+    return {FaultCode::too_many, memory.refuse("there is no memory for a long document"), {}, {}};
+}
+
 Fault no_such_session() { return {FaultCode::no_session, "there is no such session; connect first", {}, {}}; }
 
 NotificationDocument::NotificationDocument(Numbered const& numbered)
@@ -105,14 +103,16 @@ void NotificationDocument::append_to(std::string& out) const {
     out.append(before_).append(digits_.data(), digits_size_).append(after_);
 }
 
-Gateway::Gateway(Engine& engine, Readers& readers, Telemetry& telemetry, ClientLimits limits)
+Gateway::Gateway(Engine& engine, Readers& readers, Telemetry& telemetry, ClientLimits limits, MemoryBudget& memory)
     : engine_{engine},
       readers_{readers},
       telemetry_{telemetry},
+      memory_{memory},
       quota_{limits.sessions_per_connection, limits.sessions_per_address},
       streams_per_session_{limits.streams_per_session},
       log_{[this](std::uint64_t session) { quota_.ended(session); }} {
     engine_.report_to(log_);
+    engine_.keep_within(memory);
     telemetry.set(Telemetry::Limit::sessions_per_connection, limits.sessions_per_connection);
     telemetry.set(Telemetry::Limit::sessions_per_address, limits.sessions_per_address);
     telemetry.set(Telemetry::Limit::streams_per_session, limits.streams_per_session);
@@ -128,6 +128,9 @@ Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std
         telemetry_.faulted(fault.code);
         answer.fault = std::move(fault);
     };
+    std::optional<MemoryBudget::Room> room;
+    if (text.size() > negligible) room.emplace(room_for(text));
+    if (room && !*room) return refuse(no_memory_for_document(memory_), ""), std::move(answer);
     auto const read = reader.read(text);
     if (auto const way = reader.checked()) telemetry_.checked(*way);
     if (auto const* fault = std::get_if<Fault>(&read)) return refuse(*fault, fault->request_id), std::move(answer);
@@ -148,6 +151,27 @@ Answer Gateway::answer(xml::RequestReader& reader, SessionId const& session, std
     telemetry_.answered(request.operation, code, std::chrono::steady_clock::now() - begun.steady);
     if (code == ReturnCode::ok) take_turn(answer, request.operation, reply);
     return answer;
+}
+
+// False: there is none. What is short needs none of its own, but the memory is measured when much of it has come.
+MemoryBudget::Room Gateway::room_for(std::string_view text) {
+    memory_.took(text.size());
+    if (text.size() > memory_.longest_document()) return {};
+    return memory_.reserve(text.size() > MemoryBudget::longest_when_tight ? text.size() * work_factor : 0);
+}
+
+Fault Gateway::fault_of(Refusal refusal) {
+    switch (refusal) {
+        case Refusal::too_many_sessions:
+            return {FaultCode::too_many, "too many sessions are open", {}, {}};
+        case Refusal::no_memory:
+            return {FaultCode::too_many, memory_.refuse("there is no memory for a new session"), {}, {}};
+        case Refusal::shutting_down:
+            return rois::net::shutting_down();
+        case Refusal::no_session:
+            break;
+    }
+    return no_such_session();
 }
 
 std::variant<Reply, Refusal> Gateway::perform(SessionId const& session, Operation const& operation, Via via,
@@ -228,8 +252,18 @@ void Gateway::begin() {
     telemetry_.ticked(now.steady);
 }
 
+// What was freed goes back to the system, else it would count for as long as the process runs.
+void Gateway::save_memory(Steady now) {
+    memory_.look();
+    if (!memory_.tight() || now - memory_released_ < std::chrono::seconds{1}) return;
+    memory_released_ = now;
+    release_memory();
+    memory_.look();
+}
+
 void Gateway::tick() {
     auto const now = present();
+    save_memory(now.steady);
     {
         std::lock_guard const lock{mutex_};
         engine_.tick(now);

@@ -88,6 +88,8 @@ private:
 // What those hear who name no session, an unknown one or an ended one.
 Fault no_such_session();
 Fault shutting_down();
+// To whoever sends a document that there is no memory for.
+Fault no_memory_for_document(MemoryBudget&);
 
 // The document of a notification (wire.md): the sequence is its session's own; what stands before and behind it is shared by all
 // its receivers, encoded once, and lives as long as the notification.
@@ -126,8 +128,8 @@ struct Answer {
 
 class Gateway {
 public:
-    // All three must outlive the gateway; `readers` is the engine's outbox.
-    Gateway(Engine&, Readers& readers, Telemetry&, ClientLimits = {});
+    // All must outlive the gateway; `readers` is the engine's outbox. The memory is measured at each tick.
+    Gateway(Engine&, Readers& readers, Telemetry&, ClientLimits = {}, MemoryBudget& = MemoryBudget::none());
 
     // Reads the request's text, performs the operation for the session (an empty id: for nobody yet) and encodes the answer.
     // Only the operation itself is done with the engine locked. `opener`: the connection, whose sessions are counted; null: they
@@ -149,8 +151,8 @@ public:
     // For a gateway that is given up: halts every component, as far as the engine can be had within a second. Never throws.
     void halt_at_last() noexcept;
 
-    // Components come and go: those that `make` makes with the engine locked, since their devices move meanwhile. Throws what that
-    // and the engine throw.
+    // Components come and go: those that `make` makes with the engine locked, since their devices move meanwhile. Throws what
+    // that and the engine throw.
     void change(std::function<ComponentChange()> const& make);
 
     // Stop for everything (decision 34). Returns the refs of components that have not confirmed yet that they stand still.
@@ -161,6 +163,7 @@ public:
 
     // Ends all sessions; what comes later is refused.
     void shut_down();
+    MemoryBudget& memory() { return memory_; }
     bool shutting_down() const { return shutting_down_; }
 
     std::shared_ptr<EngineProfile const> profile() const;
@@ -175,11 +178,16 @@ private:
     std::variant<Reply, Refusal> perform(SessionId const&, Operation const&, Via, std::shared_ptr<Opener> const&, Reading const*,
                                          Instant now, Answer&);
     std::optional<Fault> refusal_of(Opener const&);
+    Fault fault_of(Refusal);
+    MemoryBudget::Room room_for(std::string_view text);
+    void save_memory(Steady now);
     void heard_from_opened(std::variant<Reply, Refusal> const&, Instant now);
 
     Engine& engine_;
     Readers& readers_;
     Telemetry& telemetry_;
+    MemoryBudget& memory_;
+    Steady memory_released_;    // when memory was given back to the system last; the tick's own
     mutable std::mutex mutex_;  // guards the engine, the readers and the quota
     SessionQuota quota_;
     std::size_t streams_per_session_;

@@ -264,6 +264,14 @@ bool HeadReader::repeat(std::string_view text) {
     return true;
 }
 
+void HeadReader::forget_if_long() {
+    constexpr std::size_t longest_kept = 4 * 1024;
+    if (text_.size() <= longest_kept) return;
+    std::string{}.swap(text_);
+    head_ = {};
+    length_at_ = length_digits_ = 0;
+}
+
 void HeadReader::note_length() {
     auto const length = text_.empty() ? std::nullopt : head_.field("Content-Length");
     length_digits_ = length ? length->size() : 0;

@@ -68,6 +68,9 @@ public:
     // Whether that said what the one before had said, but for content_length.
     bool repeated() const { return repeated_; }
 
+    // Frees the memory of a head that is longer than most are: `last` is empty then.
+    void forget_if_long();
+
 private:
     bool repeat(std::string_view text);
     void note_length();

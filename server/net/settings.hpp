@@ -23,6 +23,8 @@ struct Settings {
     std::size_t max_streams_per_session = 8;  // event streams
     std::vector<Network> proxies;             // whose connections none of the four limits holds for
 
+    std::size_t memory_budget = std::size_t{512} << 20;  // bytes of memory that the process may use
+
     std::size_t max_header = 16 * 1024;  // bytes of a request line with its header fields
     std::size_t max_fields = 100;
     std::size_t max_target = 4 * 1024;  // bytes

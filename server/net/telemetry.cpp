@@ -3,14 +3,13 @@
 #include <dirent.h>
 #include <prometheus/text_serializer.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 #include <functional>
 #include <sstream>
 
 #include "net/log_queue.hpp"
+#include "net/memory.hpp"
 
 namespace rois::net {
 
@@ -53,13 +52,6 @@ double cpu_seconds() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-double resident_bytes() {
-    std::ifstream statm{"/proc/self/statm"};
-    double size = 0, resident = 0;
-    statm >> size >> resident;
-    return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
-
 // Not with std::filesystem, which ends the process when it has no memory.
 double open_descriptors() {
     auto* const folder = ::opendir("/proc/self/fd");
@@ -95,7 +87,7 @@ public:
     }
 
     void process() {
-        gauge("process_resident_memory_bytes", "Resident memory of the process.", resident_bytes());
+        gauge("process_resident_memory_bytes", "Resident memory of the process.", static_cast<double>(resident_bytes()));
         gauge("process_open_fds", "Open file descriptors.", open_descriptors());
         counter("process_cpu_seconds_total", "User and system CPU time of the process.", cpu_seconds());
     }
@@ -118,6 +110,11 @@ public:
               s.everything_is_stopped ? 1 : 0);
         gauge("rois_components_not_halted", "Components that were told to halt and have not confirmed that they stand still.",
               number(s.not_halted));
+        if (s.memory_budget != 0) {
+            gauge("rois_memory_budget_bytes", "Memory that the process may use.", number(s.memory_budget));
+            gauge("rois_memory_used_bytes", "Memory that it uses, with what is reserved for documents that are being read.",
+                  number(s.memory_used));
+        }
         begin("rois_commands_completed_total", "Commands by how they ended.", MetricType::Counter);
         for (std::size_t i = 0; i < std::size(s.commands_completed); ++i) {
             add({{"status", std::string{to_text(static_cast<CompletedStatus>(i))}}}, number(s.commands_completed[i]));

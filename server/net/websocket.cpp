@@ -14,6 +14,8 @@ namespace rois::net {
 namespace {
 
 constexpr std::size_t most_at_once = 64;                                // notifications of one write
+constexpr std::size_t most_answers_kept = 16 * 1024;                    // bytes of memory for answers, while there are none
+constexpr std::size_t longest_negligible = 4 * 1024;                    // bytes of requests
 constexpr unsigned most_controls = 50;                                  // control frames a second
 constexpr auto between_signs_of_life = std::chrono::milliseconds{500};  // that are asked for while the robot moves
 constexpr auto longest_farewell = std::chrono::seconds{2};              // from our close frame to the end of the connection
@@ -57,6 +59,7 @@ Task<> WebSocket::run() {
             outcome = wire_->receive_now(Steady::max());
         }
         heard_something_ = true;
+        if (wire_->received().size() > longest_negligible) gateway_.memory().took(wire_->received().size());
     }
     break_off();
     while (writing_) co_await something_written();
@@ -81,6 +84,12 @@ bool WebSocket::take_frames() {
         if (incomplete) break;
     }
     note_message();
+    auto& memory = gateway_.memory();
+    auto const unfinished = wire_->received().size() + gathered();
+    if (unfinished > memory.longest_document()) {
+        memory.refuse("");
+        close({CloseCode::policy_violation, "no memory for a long message: memory_budget is nearly used up; try again later"});
+    }
     return true;
 }
 
@@ -124,7 +133,7 @@ void WebSocket::say(Answer const& answer) {
     join(answer);
     if (!answer.fault) return;
     if (is_logged(answer.fault->code)) log_fault(*answer.fault, "a message on a WebSocket", wire_->peer());
-    if (answer.fault->code == FaultCode::too_many) close({CloseCode::policy_violation, "too many sessions"});
+    if (answer.fault->code == FaultCode::too_many && !reading_) close({CloseCode::policy_violation, "too many sessions"});
 }
 
 // Pongs wait among the answers, in the order of what they answer, and count as answers: a peer that sends pings and reads nothing
@@ -175,7 +184,7 @@ void WebSocket::join(Answer const& answer) {
 // Reading stops while as many answers wait as may be in flight.
 Task<> WebSocket::wait_for_room() {
     flush();
-    auto const is_full = [this] { return answers_waiting_ + answers_in_out_ >= settings_.max_requests_in_flight; };
+    auto const is_full = [this] { return full() || answers_waiting_ + answers_in_out_ >= settings_.max_requests_in_flight; };
     while (is_full() && !broken_ && !close_gathered_) co_await something_written();
 }
 
@@ -267,23 +276,36 @@ void WebSocket::write() {
         bool const more = gather(near);
         if (near.empty()) return;
         auto const sent = wire_->send_now(near);
-        if (sent < near.size()) {
-            out_.assign(near, sent);
-            writing_ = true;
-            auto const self = std::static_pointer_cast<WebSocket>(shared_from_this());
-            auto const drained = [self](std::exception_ptr const& broken) {
-                if (!broken) return;
-                self->writing_ = false;
-                self->break_off();
-                if (self->room_) self->room_->raise();
-            };
-            asio::co_spawn(
-                wire_->executor(), [self] { return self->drain(); }, drained);
-            return;
-        }
+        if (sent < near.size()) return keep_unsent(std::string_view{near}.substr(sent));
         written();
         if (!more) return;
     }
+}
+
+// Writes it when the peer takes more: not while memory_budget is used up.
+void WebSocket::keep_unsent(std::string_view rest) {
+    auto& memory = gateway_.memory();
+    memory.took(rest.size());
+    if (memory.full()) {
+        spdlog::warn("the WebSocket of {} was cut: {}", wire_->peer(),
+                     memory.refuse("there is no memory for what it does not read"));
+        telemetry_.cut();
+        broken_ = true;
+        wire_->cut();
+        if (room_) room_->raise();
+        return;
+    }
+    out_.assign(rest);
+    writing_ = true;
+    auto const self = std::static_pointer_cast<WebSocket>(shared_from_this());
+    auto const drained = [self](std::exception_ptr const& broken) {
+        if (!broken) return;
+        self->writing_ = false;
+        self->break_off();
+        if (self->room_) self->room_->raise();
+    };
+    asio::co_spawn(
+        wire_->executor(), [self] { return self->drain(); }, drained);
 }
 
 // Appends what waits, as much as goes out at once; true when there is more.
@@ -291,6 +313,7 @@ bool WebSocket::gather(std::string& out) {
     if (close_gathered_) return false;
     out.append(answers_);
     answers_.clear();
+    if (answers_.capacity() > most_answers_kept) answers_.shrink_to_fit();
     answers_in_out_ = std::exchange(answers_waiting_, 0);
     if (std::exchange(ping_due_, false)) append_frame(out, Opcode::ping, "");
     bool const more = (!ending_ || ending_->code == CloseCode::going_away) && gather_notifications(out);

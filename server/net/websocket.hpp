@@ -27,6 +27,8 @@ public:
 
     // Looks at the clock: pings who is silent or commands something that moves, closes for who sends a message too slowly.
     void sweep(Steady now);
+    // Bytes of a message that is not whole yet, in fragments that are.
+    std::size_t gathered() const { return messages_.gathered(); }
     // The peer hears its last notifications, then the connection closes with 1001.
     void shut_down();
 
@@ -40,13 +42,15 @@ private:
     void taken_over() override;
     void approach(Distance) const override;
 
+    static constexpr std::size_t most_answers = 64 * 1024;  // bytes that wait before it is read again
+
     bool take_frames();
     void take(MessageReader::Heard const&);
     void answered(Answer&&);
     void say(Answer const&);
     void say_pong(std::string_view payload);
     void join(Answer const&);
-    bool full() const { return answers_waiting_ >= settings_.max_requests_in_flight; }
+    bool full() const { return answers_waiting_ >= settings_.max_requests_in_flight || answers_.size() > most_answers; }
     Task<> pause();
     Task<> answer_long_message();
     Task<> say_farewell();
@@ -59,6 +63,7 @@ private:
     void flush();
     void write();
     void break_off() noexcept;
+    void keep_unsent(std::string_view);
     bool gather(std::string& out);
     bool gather_notifications(std::string& out);
     void written();

@@ -154,6 +154,7 @@ MessageReader::Heard MessageReader::refuse(Head const& head) const {
 
 MessageReader::Heard MessageReader::next(std::span<char> bytes, std::size_t& used) {
     used = 0;
+    if (!whole_.empty()) std::string{}.swap(whole_);
     auto const read = read_head(bytes);
     if (auto const* violation = std::get_if<Violation>(&read)) return *violation;
     if (std::holds_alternative<Incomplete>(read)) return Incomplete{};

@@ -60,6 +60,8 @@ public:
 
     // Whether a message has begun whose last fragment is still to come.
     bool in_message() const { return fragments_ > 0; }
+    // Bytes of it that have come.
+    std::size_t gathered() const { return parts_.size(); }
 
 private:
     struct Head;

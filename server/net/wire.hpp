@@ -53,6 +53,9 @@ public:
     class Watch;
     Watch watch(std::function<void()> gone, std::function<bool(Steady now)> is_proof);
 
+    // Whether something was given to `send` that the peer has not taken.
+    bool waits_for_reader() const { return output_due_ != Steady::max(); }
+
     // Says that nothing more will be sent.
     void finish();
     // Finishes, and reads away what the peer still sends, so that it can read our last words before the connection ends.

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "types/identifier_length.hpp"
 #include "types/instant.hpp"
 #include "types/texts.hpp"
 
@@ -272,8 +273,11 @@ std::optional<std::string> why_not(DataType const& type, std::span<std::string c
     if (!type.list && values.size() != 1)
         return "a single value of the type " + to_text(type) + " needs exactly one value, here are " +
                std::to_string(values.size());
-    for (auto const& value : values)
+    for (auto const& value : values) {
         if (!is_of(type, value)) return not_of(type, value);
+        auto too_long = type.base == BaseType::identifier ? why_too_long("the identifier", value) : std::nullopt;
+        if (too_long) return too_long;
+    }
     return {};
 }
 

@@ -51,7 +51,13 @@ void MessageTree::open(std::string_view name, std::string_view type) {
 void MessageTree::add_text(std::string_view piece) {
     auto& element = elements_[innermost_];
     if (element.first_child != 0 && is_white_space(piece)) return;
-    element.text = element.text.empty() ? piece : joined_.emplace_back(std::string{element.text}.append(piece));
+    if (element.text.empty()) {
+        element.text = piece;
+    } else {
+        auto& joined = joined_[innermost_];
+        if (joined.data() != element.text.data()) joined.assign(element.text);  // it is the second piece
+        element.text = joined.append(piece);
+    }
 }
 
 bool MessageTree::read(pugi::xml_node root, std::size_t deepest) {

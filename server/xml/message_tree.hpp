@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <optional>
 #include <pugixml.hpp>
 #include <string>
@@ -78,7 +78,7 @@ private:
 
     std::vector<Element> elements_;
     std::vector<Attribute> attributes_;
-    std::deque<std::string> joined_;  // texts that come in pieces
+    std::map<Index, std::string> joined_;  // texts that come in pieces, by element
     std::string_view name_space_;
     Index innermost_ = 0;
 };

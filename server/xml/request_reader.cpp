@@ -1,3 +1,4 @@
+#include "types/identifier_length.hpp"
 #include "xml/checked_reader.hpp"
 #include "xml/codec.hpp"
 #include "xml/decoding.hpp"
@@ -12,7 +13,11 @@ public:
 
     std::variant<Request, Fault> read(std::string_view document) {
         if (auto fault = reader_.read(document)) return *std::move(fault);
-        if (auto request = decode(reader_.message())) return *std::move(request);
+        if (auto request = decode(reader_.message())) {
+            if (auto problem = why_too_long("request_id", request->request_id))
+                return reader_.complain(reader_.root(), *std::move(problem));
+            return *std::move(request);
+        }
         // Valid, but an answer, a notification or a profile.
         auto const explanation = explain(*schemas_, reader_.root(), operation_names());
         return reader_.complain(reader_.root(), explanation ? explanation->reason : "this is no request");

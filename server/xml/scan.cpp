@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "types/identifier_length.hpp"
 #include "types/texts.hpp"
 #include "xml/characters.hpp"
 #include "xml/names.hpp"
@@ -292,9 +293,8 @@ std::string request_id_of(std::string_view document) {
     if (step == StartTag::Step::end) alone.insert(alone.size() - 1, 1, '/');
     pugi::xml_document tree;
     tree.load_buffer_inplace(alone.data(), alone.size(), pugi::parse_default | pugi::parse_wconv_attribute, pugi::encoding_utf8);
-    constexpr std::size_t longest = 256;  // of those that a fault repeats: nothing has checked this one
     std::string id = tree.document_element().attribute("request_id").value();
-    return id.size() <= longest ? id : std::string{};
+    return why_too_long("request_id", id) ? std::string{} : id;
 }
 
 }  // namespace rois::xml

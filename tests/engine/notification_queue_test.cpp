@@ -253,6 +253,26 @@ TEST(QueueOfAnyLength, GivesTheSameWhereverItsLastEntriesAre) {
     }
 }
 
+TEST_F(LongMemory, KeepsTheLastEventsOnly) {
+    events(2);
+    read(0);
+    completed(1);
+    events(1);
+    queue.keep_last(1);
+    EXPECT_THAT(read(2), ElementsAre("3 c", "4 e")) << "one event waited";
+    EXPECT_THAT(read(0), ElementsAre("2 lost 2", "3 c", "4 e")) << "what was sent is forgotten";
+    queue.keep_last(0);
+    events(2);
+    completed(1);
+    events(1);
+    queue.keep_last(1);
+    EXPECT_EQ(queue.lost(), 2U);
+    EXPECT_EQ(queue.waiting(), 2U);
+    EXPECT_THAT(read(4), ElementsAre("6 lost 2", "7 c", "8 e"));
+    events(1);
+    EXPECT_THAT(read(8), ElementsAre("9 e"));
+}
+
 TEST(OutgoingNotification, IsEncodedOnce) {
     OutgoingNotification const notification{Completed{{"go"}, CompletedStatus::ok}};
     int encoded = 0;

@@ -25,8 +25,8 @@ Headers const cli11{"CLI/"};
 Headers const json{"nlohmann/"};
 Headers const jpeg{"jpeglib.h"};
 Headers const rois{"rois/"};
-Headers const posix{"arpa/",     "dirent.h", "errno.h",  "fcntl.h", "locale.h", "netdb.h",  "netinet/", "poll.h",
-                    "pthread.h", "sched.h",  "signal.h", "sys/",    "time.h",   "unistd.h", "wchar.h"};
+Headers const posix{"arpa/",  "dirent.h",  "errno.h", "fcntl.h",  "locale.h", "malloc.h", "netdb.h",  "netinet/",
+                    "poll.h", "pthread.h", "sched.h", "signal.h", "sys/",     "time.h",   "unistd.h", "wchar.h"};
 
 // What other layers may see through the headers of the one that uses it: vectors and poses are the simulation's vocabulary.
 Headers const shown{eigen};

@@ -271,6 +271,22 @@ TEST(BadDocument, ItsWordsAreShownCutAndClean) {
     EXPECT_LT(mismatch.reason.size(), 400u);
 }
 
+TEST(RequestId, OfMoreThan256CharactersIsInvalidAndNotRepeated) {
+    std::string euros;
+    for (int i = 0; i < 256; ++i) euros += "&#x20AC;";
+    EXPECT_EQ(request(document("connect", {}, " request_id='" + euros + "'")).request_id.size(), 3 * 256u);
+    auto const refused = fault("\n " + document("connect", {}, " request_id='" + euros + "x'"));
+    EXPECT_EQ(refused.code, FaultCode::invalid);
+    EXPECT_THAT(refused.reason, HasSubstr("has 257 characters: expected 256 at most"));
+    EXPECT_THAT(refused.reason, HasSubstr("request_id '"));
+    EXPECT_EQ(refused.request_id, "");
+    ASSERT_TRUE(refused.place);
+    EXPECT_EQ(refused.place->line, 2u);
+    EXPECT_EQ(refused.place->column, 2u);
+    EXPECT_EQ(fault(document("nonsense", {}, " request_id='" + euros + "'")).request_id.size(), 3 * 256u);
+    EXPECT_EQ(fault(document("nonsense", {}, " request_id='" + euros + "x'")).request_id, "");
+}
+
 TEST(BadDocument, TheRequestIdIsToldWhenItCanBeRead) {
     EXPECT_EQ(fault(document("bind", {}, " request_id='r1'")).request_id, "r1");
     EXPECT_EQ(fault(document("nonsense", {}, " request_id='a&amp;b&#x20AC;\tc'")).request_id, "a&b\xE2\x82\xAC c");

@@ -78,6 +78,7 @@ TEST(Request, TextMeansWhatXmlSaysItMeans) {
     EXPECT_EQ(text("a\r\nb\rc&#13;d"), "a\nb\nc\rd");
     EXPECT_EQ(text("  \t "), "  \t ");
     EXPECT_EQ(text("<![CDATA[]]>"), "");
+    EXPECT_EQ(text("a<!-- 1 -->b<![CDATA[c]]>d<!-- 2 --><!-- 3 -->&#101;<![CDATA[f]]>"), "abcdef");
     EXPECT_EQ(text("<![CDATA[\r\n]]>"), "\n");
     EXPECT_EQ(text("<![CDATA[ ]]>"), " ");
     EXPECT_EQ(text("a<![CDATA[]]>b<![CDATA[ \t ]]>c"), "ab \t c");

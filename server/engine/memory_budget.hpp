@@ -1,0 +1,85 @@
+// How much memory the process may use, and what follows when little is left (docs/safety.md).
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace rois {
+
+// Compares the memory that the process uses with its limit. Nothing is counted piece by piece: `Measure` says how much it is in
+// all, and what is on its way (a long document) is reserved beforehand. Any thread.
+class MemoryBudget {
+public:
+    using Measure = std::function<std::size_t()>;  // bytes that the process uses now; called on any thread
+
+    // Without a limit.
+    MemoryBudget() = default;
+    MemoryBudget(std::size_t total, Measure measure) : total_{total}, measure_{std::move(measure)} { look(); }
+    MemoryBudget(MemoryBudget const&) = delete;
+    MemoryBudget& operator=(MemoryBudget const&) = delete;
+    static MemoryBudget& none();
+
+    std::size_t total() const { return total_; }
+    std::size_t used() const { return used_.load(std::memory_order_relaxed); }  // when it was looked at last
+
+    // From 80 % on: no new sessions, subscriptions and long documents.
+    bool tight() const { return used() >= total_ / 5 * 4; }
+    // From 100 % on: short requests only, and what is kept for later is dropped.
+    bool full() const { return used() >= total_; }
+
+    // Of a request, in bytes.
+    std::size_t longest_document() const {
+        if (!tight()) return std::numeric_limits<std::size_t>::max();
+        return full() ? longest_when_full : longest_when_tight;
+    }
+    static constexpr std::size_t longest_when_tight = 64 * 1024;
+    static constexpr std::size_t longest_when_full = 4 * 1024;
+
+    // Measures.
+    void look();
+    // So many bytes have come to stay for a while: measures when enough have come together.
+    void took(std::size_t bytes) {
+        constexpr std::size_t enough = 256 * 1024;
+        if (taken_.fetch_add(bytes, std::memory_order_relaxed) + bytes >= enough) look();
+    }
+
+    // Room for the work on a document, returned when this is destroyed. False: there is none.
+    class Room {
+    public:
+        Room() = default;
+        Room(Room&& other) noexcept : of_{std::exchange(other.of_, nullptr)}, bytes_{other.bytes_} {}
+        Room& operator=(Room&&) = delete;
+        ~Room() {
+            if (of_ != nullptr) of_->reserved_ -= bytes_;
+        }
+        explicit operator bool() const { return of_ != nullptr; }
+
+    private:
+        friend class MemoryBudget;
+        Room(MemoryBudget& of, std::size_t bytes) : of_{&of}, bytes_{bytes} {}
+
+        MemoryBudget* of_ = nullptr;
+        std::size_t bytes_ = 0;
+    };
+    Room reserve(std::size_t bytes);
+
+    // Counts a refusal, and gives its reason: "`what`: the gateway uses 420 of the 512 MiB of memory_budget; ...".
+    std::string refuse(std::string_view what);
+    std::uint64_t refusals() const { return refusals_; }
+
+private:
+    std::size_t total_ = std::numeric_limits<std::size_t>::max();
+    Measure measure_;
+    std::atomic<std::size_t> used_ = 0;
+    std::atomic<std::size_t> reserved_ = 0;
+    std::atomic<std::size_t> taken_ = 0;  // since it was measured last
+    std::atomic<std::uint64_t> refusals_ = 0;
+};
+
+}  // namespace rois
