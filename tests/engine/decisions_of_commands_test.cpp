@@ -1,4 +1,4 @@
-// Decisions 10 to 17 and 35 by number: sequences of commands, and what remains of them; stop.
+// Decisions 10 to 17 and 33 to 35 by number: sequences of commands, and what remains of them; how it is held and stopped.
 #include <gmock/gmock.h>
 
 #include <set>
@@ -197,6 +197,33 @@ TEST_F(Decision17, ResultsSayHowFarACommandIs) {
     world["speech"].finishes();
     for (int i = 0; i < 1'000; ++i) desk.execute(stop("speech")), desk.heard();
     EXPECT_EQ(desk.result_of("say"), "BAD_PARAMETER") << "a thousand have come since";
+}
+
+TEST(Decision33, WhatMovesIsHeldWhenItsApplicationIsSilent) {
+    auto wheels = navigation;
+    wheels.moves = true;
+    World world{wheels};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.execute(go("go"));
+    world.advance(2s);
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "suspend"));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
+    desk.execute(named("on", resume("navigation")));
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "suspend", "resume"));
+}
+
+TEST(Decision34, StopForEverythingNeedsNoSessionAndLastsUntilItIsCleared) {
+    World world{navigation, speech};
+    auto desk = world.connect();
+    desk.bind("navigation");
+    desk.execute(go("go"));
+    world.engine->stop_everything(world.now);
+    EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt"));
+    EXPECT_THAT(world["speech"].told, ElementsAre("halt"));
+    EXPECT_EQ(desk.execute(go("again")).return_code, ReturnCode::error);
+    world.engine->clear();
+    EXPECT_EQ(desk.execute(go("again")).return_code, ReturnCode::ok);
 }
 
 TEST(Decision35, StopAlwaysReachesTheComponentAndIsOkOnlyWhenThatStandsStill) {
