@@ -111,6 +111,21 @@ def requests(port):
     each(port, 64, act)
 
 
+def unread(port):
+    """300 connections that ask for documents, 3,000 at a time, and read nothing."""
+    asked = f"GET /rois/profile HTTP/1.1\r\nHost: {HOST}\r\n\r\n".encode() * 3_000
+
+    def act(one, _):
+        try:
+            one.open()
+            one.socket.sendall(asked)
+            time.sleep(5)
+        except OSError:
+            time.sleep(0.01)
+
+    each(port, 300, act)
+
+
 def predicates(port):
     """30 sessions that subscribe with conditions of 1,000 predicates, up to their limit and beyond."""
     every = [
@@ -256,6 +271,7 @@ KINDS = {
     one.__name__: one
     for one in (
         requests,
+        unread,
         predicates,
         literals,
         bodies,

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <boost/asio/post.hpp>
 #include <utility>
 
 #include "net/event_stream.hpp"
@@ -12,6 +13,7 @@ namespace rois::net {
 
 namespace {
 
+constexpr unsigned most_in_a_row = 16;             // pipelined requests, until others have their turn
 constexpr std::size_t most_to_gather = 64 * 1024;  // bytes of answers to pipelined requests
 constexpr std::size_t most_to_keep = 16 * 1024;    // of memory for them, while there are none
 constexpr auto longest_linger = std::chrono::seconds{2};
@@ -65,9 +67,11 @@ void Connection::shut_down() {
 // Serves one request after the other.
 Task<Connection::Then> Connection::serve() {
     auto then = Then::next;
+    unsigned in_a_row = 0;
     while (then == Then::next) {
         then = take_request();
         if (then == Then::receive) {
+            in_a_row = 0;
             then = co_await receive();
             continue;
         }
@@ -88,7 +92,10 @@ Task<Connection::Then> Connection::serve() {
             }
             then = reply(std::move(answer));
         }
-        if (out_.size() > most_to_gather || holds_.size() >= loop_.shared().settings.max_requests_in_flight) co_await flush();
+        bool const enough = ++in_a_row % most_in_a_row == 0;
+        if (enough || out_.size() > most_to_gather || holds_.size() >= loop_.shared().settings.max_requests_in_flight)
+            co_await flush();
+        if (enough) co_await asio::post(loop_.executor(), asio::use_awaitable_t<Executor>{});  // the turn of others
     }
     co_return then;
 }
