@@ -327,12 +327,12 @@ void Executor::end(SharedCommand const& command, CompletedStatus status, std::st
 
 // Tells its session, keeps its results, and lets its sequence go on.
 void Executor::finish(SharedCommand const& command, Instant now) {
-    ParameterList{}.swap(command->arguments);  // only its results are asked for from now on
     if (command->session != nullptr && !command->told) {
         journal_->command_ended(*command);
         notifier_.tell(*command->session, Completed{command->id, command->status});
         command->told = true;
     }
+    ParameterList{}.swap(command->arguments);  // only its results are asked for from now on
     if (command->session != nullptr) remember(command, now);
     if (auto const execution = std::exchange(command->execution, nullptr)) {
         try {
