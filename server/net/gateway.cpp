@@ -4,6 +4,7 @@
 #include <thread>
 #include <utility>
 
+#include "engine/attempts.hpp"
 #include "net/memory.hpp"
 
 namespace rois::net {
@@ -276,11 +277,8 @@ void Gateway::halt_at_last() noexcept {
     std::unique_lock lock{mutex_, std::defer_lock};
     for (int tries = 0; tries < 100 && !lock.try_lock(); ++tries) std::this_thread::sleep_for(std::chrono::milliseconds{10});
     if (!lock.owns_lock()) return;
-    try {
-        engine_.stop_everything(present());
-    } catch (...) {
-        // Each component was told nevertheless.
-    }
+    Attempts attempts;  // each component is told, whatever fails
+    attempts([&] { engine_.stop_everything(present()); });
 }
 
 void Gateway::change(std::function<ComponentChange()> const& make) {

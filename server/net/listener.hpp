@@ -26,6 +26,7 @@ public:
 
     void listen();
     Executor executor() { return acceptor_.get_executor(); }
+    Loop& loop() { return loop_; }
     Endpoint endpoint() const { return acceptor_.local_endpoint(); }
 
     // Until it is closed.

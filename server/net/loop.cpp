@@ -102,7 +102,7 @@ void Loop::serve(Socket socket, Admission::Place place) {
 void Loop::shut_down(std::chrono::milliseconds within) {
     asio::post(io_, [this, within] {
         last_moment_ = std::chrono::steady_clock::now() + within;
-        for (std::size_t i = 0; i < connections_.size(); ++i) connections_[i]->shut_down();
+        for (auto* connection : connections_) connection->shut_down();
     });
 }
 

@@ -58,8 +58,8 @@ public:
 
     void run() {
         auto& first = *loops_.front();
-        for (std::size_t i = 0; i < loops_.size(); ++i)
-            loops_[i]->always(Troubles::Where::accept, [listener = listeners_[i].get()] { return listener->accept(); });
+        for (auto const& listener : listeners_)
+            listener->loop().always(Troubles::Where::accept, [one = listener.get()] { return one->accept(); });
         first.always(Troubles::Where::loop, [this] { return wait_for_signal(); });
         if (on_hang_up_) first.always(Troubles::Where::loop, [this] { return wait_for_hang_ups(); });
         Clock const clock{shared_.settings.tick, [this] { shared_.gateway.tick(); }, troubles_};

@@ -2,8 +2,9 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <utility>
+
+#include "engine/attempts.hpp"
 
 namespace rois::net {
 
@@ -27,11 +28,8 @@ void log(Telemetry::Where where, std::exception_ptr const& failure) {
 
 void Troubles::report(Where where, std::exception_ptr const& failure, Steady now) noexcept {
     telemetry_.survived(where);
-    try {
-        log(where, failure);
-    } catch (...) {
-        // It was counted.
-    }
+    Attempts attempts;  // it was counted, whatever fails
+    attempts([&] { log(where, failure); });
     if (where != Where::connection && is_too_much(now)) give_up_();
 }
 
@@ -42,8 +40,7 @@ bool Troubles::is_too_much(Steady now) {
     std::lock_guard const lock{mutex_};
     bool const first = incidents_.front() == Steady{};
     if (!first && now - incidents_.front() < one_incident) return false;
-    std::shift_right(incidents_.begin(), incidents_.end(), 1);
-    incidents_.front() = now;
+    incidents_ = {now, incidents_[0], incidents_[1]};
     bool const full = incidents_.back() != Steady{};
     if (!full || now - incidents_.back() > too_short) return false;
     return !std::exchange(given_up_, true);
