@@ -46,7 +46,8 @@ class Line:
         try:
             self.socket.sendall((self.head(len(body), path) + body).encode())
             return self.take_answer()
-        except OSError:
+        except OSError as error:
+            print(f"a connection broke: {error}", file=sys.stderr)
             time.sleep(0.001)
             self.open()
             return ""

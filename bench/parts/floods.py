@@ -35,7 +35,6 @@ def probe(server, seconds):
     """A neighbour that asks, and one that stops, each in its turn, on connections of their own."""
     neighbour, stopper = attackers.Line(server.port), attackers.Line(server.port)
     clock = (~server.pid << 3) | 2
-    neighbour.connect()
     begun, used, most = time.perf_counter(), time.clock_gettime(clock), 0
     times = {"neighbour": [], **{way: [] for way in WAYS}}
 
@@ -47,9 +46,11 @@ def probe(server, seconds):
             raise RuntimeError(f"{name}: {answer}")
 
     while time.perf_counter() - begun < seconds:
+        if len(times["neighbour"]) % 500 == 0:  # a new session: each "stop-all" is told to the old one, which does not listen
+            open_session(neighbour)
         timed("neighbour", neighbour, attackers.query("engine_status"))
         if not stopper.session:
-            stopper.connect()
+            open_session(stopper)
             stopper.post(attackers.bind("navigation"))
         timed("stop", stopper, attackers.execute([attackers.unit("navigation", "stop")]))
         timed("release", stopper, attackers.bind("navigation").replace("bind", "release"))
@@ -67,6 +68,12 @@ def probe(server, seconds):
         "asked": len(times["stop"]),
         **result,
     }
+
+
+def open_session(line):
+    line.session = ""
+    while not line.connect():
+        pass
 
 
 def percentile(times, part):

@@ -13,7 +13,7 @@ namespace rois::net {
 
 namespace {
 
-constexpr unsigned most_in_a_row = 16;             // pipelined requests, until others have their turn
+constexpr unsigned most_in_a_row = 4;              // pipelined requests, until others have their turn
 constexpr std::size_t most_to_gather = 64 * 1024;  // bytes of answers to pipelined requests
 constexpr std::size_t most_to_keep = 16 * 1024;    // of memory for them, while there are none
 constexpr auto longest_linger = std::chrono::seconds{2};
@@ -92,10 +92,9 @@ Task<Connection::Then> Connection::serve() {
             }
             then = reply(std::move(answer));
         }
-        bool const enough = ++in_a_row % most_in_a_row == 0;
-        if (enough || out_.size() > most_to_gather || holds_.size() >= loop_.shared().settings.max_requests_in_flight)
-            co_await flush();
-        if (enough) co_await asio::post(loop_.executor(), asio::use_awaitable_t<Executor>{});  // the turn of others
+        if (out_.size() > most_to_gather || holds_.size() >= loop_.shared().settings.max_requests_in_flight) co_await flush();
+        ++in_a_row;
+        if (in_a_row % most_in_a_row == 0) co_await asio::post(loop_.executor(), asio::use_awaitable_t<Executor>{});
     }
     co_return then;
 }
