@@ -58,6 +58,7 @@ struct Rig {
     std::optional<net::Documents> documents;
     std::optional<net::Server> server;
     std::atomic<int> given_up = 0;
+    std::atomic<int> broken = 0;  // connections
     std::thread thread;
     client::Address address;
 
@@ -104,7 +105,7 @@ struct Rig {
             other.post("<connect/>");  // is judged by the full validator
             if (leaves == Leaves::without) desk.vanish();
         } catch (std::runtime_error const&) {
-            // A connection that broke: its application begins anew.
+            ++broken;  // a connection: its application begins anew
         }
     }
 
@@ -115,7 +116,7 @@ struct Rig {
             try {
                 if (what()) return true;
             } catch (std::runtime_error const&) {
-                // Not yet.
+                ++broken;  // not yet
             }
             std::this_thread::sleep_for(5ms);
         }

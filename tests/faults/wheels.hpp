@@ -14,7 +14,7 @@ namespace rois {
 // Drives, and needs no memory for that. Confirms its halt later when it is told so.
 class Wheels final : public Component {
 public:
-    explicit Wheels(std::string ref, Part const& like) {
+    explicit Wheels(std::string const& ref, Part const& like) {
         description_.ref = Application::identifier(ref);
         description_.profile = std::make_shared<ComponentProfile const>(like.profile);
         description_.moves = true;

@@ -62,7 +62,7 @@ std::uint16_t free_port() {
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     socklen_t size = sizeof address;
-    bind(socket, reinterpret_cast<sockaddr*>(&address), size);
+    EXPECT_EQ(bind(socket, reinterpret_cast<sockaddr*>(&address), size), 0);
     getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size);
     close(socket);
     return ntohs(address.sin_port);
@@ -71,10 +71,9 @@ std::uint16_t free_port() {
 // The real gateway with this standard error; -1: it has none.
 class Gateway {
 public:
-    explicit Gateway(int error) {
-        auto const listen = "127.0.0.1:" + std::to_string(address.port = free_port());
+    explicit Gateway(int error) : address{.port = free_port()}, process_{fork()} {
+        auto const listen = "127.0.0.1:" + std::to_string(address.port);
         std::array<char const*, 6> const argv{"rois-gateway", "--listen", listen.c_str(), "--log-level", "debug", nullptr};
-        process_ = fork();
         if (process_ == 0) {
             if (error >= 0)
                 dup2(error, STDERR_FILENO);
@@ -124,7 +123,7 @@ public:
     client::Address address;
 
 private:
-    pid_t process_ = 0;
+    pid_t process_;
 };
 
 struct TheLog : testing::Test {
