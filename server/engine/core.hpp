@@ -133,6 +133,7 @@ private:
     void save_memory(Instant now);
     void advance_devices(Instant now);
     void hold_unproven_motion(Instant now);
+    void report_stop_of_everything(Instant now);
     void carry_out_what_is_due(Instant now, Attempts&);
     void forget_what_is_old(Instant now);
     void unbind(Session&, RegisteredComponent&, Instant now);
@@ -169,6 +170,7 @@ private:
     bool sessions_must_end_ = false;
     bool shutting_down_ = false;
     bool everything_is_stopped_ = false;
+    std::optional<Steady> stop_reported_;  // to the sessions, for the last time
     std::uint64_t events_published_ = 0;
     std::uint64_t errors_published_ = 0;
     std::uint64_t last_session_ = 0;

@@ -236,9 +236,16 @@ void Engine::Core::stop_everything(Instant now) {
     everything_is_stopped_ = true;
     Attempts attempts;
     attempts([&] { executor_.stop_all("everything was stopped", now); });
-    attempts([&] { agenda_.add(everything_was_stopped()); });
+    attempts([&] { report_stop_of_everything(now); });
     attempts([&] { settle(now); });
     attempts.rethrow();
+}
+
+// Any client can stop everything, as often as it likes. More errors than this would fill the queues of the sessions.
+void Engine::Core::report_stop_of_everything(Instant now) {
+    if (stop_reported_ && now.steady - *stop_reported_ < std::chrono::seconds{1}) return;
+    agenda_.add(everything_was_stopped());
+    stop_reported_ = now.steady;
 }
 
 std::vector<std::string> Engine::Core::not_halted() const {
