@@ -60,8 +60,9 @@ void Executor::await_confirmation(RegisteredComponent& component, Instant now) {
 // Only a confirmed halt leads out of this state.
 void Executor::halt_failed(RegisteredComponent& component, CompletedStatus status, std::string_view reason, Instant now) {
     if (!component.halting) component.halting.emplace();
-    component.halting->failed = true;
+    bool const first = !std::exchange(component.halting->failed, true);
     Attempts attempts;
+    if (first) attempts([&] { journal_->halt_failed(component.ref().code, reason); });
     attempts([&] { halt_again_later(component, now); });
     attempts([&] { end_each(std::exchange(component.halting->waiting, {}), status, reason, now); });
     attempts.rethrow();
@@ -88,8 +89,11 @@ void Executor::go_on(RegisteredComponent& component, Instant now) {
     auto const halting = std::exchange(component.halting, {});
     if (!halting) return;
     deadlines_.cancel(halting->due);
-    if (halting->failed) component.succeeded();
     Attempts attempts;
+    if (halting->failed) {
+        component.succeeded();
+        attempts([&] { journal_->halted_at_last(component.ref().code); });
+    }
     for (auto const& command : halting->waiting) {
         attempts([&] {
             if (command->type == "stop")

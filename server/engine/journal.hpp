@@ -21,6 +21,9 @@ public:
     virtual void session_ended(std::uint64_t /*session*/, std::string_view /*why*/) {}
     virtual void bound(std::uint64_t /*session*/, std::string const& /*ref*/) {}
     virtual void released(std::uint64_t /*session*/, std::string const& /*ref*/) {}
+    // The component did not confirm a halt, and is told again until it does (decision 35).
+    virtual void halt_failed(std::string const& /*ref*/, std::string_view /*why*/) {}
+    virtual void halted_at_last(std::string const& /*ref*/) {}
     // The operation returned another code than OK.
     virtual void refused(std::uint64_t /*session*/, Operation const&, Outcome const&) {}
     // The command's turn has come, or it has ended. Its session is null once that has ended.

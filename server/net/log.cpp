@@ -53,6 +53,12 @@ void EngineLog::bound(std::uint64_t session, std::string const& ref) { spdlog::d
 
 void EngineLog::released(std::uint64_t session, std::string const& ref) { spdlog::debug("session {} releases {}", session, ref); }
 
+void EngineLog::halt_failed(std::string const& ref, std::string_view why) {
+    spdlog::error("{} may still move: {}; it is halted again until it confirms", ref, why);
+}
+
+void EngineLog::halted_at_last(std::string const& ref) { spdlog::warn("{} has confirmed that it stands still", ref); }
+
 void EngineLog::refused(std::uint64_t session, Operation const& operation, Outcome const& outcome) {
     if (!is_debugging()) return;
     spdlog::debug("session {} is refused {} with {}: {}", session, operation_name(operation), to_text(outcome.return_code),

@@ -27,6 +27,8 @@ private:
     void session_ended(std::uint64_t session, std::string_view why) override;
     void bound(std::uint64_t session, std::string const& ref) override;
     void released(std::uint64_t session, std::string const& ref) override;
+    void halt_failed(std::string const& ref, std::string_view why) override;
+    void halted_at_last(std::string const& ref) override;
     void refused(std::uint64_t session, Operation const&, Outcome const&) override;
     void command_begun(Command const&) override;
     void command_ended(Command const&) override;

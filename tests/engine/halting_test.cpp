@@ -1,6 +1,7 @@
 // `stop` tells the truth (decision 35): it always reaches the component, and says OK only when that stands still.
 #include <gmock/gmock.h>
 
+#include "engine/journal.hpp"
 #include "world.hpp"
 
 namespace rois {
@@ -221,6 +222,35 @@ TEST_F(Halting, OfEverythingReachesEveryComponentAndLetsNothingStart) {
     world.engine->clear();
     EXPECT_EQ(desk.execute(go("again")).return_code, ReturnCode::ok);
     EXPECT_THAT(robot.told, ElementsAre("start", "halt", "halt", "start"));
+}
+
+TEST_F(Halting, OfEverythingIsReportedToASessionOnceASecondAtMost) {
+    for (int i = 0; i < 2'000; ++i) {
+        world.engine->stop_everything(world.now);
+        world.engine->clear();
+    }
+    EXPECT_THAT(desk.heard(), ElementsAre("1 USER_DEFINED_ERROR"));
+    world.advance(1s);
+    world.engine->stop_everything(world.now);
+    EXPECT_THAT(desk.heard(), ElementsAre("2 USER_DEFINED_ERROR"));
+}
+
+TEST_F(Halting, ThatFailsIsInTheJournalOnceUntilItSucceeds) {
+    struct Halts : Journal {
+        std::vector<std::string> said;
+        void halt_failed(std::string const& ref, std::string_view why) override {
+            said.push_back(ref + " failed: " + std::string{why});
+        }
+        void halted_at_last(std::string const& ref) override { said.push_back(ref + " halted"); }
+    } journal;
+    world.engine->report_to(journal);
+    robot.throws_in = {"halt"};
+    desk.execute(named("stop", stop("navigation")));
+    world.advance(1s);
+    robot.throws_in = {};
+    world.advance(200ms);
+    desk.execute(named("again", stop("navigation")));
+    EXPECT_THAT(journal.said, ElementsAre("navigation failed: the component failed to halt", "navigation halted"));
 }
 
 TEST_F(Halting, OfEverythingTellsWhatHasNotConfirmed) {
