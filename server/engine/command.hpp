@@ -38,7 +38,7 @@ struct Command {
     Steady ended_at;
 
     // How far its end has come: each step is done once, also if another one fails and is done by a later tick.
-    bool told = false;      // to its session
+    bool told = false;      // to the journal and its session
     bool kept = false;      // among the session's results
     bool finished = false;  // nothing is left to be done
     bool given_up = false;  // something of it failed for want of memory: the next tick ends it

@@ -327,9 +327,9 @@ void Executor::end(SharedCommand const& command, CompletedStatus status, std::st
 
 // Tells its session, keeps its results, and lets its sequence go on.
 void Executor::finish(SharedCommand const& command, Instant now) {
-    if (command->session != nullptr && !command->told) {
+    if (!command->told) {
         journal_->command_ended(*command);
-        notifier_.tell(*command->session, Completed{command->id, command->status});
+        if (command->session != nullptr) notifier_.tell(*command->session, Completed{command->id, command->status});
         command->told = true;
     }
     ParameterList{}.swap(command->arguments);  // only its results are asked for from now on
