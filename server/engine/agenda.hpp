@@ -41,7 +41,7 @@ struct ErrorOccurred {
     std::string text;
 };
 
-// What all sessions are told when everything was stopped (decision 34).
+// The error that all sessions receive when everything is stopped (decision 34).
 inline ErrorOccurred everything_was_stopped() {
     return {nullptr, ErrorType::user_defined_error,
             "everything was stopped; nothing starts until it is cleared (POST /rois/clear)"};
@@ -53,11 +53,11 @@ class Agenda {
 public:
     void add(Said said) { said_.push_back(std::move(said)); }
 
-    // The next one, or null. It stays until `pop`: what fails for want of memory is taken again.
+    // The oldest entry, or null. It stays until `pop`, so the engine can retry an entry that failed for lack of memory.
     Said* front() { return said_.empty() ? nullptr : &said_.front(); }
     void pop() { said_.pop_front(); }
 
-    // A component's answer to a command could not be kept; it says so of itself (RegisteredComponent::answer_lost).
+    // Some component's answer to a command could not be stored. RegisteredComponent::answer_lost marks the component.
     void note_lost_answer() noexcept { answers_lost_ = true; }
     bool take_lost_answers() noexcept { return std::exchange(answers_lost_, false); }
 

@@ -1,4 +1,4 @@
-// Several things of which each must be tried, whatever becomes of the others.
+// Runs several actions, all of them even if some throw.
 #pragma once
 
 #include <exception>
@@ -8,7 +8,7 @@ namespace rois {
 
 class Attempts {
 public:
-    // Does it. Returns false if an exception left it; the first of these is kept.
+    // Runs `what`. Returns false if it throws. Keeps the first exception of all runs.
     template <class What>
     bool operator()(What const& what) {
         try {
@@ -26,7 +26,7 @@ public:
 
     std::exception_ptr const& failure() const { return failed_; }  // null: none
 
-    // Throws what was kept, if anything.
+    // Throws the kept exception, if there is one.
     void rethrow() const {
         if (failed_) std::rethrow_exception(failed_);
     }

@@ -37,11 +37,11 @@ struct Command {
     std::string reason;  // why not with OK, for people; may be empty
     Steady ended_at;
 
-    // How far its end has come: each step is done once, also if another one fails and is done by a later tick.
-    bool told = false;      // to the journal and its session
-    bool kept = false;      // among the session's results
-    bool finished = false;  // nothing is left to be done
-    bool given_up = false;  // something of it failed for want of memory: the next tick ends it
+    // The steps of ending it. Each step is done once. A later tick repeats a step that failed.
+    bool told = false;      // the journal and the session were notified
+    bool kept = false;      // the result is among the session's results
+    bool finished = false;  // no step is left
+    bool given_up = false;  // it failed for lack of memory: the next tick ends it
 
     // Where it stands in its sequence; none for set_parameter by itself.
     std::shared_ptr<Execution> execution;  // until it has ended

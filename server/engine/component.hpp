@@ -38,7 +38,7 @@ struct ComponentDescription {
     // From which codebooks its parameters take identifiers. The engine rejects all others. A codebook that the profile declares
     // for the parameter (codebook_ref of data_type_ref) is known, too, and comes first.
     std::vector<Codebooks> codebooks{};
-    // Whether it moves the robot, or a part of it: it acts only while its application gives signs of life (decision 33).
+    // Whether it moves the robot or a part of it. If so, it acts only while its application gives signs of life (decision 33).
     bool moves = false;
 };
 
@@ -49,7 +49,7 @@ enum class Afterwards : std::uint8_t {
     idle        // no function works any more
 };
 
-// Whether a component that was told to halt already knows that it stands still.
+// The answer of a component to `halt`: it stands still already, or it will call ComponentPort::halted later.
 enum class Halted : std::uint8_t { confirmed, not_yet };
 
 // How often a failure that may come again and again is told: each time, or `once`, until something of the component succeeds or
@@ -71,7 +71,7 @@ public:
     virtual void completed(CommandHandle, CompletedStatus, Results = {}, Afterwards = Afterwards::as_before,
                            std::string reason = {}) = 0;
 
-    // The component stands still, after its `halt` returned `not_yet`.
+    // The component stands still. To be called after its `halt` returned `not_yet`.
     virtual void halted() = 0;
 
     // An event of the profile occurred.
@@ -108,10 +108,10 @@ public:
     // Begin to act with these parameters. Never called while an earlier start still runs: the engine halts that first.
     virtual void start(CommandHandle, ParameterList const& parameters, Instant now) = 0;
 
-    // End every running action, function and command of the profile at once; the engine completes the commands, `start` with
-    // `status_when_stopped`. May be called at any time, also when idle, and again until it is confirmed: until then the engine
-    // starts nothing here. A component that throws, or does not confirm within half a second, is called again every 0.2 s
-    // (decision 35).
+    // End every running action, function and command of the profile at once. The engine completes the commands, `start` with
+    // `status_when_stopped`. The engine may call this at any time, also when the component is idle. Until the halt is confirmed,
+    // the engine starts nothing on the component. If the component throws, or does not confirm within 0.5 s, the engine calls
+    // this again every 0.2 s (decision 35).
     virtual Halted halt(Instant now) = 0;
 
     // Hold the running action or function, and go on with it.

@@ -94,7 +94,7 @@ private:
     std::optional<std::string> no_room_for(Session const&, Filter const&, bool shared);
     Reply perform(Session&, Unsubscribe const&, Instant now);
     Reply perform(Session&, GetEventDetail const&, Instant now);
-    // A delivery that fails is noted, and keeps the others from nothing.
+    // `deliveries` keeps the failure of a delivery. The other deliveries are made nevertheless.
     void publish(EventOccurred const&, Instant now, Attempts& deliveries);
     void publish(ErrorOccurred const&, Instant now, Attempts& deliveries);
     ReceiveError noted(ErrorOccurred const&, Instant now);
@@ -151,7 +151,7 @@ private:
     Registry registry_;
     struct Moved {
         std::shared_ptr<Device> device;
-        bool failed;  // the last time: that was reported
+        bool failed;  // at the last tick; the failure was reported
     };
     std::vector<Moved> devices_;
     std::unordered_map<SessionId, std::unique_ptr<Session>, IdHash> sessions_;
@@ -163,10 +163,9 @@ private:
     Details errors_;
     Steady details_checked_;
     Steady memory_saved_;
-    std::vector<std::uint32_t> free_slots_;  // of sessions that have ended, below those of the others (Details::Asker)
+    std::vector<std::uint32_t> free_slots_;  // slots of ended sessions, to be used again (Details::Asker)
     std::optional<Steady> last_tick_;
-    std::exception_ptr
-        unsettled_;  // what went wrong behind an operation that was performed: the next tick goes on, and throws it
+    std::exception_ptr unsettled_;  // thrown while settling a performed operation; the next tick continues and rethrows it
     bool sessions_must_end_ = false;
     bool shutting_down_ = false;
     bool everything_is_stopped_ = false;

@@ -25,7 +25,7 @@ public:
 
     void cancel(Ticket const& ticket) { actions_.erase(ticket); }
 
-    // Moves an action to another time, which needs no memory. Returns false if it has ended, or is being carried out.
+    // Moves an action to another time. Allocates no memory. Returns false if the action has ended or is being carried out.
     bool postpone(Ticket& ticket, Steady when) noexcept {
         auto node = actions_.extract(ticket);
         if (!node) return false;
@@ -35,11 +35,11 @@ public:
         return true;
     }
 
-    // One that is before all others.
+    // A ticket before those of all actions.
     static Ticket first() { return {Steady::min(), 0}; }
 
-    // Carries out the next action behind `last` that is due by now, and moves `last` there. Returns false if there is none. An
-    // action that throws stays, to be carried out again.
+    // Carries out the next action after `last` that is due by now, and sets `last` to its ticket. Returns false if no action is
+    // due. An action that throws stays, to be carried out again.
     bool carry_out_next(Ticket& last, Instant now, Attempts& attempts) {
         auto const next = actions_.upper_bound(last);
         if (next == actions_.end() || next->first.first > now.steady) return false;

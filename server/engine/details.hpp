@@ -1,4 +1,4 @@
-// Details of events and errors, kept until they expire, for the sessions that were told of them (decisions 21, 24).
+// Details of events and errors, kept until they expire, for the sessions that were notified of them (decisions 21, 24).
 #pragma once
 
 #include <charconv>
@@ -16,15 +16,15 @@
 
 namespace rois {
 
-// Gives numbered ids ("e-17") and keeps what they stand for, all for the same time. For as long again it knows who was told, so
-// that it says of what has expired that it has, and only to them.
+// Gives numbered ids ("e-17") and keeps the details for each id for the time `kept_for`. For that time again it remembers which
+// sessions were notified: they get the answer `expired`, the others `unknown`.
 class Details {
 public:
-    // A session, as far as it may ask for details. Slots are small numbers and are used again: so an id that was given before the
-    // session connected is unknown to it, whoever had its slot then.
+    // A session that asks for details. Slots are small numbers and are used again. An id that was given before the session
+    // connected is unknown to the session, even if an earlier session in its slot was notified.
     struct Asker {
         std::uint32_t slot = 0;
-        std::uint64_t first = 0;  // what next() was when it connected
+        std::uint64_t first = 0;  // next() when it connected
     };
 
     enum class Found : std::uint8_t { kept, expired, unknown };
@@ -41,13 +41,13 @@ public:
     // The number of the next id.
     std::uint64_t next() const { return first_ + kept_.size(); }
 
-    // Keeps the results of a message (an event; null for an error) under a new id. Nobody was told yet.
+    // Keeps the results of a message (an event; null for an error) under a new id, with no notified session yet.
     std::string add(std::shared_ptr<Results const> results, std::shared_ptr<MessageProfile const> message, Instant now) {
         kept_.push_back({now.steady + kept_for_, std::move(results), std::move(message), {}});
         return prefix_ + std::to_string(next() - 1);
     }
 
-    // The session in this slot is told of what was added last.
+    // Records that the session in this slot is notified of the entry that was added last.
     void tell(std::uint32_t slot) {
         auto& told = kept_.back().told;
         if (slot >= told.size()) told.resize(slot + 1);
@@ -74,7 +74,7 @@ public:
         for (; !kept_.empty() && kept_.front().until + kept_for_ <= now.steady; ++first_, --expired_) kept_.pop_front();
     }
 
-    // All but the last ones have expired.
+    // Expires the oldest entries until at most so many are kept.
     void keep_last(std::size_t most) {
         while (kept_.size() - expired_ > most) expire();
     }
@@ -90,14 +90,14 @@ private:
         Steady until;
         std::shared_ptr<Results const> results;  // null: expired
         std::shared_ptr<MessageProfile const> message;
-        std::vector<bool> told;  // by slot
+        std::vector<bool> told;  // by slot: the session was notified
     };
 
     std::string prefix_;
     std::chrono::milliseconds kept_for_;
     std::deque<Entry> kept_;   // by number, from first_
-    std::uint64_t first_ = 1;  // the number of the first that is kept
-    std::size_t expired_ = 0;  // of these, from the first
+    std::uint64_t first_ = 1;  // the number of the first entry in kept_
+    std::size_t expired_ = 0;  // so many entries in kept_ have expired, from the first
 };
 
 }  // namespace rois

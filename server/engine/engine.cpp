@@ -24,7 +24,7 @@ Engine::Core::Core(EngineProfile profile, std::vector<ComponentProfile> known_pr
 
 namespace {
 
-// From one tick to the next ones, however late they come; beyond it nobody sends pings.
+// A tick asks for pings for this long, so that they go on when the next tick is late.
 constexpr std::chrono::milliseconds signs_of_life_wanted{1'000};
 
 std::string in_seconds(std::chrono::nanoseconds time) {
@@ -62,7 +62,7 @@ void Engine::Core::begin(Instant now) {
     tick(now);
 }
 
-// One part of it that fails keeps the others from nothing; what failed is thrown in the end, and done by a later tick.
+// A part that fails does not prevent the others. Throws the first failure at the end. A later tick repeats the part that failed.
 void Engine::Core::tick(Instant now) {
     Attempts attempts;
     if (unsettled_) attempts.note(std::exchange(unsettled_, nullptr));
@@ -98,7 +98,8 @@ void Engine::Core::forget_what_is_old(Instant now) {
     executor_.forget_old_results(now);
 }
 
-// Decision 33. Who commands something that moves is asked for signs of life. When the engine itself stood still, nobody was.
+// Decision 33. Asks the sessions that command moving components for signs of life, and holds the motion when they are missing.
+// If no tick came for as long as a motion lease, nobody was asked in that time: the engine holds all motion.
 void Engine::Core::hold_unproven_motion(Instant now) {
     auto const missed = now.steady - last_tick_.value_or(now.steady);
     Attempts attempts;
@@ -114,12 +115,12 @@ void Engine::Core::hold_unproven_motion(Instant now) {
                 executor_.hold(*component, "nothing was heard from its application in time", now);
         });
     }
-    attempts.rethrow();  // with the time of the last tick as it was: what is not held yet is held by the next one
+    attempts.rethrow();  // before last_tick_ changes: the next tick then holds the components that could not be held
     last_tick_ = now.steady;
     settle(now);
 }
 
-// A device that fails is reported once, until it succeeds, and advanced again by the next tick: it may have lacked memory.
+// Reports a failing device once, until it succeeds. The next tick advances it again: it may have lacked memory.
 void Engine::Core::advance_devices(Instant now) {
     Attempts attempts;
     for (auto& [device, failed] : devices_) {
@@ -139,7 +140,7 @@ void Engine::Core::advance_devices(Instant now) {
     attempts.rethrow();
 }
 
-// Takes in what components said, and what follows from it, until nothing is left. What fails is taken again by the next tick.
+// Handles the agenda, and what handling it adds to it, until it is empty. The next tick retries an entry that fails.
 void Engine::Core::settle(Instant now) {
     Attempts attempts;
     struct Taker {
@@ -188,7 +189,7 @@ void Engine::Core::end(SessionId const& id, Instant now) {
     settle(now);
 }
 
-// Nobody finds it from here on; if something fails, the next tick goes on.
+// From here on `find` does not return the session. If a step throws, the next tick continues.
 void Engine::Core::end(Session& session, std::string_view why, Instant now) {
     session.ending = true;
     session.why_it_ends = why;
@@ -208,7 +209,7 @@ void Engine::Core::end_those_that_must(Instant now, Attempts& attempts) {
     }
 }
 
-// Decision 3. The last notifications are in the queue before it is closed. First what moves, then the rest.
+// Decision 3. Halts the components first, because they may move. Closes the queue after the last notifications are in it.
 void Engine::Core::part_with(Session& session, Instant now) {
     Attempts attempts;
     if (settings_.on_session_end == OnSessionEnd::continue_) {
@@ -228,7 +229,7 @@ void Engine::Core::part_with(Session& session, Instant now) {
     executor_.forget(session);
     notifier_.close(session);
     journal_->session_ended(session.number, session.why_it_ends);
-    free_slots_.push_back(session.events.slot);  // has room
+    free_slots_.push_back(session.events.slot);  // does not throw: `connect` reserved the room
     sessions_.erase(sessions_.find(session.id));
 }
 
@@ -269,8 +270,8 @@ void Engine::Core::shut_down(Instant now) {
     attempts.rethrow();
 }
 
-// What is kept for later only, at most every 100 ms: results, details, notifications that were sent, events that wait. The last
-// of them stay; they stand for a moment in which an application was slow. Then sessions that let too much else wait end.
+// Drops data that is kept for later only: results, details, sent notifications and waiting events. Runs at most every 100 ms.
+// Keeps the last ones, for an application that is slow for a moment. Then ends the sessions in which too many notifications wait.
 void Engine::Core::save_memory(Instant now) {
     constexpr std::size_t kept = 64, most_waiting = 256;
     if (now.steady - memory_saved_ < std::chrono::milliseconds{100}) return;
@@ -313,7 +314,7 @@ void Engine::Core::link_closed(SessionId const& id, Link link, Closing closing, 
     await_end_of_window(*session);
 }
 
-// Null if none is idle: without a link, a binding, a subscription and a command on its way.
+// Returns null if no session is idle. An idle session has no link, no binding, no subscription and no live command.
 Session* Engine::Core::longest_idle() const {
     Session* longest = nullptr;
     for (auto const& [id, session] : sessions_) {
@@ -327,15 +328,15 @@ Session* Engine::Core::longest_idle() const {
     return longest;
 }
 
-// One look a session, however often its links come and go. Only the first needs memory.
+// Each session has one deadline, however often its links open and close. Only the first call for a session allocates memory.
 void Engine::Core::await_end_of_window(Session& session, Steady not_before) {
     auto const when = std::max(session.quiet_until + settings_.resume_window, not_before);
     if (session.end_of_window && deadlines_.postpone(*session.end_of_window, when)) return;
     session.end_of_window = deadlines_.add(when, [this, id = session.id](Instant then) { end_if_lost(id, then); });
 }
 
-// Looks again later when something was heard in between (decision 2). While there is a link it looks now and then, so that the
-// link's end finds a deadline to move.
+// Checks again later if the session sent something in between (decision 2). Keeps a deadline also while a link is open, so that
+// the end of the link can move it without memory.
 void Engine::Core::end_if_lost(SessionId const& id, Instant now) {
     auto* session = find(id);
     if (session == nullptr) return;

@@ -24,7 +24,7 @@ namespace rois {
 class Outbox {
 public:
     virtual ~Outbox() = default;
-    // There is something to read in this session's queue, or it was closed. Must not throw.
+    // The session's queue has something to read, or was closed. Must not throw.
     virtual void notify(NotificationQueue&) = 0;
     // `notify` will be called soon: what that needs may be prefetched.
     virtual void approach(NotificationQueue const&) const {}
@@ -90,8 +90,8 @@ public:
     // Reports to this journal from now on; without one, to nobody. It must live until the last call of the engine.
     void report_to(Journal&);
 
-    // Looks at this from now on before anything that stays is taken; without one there is no limit. It must live until the last
-    // call of the engine. It is measured by whoever owns it.
+    // From now on the engine checks this budget before it accepts anything that it must keep. Without a budget there is no limit.
+    // The owner of the budget measures it, and keeps it until after the last call of the engine.
     void keep_within(MemoryBudget&);
 
     // Before the first session. Throws std::runtime_error for a ref that is taken or a sub component profile that is unknown.
@@ -100,8 +100,8 @@ public:
 
     // At any time; all of it or nothing: throws std::runtime_error for a ref that is taken or unknown, or a sub component profile
     // that is unknown. What runs on a component that goes, or waits for it, completes with ABORT; its bindings are lost;
-    // subscriptions stay, and hear it again should it come back. Those that come are halted first. All sessions are told when any
-    // component came or went.
+    // subscriptions stay, and hear it again should it come back. New components are halted first. All sessions are notified when
+    // any component came or went.
     void change(ComponentChange, Instant now);
 
     // The frames that components and applications tell positions in, and the places that conditions speak of; none is known
@@ -114,8 +114,7 @@ public:
     // only checks that its session can be taken over from `last_sequence`; reading on from there is the caller's.
     std::variant<Reply, Refusal> handle(SessionId const& session, Operation const&, Instant now);
 
-    // Halts all components, which may have moved before the engine was there, and begins its time. Once, before anything is
-    // handled.
+    // Halts all components, which may be moving already, and performs the first tick. To be called once, before `handle`.
     void begin(Instant now);
 
     // Does what is due by now: devices, delays, timeouts, expiry, sessions whose link was lost.
@@ -124,8 +123,8 @@ public:
     // Null when there is no such session. Whoever keeps it can read what the session was told last, also after its end.
     std::shared_ptr<NotificationQueue> notifications(SessionId const&) const;
 
-    // The session's link: an HTTP request was heard from it (all operations renew its motion lease by themselves), or a pong; a
-    // WebSocket or a notification stream of it opened or closed.
+    // The session's link. The gateway received an HTTP request or a pong of the session, or a WebSocket or notification stream of
+    // it opened or closed. Operations renew the motion lease by themselves.
     void heard_from(SessionId const&, Instant now);
     void heard_pong(SessionId const&, Instant now);
     void link_opened(SessionId const&, Link, Instant now);
@@ -134,8 +133,8 @@ public:
     // Ends one session as if disconnected; nothing happens when there is none.
     void end(SessionId const&, Instant now);
 
-    // Stop for everything (decision 34): halts every component, whoever has it bound, and ends all commands with ABORT. Nothing
-    // starts until `clear`. All sessions are told, also those that are opened meanwhile.
+    // Stop for everything (decision 34): halts every component, bound or not, and ends all commands with ABORT. Nothing starts
+    // until `clear`. All sessions are notified, also those that are opened until then.
     void stop_everything(Instant now);
     void clear();
     bool everything_is_stopped() const;

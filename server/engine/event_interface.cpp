@@ -40,7 +40,7 @@ Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instan
     return reply;
 }
 
-// Why there is no room for one more subscription of the session, or nothing. `shared`: another session has the same.
+// Returns why the session may not have one more subscription, or nothing. `shared`: another session has the same subscription.
 std::optional<std::string> Engine::Core::no_room_for(Session const& session, Filter const& wanted, bool shared) {
     auto const too_many = [](std::string_view whose, std::size_t most, std::string_view what, std::uint64_t& refused) {
         ++refused;
@@ -114,7 +114,7 @@ void Engine::Core::publish(EventOccurred const& said, Instant now, Attempts& del
         Perspective askers{registry_, places_, &asker, Perspective::Of::present};
         return subscription.filter.match(ToldCandidate{askers.candidate(*said.component), *results}) == Match::yes;
     };
-    bool begun = false;  // somebody may have heard of it
+    bool begun = false;  // some subscriber may have been notified
     auto const deliver = [&](Subscription& subscription) {
         bool const each = subscription.filter.depends_on_asker();
         if (!each && subscription.filter.match(candidate) != Match::yes) return;

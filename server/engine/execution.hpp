@@ -44,7 +44,7 @@ public:
     // All commands, in document order.
     std::vector<std::shared_ptr<Command>> const& commands() const { return commands_; }
 
-    std::vector<Deadlines::Ticket> delays;  // the executor's: of units whose turn comes later
+    std::vector<Deadlines::Ticket> delays;  // set by the executor: deadlines of the delays that are not over
 
 private:
     enum class Kind : std::uint8_t { sequence, parallel, command, delay };

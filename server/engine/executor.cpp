@@ -15,7 +15,7 @@ namespace {
 
 constexpr auto not_halted = "the component has not confirmed that it stands still";
 
-// The commands of a session whose end is not done yet, in the order in which they were given.
+// The commands of a session that have not finished yet, in the order in which they were given.
 std::vector<std::shared_ptr<Command>> live_commands(Session const& session) {
     std::vector<std::shared_ptr<Command>> live;
     for (auto const& [id, command] : session.commands)
@@ -64,7 +64,7 @@ Executor::SharedCommand Executor::make(Session& session, CommandMessage const& m
 
 void Executor::execute(Session& session, CommandUnitSequence const& sequence, Instant now) {
     auto const before = last_handle_;
-    // Delays that are not over yet end with the sequence.
+    // Cancels the delays that are not over when the sequence ends.
     auto const give_up = [this](Execution* over) {
         for (auto const& delay : over->delays) deadlines_.cancel(delay);
         delete over;
@@ -310,7 +310,7 @@ void Executor::end(SharedCommand const& command, Called called, Instant now) {
     end(command, ok ? CompletedStatus::ok : CompletedStatus::error, ok ? "" : "the component failed", now);
 }
 
-// From here on it has ended, whatever fails: then the next tick finishes that.
+// Sets the command's state first. If a later step fails, the next tick finishes it.
 void Executor::end(SharedCommand const& command, CompletedStatus status, std::string_view reason, Instant now, Results results) {
     if (command->state == Command::State::ended) return;
     command->state = Command::State::ended;
@@ -325,7 +325,7 @@ void Executor::end(SharedCommand const& command, CompletedStatus status, std::st
     });
 }
 
-// Tells its session, keeps its results, and lets its sequence go on.
+// Notifies the session, keeps the results, and continues the sequence.
 void Executor::finish(SharedCommand const& command, Instant now) {
     if (!command->told) {
         journal_->command_ended(*command);
@@ -375,7 +375,7 @@ void Executor::keep_results(Session& session, std::size_t most) {
     forget_while(session, [&](Command const&) { return session.ended.size() > most; });
 }
 
-// Forgets the oldest results of the session as long as `is_old` says so.
+// Removes the oldest results of the session while `is_old` returns true.
 void Executor::forget_while(Session& session, std::function<bool(Command const&)> const& is_old) {
     if (session.ended.empty() || !is_old(*session.ended.front())) return;
     forget(session);

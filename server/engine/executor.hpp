@@ -50,36 +50,37 @@ public:
     void completed(CommandEnded&, Instant now);
     void halted(RegisteredComponent&, Instant now);
 
-    // Halts the component, whatever the engine believes it does, and ends all that runs there: `start` with this status, commands
-    // of its profile with ABORT. Repeats it until it is confirmed (decision 35).
-    // The component is told so also when memory is short; what then remains of the commands is left to `mend`.
+    // Halts the component, even if the engine believes that it is idle, and repeats this until it confirms (decision 35). Ends the
+    // commands that run there: `start` with this status, commands of its profile with ABORT. Calls the component also when memory
+    // is short; `mend` then ends the commands that are left.
     void halt(RegisteredComponent&, CompletedStatus status_of_start, std::string_view reason, Instant now);
 
-    // Halts the component, and ends what the session has waiting for it (decision 6).
+    // Halts the component, and ends the session's commands that wait for it (decision 6).
     void release(Session&, RegisteredComponent&, Instant now);
 
     // The same for a component that goes, whoever commanded it.
     void part(RegisteredComponent&, Instant now);
 
-    // Suspends what works on the component, or halts it where that fails, and reports why (decision 33).
+    // Suspends the component, or halts it if that fails, and reports the reason as an error (decision 33).
     void hold(RegisteredComponent&, std::string_view reason, Instant now);
 
-    // Ends all that the session commanded, with ABORT; halts nothing.
+    // Ends all commands of the session with ABORT. Halts no component.
     void abort_all(Session&, Instant now);
 
     // Lets all that the session commanded run on, heard by nobody.
     void let_run_on(Session&);
 
-    // Halts every component, and ends all that runs or waits, whoever commanded it.
+    // Halts every component, and ends all running and waiting commands of all sessions.
     void stop_all(std::string_view reason, Instant now);
 
     // Removes results, of the session or of all, that are older than they are kept.
     void forget_old_results(Session&, Instant now);
     void forget_old_results(Instant now);
 
-    // At each tick: goes on with what an exception has interrupted. Commands that were given up end, and their components halt.
+    // Continues the work that an exception interrupted: ends the commands that were given up, and halts their components. To be
+    // called at each tick.
     void mend(Instant now);
-    // Keeps the results of this many commands of the session, the last ones.
+    // Keeps the results of the last `most` commands of the session.
     void keep_results(Session&, std::size_t most);
 
     // Looks no more after what the session keeps.
@@ -142,7 +143,7 @@ private:
     std::unordered_map<std::uint64_t, SharedCommand> live_;  // waiting or running, by handle
     std::deque<std::pair<std::shared_ptr<Execution>, std::size_t>> ready_;  // units whose turn has come
     bool running_ready_ = false;
-    bool needs_mending_ = false;                    // some command was given up, or some halt has no deadline
+    bool needs_mending_ = false;                    // a command was given up, or a halt has no deadline
     std::set<std::pair<Steady, Session*>> by_age_;  // the sessions that keep results, by when their oldest one ended
     std::uint64_t last_handle_ = 0;
     std::uint64_t last_id_ = 0;
@@ -150,7 +151,7 @@ private:
     std::uint64_t stray_answers_ = 0;
 };
 
-// If this fails, the next tick ends the command.
+// Runs `what`. If it throws, the next tick ends the command.
 template <class What>
 void Executor::attempt(SharedCommand const& command, What const& what) {
     try {

@@ -47,7 +47,7 @@ public:
     // How many predicates it is made of: what it costs to hold it against something.
     std::size_t predicates() const { return predicates_; }
 
-    // How long the texts in it are together, points of geometries included: what it costs to keep it.
+    // The total length of its texts, including the points of geometries, as a measure of the memory that it takes.
     std::size_t text_bytes() const { return text_bytes_; }
 
     // The references to results, in the order of the condition.

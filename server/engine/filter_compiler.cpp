@@ -28,7 +28,7 @@ std::string with_commas(std::string_view text) {
     return commas;
 }
 
-// How long the texts of a predicate are, without the predicates in it.
+// The total length of a predicate's texts, without those of the predicates in it.
 struct TextBytes {
     std::size_t operator()(PropertyComparison const& p) const { return of(p.left) + of(p.right); }
     std::size_t operator()(PropertyIsLike const& p) const { return of(p.left) + of(p.right); }

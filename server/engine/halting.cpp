@@ -1,4 +1,4 @@
-// How components are halted, until they confirm that they stand still (decision 35), and held (decision 33).
+// Halts components until they confirm that they stand still (decision 35), and holds them (decision 33).
 #include <utility>
 
 #include "engine/executor.hpp"
@@ -12,7 +12,7 @@ constexpr std::chrono::milliseconds between_attempts{200};
 
 }  // namespace
 
-// The component first: whatever becomes of the rest, it has been told.
+// Calls the component first, so that it is halted even if a later step fails.
 void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_start, std::string_view reason, Instant now) {
     Attempts attempts;
     attempts([&] { ask_to_halt(component, now); });
@@ -27,7 +27,7 @@ void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_st
     attempts.rethrow();
 }
 
-// After it failed to begin something: it may have begun nevertheless.
+// For a component that failed to begin an action: it may move nevertheless.
 void Executor::halt_what_moves(RegisteredComponent& component, Instant now) {
     if (component.moves()) halt(component, CompletedStatus::abort, "the component failed", now);
 }
@@ -106,14 +106,14 @@ void Executor::go_on(RegisteredComponent& component, Instant now) {
     attempts.rethrow();
 }
 
-// A `stop`, or a `start` that takes the place of another one, goes on when the halt is confirmed.
+// A `stop`, or a `start` that replaces another one, continues when the halt is confirmed.
 void Executor::wait_for_halt(SharedCommand const& command, Instant now) {
     auto& halting = *command->component->halting;
     if (halting.failed) return end(command, CompletedStatus::error, "the component failed to halt", now);
     halting.waiting.push_back(command);
 }
 
-// The component goes, and with it what waits for its halt.
+// For a component that leaves: ends the commands that wait for its halt.
 void Executor::forget_halt(RegisteredComponent& component, Instant now) {
     auto const halting = std::exchange(component.halting, {});
     if (!halting) return;

@@ -1,5 +1,5 @@
-// The length of identifiers in requests: the one place where it is checked, but for conditions (engine/filter_values.cpp) and
-// values (types/data_type.cpp).
+// Checks the length of identifiers in requests. Identifiers in conditions are checked in engine/filter_values.cpp, those in
+// values in types/data_type.cpp.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace rois {
 
-// Why an identifier of this operation is too long (types/identifier_length.hpp), or nothing. The id of a session is not looked
-// at: one that is too long is unknown.
+// Returns why an identifier of this operation is too long (types/identifier_length.hpp), or nothing. Does not check session ids:
+// one that is too long is unknown.
 std::optional<std::string> why_too_long(Operation const&);
 
 }  // namespace rois

@@ -29,7 +29,7 @@ public:
 private:
     using Bits = std::vector<std::uint64_t>;
 
-    // The elements that take this character alone, as far as they are in this word of the bits.
+    // The elements that match only this character; `bits` covers those in the word `word` of Bits.
     struct Taker {
         char32_t character;
         std::uint32_t word;

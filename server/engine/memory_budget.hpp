@@ -1,4 +1,4 @@
-// How much memory the process may use, and what follows when little is left (docs/safety.md).
+// The memory that the process may use, and the requests that are refused when little is left (docs/safety.md).
 #pragma once
 
 #include <atomic>
@@ -12,8 +12,8 @@
 
 namespace rois {
 
-// Compares the memory that the process uses with its limit. Nothing is counted piece by piece: `Measure` says how much it is in
-// all, and what is on its way (a long document) is reserved beforehand. Any thread.
+// Compares the memory that the process uses with a limit. `Measure` returns the total: single allocations are not counted. The
+// work on a long document is reserved beforehand. Thread-safe.
 class MemoryBudget {
 public:
     using Measure = std::function<std::size_t()>;  // bytes that the process uses now; called on any thread
@@ -26,14 +26,14 @@ public:
     static MemoryBudget& none();
 
     std::size_t total() const { return total_; }
-    std::size_t used() const { return used_.load(std::memory_order_relaxed); }  // when it was looked at last
+    std::size_t used() const { return used_.load(std::memory_order_relaxed); }  // at the last measurement
 
-    // From 80 % on: no new sessions, subscriptions and long documents.
+    // From 80 % on: new sessions, new subscriptions and long documents are refused.
     bool tight() const { return used() >= total_ / 5 * 4; }
-    // From 100 % on: short requests only, and what is kept for later is dropped.
+    // From 100 % on: only short requests are accepted, and data that is kept for later is dropped.
     bool full() const { return used() >= total_; }
 
-    // Of a request, in bytes.
+    // The longest request that is accepted now, in bytes.
     std::size_t longest_document() const {
         if (!tight()) return std::numeric_limits<std::size_t>::max();
         return full() ? longest_when_full : longest_when_tight;
@@ -41,15 +41,15 @@ public:
     static constexpr std::size_t longest_when_tight = 64 * 1024;
     static constexpr std::size_t longest_when_full = 4 * 1024;
 
-    // Measures.
+    // Measures the memory.
     void look();
-    // So many bytes have come to stay for a while: measures when enough have come together.
+    // Reports that the gateway keeps so many more bytes. Measures the memory each time that enough bytes were reported.
     void took(std::size_t bytes) {
         constexpr std::size_t enough = 256 * 1024;
         if (taken_.fetch_add(bytes, std::memory_order_relaxed) + bytes >= enough) look();
     }
 
-    // Room for the work on a document, returned when this is destroyed. False: there is none.
+    // Memory reserved for the work on a document; the destructor returns it. False if the reservation failed.
     class Room {
     public:
         Room() = default;
@@ -69,7 +69,7 @@ public:
     };
     Room reserve(std::size_t bytes);
 
-    // Counts a refusal, and gives its reason: "`what`: the gateway uses 420 of the 512 MiB of memory_budget; ...".
+    // Counts a refusal, and returns its reason: "`what`: the gateway uses 420 of the 512 MiB of its memory_budget; ...".
     std::string refuse(std::string_view what);
     std::uint64_t refusals() const { return refusals_; }
 
@@ -78,7 +78,7 @@ private:
     Measure measure_;
     std::atomic<std::size_t> used_ = 0;
     std::atomic<std::size_t> reserved_ = 0;
-    std::atomic<std::size_t> taken_ = 0;  // since it was measured last
+    std::atomic<std::size_t> taken_ = 0;  // bytes reported by `took` since the last measurement
     std::atomic<std::uint64_t> refusals_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// What becomes of commands when an exception interrupts the engine, for want of memory for example.
+// Ends the commands that an exception in the engine interrupted, for example because memory ran out.
 #include <utility>
 
 #include "engine/executor.hpp"
@@ -17,13 +17,13 @@ void Executor::give_up(Command& command) noexcept {
     needs_mending_ = true;
 }
 
-// The rest of a sequence that cannot go on. What runs of it goes on by itself.
+// Gives up the waiting commands of a sequence that cannot continue. Its running commands continue.
 void Executor::give_up_waiting(Execution const& execution) noexcept {
     for (auto const& command : execution.commands())
         if (command->state == Command::State::waiting) give_up(*command);
 }
 
-// The request failed before any of its commands could run: they were never there.
+// Removes the commands of a request that failed before any of them could run.
 void Executor::forget_made(Session& session, std::uint64_t after) noexcept {
     for (auto handle = after + 1; handle <= last_handle_; ++handle) {
         auto const made = live_.find(handle);
@@ -51,7 +51,7 @@ void Executor::end_given_up(SharedCommand const& command, Instant now) {
     attempts.rethrow();
 }
 
-// A component whose answer was lost, or whose halt has no deadline.
+// Halts a component whose answer was lost, or whose halt has no deadline.
 void Executor::mend(RegisteredComponent& component, Instant now) {
     if (std::exchange(component.answer_lost, false)) halt(component, CompletedStatus::error, interrupted, now);
     if (component.halting && component.halting->due == Deadlines::Ticket{}) ask_to_halt(component, now);

@@ -1,4 +1,4 @@
-// How long what moves may go on without a sign of life of its application (decision 33).
+// How long a component may move without a sign of life from its application (decision 33).
 #pragma once
 
 #include <chrono>
@@ -13,8 +13,8 @@ namespace rois {
 // How a service application is linked to its session (decision 2): by a WebSocket, or by an event stream or a pending long poll.
 enum class Link : std::uint8_t { websocket, stream };
 
-// How a link ended: as a long poll that was answered, which is a request like any other; or the application closed it, or it
-// broke.
+// How a link ended. `answered`: a long poll was answered, which counts as a request. `lost`: the application closed the link, or
+// the link broke.
 enum class Closing : std::uint8_t { answered, lost };
 
 class MotionLease {
@@ -22,7 +22,7 @@ public:
     struct Terms {
         std::chrono::milliseconds linked;  // with a link
         std::chrono::milliseconds http;    // with requests only
-        bool links_count = true;           // else neither pongs nor an open stream are proof, but requests alone
+        bool links_count = true;           // false: only requests are signs of life, not pongs and open streams
     };
 
     MotionLease(Terms const& terms, Steady now) : terms_{terms}, heard_{now} {}
@@ -49,8 +49,8 @@ public:
 
     std::size_t links() const { return websockets_ + streams_; }
 
-    // From then on its motion is held, unless something is heard before. An open stream is proof by itself, unless the session
-    // asked to be judged by its requests: the system finds out when its peer has gone.
+    // The time from which its motion is held, if no sign of life comes before. An open stream is a sign of life by itself, because
+    // the system detects when the peer has gone. It is none if the session asked that only its requests count.
     Steady end() const {
         if (streams_ > 0 && terms_.links_count) return Steady::max();
         if (links() > 0) return heard_ + terms_.linked;
@@ -58,7 +58,7 @@ public:
     }
 
 private:
-    // From the end of a link until another one, or a request, takes its place.
+    // After the last link is lost, a new link or a request must come within this time.
     static constexpr std::chrono::milliseconds for_a_successor{250};
 
     std::size_t& count(Link link) { return link == Link::websocket ? websockets_ : streams_; }
@@ -67,7 +67,7 @@ private:
     Steady heard_;
     std::size_t websockets_ = 0;
     std::size_t streams_ = 0;
-    std::optional<Steady> end_after_link_;  // set when the last link has closed, until something is heard
+    std::optional<Steady> end_after_link_;  // set when the last link is lost; reset by a new link or a request
 };
 
 }  // namespace rois

@@ -113,7 +113,7 @@ NotificationQueue::Next NotificationQueue::read_recent(std::uint64_t after, std:
     return after_locked(last);
 }
 
-// All of them or none: only the growth can fail.
+// Moves all recent entries or none: only the growth of entries_ can throw.
 void NotificationQueue::settle_recent() {
     if (entries_.capacity() < entries_.size() + recent_count_)
         entries_.reserve(std::max(2 * entries_.size(), entries_.size() + recent_count_));

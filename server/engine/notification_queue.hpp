@@ -59,7 +59,7 @@ public:
     // when there is no event to drop: then the session must end. From then on it keeps what must not be lost, and no event.
     Pushed push(std::shared_ptr<OutgoingNotification const>);
 
-    // Forgets what was sent, and of the events that wait all but the last ones; `Lost` takes their place.
+    // Drops the sent notifications, and the oldest waiting events until only `events` are left. `Lost` replaces the latter.
     void keep_last(std::size_t events);
 
     // No more will come: the session has ended. As what is told, it shows when nothing is held.
@@ -95,7 +95,7 @@ public:
 
     bool closed() const;
 
-    // Until then the engine wants signs of life of the application (decision 33): WebSockets send it pings.
+    // Until then the engine wants signs of life from the application (decision 33), so WebSockets send pings.
     void want_signs_of_life(Steady until) { signs_of_life_until_.store(until, std::memory_order_relaxed); }
     bool wants_signs_of_life(Steady now) const { return now < signs_of_life_until_.load(std::memory_order_relaxed); }
 

@@ -40,7 +40,7 @@ public:
     static void approach(NotificationQueue const& queue) { prefetch(queue.audience().get()); }
     void approach_readers(NotificationQueue const& queue) const { outbox_.approach(queue); }
 
-    // Forgets what was sent to the session, and all but so many events that wait for it.
+    // Drops the session's sent notifications, and the oldest waiting events until only `events` are left.
     void keep_last(Session& session, std::size_t events) {
         auto const lost = session.notifications->lost();
         session.notifications->keep_last(events);
@@ -53,7 +53,7 @@ public:
         outbox_.notify(*session.notifications);
     }
 
-    // Whether some session could not be told something since the last call (decision 23).
+    // Whether the queue of some session overflowed since the last call (decision 23).
     bool take_overflowed() { return std::exchange(overflowed_, false); }
 
     std::uint64_t told() const { return told_; }

@@ -148,7 +148,7 @@ void RegisteredComponent::report_failure(std::string_view problem, Report report
     try {
         this->report(ErrorType::component_internal_error, std::string{problem}, report);
     } catch (...) {
-        // Its status says ERROR all the same.
+        // The component's status is ERROR nevertheless.
         told_once_.erase(ErrorType::component_internal_error);
     }
 }

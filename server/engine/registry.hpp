@@ -25,9 +25,9 @@ struct Session;
 
 // A halt that a component has not confirmed (decision 35).
 struct UnconfirmedHalt {
-    bool failed = false;                            // it threw, or did not confirm in time: its status is ERROR
-    Deadlines::Ticket due;                          // the end of that time, or the next attempt
-    std::vector<std::shared_ptr<Command>> waiting;  // which go on when it is confirmed; none once it has failed
+    bool failed = false;    // the component threw, or did not confirm in time: its status is ERROR
+    Deadlines::Ticket due;  // the end of that time, or the next attempt
+    std::vector<std::shared_ptr<Command>> waiting;  // commands that continue when it is confirmed; empty once it has failed
 };
 
 // A component as the engine has it. It is the component's port.
@@ -108,23 +108,22 @@ public:
     std::optional<ParameterList> merged(ParameterList stored, ParameterList const& arrived) const;
 
     Session* bound_to = nullptr;
-    // Whether somebody may bind it.
     bool is_free() const { return bound_to == nullptr && !halting; }
     ParameterList parameters;  // stored for the session that has it bound; the defaults without a binding
     Activity activity = Activity::idle;
-    // `some`: another command has begun since all was suspended.
+    // `some`: a command has begun since the component was suspended.
     enum class Suspended : std::uint8_t { nothing, some, all } suspended = Suspended::nothing;
     void something_begins() {
         if (suspended == Suspended::all) suspended = Suspended::some;
     }
-    // Whether something of it goes on.
+    // Whether an action or a function runs that is not suspended.
     bool works() const { return suspended != Suspended::all && (activity != Activity::idle || !functions.empty()); }
     std::shared_ptr<Command> start;                   // whose action runs, or null
     std::vector<std::shared_ptr<Command>> functions;  // those of its own profile that run
 
     std::optional<UnconfirmedHalt> halting;
 
-    // It answered a command, and there was no memory to keep that: nobody knows what it does now.
+    // It answered a command, but there was no memory to keep the answer. The engine does not know what the component does now.
     bool answer_lost = false;
 
     // A command or query of it: what failed before is over.
@@ -141,7 +140,7 @@ public:
 private:
     // What a message tells; null when the profile has no such message.
     TypedProfiles const* results_of(MessageKind, std::string_view message) const;
-    // Whatever fails: what cannot be reported for want of memory is not reported.
+    // Never throws: if memory runs out, the failure is not reported.
     void report_failure(std::string_view problem, Report) const noexcept;
     void report(ErrorType, std::string text, Report) const;
     // Nothing when it failed, because what it told cannot be told in the engine's frame.
@@ -206,7 +205,7 @@ public:
     Meant meant(Identifier const& component_ref) const;
 
     Components const& all() const { return components_; }
-    // Those that move the robot.
+    // The components that move the robot.
     std::vector<RegisteredComponent*> const& moving() const { return moving_; }
 
     // The components that alone can meet the demand; all when there is none.

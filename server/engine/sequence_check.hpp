@@ -31,7 +31,7 @@ public:
     // How many commands were checked.
     std::size_t commands() const { return commands_; }
 
-    // Whether one of them begins an action, or goes on with one.
+    // Whether one of the commands begins or resumes an action.
     bool begins_something() const { return begins_something_; }
 
     // The ids that the application gave.
@@ -55,7 +55,7 @@ private:
 // Which parameters a command of this type may carry; null when the component has no such command.
 std::vector<ParameterProfile> const* arguments_of(RegisteredComponent const&, std::string_view command_type);
 
-// Whether such a command begins an action, or goes on with one.
+// Whether a command of this type begins or resumes an action.
 bool begins_action(std::string_view command_type);
 
 // Whether what it carries is stored (decision 8); other commands carry arguments, which have default values.

@@ -38,18 +38,18 @@ struct Session {
     std::set<RegisteredComponent*> bound;
     std::set<Subscription*> subscriptions;
     std::size_t predicates = 0;                                                // in the conditions of these
-    std::size_t condition_bytes = 0;                                           // texts in them
+    std::size_t condition_bytes = 0;                                           // bytes of text in these conditions
     std::unordered_map<CommandId, std::shared_ptr<Command>, IdHash> commands;  // all that are known (decision 17)
     std::list<std::shared_ptr<Command>> ended;                                 // of these, in the order in which they ended
     std::size_t live_commands() const { return commands.size() - ended.size(); }
 
-    // The link (decision 2): which are open and when something was heard, and until when silence is no loss.
+    // The session's links (decision 2). They do not count as lost before `quiet_until`.
     MotionLease lease;
-    Steady heard;  // when something was heard last over HTTP, or a link closed
+    Steady heard;  // the last HTTP request, or the last end of a link
     Steady quiet_until;
     std::optional<Deadlines::Ticket> end_of_window;  // when to look whether the link was lost for good
 
-    // It ends, but that failed for want of memory so far: nobody finds it any more, and the next tick goes on.
+    // The session is ending: requests do not find it. If an attempt to end it fails for lack of memory, the next tick continues.
     bool ending = false;
     std::string_view why_it_ends;  // a literal
 };

@@ -16,7 +16,7 @@ struct EngineSettings {
     std::size_t max_command_results = 1'000;         // kept, a session (decision 17)
     std::size_t max_subscribed_predicates = 10'000;  // in the conditions of a session's subscriptions (docs/conditions.md)
     std::size_t max_predicates = 100'000;            // in the conditions of all subscriptions
-    std::size_t max_condition_bytes = 1 << 20;       // texts in the conditions of a session's subscriptions
+    std::size_t max_condition_bytes = 1 << 20;       // bytes of text in the conditions of a session's subscriptions
     std::chrono::milliseconds command_results = std::chrono::minutes{10};
     std::chrono::milliseconds event_details = std::chrono::seconds{60};  // `expire` (decision 21)
     std::chrono::milliseconds error_details = std::chrono::minutes{10};  // decision 24

@@ -54,7 +54,7 @@ Subscription* Subscriptions::find(std::string_view event_type, Filter const& fil
     return known == alike->second.by_meaning.end() ? nullptr : known->second;
 }
 
-// From the session's own list on, nothing can fail.
+// After the subscription is in the session's own list, no step can throw.
 Subscription& Subscriptions::add(Session& session, std::string const& event_type, Filter filter, bool inline_results) {
     auto* subscription = find(event_type, filter);
     if (subscription == nullptr) {

@@ -27,14 +27,14 @@ struct Subscription {
     SubscribeId id;
     std::string event_type;
     Filter filter;
-    // Kept, so that it can be removed without memory: where it is found by them.
+    // Its keys in OfType. Kept so that the subscription can be removed without allocating memory.
     std::string const* meaning = nullptr;
     std::optional<Demand> demand;
     struct Hearer {
         Session* session;
         std::uint64_t number;      // the session's
-        std::uint32_t slot;        // among those who may ask for details, found without the session
-        NotificationQueue* queue;  // and its own, found without it
+        std::uint32_t slot;        // copy of the session's slot in Details, to read without the session
+        NotificationQueue* queue;  // the session's own queue, to read without the session
         bool inline_results;
     };
     std::vector<Hearer> hearers;  // in the order in which their sessions connected
@@ -60,7 +60,7 @@ public:
     std::set<Session*> hearers(RegisteredComponent const&, Perspective& ever) const;
 
     std::size_t size() const { return by_id_.size(); }
-    std::size_t predicates() const { return predicates_; }  // in the conditions of all
+    std::size_t predicates() const { return predicates_; }  // in the conditions of all subscriptions
 
 private:
     struct Earlier {
@@ -76,7 +76,7 @@ private:
         InOrder others;
         std::unordered_map<std::string, Subscription*> by_meaning;  // of their filters
 
-        void add(Subscription&);  // all of it or nothing
+        void add(Subscription&);  // changes nothing if it throws
         void remove(Subscription&) noexcept;
     };
 

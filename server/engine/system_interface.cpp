@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::chrono::milliseconds shortest_lease{1'000};
 
-// Why these leases cannot be agreed on, or nothing; changes `terms` to them.
+// Changes `terms` to the requested leases. Returns why a requested lease is invalid, or nothing.
 std::optional<std::string> agree(MotionLease::Terms& terms, Connect const& asked, EngineSettings const& most) {
     auto const take = [](std::string_view name, std::optional<std::chrono::milliseconds> wanted,
                          std::chrono::milliseconds longest, std::chrono::milliseconds& lease) -> std::optional<std::string> {
@@ -167,7 +167,7 @@ void Engine::Core::publish(ErrorOccurred const& said, Instant now, Attempts& del
     for (auto* session : concerned) tell(*session);
 }
 
-// Keeps its details.
+// Keeps the details of the error.
 ReceiveError Engine::Core::noted(ErrorOccurred const& said, Instant now) {
     auto results = std::make_shared<Results>();
     if (said.component != nullptr)
