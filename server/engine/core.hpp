@@ -48,6 +48,7 @@ public:
     void clear() { everything_is_stopped_ = false; }
     bool everything_is_stopped() const { return everything_is_stopped_; }
     std::vector<std::string> not_halted() const;
+    std::vector<std::string> not_ready() const;
     void shut_down(Instant now);
     void heard_from(SessionId const&, Instant now);
     void heard_pong(SessionId const&, Instant now);

@@ -256,6 +256,15 @@ std::vector<std::string> Engine::Core::not_halted() const {
     return refs;
 }
 
+std::vector<std::string> Engine::Core::not_ready() const {
+    std::vector<std::string> refs;
+    for (auto const& [ref, component] : registry_.all()) {
+        auto const& halting = component->halting;
+        if (halting && (everything_is_stopped_ || halting->failed || !component->has_stood)) refs.push_back(ref);
+    }
+    return refs;
+}
+
 void Engine::Core::shut_down(Instant now) {
     shutting_down_ = true;
     settings_.on_session_end = OnSessionEnd::stop;
@@ -433,6 +442,7 @@ void Engine::stop_everything(Instant now) { core_->stop_everything(now); }
 void Engine::clear() { core_->clear(); }
 bool Engine::everything_is_stopped() const { return core_->everything_is_stopped(); }
 std::vector<std::string> Engine::not_halted() const { return core_->not_halted(); }
+std::vector<std::string> Engine::not_ready() const { return core_->not_ready(); }
 
 std::shared_ptr<EngineProfile const> Engine::profile() const { return core_->profile(); }
 std::vector<ComponentEntry> Engine::components() const { return core_->components(); }

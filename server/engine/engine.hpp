@@ -140,6 +140,8 @@ public:
     bool everything_is_stopped() const;
     // Refs of the components that were told to halt and have not confirmed that they stand still (decision 35).
     std::vector<std::string> not_halted() const;
+    // Those of them for which the engine is not ready: their halt has failed, it is their first one, or everything is stopped.
+    std::vector<std::string> not_ready() const;
 
     // Ends every session, and refuses what comes later.
     void shut_down(Instant now);

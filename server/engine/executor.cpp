@@ -13,8 +13,6 @@ namespace rois {
 
 namespace {
 
-constexpr auto not_halted = "the component has not confirmed that it stands still";
-
 // The commands of a session that have not finished yet, in the order in which they were given.
 std::vector<std::shared_ptr<Command>> live_commands(Session const& session) {
     std::vector<std::shared_ptr<Command>> live;
@@ -214,7 +212,6 @@ void Executor::run_suspend(SharedCommand const& command, Instant now) {
 
 void Executor::run_resume(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
-    if (component.halting) return end(command, CompletedStatus::error, not_halted, now);
     if (component.suspended == Suspended::nothing)
         return end(command, CompletedStatus::error, "nothing is suspended that could be resumed", now);
     auto const called = component.call([&](Component& c) { c.resume(now); });
@@ -227,7 +224,8 @@ void Executor::run_resume(SharedCommand const& command, Instant now) {
 
 void Executor::run_function(SharedCommand const& command, Instant now) {
     auto& component = *command->component;
-    if (component.halting) return end(command, CompletedStatus::error, not_halted, now);
+    if (command->state != Command::State::running) return;
+    if (component.halting) return wait_for_halt(command, now);
     component.functions.push_back(command);
     component.something_begins();
     await_start(command, now);

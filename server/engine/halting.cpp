@@ -22,7 +22,7 @@ void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_st
     attempts([&] { end_each(std::exchange(component.functions, {}), CompletedStatus::abort, reason, now); });
     for (std::size_t i = 0; component.halting && i < component.halting->waiting.size(); ++i) {
         auto const waiting = component.halting->waiting[i];
-        if (waiting->type == "start") attempts([&] { end(waiting, CompletedStatus::abort, reason, now); });
+        if (waiting->type != "stop") attempts([&] { end(waiting, CompletedStatus::abort, reason, now); });
     }
     attempts.rethrow();
 }
@@ -86,6 +86,7 @@ void Executor::halted(RegisteredComponent& component, Instant now) {
 }
 
 void Executor::go_on(RegisteredComponent& component, Instant now) {
+    component.has_stood = true;
     auto const halting = std::exchange(component.halting, {});
     if (!halting) return;
     deadlines_.cancel(halting->due);
@@ -98,8 +99,10 @@ void Executor::go_on(RegisteredComponent& component, Instant now) {
         attempts([&] {
             if (command->type == "stop")
                 end(command, CompletedStatus::ok, {}, now);
-            else
+            else if (command->type == "start")
                 attempt(command, [&] { go_on_with_start(command, now); });
+            else
+                attempt(command, [&] { run_function(command, now); });
         });
     }
     attempts([&] { run_ready(now); });

@@ -136,7 +136,7 @@ RegisteredComponent::RegisteredComponent(std::unique_ptr<Component> component, C
 }
 
 ComponentStatus RegisteredComponent::status_for(Session const* asker) const {
-    if (halting && halting->failed) return ComponentStatus::error;
+    if (has_failed_to_halt()) return ComponentStatus::error;
     if (bound_to != nullptr && bound_to != asker) return ComponentStatus::busy;
     auto status = ComponentStatus::error;
     if (!failed_) call([&](Component& c) { status = c.status(); });
@@ -427,7 +427,7 @@ Declarations const& Registry::results(MessageKind kind, std::string_view message
 Registry::Bound Registry::bind(RegisteredComponent& component, Session& session, Instant now) {
     if (component.bound_to != nullptr && component.bound_to != &session) return Bound::taken;
     if (component.bound_to == nullptr) {
-        if (component.halting) return Bound::not_halted;
+        if (component.has_failed_to_halt()) return Bound::not_halted;
         component.bound_anew();
         component.restore_defaults(now);  // what still runs for an ended session (on_session_end) left its own
     }

@@ -25,8 +25,8 @@ struct Session;
 
 // A halt that a component has not confirmed (decision 35).
 struct UnconfirmedHalt {
-    bool failed = false;    // the component threw, or did not confirm in time: its status is ERROR
-    Deadlines::Ticket due;  // the end of that time, or the next attempt
+    bool failed = false;                            // the component threw, or did not confirm in time: its status is ERROR
+    Deadlines::Ticket due;                          // the end of that time, or the next attempt
     std::vector<std::shared_ptr<Command>> waiting;  // commands that continue when it is confirmed; empty once it has failed
 };
 
@@ -108,7 +108,7 @@ public:
     std::optional<ParameterList> merged(ParameterList stored, ParameterList const& arrived) const;
 
     Session* bound_to = nullptr;
-    bool is_free() const { return bound_to == nullptr && !halting; }
+    bool is_free() const { return bound_to == nullptr && !has_failed_to_halt(); }
     ParameterList parameters;  // stored for the session that has it bound; the defaults without a binding
     Activity activity = Activity::idle;
     // `some`: a command has begun since the component was suspended.
@@ -122,6 +122,8 @@ public:
     std::vector<std::shared_ptr<Command>> functions;  // those of its own profile that run
 
     std::optional<UnconfirmedHalt> halting;
+    bool has_failed_to_halt() const { return halting && halting->failed; }
+    bool has_stood = false;  // it has confirmed a halt, at least once
 
     // It answered a command, but there was no memory to keep the answer. The engine does not know what the component does now.
     bool answer_lost = false;

@@ -193,7 +193,7 @@ HttpAnswer Documents::readiness() const {
     if (auto answer = health(); answer.status != 200) return answer;
     std::string trouble;
     if (gateway_.everything_is_stopped()) trouble = "stopped: nothing starts until POST /rois/clear\n";
-    for (auto const& ref : gateway_.not_halted()) trouble += ref + " has not confirmed that it stands still\n";
+    for (auto const& ref : gateway_.not_ready()) trouble += ref + " has not confirmed that it stands still\n";
     auto answer = plain(trouble.empty() ? "ready\n" : trouble);
     if (!trouble.empty()) answer.status = 503;
     return answer;

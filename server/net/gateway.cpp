@@ -309,6 +309,11 @@ std::vector<std::string> Gateway::not_halted() const {
     return engine_.not_halted();
 }
 
+std::vector<std::string> Gateway::not_ready() const {
+    std::lock_guard const lock{mutex_};
+    return engine_.not_ready();
+}
+
 void Gateway::shut_down() {
     auto const now = present();
     std::lock_guard const lock{mutex_};

@@ -160,6 +160,7 @@ public:
     void clear();
     bool everything_is_stopped() const;
     std::vector<std::string> not_halted() const;
+    std::vector<std::string> not_ready() const;
 
     // Ends all sessions; what comes later is refused.
     void shut_down();

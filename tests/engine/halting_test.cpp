@@ -31,7 +31,7 @@ TEST_F(Halting, IsTheFirstThingThatComponentsAreTold) {
     world.engine->begin(world.now);
     EXPECT_THAT(world["speech"].told, ElementsAre("halt"));
     EXPECT_THAT(world.engine->not_halted(), ElementsAre("navigation"));
-    desk.execute(named("go", go("go")));
+    desk.execute(go("go"));
     EXPECT_THAT(robot.told, ElementsAre("halt")) << "nothing starts before";
     robot.stands_still();
     EXPECT_THAT(robot.told, ElementsAre("halt", "start"));
@@ -186,11 +186,73 @@ TEST_F(Halting, AtTheEndOfASessionIsRepeatedUntilItIsConfirmed) {
     desk.execute(go("go"));
     desk.leave();
     auto hall = world.connect();
-    EXPECT_EQ(hall.bind("navigation"), ReturnCode::error);
     world.advance(700ms);
     EXPECT_EQ(halts(), 2);
+    EXPECT_EQ(hall.bind("navigation"), ReturnCode::error);
     robot.stands_still();
     EXPECT_EQ(hall.bind("navigation"), ReturnCode::ok);
+}
+
+TEST_F(Halting, ThatIsUnderWayLetsOthersBindAndTheirCommandsWaitForIt) {
+    robot.halts_later = true;
+    desk.execute(go("go"));
+    desk.leave();
+    auto hall = world.connect();
+    EXPECT_EQ(hall.bind_any(equal("component_ref", "navigation")), "navigation");
+    hall.execute(go("go"), named("dock", command("dock", "navigation")));
+    hall.execute(named("beside", command("dock", "navigation")));
+    EXPECT_THAT(robot.told, ElementsAre("start", "halt", "parameters_changed"));
+    robot.stands_still();
+    EXPECT_THAT(robot.told, ElementsAre("start", "halt", "parameters_changed", "start", "dock"));
+}
+
+TEST_F(Halting, ThatIsUnderWayAndFailsEndsWhatWaitsForIt) {
+    robot.halts_later = true;
+    desk.execute(go("go"));
+    desk.execute(named("stop", stop("navigation")));
+    desk.execute(named("dock", command("dock", "navigation")));
+    desk.execute(go("go 2"));
+    EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT"));
+    world.advance(500ms);
+    EXPECT_THAT(desk.heard(), ElementsAre("2 completed stop TIMEOUT", "3 completed dock TIMEOUT", "4 completed go 2 TIMEOUT",
+                                          "5 COMPONENT_NOT_RESPONDING navigation"));
+}
+
+TEST_F(Halting, ASecondStopEndsTheCommandsThatWaitForTheFirst) {
+    robot.halts_later = true;
+    desk.execute(go("go"));
+    desk.execute(named("stop", stop("navigation")));
+    desk.execute(named("dock", command("dock", "navigation")));
+    desk.execute(named("stop 2", stop("navigation")));
+    robot.stands_still();
+    EXPECT_THAT(desk.heard(),
+                ElementsAre("1 completed go ABORT", "2 completed dock ABORT", "3 completed stop OK", "4 completed stop 2 OK"));
+    EXPECT_THAT(robot.told, ElementsAre("start", "halt", "halt"));
+}
+
+TEST_F(Halting, ThatIsUnderWayLeavesTheEngineReadyUnlessItFails) {
+    world.engine->begin(world.now);
+    robot.halts_later = true;
+    desk.execute(go("go"));
+    desk.execute(named("stop", stop("navigation")));
+    EXPECT_THAT(world.engine->not_halted(), ElementsAre("navigation"));
+    EXPECT_THAT(world.engine->not_ready(), IsEmpty());
+    world.engine->stop_everything(world.now);
+    EXPECT_THAT(world.engine->not_ready(), ElementsAre("navigation"));
+    world.engine->clear();
+    EXPECT_THAT(world.engine->not_ready(), IsEmpty());
+    world.advance(500ms);
+    EXPECT_THAT(world.engine->not_ready(), ElementsAre("navigation"));
+    robot.stands_still();
+    EXPECT_THAT(world.engine->not_ready(), IsEmpty());
+}
+
+TEST_F(Halting, IsAwaitedOnceBeforeTheEngineIsReady) {
+    robot.halts_later = true;
+    world.engine->begin(world.now);
+    EXPECT_THAT(world.engine->not_ready(), ElementsAre("navigation"));
+    robot.stands_still();
+    EXPECT_THAT(world.engine->not_ready(), IsEmpty());
 }
 
 TEST_F(Halting, AtTheEndOfTheEngineReachesEveryComponent) {

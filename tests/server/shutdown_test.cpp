@@ -81,7 +81,8 @@ TEST(Shutdown, WaitsUntilAllStandsStill) {
     gateway.signal(SIGTERM);
     auto const ended = gateway.wait();
     EXPECT_EQ(ended.exit_code, 0);
-    EXPECT_THAT(ended.error, testing::Not(testing::HasSubstr("navigation")));
+    EXPECT_THAT(ended.error, testing::HasSubstr("navigation has confirmed that it stands still"));
+    EXPECT_THAT(ended.error, testing::Not(testing::HasSubstr("navigation did not confirm")));
 }
 
 TEST(Shutdown, NamesWhatDidNotHaltInTime) {
