@@ -236,13 +236,19 @@ RadiansPerSecond Wheels::rate_to_stop_in(Radians left) const {
     return sign(left) * std::min(plan.max_turn_rate, braking(std::abs(left), plan.max_turn_acceleration, dt));
 }
 
-Twist Wheels::next(Twist const& wanted, std::optional<Metres> circle) const {
-    double const acceleration =
-        circle ? std::min(plan.max_acceleration, plan.max_turn_acceleration * std::abs(*circle)) : plan.max_acceleration;
+Accelerations driving(RobotPlan const& plan) { return {plan.max_acceleration, plan.max_turn_acceleration}; }
+
+Accelerations stopping(RobotPlan const& plan) {
+    return {std::max(plan.max_acceleration, plan.max_speed / RobotPlan::time_to_stop),
+            std::max(plan.max_turn_acceleration, plan.max_turn_rate / RobotPlan::time_to_stop)};
+}
+
+Twist Wheels::next(Twist const& wanted, Accelerations const& limits, std::optional<Metres> circle) const {
+    double const acceleration = circle ? std::min(limits.linear, limits.angular * std::abs(*circle)) : limits.linear;
     MetresPerSecond const linear = towards(twist.linear, wanted.linear, acceleration * dt);
     if (circle) return {linear, linear / *circle};
     RadiansPerSecond const rate = std::clamp(wanted.angular, -plan.max_turn_rate, plan.max_turn_rate);
-    return {linear, towards(twist.angular, rate, plan.max_turn_acceleration * dt)};
+    return {linear, towards(twist.angular, rate, limits.angular * dt)};
 }
 
 Pose moved(Pose const& from, Twist const& twist, Seconds time) {

@@ -8,6 +8,16 @@
 
 namespace rois::simulation {
 
+// How fast the wheels may change their speed and their turning.
+struct Accelerations {
+    double linear = 0;   // m/s^2
+    double angular = 0;  // rad/s^2
+};
+
+// The limits on the way; and while the robot is stopped, held or braked: at least so much that it stands within time_to_stop.
+Accelerations driving(RobotPlan const&);
+Accelerations stopping(RobotPlan const&);
+
 // The robot as a course sees it in a step, `dt` long.
 struct Wheels {
     RobotId robot;
@@ -22,8 +32,8 @@ struct Wheels {
     MetresPerSecond speed_to_stop_in(Metres) const;   // the fastest from which they can stop in that distance
     RadiansPerSecond rate_to_stop_in(Radians) const;  // towards that angle, the fastest from which they can stop at it
 
-    // What comes of a wanted twist within the limits in this step; on a circle of that signed radius, if any.
-    Twist next(Twist const& wanted, std::optional<Metres> circle = std::nullopt) const;
+    // What comes of a wanted twist within these limits in this step; on a circle of that signed radius, if any.
+    Twist next(Twist const& wanted, Accelerations const&, std::optional<Metres> circle = std::nullopt) const;
 };
 
 // The exact motion of a unicycle with constant twist.

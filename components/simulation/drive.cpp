@@ -50,6 +50,7 @@ Drive::Drive(RobotId robot, RobotPlan const& robot_plan, FloorPlan const& floor)
     : robot_(robot),
       plan_(robot_plan),
       fastest_(robot_plan.max_speed),
+      stopping_limits_(stopping(robot_plan)),
       planner_(std::make_unique<Planner>(floor, robot_plan.radius, robot_plan.agility())),
       pose_(robot_plan.start) {}
 Drive::~Drive() = default;
@@ -92,7 +93,9 @@ void Drive::finish(MotionState state) {
 }
 
 void Drive::stop(MotionId id) {
-    if (is_current(id)) finish(MotionState::ended);
+    if (!is_current(id)) return;
+    finish(MotionState::ended);
+    stopping_ = !stands();
 }
 
 void Drive::hold(MotionId id) {
@@ -115,9 +118,15 @@ Wheels Drive::wheels(Surroundings const& around, Seconds dt) const {
 }
 
 void Drive::step(Surroundings const& around, Seconds dt) {
+    roll(around, dt);
+    if (stands()) stopping_ = false;
+}
+
+void Drive::roll(Surroundings const& around, Seconds dt) {
     std::optional<Metres> const circle = current_ ? current_->course->circle() : std::nullopt;
     Twist const wanted = steer(around, dt);
-    Twist const next = wheels(around, dt).next({safe(wanted.linear, wheels(around, dt)), wanted.angular}, circle);
+    auto const limits = must_stand() ? stopping_limits_ : driving(plan_);
+    Twist const next = wheels(around, dt).next({safe(wanted.linear, wheels(around, dt)), wanted.angular}, limits, circle);
     Pose const there = moved(pose_, next, dt);
     if (would_touch(there, around)) {
         twist_ = {};
@@ -127,8 +136,10 @@ void Drive::step(Surroundings const& around, Seconds dt) {
     pose_ = there;
 }
 
+bool Drive::must_stand() const { return stopping_ || brakes_ || (current_ && current_->held); }
+
 Twist Drive::steer(Surroundings const& around, Seconds dt) {
-    if (!current_ || current_->held || brakes_) return {};
+    if (!current_ || must_stand()) return {};
     Twist const wanted = current_->course->steer(wheels(around, dt), current_->progress);
     if (over(current_->progress.state)) finish(current_->progress.state);
     return wanted;

@@ -13,7 +13,8 @@
 
 namespace rois::simulation {
 
-// A drive belongs to its Hall, which steps it. Speeds and accelerations stay within the plan's limits at all times.
+// A drive belongs to its Hall, which steps it. Speeds stay within the plan's limits at all times, accelerations unless the
+// robot is to stand: then it brakes harder, so that it stands within RobotPlan::time_to_stop.
 class Drive {
 public:
     Drive(RobotId, RobotPlan const&, FloorPlan const&);
@@ -39,7 +40,8 @@ public:
     // How far the motion under way is; nothing when there is none.
     std::optional<Progress> current() const;
 
-    // End the motion, hold it (the robot brakes to a stand), go on with it. Nothing happens to one that is over or is another.
+    // End the motion, hold it, go on with it. The robot brakes to a stand when its motion is stopped or held; a motion that
+    // begins meanwhile waits for that. Nothing happens to a motion that is over or is another.
     void stop(MotionId);
     void hold(MotionId);
     void go_on(MotionId);
@@ -54,6 +56,9 @@ public:
 
     // Whether the robot neither drives nor turns.
     bool stands() const { return twist_.linear == 0 && twist_.angular == 0; }
+
+    // Whether the robot still rolls after stop().
+    bool is_stopping() const { return stopping_; }
 
     RobotId robot() const { return robot_; }
     Pose const& pose() const { return pose_; }
@@ -77,6 +82,8 @@ private:
 
     bool is_current(MotionId) const;
     void finish(MotionState);
+    bool must_stand() const;
+    void roll(Surroundings const&, Seconds dt);
     Wheels wheels(Surroundings const&, Seconds dt) const;
     Twist steer(Surroundings const&, Seconds dt);
     MetresPerSecond safe(MetresPerSecond wanted, Wheels const&) const;
@@ -85,6 +92,8 @@ private:
     RobotId robot_;
     RobotPlan plan_;
     MetresPerSecond fastest_;  // of the robot's plan
+    Accelerations stopping_limits_;
+    bool stopping_ = false;
     bool brakes_ = false;
     std::unique_ptr<Planner> planner_;
     Pose pose_;

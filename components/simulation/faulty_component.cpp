@@ -52,7 +52,9 @@ public:
     Halted halt(Instant now) override {
         if (is(Fault::Kind::unstoppable)) return Halted::not_yet;
         running_.reset();
-        return component_->halt(now);
+        auto const answer = component_->halt(now);
+        halting_ = answer == Halted::not_yet;
+        return answer;
     }
 
     void suspend(Instant now) override {
@@ -99,7 +101,9 @@ private:
         port_->completed(command, status, std::move(results), afterwards, std::move(why));
     }
 
-    void halted() override { port_->halted(); }
+    void halted() override {
+        if (std::exchange(halting_, false)) port_->halted();
+    }
     void event(std::string_view event_type, Results results) override { port_->event(event_type, std::move(results)); }
     void error(ErrorType type, std::string text, Report report) override { port_->error(type, std::move(text), report); }
 
@@ -139,6 +143,7 @@ private:
     std::vector<Fault> faults_;
     ComponentPort* port_ = nullptr;
     std::optional<CommandHandle> running_;
+    bool halting_ = false;  // the engine waits for halted()
     bool had_failed_ = false;
     bool had_complained_ = false;
     std::unique_ptr<Component> component_;

@@ -66,11 +66,14 @@ struct RobotPlan {
     Pose start;
     Metres radius = 0.28;
     MetresPerSecond max_speed = 0.9;
-    double max_acceleration = 0.8;  // m/s^2, also when braking
+    double max_acceleration = 0.8;  // m/s^2, also when it slows down on its way
     RadiansPerSecond max_turn_rate = 1.6;
     double max_turn_acceleration = 3.0;  // rad/s^2
     Sensors sensors;
     std::optional<RobotFrame> frame;  // in which its components tell and take positions; absent: the hall's
+
+    // Within this time of the world's, brakes bring the robot to a stand, however fast it was.
+    static constexpr Seconds time_to_stop = 0.3;
 
     Agility agility() const { return {max_speed, max_acceleration, max_turn_rate, max_turn_acceleration}; }
 };

@@ -161,7 +161,8 @@ void Action::start(CommandHandle command, ParameterList const& parameters, Insta
 
 Halted Action::halt(Instant) {
     if (std::exchange(command_, {})) cease();
-    return Halted::confirmed;
+    halting_ = !has_ceased();
+    return halting_ ? Halted::not_yet : Halted::confirmed;
 }
 
 void Action::suspend(Instant) {
@@ -177,6 +178,10 @@ void Action::resume(Instant) {
 }
 
 void Action::stepped(Instant) {
+    if (halting_ && has_ceased()) {
+        halting_ = false;
+        port().halted();
+    }
     if (!command_ || suspended_) return;
     elapsed_ += Hall::step_length;
     act();

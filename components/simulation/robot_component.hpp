@@ -56,6 +56,7 @@ protected:
     media::Media& media() const { return *fitting_.media; }
     ComponentPort& port() { return *port_; }
     std::optional<Instant> const& last_step() const { return last_step_; }
+    bool world_goes_on() const { return fitting_.simulation->runs_by_itself() || fitting_.simulation->goes_on(); }
 
     // What is in the hall, as this robot's messages have it: in the robot's own frame when it has one, named by crs(). A text as
     // of to_wire(), and the structured form as of located().
@@ -131,6 +132,8 @@ protected:
     virtual void begin(ParameterList const&) = 0;
     // Once a step, while it runs and is not suspended.
     virtual void act() = 0;
+    // Whether nothing of it moves any more after cease(). `halt` is confirmed then.
+    virtual bool has_ceased() const { return true; }
     // Stands still from now on: for good, for a while, no longer.
     virtual void cease() = 0;
     virtual void hold() = 0;
@@ -145,6 +148,7 @@ private:
 
     std::optional<CommandHandle> command_;
     bool suspended_ = false;
+    bool halting_ = false;  // the engine waits for halted()
     WorldTime elapsed_{};
 };
 

@@ -82,7 +82,7 @@ Seconds rehearsed(Wheels const& wheels, std::vector<Point> const& way, std::opti
     for (Seconds time = 0; time < longest; time += wheels.dt) {
         auto const wanted = corners.steer(now);
         if (!wanted) return time + (heading ? turn_duration(wrapped(*heading - pose.heading), wheels.plan.agility()) : 0);
-        twist = now.next(*wanted);
+        twist = now.next(*wanted, driving(now.plan));
         pose = moved(pose, twist, wheels.dt);
     }
     return longest;

@@ -35,6 +35,9 @@ ComponentStatus WheelAction::condition() const {
     return state == MotionState::obstructed || is_braked ? ComponentStatus::warning : ComponentStatus::ready;
 }
 
+// In a world that stands still, no wheel turns.
+bool WheelAction::has_ceased() const { return !hall().drive(robot()).is_stopping() || !world_goes_on(); }
+
 void WheelAction::cease() {
     if (auto const motion = std::exchange(motion_, {})) hall().drive(robot()).stop(*motion);
 }

@@ -29,6 +29,7 @@ protected:
 
     // WARNING while somebody is in the way, or a motion waits for the brakes to be put off.
     ComponentStatus condition() const override;
+    bool has_ceased() const final;
     void cease() override;
     void hold() override;
     void go_on() override;

@@ -61,9 +61,9 @@ public:
         component_->perform(CommandHandle{++last_}, command_type, arguments, now_());
     }
 
-    void stop() {
-        component_->halt(now_());
+    Halted stop() {
         runs_ = false;
+        return component_->halt(now_());
     }
     void suspend() { component_->suspend(now_()); }
     void resume() { component_->resume(now_()); }
@@ -102,7 +102,7 @@ public:
     // Otherwise only the last command may complete.
     void allow_any_command() { any_command_ = true; }
 
-    void halted() override {}
+    void halted() override { tell("halted", {}); }
     void started(CommandHandle) override { tell("started", {}); }
     void completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards,
                    std::string reason) override {
@@ -238,12 +238,12 @@ inline Role known(Role role) {
 
 class Stage {
 public:
-    explicit Stage(std::vector<Role> roles = {}, FloorPlan plan = reception(), std::vector<Fault> faults = {}) {
+    explicit Stage(std::vector<Role> roles = {}, FloorPlan plan = reception(), std::vector<Fault> faults = {}, double speed = 1) {
         Scenario scenario;
         scenario.name = "test";
         scenario.faults = std::move(faults);
         scenario.roles = std::move(roles);
-        simulation_ = std::make_shared<Simulation>(std::move(plan), std::move(scenario), 7, 1.0);
+        simulation_ = std::make_shared<Simulation>(std::move(plan), std::move(scenario), 7, speed);
         for (auto& component : robot_components(simulation_, media_, bare_profiles())) operate(std::move(component));
     }
 

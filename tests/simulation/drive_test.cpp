@@ -77,18 +77,55 @@ TEST(Drive, HasOneOwnerAtATime) {
     EXPECT_TRUE(drive.begin("move", Line{0.5, 0}));
 }
 
-TEST(Drive, BrakesWithinItsLimitsWhenStopped) {
+// How far it rolls when this is done to it at full speed. It stands within 0.3 s.
+Metres rolls_after(std::function<void(Drive&, MotionId)> const& stopped) {
     Hall hall{plain_hall(), nobody(), 1};
     Drive& drive = hall.drive(robot1);
     auto const line = drive.begin("move", Line{5, 0});
     run(hall, 3);
-    MetresPerSecond const speed = drive.twist().linear;
-    ASSERT_GT(speed, 0.8);
+    EXPECT_GT(drive.twist().linear, 0.85);
     Point const there = drive.pose().position;
-    drive.stop(*line);
+    stopped(drive, *line);
+    run(hall, RobotPlan::time_to_stop);
+    EXPECT_TRUE(drive.stands());
+    EXPECT_FALSE(drive.is_stopping());
+    return distance(there, drive.pose().position);
+}
+
+TEST(Drive, StandsWithinThreeTenthsOfASecondWhenStoppedHeldOrBraked) {
+    EXPECT_NEAR(rolls_after([](Drive& drive, MotionId line) { drive.stop(line); }), 0.13, 0.02);
+    EXPECT_NEAR(rolls_after([](Drive& drive, MotionId line) { drive.hold(line); }), 0.13, 0.02);
+    EXPECT_NEAR(rolls_after([](Drive& drive, MotionId) { drive.brake(true); }), 0.13, 0.02);
+    EXPECT_NEAR(rolls_after([](Drive& drive, MotionId line) {
+                    drive.limit_speed(0.1);
+                    drive.stop(line);
+                }),
+                0.13, 0.02);
+}
+
+TEST(Drive, StopsTurningAsSoon) {
+    Hall hall{plain_hall(), nobody(), 1};
+    Drive& drive = hall.drive(robot1);
+    auto const turn = drive.begin("move", Line{0, from_degrees(170)});
+    run(hall, 0.8);
+    ASSERT_GT(drive.twist().angular, 1.5);
+    drive.stop(*turn);
+    run(hall, RobotPlan::time_to_stop);
+    EXPECT_TRUE(drive.stands());
+}
+
+TEST(Drive, AMotionThatBeginsWhileTheRobotIsStoppingWaitsUntilItStands) {
+    Hall hall{plain_hall(), nobody(), 1};
+    Drive& drive = hall.drive(robot1);
+    auto const line = drive.begin("navigation", Line{5, 0});
     run(hall, 3);
-    EXPECT_EQ(drive.twist().linear, 0);
-    EXPECT_NEAR(distance(there, drive.pose().position), speed * speed / (2 * drive.plan().max_acceleration), 0.02);
+    drive.stop(*line);
+    EXPECT_TRUE(drive.is_stopping());
+    auto const next = drive.begin("move", Line{1, 0});
+    ASSERT_TRUE(next);
+    ASSERT_TRUE(runs_until(hall, RobotPlan::time_to_stop, [&] { return drive.stands(); }));
+    EXPECT_FALSE(drive.is_stopping());
+    ASSERT_TRUE(runs_until(hall, 10, [&] { return state(hall, robot1, *next) == MotionState::arrived; }));
 }
 
 TEST(Drive, HoldsAndGoesOn) {

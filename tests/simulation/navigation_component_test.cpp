@@ -149,16 +149,28 @@ TEST(Navigation, StandsStillWhileSuspendedAndItsTimeLimitToo) {
     EXPECT_EQ(stage.outcome("navigation"), "OK");
 }
 
-TEST(Navigation, BrakesWhenStopped) {
+TEST(Navigation, ConfirmsAHaltWhenTheRobotStands) {
     Stage stage;
     stage["navigation"].start({to({"10000, 4000"})});
     stage.run(2);
-    stage["navigation"].stop();
-    stage.run(2);
+    EXPECT_EQ(stage["navigation"].stop(), Halted::not_yet);
+    EXPECT_EQ(stage["navigation"].stop(), Halted::not_yet) << "also when it is told again";
+    EXPECT_EQ(stage["move"].stop(), Halted::not_yet) << "the wheels are those of all";
+    auto const is_confirmed = [&](auto ref) { return !stage[ref].events("halted").empty(); };
+    ASSERT_TRUE(stage.run_until([&] { return is_confirmed("navigation"); }, 0.4));
+    EXPECT_TRUE(is_confirmed("move"));
     auto const stood = stage.robot().position;
     stage.run(5);
     EXPECT_EQ(distance(stood, stage.robot().position), 0);
-    EXPECT_THAT(stage["navigation"].words(), ElementsAre("started"));
+    EXPECT_THAT(stage["navigation"].words(), ElementsAre("started", "halted"));
+    EXPECT_EQ(stage["navigation"].stop(), Halted::confirmed) << "it stands";
+}
+
+TEST(Navigation, ConfirmsAHaltAtOnceInAWorldThatStandsStill) {
+    Stage stage{{}, reception(), {}, 0};
+    stage["navigation"].start({to({"10000, 4000"})});
+    stage.run(2);
+    EXPECT_EQ(stage["navigation"].stop(), Halted::confirmed);
 }
 
 TEST(Navigation, TakesANewTargetWithANewStart) {
