@@ -28,7 +28,8 @@ Complaints against_braces_in_awaits(Tree const&);
 // No file of C++, TypeScript or Python is too long to be read at one sitting.
 Complaints against_short_files(Tree const&);
 
-// A relative link in README.md, ARCHITECTURE.md, CONTRIBUTING.md, docs/*.md and web/*/README.md leads to a file or a folder.
+// A relative link in README.md, ARCHITECTURE.md, CONTRIBUTING.md, SECURITY.md, docs/*.md and web/*/README.md leads to a file or a
+// folder.
 Complaints against_links(Tree const&);
 
 // docs/dependencies.md names every package that CMake looks for (but those that the project installs), every one that ./dev
