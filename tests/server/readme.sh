@@ -68,6 +68,25 @@ for shell in bash sh; do
     grep -q "^The robot has not greeted" "$work/printed" || fail "In $shell, the walk does not say that the robot has not greeted."
 done
 
+# A robot that nobody hears from while it drives: it is held after two seconds, and goes on when the reader does.
+kill "$gateway" && wait "$gateway" || true
+"$ROIS_BINARY_DIR/bin/rois-gateway" --listen "${url#http://}" --scenario "$root/tests/server/data/empty_hall.xml" --sim-speed 1 --motion-lease-http 2 2>"$work/log" &
+gateway=$!
+exec 3<"$work/log"
+until read -r line <&3 && [[ $line == *"listening on "* ]]; do :; done
+sed 's/^hear()/sleep 3; &/' "$work/session.sh" >"$work/slow.sh"
+timeout 60 bash "$work/slow.sh" >"$work/printed" 2>&1 || fail "A walk in which the robot is held does not end."
+[[ $(grep -c "^The gateway held the robot" "$work/printed") -eq 1 ]] || fail "The walk does not say once that the robot was held."
+grep -q "its motion is held: nothing was heard" "$work/printed" || fail "The walk does not show why the robot was held."
+grep -q "<command_id>greet</command_id><status>OK" "$work/printed" || fail "The robot that was held does not greet."
+[[ $(grep -c "^<receive_error" "$work/printed") -eq 1 ]] || fail "The error does not stand on a line of its own."
+
+# A robot that somebody has stopped with all others is not said to be held.
+sed "s|^hear()|curl -sS -X POST $url/rois/stop; echo; &|" "$work/session.sh" >"$work/stopped.sh"
+timeout 60 bash "$work/stopped.sh" >"$work/printed" 2>&1 || fail "A walk in which everything is stopped does not end."
+! grep -q "^The gateway held the robot" "$work/printed" || fail "A robot that was stopped is said to be held."
+grep -q "<command_id>greet</command_id><status>ABORT" "$work/printed" || fail "The walk does not show that its commands were stopped."
+
 # The loop that waits, with these assignments before it; it ends and prints a line that begins like this.
 waits() {
     { printf 'GATEWAY=%s %s\n' "$url" "$1"; sed -n '/^hear()/,/has not greeted/p' "$work/session.sh"; } >"$work/wait.sh"
