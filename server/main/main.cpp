@@ -101,7 +101,7 @@ net::Settings with_all_hosts(Settings const& settings) {
     auto const add = [&](std::string_view name) {
         if (auto host = net::host_name(name)) all.hosts.push_back(std::move(*host));
     };
-    for (auto const& name : net::machine_names()) add(name);
+    add(net::machine_name().value_or(""));
     add(settings.net.host);
     add(settings.media.host);
     add(host_of_url(settings.media.url));

@@ -1,6 +1,5 @@
 #include "net/foreign.hpp"
 
-#include <netdb.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -84,29 +83,10 @@ std::optional<std::string> host_name(std::string_view text) {
     return name;
 }
 
-std::vector<std::string> machine_names() {
+std::optional<std::string> machine_name() {
     std::array<char, 256> buffer{};
     if (::gethostname(buffer.data(), buffer.size() - 1) != 0) return {};
-    auto const name = host_name(buffer.data());
-    if (!name) return {};
-    auto const label = name->substr(0, name->find('.'));
-    std::vector<std::string> names{*name, label};
-    if (label == "localhost") return names;
-    names.push_back(label + ".local");
-    auto const add = [&](char const* alias) {
-        auto const other = host_name(alias);
-        if (other && other->starts_with(label + ".")) names.push_back(*other);
-    };
-    ::sethostent(0);
-    while (auto const* entry = ::gethostent()) {  // reads /etc/hosts alone
-        add(entry->h_name);
-        for (auto const* const* alias = entry->h_aliases; *alias != nullptr; ++alias) add(*alias);
-    }
-    ::endhostent();
-    std::ranges::sort(names);
-    auto const twice = std::ranges::unique(names);
-    names.erase(twice.begin(), twice.end());
-    return names;
+    return host_name(buffer.data());
 }
 
 bool is_own_host(std::string_view authority, std::vector<std::string> const& names) {

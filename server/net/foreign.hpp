@@ -14,9 +14,8 @@
 
 namespace rois::net {
 
-// The names of this machine, in lower case: that of gethostname, its first label, this label in .local (mDNS), and those that
-// /etc/hosts gives it with a domain. Asks no name server.
-std::vector<std::string> machine_names();
+// The name of this machine as gethostname gives it, in lower case. Nothing if it cannot be a host name.
+std::optional<std::string> machine_name();
 
 // The name as `is_own_host` compares it: in lower case, without a dot at its end. Nothing if it cannot be a host name.
 std::optional<std::string> host_name(std::string_view);
