@@ -35,6 +35,7 @@ WebSocket::WebSocket(std::shared_ptr<Wire> wire, Gateway& gateway, Telemetry& te
       wire_{std::move(wire)},
       telemetry_{telemetry},
       heard_{now()},
+      pings_{static_cast<std::uint64_t>(heard_.time_since_epoch().count())},
       settings_{settings},
       gateway_{gateway},
       reader_{reader},
@@ -105,9 +106,10 @@ void WebSocket::take(MessageReader::Heard const& heard) {
                        note_control();
                        if (!ending_) say_pong(ping.payload);
                    },
-                   [&](MessageReader::Pong) {
+                   [&](MessageReader::Pong pong) {
                        note_control();
-                       if (reading_ && reading_->wants_signs_of_life(now())) reading_->heard_pong();
+                       if (pings_.take_answer(pong.payload) && reading_ && reading_->wants_signs_of_life(now()))
+                           reading_->heard_pong();
                    },
                    [&](MessageReader::Closed closed) {
                        close({closed.code, ""});
@@ -315,7 +317,10 @@ bool WebSocket::gather(std::string& out) {
     answers_.clear();
     if (answers_.capacity() > most_answers_kept) answers_.shrink_to_fit();
     answers_in_out_ = std::exchange(answers_waiting_, 0);
-    if (std::exchange(ping_due_, false)) append_frame(out, Opcode::ping, "");
+    if (std::exchange(ping_due_, false)) {
+        auto const payload = pings_.next();
+        append_frame(out, Opcode::ping, {payload.data(), payload.size()});
+    }
     bool const more = (!ending_ || ending_->code == CloseCode::going_away) && gather_notifications(out);
     if (ending_ && !more) {
         append_close(out, ending_->code, ending_->reason);

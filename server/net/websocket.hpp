@@ -87,9 +87,10 @@ private:
     Steady close_due_ = Steady::max();
     Steady session_due_ = Steady::max();  // when it must have a session; max: it has one, or nobody has looked yet
 
-    bool heard_something_ = false;        // from the peer, since the last sweep
-    bool pinged_ = false;                 // since it was heard
-    Steady heard_;                        // from the peer, last
+    bool heard_something_ = false;  // from the peer, since the last sweep
+    bool pinged_ = false;           // since it was heard
+    Steady heard_;                  // from the peer, last
+    Pings pings_;
     Steady proof_due_ = Steady::min();    // the next ping while the robot moves (decision 33)
     Steady message_due_ = Steady::max();  // when what has begun to arrive must be whole
     Steady controls_since_;               // the beginning of the second in which control frames are counted

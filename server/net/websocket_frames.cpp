@@ -118,6 +118,22 @@ void append_close(std::string& out, CloseCode code, std::string_view reason) {
     out.append(reason);
 }
 
+Pings::Payload Pings::next() {
+    Payload payload{};
+    ++sent_;
+    std::memcpy(payload.data(), &sent_, payload.size());
+    return payload;
+}
+
+bool Pings::take_answer(std::string_view payload) {
+    std::uint64_t number = 0;
+    if (payload.size() != sizeof number) return false;
+    std::memcpy(&number, payload.data(), sizeof number);
+    if (number <= answered_ || number > sent_) return false;
+    answered_ = number;
+    return true;
+}
+
 std::variant<MessageReader::Incomplete, MessageReader::Head, MessageReader::Violation> MessageReader::read_head(
     std::span<char> bytes) const {
     if (bytes.size() < 2) return Incomplete{};
@@ -170,7 +186,7 @@ MessageReader::Heard MessageReader::next(std::span<char> bytes, std::size_t& use
 
 MessageReader::Heard MessageReader::take_control(Head const& head, std::string_view payload) const {
     if (head.opcode == Opcode::ping) return Ping{payload};
-    if (head.opcode == Opcode::pong) return Pong{};
+    if (head.opcode == Opcode::pong) return Pong{payload};
     if (payload.empty()) return Closed{CloseCode::normal};
     if (payload.size() == 1) return protocol_error("half a close code");
     auto const code = static_cast<unsigned>(static_cast<unsigned char>(payload[0]) << 8 | static_cast<unsigned char>(payload[1]));

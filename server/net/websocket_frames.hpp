@@ -1,6 +1,7 @@
 // The frames of RFC 6455, as a server reads and writes them.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -30,6 +31,26 @@ void append_frame(std::string& out, Opcode, std::string_view payload);
 void append_text_head(std::string& out, std::size_t payload_size);
 void append_close(std::string& out, CloseCode, std::string_view reason);
 
+// The pings of one connection, and which of them its peer has answered. A pong that nobody asked for, or that comes twice, proves
+// nothing. Payloads are numbers: one that answers a ping answers the earlier ones, too (RFC 6455, 5.5.3).
+class Pings {
+public:
+    using Payload = std::array<char, sizeof(std::uint64_t)>;
+
+    // `start`: a large number that differs from connection to connection, so that no peer counts its own pongs alike.
+    explicit Pings(std::uint64_t start) : sent_{start}, answered_{start} {}
+
+    // The payload of the next ping, which counts as sent.
+    Payload next();
+
+    // Whether a pong with this payload answers a ping that no pong has answered before.
+    bool take_answer(std::string_view payload);
+
+private:
+    std::uint64_t sent_;      // the last one
+    std::uint64_t answered_;  // the last one that the peer has answered
+};
+
 // Puts the messages of one connection together from its frames.
 class MessageReader {
 public:
@@ -43,7 +64,9 @@ public:
     struct Ping {
         std::string_view payload;
     };
-    struct Pong {};
+    struct Pong {
+        std::string_view payload;
+    };
     struct Nothing {};  // a frame that asks for nothing: part of a message
     struct Closed {
         CloseCode code;

@@ -90,6 +90,23 @@ TEST_F(Drive, GoesOnWhileAWebSocketAnswersPings) {
     EXPECT_FALSE(watcher.hear_now());
 }
 
+TEST_F(Drive, IsHeldDespitePongsThatAnswerNoPing) {
+    WebSocketClient driver{gateway};
+    driver.call("connect", {}, {{"motion_lease", "1000"}});
+    set_out(driver);
+    std::string first;
+    auto kind = client::Kind::ping;
+    for (int pings = 0; pings < 8 && kind == client::Kind::ping; ++pings) {
+        auto const frame = driver.next();
+        kind = frame.kind;
+        if (first.empty()) first = frame.payload;
+        driver.send(first, client::Kind::pong);
+        driver.send("", client::Kind::pong);
+    }
+    ASSERT_EQ(kind, client::Kind::text) << "receive_error: it was held";
+    EXPECT_THAT(watcher.held(), HasSubstr("nothing was heard"));
+}
+
 TEST_F(Drive, IsHeldDespiteThePongsWhenOnlyRequestsAreProof) {
     WebSocketClient driver{gateway};
     driver.call("connect", {}, {{"motion_lease", "1000"}, {"motion_proof", "request"}});

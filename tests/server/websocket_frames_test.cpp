@@ -39,6 +39,39 @@ std::string from_client(unsigned first_byte, std::string const& payload) {
     return std::string{static_cast<char>(first_byte), static_cast<char>(0x80 | payload.size())} + std::string(4, '\0') + payload;
 }
 
+std::string next_of(Pings& pings) {
+    auto const payload = pings.next();
+    return {payload.data(), payload.size()};
+}
+
+TEST(Pings, AreAnsweredOnce) {
+    Pings pings{1'000'000};
+    auto const first = next_of(pings), second = next_of(pings);
+    EXPECT_NE(first, second);
+    EXPECT_TRUE(pings.take_answer(first));
+    EXPECT_FALSE(pings.take_answer(first));
+    EXPECT_TRUE(pings.take_answer(second));
+    EXPECT_FALSE(pings.take_answer(second));
+}
+
+TEST(Pings, AreAnsweredByThePongToALaterOne) {
+    Pings pings{1'000'000};
+    auto const first = next_of(pings), second = next_of(pings);
+    EXPECT_TRUE(pings.take_answer(second));
+    EXPECT_FALSE(pings.take_answer(first));
+}
+
+TEST(Pings, AreNotAnsweredByPongsThatNobodyAskedFor) {
+    Pings pings{1'000'000};
+    auto const sent = next_of(pings);
+    auto next = Pings{pings};
+    auto other = Pings{2'000'000};
+    for (auto const& unsolicited :
+         {std::string{}, std::string(8, '\0'), sent + "x", sent.substr(1), next_of(next), next_of(other)})
+        EXPECT_FALSE(pings.take_answer(unsolicited));
+    EXPECT_TRUE(pings.take_answer(sent));
+}
+
 TEST(MessageReader, WaitsForTheWholeFrame) {
     MessageReader reader{100, 10};
     auto frame = from_client(0x81, "hello");
