@@ -83,11 +83,9 @@ private:
             ->envname("ROIS_CA_FILE")
             ->option_text("FILE");
         app_.add_option("--session", options_.session, "act in this session, which rois bind holds (ROIS_SESSION)")
-            ->envname("ROIS_SESSION")
             ->option_text("ID");
         app_.add_option("--session-file", options_.session_file,
                         "act in the session that rois bind holds in the background under this file (ROIS_SESSION_FILE)")
-            ->envname("ROIS_SESSION_FILE")
             ->option_text("FILE");
         app_.add_flag("--http", options_.over_http, "requests and an event stream instead of a WebSocket");
         app_.add_option("--timeout", raw_.timeout, "for an answer [10]")->option_text("SECONDS")->check(within(0.01, 86'400));
@@ -333,6 +331,27 @@ std::string url_of_held_session(Options const& options) {
     }
 }
 
+// Options that name or use a session, given to a command that needs none. Variables are not refused: they are set for the other
+// commands of the shell, and a stop for everything must not fail because of them.
+void check_without_session(CLI::App const& app, Options const& options) {
+    if (!needs_no_session(options)) return;
+    std::vector<std::string> without_effect{"--session", "--http", "--record"};
+    if (options.command == "health") without_effect.emplace_back("--session-file");  // the others find the gateway with it
+    for (auto const& name : without_effect)
+        if (app.get_option(name)->count() > 0)
+            throw Trouble{Exit::usage, options.command + " needs no session: " + name + " has no meaning; leave it out"};
+}
+
+// The values of options that come from variables, if the command line has none. Unlike envname, this leaves the options' counts.
+void read_variables(Options& options) {
+    auto const read = [](char const* variable, std::string& value) {
+        if (auto const* const found = std::getenv(variable); found != nullptr && value.empty()) value = found;
+    };
+    read("ROIS_URL", options.url);
+    read("ROIS_SESSION", options.session);
+    read("ROIS_SESSION_FILE", options.session_file);
+}
+
 // An empty value comes from a variable that is not set, and would stand for a default: another engine, or a session of its own.
 // An empty --token sends none, whatever ROIS_TOKEN says. Words have a meaning of their own when they are empty.
 void check_empty(CLI::App const& app) {
@@ -366,7 +385,7 @@ void check(Options const& options, Raw const& raw) {
     bool const others = options.command == "record" && !options.listen.empty();
     if (others && (!options.words.empty() || !options.starts.empty() || options.span || options.count))
         throw Trouble{Exit::usage, "record --listen: the applications say what is subscribed to, started and recorded"};
-    if (!options.record.empty() && (!options.session.empty() || needs_no_session(options) || options.command == "replay"))
+    if (!options.record.empty() && (!options.session.empty() || options.command == "replay"))
         throw Trouble{Exit::usage, "--record: there is no session of its own to record"};
 }
 
@@ -394,7 +413,8 @@ std::variant<Options, Said> read_options(int argc, char const* const* argv) {
     options.deadline_is_given = app.get_option("--timeout")->count() > 0;
     if (options.command == "replay" && !options.url.empty())
         throw Trouble{Exit::usage, "replay serves a recording and asks no gateway: --url has no meaning"};
-    if (auto const* const url = std::getenv("ROIS_URL"); url != nullptr && options.url.empty()) options.url = url;
+    check_without_session(app, options);
+    read_variables(options);
     options.url_is_given = !options.url.empty();
     join_held_session(options);
     if (options.url.empty()) options.url = url_of_held_session(options);

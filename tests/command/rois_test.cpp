@@ -353,6 +353,20 @@ TEST_F(Rois, KnowsWhetherTheEngineIsReady) {
         << "beside a gateway";
 }
 
+TEST_F(Rois, RefusesOptionsOfSessionsWhereItNeedsNone) {
+    for (std::string const command : {"health", "stop-all", "clear"}) {
+        auto const refusal = command + " needs no session: ";
+        expect(2, refusal + "--session has no meaning", {command, "--session", "s"});
+        expect(2, refusal + "--http has no meaning", {"--http", command});
+        expect(2, refusal + "--record has no meaning", {command, "--record", file_named("recording")});
+    }
+    expect(2, "health needs no session: --session-file has no meaning", {"health", "--session-file", file_named("session")});
+    Variables const of_others{
+        {"ROIS_URL", shared_gateway().url()}, {"ROIS_SESSION", "s"}, {"ROIS_SESSION_FILE", file_named("session")}};
+    EXPECT_EQ(run_rois({"health"}, {}, of_others).out, "healthy\n");
+    EXPECT_EQ(run_rois({"clear"}, {}, of_others).exit_code, 0);
+}
+
 TEST_F(Rois, SaysWhatIsWrongWithItsCommandLine) {
     expect(2, "which command?", {});
     expect(2, "--colour", {"search", "--colour", "blue"});
