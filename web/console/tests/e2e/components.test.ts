@@ -1,23 +1,18 @@
 // The components panel: the tree, forms for commands, parameters, queries and events, and what comes of them.
 import type { Page } from 'playwright-core';
 import { connect } from 'rois-client';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 
-import { Hall, more_profiles, still_hall } from './hall';
-import { is_in_view, looks, picture, sizes, Stage, violations } from './harness';
+import { type Hall, more_profiles, set_still_hall } from './hall';
+import { is_in_view, looks, picture, sizes, type Stage, violations } from './harness';
 
 let stage: Stage;
 let hall: Hall;
 
-beforeAll(async () => {
-  stage = await Stage.set(...still_hall, ...more_profiles);
-  hall = await Hall.of(stage);
+set_still_hall(async (...both) => {
+  [stage, hall] = both;
   await hall.pass(1000);
-});
-afterAll(async () => {
-  await hall.close();
-  await stage.strike();
-});
+}, ...more_profiles);
 
 const item = (page: Page, ref: string) => page.getByRole('treeitem', { name: new RegExp(`^${ref} `) });
 

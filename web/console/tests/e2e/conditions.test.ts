@@ -1,26 +1,21 @@
 // The conditions panel: filters that are built, what they match now, and what is done with them.
 import type { Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 
 import { drag_area } from './floor';
-import { Hall, more_profiles, still_hall } from './hall';
-import { looks, picture, sizes, Stage, violations } from './harness';
+import { type Hall, more_profiles, set_still_hall } from './hall';
+import { looks, picture, sizes, type Stage, violations } from './harness';
 
 let stage: Stage;
 let hall: Hall;
 const path = '/#conditions';
 const panel = (page: Page) => page.locator('.panel-conditions');
 
-beforeAll(async () => {
-  stage = await Stage.set(...still_hall, ...more_profiles);
-  hall = await Hall.of(stage);
+set_still_hall(async (...both) => {
+  [stage, hall] = both;
   await hall.visit('tanaka', '9000, 4500, 180', { known: true });
   await hall.visit('guest', '11000, 7000, 180');
-});
-afterAll(async () => {
-  await hall.close();
-  await stage.strike();
-});
+}, ...more_profiles);
 
 const request = (page: Page, operation: string) => panel(page).getByRole('region', { name: `Request: ${operation}` });
 const count = (page: Page, text: string | RegExp) => panel(page).locator('.conditions-count').filter({ hasText: text }).waitFor();

@@ -1,6 +1,7 @@
 // The simulated hall in the hands of a test: visitors who do what they are told, in a world that stands still but for the time that is let pass.
 import type { Locator, Page } from 'playwright-core';
 import { type Arguments, type Client, command, connect, type CompletedStatus, value } from 'rois-client';
+import { afterAll, beforeAll } from 'vitest';
 
 import type { Console } from '../../src/state/console';
 import { root, Stage } from './harness';
@@ -14,6 +15,24 @@ export const takes_pictures = process.env['ROIS_PICTURES'] === 'docs';
 export const still_hall = ['--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '0', '--seed', '7'];
 /** The robots of Annex C beside the usual one. */
 export const more_profiles = ['--profiles', `${root}/components/simulation/profiles`];
+
+/**
+ * Gives the tests of a file a stage whose hall is empty and stands still: set before the first test, struck after the last. `begin` runs after it is
+ * set.
+ */
+export function set_still_hall(begin: (stage: Stage, hall: Hall) => Promise<void>, ...flags: string[]): void {
+  let stage: Stage;
+  let hall: Hall;
+  beforeAll(async () => {
+    stage = await Stage.set(...still_hall, ...flags);
+    hall = await Hall.of(stage);
+    await begin(stage, hall);
+  });
+  afterAll(async () => {
+    await hall.close();
+    await stage.strike();
+  });
+}
 
 export class Hall {
   private constructor(private readonly client: Client) {}

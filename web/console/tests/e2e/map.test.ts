@@ -1,24 +1,19 @@
 // The floor map: what is drawn, sending and stopping the robot, following, observing; by mouse, fingers and keys.
 import type { Locator, Page } from 'playwright-core';
 import { connect } from 'rois-client';
-import { afterAll, beforeAll, beforeEach, describe, expect, test } from 'vitest';
+import { beforeEach, describe, expect, test } from 'vitest';
 
 import type { Console } from '../../src/state/console';
 import { click_map, on_map } from './floor';
-import { Hall, still_hall } from './hall';
-import { broken_link, is_in_view, picture, sizes, Stage, violations } from './harness';
+import { type Hall, set_still_hall } from './hall';
+import { broken_link, is_in_view, picture, sizes, type Stage, violations } from './harness';
 
 let stage: Stage;
 let hall: Hall;
 
-beforeAll(async () => {
-  stage = await Stage.set(...still_hall);
-  hall = await Hall.of(stage);
+set_still_hall(async (...both) => {
+  [stage, hall] = both;
   await hall.pass(1000);
-});
-afterAll(async () => {
-  await hall.close();
-  await stage.strike();
 });
 
 /** The row of a thing in the table that screen readers find. */

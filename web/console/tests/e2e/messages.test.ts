@@ -5,24 +5,19 @@ import { resolve } from 'node:path';
 
 import type { Page } from 'playwright-core';
 import { command as start, connect } from 'rois-client';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 
-import { Hall, still_hall } from './hall';
+import { Hall, set_still_hall, still_hall } from './hall';
 import { broken_link, looks, picture, sizes, Stage, violations } from './harness';
 import { replayed } from './replay';
 
 let stage: Stage;
 let hall: Hall;
 
-beforeAll(async () => {
-  stage = await Stage.set(...still_hall, '--resume-window', '0.01');
+set_still_hall(async (...both) => {
+  [stage, hall] = both;
   stage.path = '/#messages';
-  hall = await Hall.of(stage);
-});
-afterAll(async () => {
-  await hall.close();
-  await stage.strike();
-});
+}, '--resume-window', '0.01');
 
 const row = (page: Page, text: string | RegExp) => page.getByRole('option').filter({ hasText: text });
 const event_row = (page: Page) => row(page, 'person_detected').filter({ has: page.getByTitle('receive_event') });

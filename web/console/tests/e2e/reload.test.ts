@@ -1,22 +1,17 @@
 // What the page keeps of a robot that drives: its trail while another panel is shown, its time line when it is loaded again.
 import type { Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 
 import type { Console } from '../../src/state/console';
-import { Hall, still_hall } from './hall';
-import { Stage } from './harness';
+import { type Hall, set_still_hall } from './hall';
+import type { Stage } from './harness';
 
 let stage: Stage;
 let hall: Hall;
 
-beforeAll(async () => {
-  stage = await Stage.set(...still_hall);
-  hall = await Hall.of(stage);
+set_still_hall(async (...both) => {
+  [stage, hall] = both;
   await hall.pass(1000);
-});
-afterAll(async () => {
-  await hall.close();
-  await stage.strike();
 });
 
 const ready = (page: Page) => page.locator('.map table tbody tr').filter({ has: page.getByRole('rowheader', { name: 'robot1' }) }).getByText('Now').waitFor();

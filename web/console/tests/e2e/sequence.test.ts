@@ -1,24 +1,19 @@
 // The sequence editor: drawn, checked, run and shown while it runs.
 import type { Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 
-import { Hall, more_profiles, still_hall } from './hall';
-import { looks, picture, sizes, Stage, violations } from './harness';
+import { type Hall, more_profiles, set_still_hall } from './hall';
+import { looks, picture, sizes, type Stage, violations } from './harness';
 
 let stage: Stage;
 let hall: Hall;
 const path = '/#sequence';
 const panel = (page: Page) => page.locator('.panel-sequence');
 
-beforeAll(async () => {
-  stage = await Stage.set(...still_hall, ...more_profiles);
-  hall = await Hall.of(stage);
+set_still_hall(async (...both) => {
+  [stage, hall] = both;
   await hall.pass(1000);
-});
-afterAll(async () => {
-  await hall.close();
-  await stage.strike();
-});
+}, ...more_profiles);
 
 const box = (page: Page, text: string) => panel(page).locator('.sequence-box', { hasText: text });
 const component = (page: Page) => panel(page).getByLabel('Component', { exact: true });

@@ -4,20 +4,15 @@ import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
 import type { Console } from '../../src/state/console';
 import { on_map } from './floor';
-import { Hall, still_hall } from './hall';
+import { type Hall, set_still_hall, still_hall } from './hall';
 import { is_in_view, picture, root, sizes, Stage } from './harness';
 
 let stage: Stage;
 let hall: Hall;
 
-beforeAll(async () => {
-  stage = await Stage.set(...still_hall);
-  hall = await Hall.of(stage);
+set_still_hall(async (...both) => {
+  [stage, hall] = both;
   await hall.visit('anna', 'desk');
-});
-afterAll(async () => {
-  await hall.close();
-  await stage.strike();
 });
 
 type Page_ = Window & { rois: Console };

@@ -1,24 +1,19 @@
 // The time line: what stands on it, what points at it and the keys say, going back in time, and how it looks.
 import type { Page } from 'playwright-core';
 import { command, connect, value } from 'rois-client';
-import { afterAll, beforeAll, describe, expect, test } from 'vitest';
+import { describe, expect, test } from 'vitest';
 
 import type { Console } from '../../src/state/console';
-import { Hall, still_hall } from './hall';
-import { broken_link, looks, picture, sizes, Stage, violations } from './harness';
+import { type Hall, set_still_hall } from './hall';
+import { broken_link, looks, picture, sizes, type Stage, violations } from './harness';
 
 let stage: Stage;
 let hall: Hall;
 const wide = { width: 1600, height: 1000 };
 
-beforeAll(async () => {
-  stage = await Stage.set(...still_hall);
-  hall = await Hall.of(stage);
+set_still_hall(async (...both) => {
+  [stage, hall] = both;
   await hall.pass(1000);
-});
-afterAll(async () => {
-  await hall.close();
-  await stage.strike();
 });
 
 type Page_ = Window & { rois: Console };

@@ -4,10 +4,10 @@ import { mkdir } from 'node:fs/promises';
 import { promisify } from 'node:util';
 
 import type { Page } from 'playwright-core';
-import { afterAll, beforeAll, describe, test } from 'vitest';
+import { describe, test } from 'vitest';
 
 import { click_map, drag_area } from './floor';
-import { Hall, still_hall, takes_pictures } from './hall';
+import { Hall, set_still_hall, still_hall, takes_pictures } from './hall';
 import { picture, pictures, root, sizes, Stage } from './harness';
 
 const data = `${root}/tests/server/data`;
@@ -23,16 +23,11 @@ async function shown(page: Page, name: string): Promise<void> {
 
 let stage: Stage;
 let hall: Hall;
-beforeAll(async () => {
-  stage = await Stage.set(...still_hall);
-  hall = await Hall.of(stage);
+set_still_hall(async (...both) => {
+  [stage, hall] = both;
   await hall.visit('tanaka', '12500, 5500, 180', { known: true });
   await hall.visit('guest', '10500, 8200, 200');
   await hall.enter('courier');
-});
-afterAll(async () => {
-  await hall.close();
-  await stage.strike();
 });
 
 const row = (page: Page, name: RegExp) => page.locator('.map table tbody tr').filter({ has: page.getByRole('rowheader', { name }) });
