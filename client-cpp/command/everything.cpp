@@ -10,24 +10,30 @@
 #include "command/terminal.hpp"
 #include "types/listing.hpp"
 #include "types/texts.hpp"
+#include "xml/codec.hpp"
 
 namespace rois::command {
 
 namespace {
 
-// Until no component is left that has not confirmed that it stands still, or for a second: the refs of those.
-std::vector<std::string> not_confirmed_soon(HttpServer const& server, std::chrono::milliseconds deadline) {
+// Waits until all components have confirmed that they stand still, for a second at most. Returns the refs of those that have not.
+std::vector<std::string> not_confirmed_soon(HttpServer const& server, std::vector<std::string> refs,
+                                            std::chrono::milliseconds deadline) {
     auto const end = std::chrono::steady_clock::now() + std::min<std::chrono::milliseconds>(deadline, std::chrono::seconds{1});
-    while (true) {
-        auto refs = not_confirmed(http_get(server, "/readyz", deadline).body);
-        if (refs.empty() || std::chrono::steady_clock::now() >= end) return refs;
+    while (!refs.empty() && std::chrono::steady_clock::now() < end) {
         std::this_thread::sleep_for(std::chrono::milliseconds{50});
+        refs = not_confirmed(http_get(server, "/readyz", deadline).body);
     }
+    return refs;
 }
 
-std::string posted(Options const& options, HttpServer const& server, std::string const& target) {
+StopState posted(Options const& options, HttpServer const& server, std::string const& target) {
     auto const answer = http_post(server, target, options.deadline);
-    if (answer.status == 200 || answer.status == 202) return answer.body;
+    auto state = answer.status == 200 ? xml::AnswerReader{}.read_stop_state(answer.body) : std::nullopt;
+    if (state) {
+        for (auto& ref : state->not_halted) ref = harmless(ref);
+        return *std::move(state);
+    }
     auto const body = harmless(trimmed(answer.body.substr(0, 200)));
     throw Trouble{Exit::fault, options.command + ": " + options.url + " answers " + std::to_string(answer.status) +
                                    (body.empty() ? "" : ": " + body) + hint_for_url(options.url)};
@@ -48,10 +54,10 @@ std::vector<std::string> not_confirmed(std::string_view readiness) {
 
 void stop_all(Options const& options, Printer& printer) {
     HttpServer const server{options.url, options.token, options.ca_file};
-    posted(options, server, "/rois/stop");
+    auto const state = posted(options, server, "/rois/stop");
     auto const refs = [&] {
         try {
-            return not_confirmed_soon(server, options.deadline);
+            return not_confirmed_soon(server, state.not_halted, options.deadline);
         } catch (Trouble const& trouble) {
             throw Trouble{trouble.exit(),
                           std::string{"stopped everything; whether all components stand still is not known: "} + trouble.what()};

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "loop.hpp"
+#include "xml/codec.hpp"
 
 namespace rois {
 
@@ -66,8 +67,8 @@ void rethrow(std::exception_ptr const& error) {
     if (error) std::rethrow_exception(error);
 }
 
-// The body of the answer. `what` is said in errors.
-std::string post(Settings const& settings, std::string_view path, std::string const& what) {
+// The state that the gateway answers with. Errors begin with `what`.
+StopState post(Settings const& settings, std::string_view path, std::string const& what) {
     Asked asked{.target = client::read_url(settings.url)};
     asked.request = {http::verb::post, asked.target.path + std::string{path}, 11};
     asked.request.set(http::field::host, asked.target.authority);
@@ -85,25 +86,18 @@ std::string post(Settings const& settings, std::string_view path, std::string co
     }
     if (!asked.answer) throw Error{ReturnCode::error, what + ": " + asked.trouble};
     auto const status = asked.answer->result_int();
-    if (status != 200 && status != 202)
+    if (status != 200)
         throw Error{ReturnCode::error, what + ": " + asked.target.authority + " answers with " + std::to_string(status)};
-    return asked.answer->body();
+    auto state = xml::AnswerReader{}.read_stop_state(asked.answer->body());
+    if (!state)
+        throw Error{ReturnCode::error, what + ": the answer of " + asked.target.authority + " is not a stop_state document"};
+    return *std::move(state);
 }
 
 }  // namespace
 
-std::vector<std::string> stop_everything(Settings const& settings) {
-    constexpr std::string_view not_confirmed = "not confirmed yet: ";
-    auto const body = post(settings, "/stop", "stop for everything");
-    std::vector<std::string> refs;
-    for (std::size_t at = 0; at < body.size();) {
-        auto const line = std::string_view{body}.substr(at, body.find('\n', at) - at);
-        if (line.starts_with(not_confirmed)) refs.emplace_back(line.substr(not_confirmed.size()));
-        at += line.size() + 1;
-    }
-    return refs;
-}
+StopState stop_everything(Settings const& settings) { return post(settings, "/stop", "stop for everything"); }
 
-void clear_everything(Settings const& settings) { post(settings, "/clear", "clear"); }
+StopState clear_everything(Settings const& settings) { return post(settings, "/clear", "clear"); }
 
 }  // namespace rois

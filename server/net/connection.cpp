@@ -210,25 +210,20 @@ Task<Connection::Then> Connection::serve_other() {
     co_return reply(loop_.shared().documents.answer(route_, head()));
 }
 
-// Decision 34. 202: some component has not confirmed yet that it stands still.
+// Decision 34. Stops first: the log and the answer need memory.
 HttpAnswer Connection::stop_everything() {
+    auto const state = loop_.shared().gateway.stop_everything();
     spdlog::warn("everything is stopped, as asked by {}", wire_.peer());
     HttpAnswer answer;
-    answer.content_type = "text/plain; charset=utf-8";
-    answer.body = "stopped\n";
-    for (auto const& ref : loop_.shared().gateway.stop_everything()) {
-        answer.status = 202;
-        answer.body.append("not confirmed yet: ").append(ref).append("\n");
-    }
+    answer.body = xml::encode(state);
     return answer;
 }
 
 HttpAnswer Connection::clear() {
+    auto const state = loop_.shared().gateway.clear();
     spdlog::warn("commands may start again, as asked by {}", wire_.peer());
-    loop_.shared().gateway.clear();
     HttpAnswer answer;
-    answer.content_type = "text/plain; charset=utf-8";
-    answer.body = "cleared\n";
+    answer.body = xml::encode(state);
     return answer;
 }
 

@@ -287,16 +287,17 @@ void Gateway::change(std::function<ComponentChange()> const& make) {
     engine_.change(std::move(change), present());
 }
 
-std::vector<std::string> Gateway::stop_everything() {
+StopState Gateway::stop_everything() {
     auto const now = present();
     std::lock_guard const lock{mutex_};
     engine_.stop_everything(now);
-    return engine_.not_halted();
+    return {engine_.everything_is_stopped(), engine_.not_halted()};
 }
 
-void Gateway::clear() {
+StopState Gateway::clear() {
     std::lock_guard const lock{mutex_};
     engine_.clear();
+    return {engine_.everything_is_stopped(), engine_.not_halted()};
 }
 
 bool Gateway::everything_is_stopped() const {

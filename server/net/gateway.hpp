@@ -155,9 +155,9 @@ public:
     // that and the engine throw.
     void change(std::function<ComponentChange()> const& make);
 
-    // Stop for everything (decision 34). Returns the refs of components that have not confirmed yet that they stand still.
-    std::vector<std::string> stop_everything();
-    void clear();
+    // Stop for everything (decision 34), and its end. Return the state afterwards.
+    StopState stop_everything();
+    StopState clear();
     bool everything_is_stopped() const;
     std::vector<std::string> not_halted() const;
     std::vector<std::string> not_ready() const;

@@ -15,8 +15,6 @@ std::string_view phrase_of(int status) {
             return "Switching Protocols";
         case 200:
             return "OK";
-        case 202:
-            return "Accepted";
         case 304:
             return "Not Modified";
         case 400:

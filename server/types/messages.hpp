@@ -217,6 +217,13 @@ struct ProfileChanged {};
 
 using Notification = std::variant<ReceiveEvent, ReceiveError, Completed, Lost, ProfileChanged>;
 
+// --- Stop for everything: the answer to /rois/stop and /rois/clear (wire.md, decision 34) ---
+
+struct StopState {
+    bool stopped = false;                 // nothing starts until it is cleared
+    std::vector<std::string> not_halted;  // refs of components that have not confirmed that they stand still
+};
+
 // --- Fault: the message could not be read or was not allowed; no operation ran (wire.md) ---
 
 enum class FaultCode : std::uint8_t {

@@ -18,17 +18,26 @@ constexpr std::size_t keep_at_most = 64 * 1024;  // bytes, between two documents
 class AnswerReader::Kept {
 public:
     std::optional<Heard> read(std::string_view document) {
-        tree_.reset();
-        if (bytes_.capacity() > keep_at_most) std::string{}.swap(bytes_);
-        bytes_ = document;
-        auto const parsed = tree_.load_buffer_inplace(bytes_.data(), bytes_.size(), as_xerces_reads, pugi::encoding_utf8);
-        if (!parsed || !message_.read(tree_.document_element(), deepest)) return std::nullopt;
+        if (!parse(document)) return std::nullopt;
         auto heard = decode_heard(message_);
         if (heard && !add_profiles(*heard, document)) return std::nullopt;
         return heard;
     }
 
+    std::optional<StopState> read_stop_state(std::string_view document) {
+        return parse(document) ? decode_stop_state(message_) : std::nullopt;
+    }
+
 private:
+    // Reads the document into `message_`. False when it is no XML, or too deep.
+    bool parse(std::string_view document) {
+        tree_.reset();
+        if (bytes_.capacity() > keep_at_most) std::string{}.swap(bytes_);
+        bytes_ = document;
+        auto const parsed = tree_.load_buffer_inplace(bytes_.data(), bytes_.size(), as_xerces_reads, pugi::encoding_utf8);
+        return parsed && message_.read(tree_.document_element(), deepest);
+    }
+
     // The profiles of get_profile's reply, in the order of its components. False when one cannot be understood.
     bool add_profiles(Heard& heard, std::string_view document) {
         auto* const answered = std::get_if<Answered>(&heard);
@@ -64,5 +73,7 @@ AnswerReader::~AnswerReader() = default;
 AnswerReader::AnswerReader(AnswerReader&&) noexcept = default;
 
 std::optional<Heard> AnswerReader::read(std::string_view document) { return kept_->read(document); }
+
+std::optional<StopState> AnswerReader::read_stop_state(std::string_view document) { return kept_->read_stop_state(document); }
 
 }  // namespace rois::xml

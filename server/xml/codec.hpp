@@ -53,6 +53,7 @@ private:
 // The answer's document. `request_id` is left out when empty.
 std::string encode(Reply const&, std::string_view request_id);
 std::string encode(Fault const&);
+std::string encode(StopState const&);
 
 // A notification's document is `head(n)`, the digits of its sequence and `tail(n)`: but for the digits it is the same for all its
 // receivers. The head is a text of the program.
@@ -94,6 +95,9 @@ public:
     // Nothing when the document is no XML, none of these, or lacks what it must have (a return code, a sequence, ...). Never
     // throws for anything that the document says.
     std::optional<Heard> read(std::string_view document);
+
+    // Reads what /rois/stop and /rois/clear answer with. Nothing for any other document.
+    std::optional<StopState> read_stop_state(std::string_view document);
 
 private:
     class Kept;

@@ -21,6 +21,9 @@ std::optional<Request> decode(MessageTree const&);
 // get_profile's reply are left out.
 std::optional<Heard> decode_heard(MessageTree const&);
 
+// Nothing when the root is another element, or does not say whether everything is stopped.
+std::optional<StopState> decode_stop_state(MessageTree const&);
+
 // Parts of messages. Of none: empty ones; no condition restricts nothing.
 Identifier decode_identifier(MessageTree::Node);
 ParameterList decode_parameters(MessageTree::Node list, std::string_view element = "parameter");

@@ -199,4 +199,15 @@ std::optional<Heard> decode_heard(MessageTree const& message) {
     return Told{decode_unsigned(*sequence), *std::move(told)};
 }
 
+std::optional<StopState> decode_stop_state(MessageTree const& message) {
+    auto const root = message.root();
+    if (!root || message.name_space() != message_namespace || root.name() != "stop_state") return std::nullopt;
+    auto const stopped = root.child("stopped");
+    if (!stopped) return std::nullopt;
+    StopState state{decode_boolean(stopped.text()), {}};
+    for (auto const node : root.children())
+        if (node.name() == "not_halted") state.not_halted.emplace_back(node.text());
+    return state;
+}
+
 }  // namespace rois::xml

@@ -105,4 +105,12 @@ std::string encode(Fault const& fault) {
     return std::move(out).written();
 }
 
+std::string encode(StopState const& state) {
+    Writer out;
+    out.start("stop_state").constant("xmlns", message_namespace).element("stopped", state.stopped ? "true" : "false");
+    for (auto const& ref : state.not_halted) out.element("not_halted", ref);
+    out.end();
+    return std::move(out).written();
+}
+
 }  // namespace rois::xml

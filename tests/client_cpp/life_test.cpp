@@ -131,7 +131,9 @@ TEST_P(TheApplication, StopsEverythingAndClears) {
     auto const command = robot(set_out(robot.client()));
     Settings outside;
     outside.url = gateway.url();
-    EXPECT_THAT(stop_everything(outside), testing::AnyOf(IsEmpty(), testing::ElementsAre("navigation"))) << "it may still roll";
+    auto const stopped = stop_everything(outside);
+    EXPECT_TRUE(stopped.stopped);
+    EXPECT_THAT(stopped.not_halted, testing::AnyOf(IsEmpty(), ElementsAre("navigation"))) << "it may still roll";
     EXPECT_EQ(robot(command.completed()), CompletedStatus::abort);
     try {
         robot(robot.client().component("navigation").start());
@@ -140,8 +142,16 @@ TEST_P(TheApplication, StopsEverythingAndClears) {
         EXPECT_EQ(refused.code(), ReturnCode::error);
         EXPECT_THAT(refused.what(), HasSubstr("everything was stopped"));
     }
-    clear_everything(outside);
+    EXPECT_FALSE(clear_everything(outside).stopped);
     robot(set_out(robot.client()));
+}
+
+TEST(StopForEverything, NamesTheComponentsThatHaveNotConfirmed) {
+    GatewayProcess const gateway{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--sim-speed", "0"}};
+    Settings settings;
+    settings.url = gateway.url();
+    EXPECT_THAT(stop_everything(settings).not_halted, ElementsAre("navigation"));
+    EXPECT_THAT(clear_everything(settings).not_halted, ElementsAre("navigation"));
 }
 
 TEST(StopForEverything, SaysWhyItFailed) {

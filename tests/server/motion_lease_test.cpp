@@ -4,8 +4,11 @@
 #include <chrono>
 #include <thread>
 
+#include "files/files.hpp"
 #include "server/conversation.hpp"
 #include "server/websocket_client.hpp"
+#include "xml/document.hpp"
+#include "xml/schemas.hpp"
 
 namespace rois::test {
 namespace {
@@ -179,6 +182,27 @@ TEST_F(Drive, IsHeldWhenTheGatewayItselfStoodStill) {
 
 // --- Stop for everything ---
 
+std::string what_is_wrong_with(HttpReply const& reply) {
+    static xml::Platform const platform;
+    static auto const schemas = std::make_shared<xml::Schemas const>(files::schemas());
+    try {
+        xml::Document::parse(schemas, "the answer", reply.body);
+        return reply.header("Content-Type") == "application/xml; charset=utf-8" ? ""
+                                                                                : "its Content-Type is not that of documents";
+    } catch (std::exception const& wrong) {
+        return wrong.what();
+    }
+}
+
+// Waits until all components have confirmed that they stand still. Returns the last answer of /readyz.
+HttpReply ready_when_all_are_halted(HttpClient& client) {
+    while (true) {
+        auto ready = client.get("/readyz");
+        if (ready.body.find("has not confirmed") == std::string::npos) return ready;
+        std::this_thread::sleep_for(20ms);
+    }
+}
+
 TEST_F(Drive, IsStoppedByStopForEverythingAndNothingStartsUntilItIsCleared) {
     WebSocketClient driver{gateway};
     driver.call("connect");
@@ -186,20 +210,37 @@ TEST_F(Drive, IsStoppedByStopForEverythingAndNothingStartsUntilItIsCleared) {
     HttpClient anybody{gateway};
     auto const stopped = anybody.get("/rois/stop", {}, "POST");
     EXPECT_EQ(stopped.status, 200);
-    EXPECT_EQ(stopped.body, "stopped\n");
+    EXPECT_EQ(what_is_wrong_with(stopped), "") << stopped.body;
+    EXPECT_STREQ(stopped.root().name(), "stop_state");
+    EXPECT_EQ(stopped.text("stopped"), "true");
     EXPECT_THAT(watcher.held(), HasSubstr("everything was stopped"));
-    auto ready = anybody.get("/readyz");
+    auto const ready = ready_when_all_are_halted(anybody);
     EXPECT_EQ(ready.status, 503);
-    EXPECT_THAT(ready.body, HasSubstr("stopped"));
+    EXPECT_EQ(ready.body, "stopped: nothing starts until POST /rois/clear\n");
     EXPECT_THAT(anybody.get("/metrics").body, HasSubstr("rois_everything_stopped 1"));
     Application desk{Way::http, gateway};
     desk.connect();
     desk.bind("speech_synthesis");
     EXPECT_THAT(desk.execute(speak("Hello.")), IsRefused("ERROR", "everything was stopped"));
     EXPECT_EQ(desk.hear().name(), "receive_error");
-    EXPECT_EQ(anybody.get("/rois/clear", {}, "POST").body, "cleared\n");
+    auto const cleared = anybody.get("/rois/clear", {}, "POST");
+    EXPECT_EQ(cleared.status, 200);
+    EXPECT_EQ(what_is_wrong_with(cleared), "") << cleared.body;
+    EXPECT_EQ(cleared.text("stopped"), "false");
+    EXPECT_FALSE(cleared.root().child("not_halted"));
     EXPECT_THAT(desk.execute(speak("Hello.")), IsOk());
     EXPECT_EQ(anybody.get("/readyz").status, 200);
+}
+
+TEST(StopForEverything, NamesTheComponentsThatHaveNotConfirmed) {
+    GatewayProcess const gateway{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--sim-speed", "0"}};
+    HttpClient anybody{gateway};
+    for (auto const* path : {"/rois/stop", "/rois/clear"}) {
+        auto const reply = anybody.get(path, {}, "POST");
+        EXPECT_EQ(reply.status, 200) << path;
+        EXPECT_EQ(what_is_wrong_with(reply), "") << reply.body;
+        EXPECT_EQ(reply.text("not_halted"), "navigation") << path;
+    }
 }
 
 TEST_F(Drive, StopForEverythingIsAPost) {

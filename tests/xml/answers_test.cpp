@@ -271,6 +271,32 @@ TEST(NotificationDocument, HasItsSequenceBetweenHeadAndTail) {
     EXPECT_THAT(event, Not(HasSubstr("<results")));
 }
 
+TEST(StopStateDocument, IsValidAndReadBack) {
+    AnswerReader reader;
+    for (auto const& state : {StopState{true, {}}, StopState{false, {}}, StopState{true, {"navigation", "robot2.move"}},
+                              StopState{true, {"<&>\"' \xC3\xA4"}}}) {
+        auto const text = encode(state);
+        EXPECT_EQ(problem("stop_state", text), "") << text;
+        auto const again = reader.read_stop_state(text);
+        ASSERT_TRUE(again) << text;
+        EXPECT_EQ(again->stopped, state.stopped) << text;
+        EXPECT_EQ(again->not_halted, state.not_halted) << text;
+    }
+    EXPECT_EQ(
+        encode(StopState{true, {"navigation"}}),
+        R"(<stop_state xmlns="urn:x-rois:psm:xml:message:1"><stopped>true</stopped><not_halted>navigation</not_halted></stop_state>)");
+}
+
+TEST(StopStateDocument, IsNoOtherDocument) {
+    AnswerReader reader;
+    for (auto const& other :
+         {std::string{}, std::string{"stopped\n"}, std::string{"<stop_state><stopped>true</stopped></stop_state>"},
+          document("stop_state"), document("stop_state", "<not_halted>navigation</not_halted>"),
+          document("notifications", "<stopped>true</stopped>"), encode(Fault{})})
+        EXPECT_FALSE(reader.read_stop_state(other)) << other;
+    EXPECT_FALSE(reader.read(encode(StopState{true, {}})));
+}
+
 TEST(ProfileDocument, IsValidAndDeclared) {
     for (auto const& text :
          {encode(engine_profile(), "engine.main"), encode(component_profile(), "profile.a:b"), encode(ComponentProfile{}, "")}) {

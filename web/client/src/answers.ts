@@ -1,6 +1,6 @@
 // Answers and notifications as objects: what an engine says.
 import { type CompletedStatus, type ErrorType, type Fault, type ReturnCode, RoisError } from './errors.js';
-import type { Notification } from './messages.js';
+import type { Notification, StopState } from './messages.js';
 import type { ComponentProfile, EngineProfile, MessageProfile, ParameterProfile, Profile } from './profiles.js';
 import { namespaces } from './requests.js';
 import { type Identifier, type Located, type Parameter, Results } from './values.js';
@@ -132,6 +132,13 @@ export function notification_of(document: XmlElement): Notification {
     default:
       throw broken(`'${document.name}' is no notification`);
   }
+}
+
+/** Throws RoisError `protocol` for another document. */
+export function stop_state_of(document: XmlElement): StopState {
+  if (document.name !== 'stop_state') throw broken(`'${document.name}' is not a stop_state`);
+  const stopped = needed(document, 'stopped').text.trim();
+  return { stopped: stopped === 'true' || stopped === '1', not_halted: document.all('not_halted').map((one) => one.text) };
 }
 
 export function profile_of(answer: XmlElement): Profile {

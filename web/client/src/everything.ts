@@ -1,6 +1,9 @@
 // Stop for everything: halts all robots of a gateway, whoever commands them. Needs no session, and works while a client's link is lost.
+import { stop_state_of } from './answers.js';
 import { RoisError } from './errors.js';
+import type { StopState } from './messages.js';
 import { socket_url } from './socket.js';
+import { parse_xml } from './xml.js';
 
 export interface EverythingOptions {
   /** Sent as Authorization: Bearer. */
@@ -10,30 +13,36 @@ export interface EverythingOptions {
 }
 
 /**
- * Halts every component of every session; nothing starts until `clear_everything`. Gives the refs of the components that have not confirmed yet
- * that they stand still. Rejects with RoisError: `unreachable` without an answer, `fault` when the gateway refuses. A page may stop only the
- * gateway that serves it: it is not told the answers of others.
+ * Halts every component of every session; nothing starts until `clear_everything`. Gives the state afterwards: `not_halted` names the components
+ * that have not confirmed yet that they stand still. Rejects with RoisError: `unreachable` without an answer, `fault` when the gateway refuses,
+ * `protocol` when the answer is not a stop_state document. A page may stop only the gateway that serves it: it is not told the answers of others.
  */
-export async function stop_everything(url: string, options: EverythingOptions = {}): Promise<string[]> {
-  const lines = (await post(url, 'stop', options)).split('\n');
-  return lines.filter((line) => line.startsWith(not_confirmed)).map((line) => line.slice(not_confirmed.length));
+export function stop_everything(url: string, options: EverythingOptions = {}): Promise<StopState> {
+  return post(url, 'stop', options);
 }
 
-/** Lets commands start again. */
-export async function clear_everything(url: string, options: EverythingOptions = {}): Promise<void> {
-  await post(url, 'clear', options);
+/** Lets commands start again. Gives the state afterwards. */
+export function clear_everything(url: string, options: EverythingOptions = {}): Promise<StopState> {
+  return post(url, 'clear', options);
 }
 
-const not_confirmed = 'not confirmed yet: ';
-
-async function post(url: string, what: string, { token, deadline = 10_000 }: EverythingOptions): Promise<string> {
+async function post(url: string, what: string, { token, deadline = 10_000 }: EverythingOptions): Promise<StopState> {
   const to = `${socket_url(url).replace('ws', 'http')}/${what}`;
   const headers: Record<string, string> = token === undefined ? {} : { Authorization: `Bearer ${token}` };
   try {
     const answer = await fetch(to, { method: 'POST', headers, signal: AbortSignal.timeout(deadline) });
-    if (answer.ok) return await answer.text();
+    if (answer.ok) return read_stop_state(await answer.text());
     throw new RoisError('fault', `${to} answers with ${answer.status}`);
   } catch (error) {
     throw error instanceof RoisError ? error : new RoisError('unreachable', `${to}: ${error}`);
+  }
+}
+
+/** Reads what /rois/stop and /rois/clear answer with. Throws RoisError `protocol` for any other text. */
+export function read_stop_state(text: string): StopState {
+  try {
+    return stop_state_of(parse_xml(text));
+  } catch (error) {
+    throw error instanceof RoisError ? error : new RoisError('protocol', `the answer is not a stop_state document: ${error}`);
   }
 }

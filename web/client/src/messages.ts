@@ -1,4 +1,4 @@
-// What the engine tells on its own (table 6), and the gaps in it.
+// What the engine tells on its own (table 6), the gaps in it, and the state of the stop for everything.
 import type { CompletedStatus, ErrorType } from './errors.js';
 import type { Identifier, Results } from './values.js';
 
@@ -45,6 +45,14 @@ export interface ProfileChanged {
 }
 
 export type Notification = ReceiveEvent | ReceiveError | Completed | Lost | ProfileChanged;
+
+/** What /rois/stop and /rois/clear answer with. */
+export interface StopState {
+  /** Nothing starts until it is cleared. */
+  stopped: boolean;
+  /** The refs of the components that have not confirmed yet that they stand still. */
+  not_halted: string[];
+}
 
 /**
  * Something was missed:

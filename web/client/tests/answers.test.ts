@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readdirSync, readFileSync } from 'node:fs';
 import { test } from 'node:test';
 
-import { component_profile_of, engine_profile_of, fault_of, is_notification, notification_of, parse_xml, results_of } from 'rois-client';
+import { component_profile_of, engine_profile_of, fault_of, is_notification, notification_of, parse_xml, read_stop_state, results_of } from 'rois-client';
 
 import { identifier_of, profile_of, trouble_of } from '#dist/answers.js';
 
@@ -53,6 +53,16 @@ test('notifications of all kinds are read', () => {
   assert.ok(!is_notification(sample('bind_response')));
   assert.throws(() => notification_of(parse_xml('<bind_response sequence="1"/>')), { failure: 'protocol' });
   assert.throws(() => notification_of(parse_xml('<completed sequence="1"/>')), { failure: 'protocol', message: /'completed' has no 'command_id'/ });
+});
+
+test('the state of the stop for everything is read', () => {
+  const state = (name: string) => read_stop_state(readFileSync(`${folder}/${name}.xml`, 'utf8'));
+  assert.deepEqual(state('stop_state'), { stopped: true, not_halted: [] });
+  assert.deepEqual(state('stop_state_not_halted'), { stopped: true, not_halted: ['navigation', 'robot2.move'] });
+  assert.deepEqual(state('stop_state_cleared'), { stopped: false, not_halted: [] });
+  assert.throws(() => state('fault'), { failure: 'protocol', message: /'fault' is not a stop_state/ });
+  assert.throws(() => read_stop_state('<stop_state/>'), { failure: 'protocol', message: /'stop_state' has no 'stopped'/ });
+  assert.throws(() => read_stop_state('stopped'), { failure: 'protocol', message: /the answer is not a stop_state document/ });
 });
 
 test('results are read with where things are', () => {

@@ -11,11 +11,11 @@ const source = `${root}/web/client/src`;
 const layers = [
   ['errors', 'times'],
   ['xml', 'stream', 'listeners', 'socket', 'node_frames'],
-  ['browser_socket', 'node_socket', 'values', 'everything'],
+  ['browser_socket', 'node_socket', 'values'],
   ['commands', 'conditions', 'profiles', 'messages'],
   ['requests', 'execution'],
   ['answers', 'subscriptions'],
-  ['link'],
+  ['link', 'everything'],
   ['client'],
   ['components'],
   ['index'],

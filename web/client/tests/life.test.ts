@@ -151,18 +151,25 @@ test('everything is stopped and cleared without a session', async (t) => {
   t.after(() => client.close());
   await client.bind('navigation');
   const walk = await client.execute([command('navigation', 'start', { target_position: value.strings(way) })]);
-  let rolling = await stop_everything(gateway.url);
-  assert.ok(rolling.every((ref) => ref === 'navigation'), rolling.join());
-  for (const end = Date.now() + 5000; rolling.length > 0 && Date.now() < end;) rolling = await stop_everything(gateway.url);
-  assert.deepEqual(rolling, []);
+  let state = await stop_everything(gateway.url);
+  assert.ok(state.not_halted.every((ref) => ref === 'navigation'), state.not_halted.join());
+  for (const end = Date.now() + 5000; state.not_halted.length > 0 && Date.now() < end;) state = await stop_everything(gateway.url);
+  assert.deepEqual(state, { stopped: true, not_halted: [] });
   assert.equal(await walk.status(), 'ABORT');
   const refused = await client.execute([command('navigation', 'start', { target_position: value.strings(way) })]).then(
     (one) => one.completion().then(String),
     String,
   );
   assert.match(refused, /everything was stopped/);
-  await clear_everything(gateway.url);
+  assert.equal((await clear_everything(gateway.url)).stopped, false);
   await client.execute([command('navigation', 'start', { target_position: value.strings(way) })]);
+});
+
+test('the components that have not confirmed are named', async (t) => {
+  const gateway = await Gateway.start('--scenario', `${root}/tests/server/data/unstoppable.xml`, '--sim-speed', '0');
+  t.after(() => gateway.stop());
+  assert.deepEqual(await stop_everything(gateway.url), { stopped: true, not_halted: ['navigation'] });
+  assert.deepEqual(await clear_everything(gateway.url), { stopped: false, not_halted: ['navigation'] });
 });
 
 test('that nobody answers is told', async () => {

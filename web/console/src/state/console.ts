@@ -101,7 +101,7 @@ export class Console {
     this.status = new StatusState(environment, this.documents, client, components, is_open);
     this.parameters = new ParametersState(environment, this.documents, client, is_open);
     this.metrics = new MetricsState(environment, token, () => !/^(connecting|lost|closed)$/.test(this.link.view.value.phase)); // else nobody is there
-    this.everything = new EverythingState(environment, token, this.metrics, () => [...this.status.all.value].flatMap(([ref, one]) => (one.status === 'ERROR' ? ref : [])));
+    this.everything = new EverythingState(environment, token, this.metrics);
     this.bindings = new Bindings(
       () => this.client,
       () => this.metrics.bound.value,

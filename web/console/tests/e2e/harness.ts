@@ -197,7 +197,8 @@ export class Stage {
     const complaints: string[] = [];
     page.on('pageerror', (error) => complaints.push(String(error)));
     page.on('console', (message) => {
-      if (message.location().url.endsWith('/rois/map')) return; // an engine may have none
+      // An engine may have no map, and one that is stopped is not ready.
+      if (/\/(rois\/map|readyz)$/.test(message.location().url)) return;
       if (message.type() === 'error' || message.type() === 'warning') complaints.push(message.text());
     });
     try {

@@ -1,6 +1,6 @@
 // The button that stops everything, that it is stopped, and that something is held.
 import type { Page } from 'playwright-core';
-import { clear_everything, command, connect, stop_everything, value } from 'rois-client';
+import { clear_everything, command, connect, namespaces, stop_everything, value } from 'rois-client';
 import { afterAll, afterEach, beforeAll, expect, test } from 'vitest';
 
 import type { Console } from '../../src/state/console';
@@ -13,7 +13,7 @@ let stage: Stage;
 beforeAll(async () => {
   stage = await Stage.set('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '1', '--motion-lease', '1');
 });
-afterEach(() => clear_everything(stage.gateway.url));
+afterEach(async () => void (await clear_everything(stage.gateway.url)));
 afterAll(() => stage.strike());
 
 const stop = (page: Page) => page.locator('.head').getByRole('button', { name: /^STOP everything/ });
@@ -96,13 +96,27 @@ test('stops with one press what runs, says so on every page and after a reload, 
     await walk(page);
   }), 60_000);
 
-test('names what has not confirmed yet', () =>
+test('names what has not confirmed yet, as long as that is so', () =>
   stage.page(async (page) => {
     await connected(page);
-    await page.route('**/rois/stop', (route) => route.fulfill({ status: 202, contentType: 'text/plain', body: 'stopped\nnot confirmed yet: navigation\nnot confirmed yet: robot2.move\n' }));
+    let waiting = ['navigation', 'robot2.move'];
+    await page.route('**/rois/stop', (route) =>
+      route.fulfill({
+        contentType: 'application/xml; charset=utf-8',
+        body: `<stop_state xmlns="${namespaces.message}"><stopped>true</stopped>${waiting.map((ref) => `<not_halted>${ref}</not_halted>`).join('')}</stop_state>`,
+      }),
+    );
+    await page.route('**/readyz', (route) =>
+      route.fulfill({ status: 503, contentType: 'text/plain', body: `stopped: nothing starts until POST /rois/clear\n${waiting.map((ref) => `${ref} has not confirmed that it stands still\n`).join('')}` }),
+    );
     await stop(page).click();
     await page.getByText('Not confirmed yet: navigation, robot2.move.').waitFor();
     await picture(page, 'stop-not-confirmed');
+    waiting = ['robot2.move'];
+    await page.getByText('Not confirmed yet: robot2.move.').waitFor();
+    waiting = [];
+    await page.getByText(/^Not confirmed yet/).waitFor({ state: 'detached' });
+    expect(await stopped(page).isVisible()).toBe(true);
   }));
 
 test.each(['wide', 'phone'] as const)('works while there is no WebSocket, and says when it did not get through: %s', (size) =>

@@ -1,15 +1,23 @@
 // Whether everything is stopped, as the console knows it.
+import { namespaces } from 'rois-client';
 import { expect, test } from 'vitest';
 
 import { World } from './world';
 
+const state = (stopped: boolean, ...not_halted: string[]) => ({
+  status: 200,
+  text: `<stop_state xmlns="${namespaces.message}"><stopped>${stopped}</stopped>${not_halted.map((ref) => `<not_halted>${ref}</not_halted>`).join('')}</stop_state>`,
+});
+const stopped_line = 'stopped: nothing starts until POST /rois/clear\n';
+const moving = (...refs: string[]) => ({ status: 503, text: stopped_line + refs.map((ref) => `${ref} has not confirmed that it stands still\n`).join('') });
 const metrics = (stopped: number, not_halted: number) => ({ status: 200, text: `rois_everything_stopped ${stopped}\nrois_components_not_halted ${not_halted}\n` });
 
 async function begun() {
   const world = new World();
   world.pages.set('/metrics', metrics(0, 0));
-  world.pages.set('/rois/stop', { status: 202, text: 'stopped\nnot confirmed yet: navigation\nnot confirmed yet: move\n' });
-  world.pages.set('/rois/clear', { status: 200, text: 'cleared\n' });
+  world.pages.set('/rois/stop', state(true, 'navigation', 'move'));
+  world.pages.set('/rois/clear', state(false));
+  world.pages.set('/readyz', moving('navigation', 'move'));
   const console = await world.console();
   console.metrics.poll.watch();
   await world.passes(0);
@@ -18,18 +26,59 @@ async function begun() {
 
 test('what the gateway answers counts at once, and its metrics from then on', async () => {
   const { world, everything } = await begun();
-  expect(everything.view.value).toMatchObject({ stopped: false, waiting: [] });
+  expect(everything.view.value).toEqual({ stopped: false, waiting: [] });
+  world.pages.set('/rois/stop', state(true));
   await everything.stop();
-  expect(everything.view.value).toMatchObject({ stopped: true, waiting: ['navigation', 'move'] });
+  expect(everything.view.value).toEqual({ stopped: true, waiting: [] });
   await world.passes(1000); // metrics that may have been on their way
   expect(everything.view.value.stopped).toBe(true);
-  world.pages.set('/metrics', metrics(1, 1));
   await world.passes(2000);
+  expect(everything.view.value.stopped).toBe(false);
+  await everything.stop();
+  await everything.clear();
+  expect(everything.view.value.stopped).toBe(false);
+});
+
+test('what has not confirmed is named only as long as that is so', async () => {
+  const { world, everything } = await begun();
+  world.pages.set('/metrics', metrics(1, 2));
+  await everything.stop();
   expect(everything.view.value).toEqual({ stopped: true, waiting: ['navigation', 'move'] });
+  world.pages.set('/readyz', moving('move'));
+  await world.passes(1000);
+  expect(everything.view.value).toEqual({ stopped: true, waiting: ['move'] });
+  world.pages.set('/readyz', { status: 503, text: "the engine's clock stands still\n" });
+  await world.passes(3000);
+  expect(everything.view.value).toEqual({ stopped: true, waiting: ['move'] });
+  world.pages.delete('/readyz');
+  await world.passes(3000);
+  expect(everything.view.value).toEqual({ stopped: true, waiting: ['move'] });
+  world.pages.set('/readyz', moving());
   world.pages.set('/metrics', metrics(1, 0));
   await world.passes(1000);
   expect(everything.view.value).toEqual({ stopped: true, waiting: [] });
+});
+
+test('what has not confirmed is asked for without metrics, while the link is lost', async () => {
+  const { world, everything } = await begun();
+  await everything.stop();
+  world.breaks();
+  world.pages.delete('/metrics');
+  world.pages.set('/readyz', moving());
+  await world.passes(1000);
+  expect(everything.view.value).toEqual({ stopped: true, waiting: [] });
+});
+
+test('an answer that was under way does not count after a clear', async () => {
+  const { world, everything } = await begun();
+  await everything.stop();
+  const answers: ((page: Response) => void)[] = [];
+  const { fetch } = world;
+  world.fetch = (path) => (path === '/readyz' ? new Promise((answer) => answers.push(answer)) : fetch.call(world, path));
+  await world.passes(250);
   await everything.clear();
+  for (const answer of answers) answer(new Response(moving('move').text, { status: 503 }));
+  await world.passes(0);
   expect(everything.view.value.stopped).toBe(false);
 });
 
@@ -43,6 +92,17 @@ test('a stop by somebody else is known from the metrics, as soon as an error is 
   await expect.poll(() => everything.view.value.stopped, { interval: 1 }).toBe(false); // world time stands still
 });
 
+test('what has not confirmed is named after a stop by somebody else, too', async () => {
+  const { world, everything } = await begun();
+  world.pages.set('/metrics', metrics(1, 2));
+  await world.passes(2000);
+  expect(everything.view.value).toEqual({ stopped: true, waiting: ['navigation', 'move'] });
+  world.pages.set('/readyz', { status: 200, text: 'ready\n' }); // cleared meanwhile
+  world.pages.set('/metrics', metrics(0, 0));
+  await world.passes(1000);
+  expect(everything.view.value).toEqual({ stopped: false, waiting: [] });
+});
+
 test('a stop that did not get through says why, until one does', async () => {
   const { world, everything } = await begun();
   world.pages.set('/rois/stop', { status: 401, text: '' });
@@ -52,7 +112,7 @@ test('a stop that did not get through says why, until one does', async () => {
   await everything.stop();
   expect(everything.trouble.value).toBe('nobody there');
   expect(everything.view.value.stopped).toBe(false);
-  world.pages.set('/rois/stop', { status: 200, text: 'stopped\n' });
+  world.pages.set('/rois/stop', state(true));
   await everything.stop();
   expect(everything.trouble.value).toBe('');
   world.pages.delete('/rois/clear');
