@@ -1,12 +1,9 @@
 import { defineConfig } from 'vitest/config';
 
-import { documents, scripts, styles } from './lighter';
-
 // Where `npm run dev` finds a gateway.
 const gateway = process.env['ROIS_URL'] ?? 'http://127.0.0.1:8080';
 
 export default defineConfig({
-  plugins: [documents, scripts, styles],
   // All that it writes is in dist/ and build/; nothing is inlined, since the page's policy forbids it.
   cacheDir: 'build/vite',
   build: {
@@ -14,8 +11,8 @@ export default defineConfig({
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
     reportCompressedSize: false,
-    minify: false, // scripts are, by `scripts`
-    cssMinify: true,
+    // A file for each panel, and one for what they share.
+    rollupOptions: { output: { manualChunks: (id) => (/\/(ui|forms|state|shell|i18n|client|node_modules)\//.test(id) ? 'shared' : undefined) } },
   },
   esbuild: { jsx: 'transform', jsxFactory: 'h', jsxFragment: 'Fragment', jsxInject: "import { Fragment, h } from 'preact'" },
   // The shipped scenario is read where it stands, in client-cpp/.

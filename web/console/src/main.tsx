@@ -3,7 +3,6 @@ import './ui/base.css';
 import './ui/widgets.css';
 import './shell/shell.css';
 
-import './order';
 import { render } from 'preact';
 
 import { Console } from './state/console';
@@ -11,9 +10,8 @@ import { keep, restore } from './state/keeping';
 import { type Language, language, wished_language } from './i18n/i18n';
 import { panels } from './panels';
 import { App } from './shell/app';
-import { desk_of } from './scenario/desk';
 import { browser, visit } from './shell/environment';
-import { begin_layout } from './shell/layout';
+import { begin_layout } from './shell/navigation';
 import { follow_system, type Theme, theme } from './shell/theme';
 
 theme.value = (browser.recall('theme') as Theme | undefined) ?? 'system';
@@ -29,7 +27,7 @@ state.history.record();
 Object.assign(window, { rois: state });
 // What this page runs must not go on when the page has gone; the user is asked before.
 addEventListener('beforeunload', (event) => {
-  if (state.commands.open().length > 0 || desk_of(state).is_running.value) event.preventDefault();
+  if (state.commands.open().length > 0 || state.runs_scenario.value) event.preventDefault();
 });
 addEventListener('pagehide', () => {
   keep(state, visit.remember);

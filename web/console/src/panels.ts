@@ -1,47 +1,15 @@
 // The panels of the page. A line here puts a panel into the navigation; docs/console.md says what it has to bring.
-import type { ComponentType } from 'preact';
-
-import type { IconName } from './ui/icon';
-// Not by name, but so that those that are alike stand together: the page is smaller so (docs/console.md).
-import ScenarioPanel from './scenario/panel';
-import * as scenario from './scenario/texts';
-import SequencePanel from './sequence/panel';
-import * as sequence from './sequence/texts';
-import ConditionsPanel from './conditions/panel';
-import * as conditions from './conditions/texts';
-import ComponentsPanel from './components/panel';
-import * as components from './components/texts';
-import MessagesPanel from './messages/panel';
-import * as messages from './messages/texts';
-import HealthPanel from './health/panel';
-import * as health from './health/texts';
-import TimelinePanel from './timeline/panel';
-import * as timeline from './timeline/texts';
-import MapPanel from './map/panel';
-import * as map from './map/texts';
-import VisitorsPanel from './visitors/panel';
-import * as visitors from './visitors/texts';
-
-/** Where a panel stands on a wide screen: the big one, the strip below it, or the column beside both. */
-export type Area = 'main' | 'below' | 'side';
-
-export interface Panel {
-  /** In addresses (`#components`) and in what is remembered. */
-  id: string;
-  title: () => string;
-  icon: IconName;
-  area: Area;
-  Content: ComponentType;
-}
+import type { Panel } from './shell/navigation';
+import * as titles from './shell/panel_titles';
 
 export const panels: readonly Panel[] = [
-  { id: 'map', title: map.title, icon: 'map', area: 'main', Content: MapPanel },
-  { id: 'sequence', title: sequence.title, icon: 'sequence', area: 'main', Content: SequencePanel },
-  { id: 'conditions', title: conditions.title, icon: 'conditions', area: 'main', Content: ConditionsPanel },
-  { id: 'scenario', title: scenario.title, icon: 'scenario', area: 'main', Content: ScenarioPanel },
-  { id: 'timeline', title: timeline.title, icon: 'timeline', area: 'below', Content: TimelinePanel },
-  { id: 'messages', title: messages.title, icon: 'messages', area: 'below', Content: MessagesPanel },
-  { id: 'components', title: components.title, icon: 'components', area: 'side', Content: ComponentsPanel },
-  { id: 'visitors', title: visitors.title, icon: 'person', area: 'side', Content: VisitorsPanel },
-  { id: 'health', title: health.title, icon: 'health', area: 'side', Content: HealthPanel },
+  { id: 'map', title: titles.map, icon: 'map', area: 'main', load: () => import('./map/panel') },
+  { id: 'sequence', title: titles.sequence, icon: 'sequence', area: 'main', load: () => import('./sequence/panel') },
+  { id: 'conditions', title: titles.conditions, icon: 'conditions', area: 'main', load: () => import('./conditions/panel') },
+  { id: 'scenario', title: titles.scenario, icon: 'scenario', area: 'main', load: () => import('./scenario/panel') },
+  { id: 'timeline', title: titles.timeline, icon: 'timeline', area: 'below', load: () => import('./timeline/panel') },
+  { id: 'messages', title: titles.messages, icon: 'messages', area: 'below', load: () => import('./messages/panel') },
+  { id: 'components', title: titles.components, icon: 'components', area: 'side', load: () => import('./components/panel') },
+  { id: 'visitors', title: titles.visitors, icon: 'person', area: 'side', load: () => import('./visitors/panel') },
+  { id: 'health', title: titles.health, icon: 'health', area: 'side', load: () => import('./health/panel') },
 ];

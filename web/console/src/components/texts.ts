@@ -1,6 +1,5 @@
 import { duration, text, text_of } from '../i18n/i18n';
 
-export const title = text('Components', 'コンポーネント');
 export const tree = text('Engines and components', 'エンジンとコンポーネント');
 export const none = text('Nothing is known of the engine yet', 'エンジンについてまだ何も分かっていません');
 export const pick = text('Choose a component', 'コンポーネントを選んでください');

@@ -2,7 +2,7 @@
 import { useEffect } from 'preact/hooks';
 
 import { useConsole, useWatch } from '../shell/context';
-import { show_component } from '../shell/layout';
+import { show_component } from '../shell/navigation';
 import { error_text, StatusBadge } from '../ui';
 import { problems_of } from './checking';
 import { component_part, waits_for_results } from './matches';

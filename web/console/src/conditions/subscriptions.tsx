@@ -3,7 +3,7 @@ import type { Subscription } from 'rois-client';
 
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
-import { show_events } from '../shell/layout';
+import { show_events } from '../shell/navigation';
 import { Badge, Button, Icon, tried } from '../ui';
 import type { ConditionStore } from './store';
 import * as t from './texts';

@@ -64,7 +64,6 @@ const problems: Record<Problem, Both> = {
   unwritable: ['XML cannot hold one of these characters', 'XML に書けない文字があります'],
 };
 
-export const title = text('Conditions', '条件');
 export const purpose_named = text_of((purpose: Purpose) => purposes[purpose]);
 export const action_named = text_of((purpose: Purpose) => actions[purpose]);
 export const joining_named = text_of((joining: Joining) => joinings[joining]);

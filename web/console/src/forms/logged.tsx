@@ -1,6 +1,6 @@
 // A document that was logged, and what the engine says more of an event or error.
 import { useConsole } from '../shell/context';
-import { show_document } from '../shell/layout';
+import { show_document } from '../shell/navigation';
 import type { LoggedDocument } from '../state/documents';
 import type { Details } from '../state/events_state';
 import { Button, XmlView } from '../ui';

@@ -4,6 +4,7 @@ import './health.css';
 import { untracked } from '@preact/signals';
 
 import { useConsole, useWatch } from '../shell/context';
+import * as panel_titles from '../shell/panel_titles';
 import { Figures } from './figures';
 import { ErrorLog } from './error_log';
 import { Plots } from './plots';
@@ -19,7 +20,7 @@ export default function HealthPanel() {
   const is_stale = untracked(() => metrics.is_stale(at));
   return (
     <div class={is_stale ? 'health health-stale' : 'health'} role="region" aria-label={t.all()} tabIndex={0}>
-      <h2 class="unseen">{t.title()}</h2>
+      <h2 class="unseen">{panel_titles.health()}</h2>
       <Figures />
       <Plots />
       <div class="health-tables">

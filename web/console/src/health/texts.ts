@@ -17,7 +17,6 @@ const trouble_names: Record<string, Both> = {
   rois_stray_component_answers_total: ['Late or stray answers of components', '遅れた、または宛先のないコンポーネントの応答'],
 };
 
-export const title = text('Health', '状態監視');
 export const all = text('Health of the link, the gateway and the session', '接続・ゲートウェイ・セッションの状態');
 export const none = text('–');
 export const link = text('Link', '接続');

@@ -5,7 +5,7 @@ import { command } from 'rois-client';
 
 import { asked_by, parameters_from } from '../forms';
 import { useConsole } from '../shell/context';
-import { show_component } from '../shell/layout';
+import { show_component } from '../shell/navigation';
 import { Button, error_text, Fact, Form, IconButton, SelectField, TextField } from '../ui';
 import { type Driver, follow, go, motions_of, stop, target_text } from './driving';
 import { distance, obstacle_at, turned } from '../state/floor';

@@ -1,7 +1,7 @@
 // The robots that can be sent about, with the components that move them, and what they are doing for this console.
 import { value } from 'rois-client';
 
-import { show_document, show_panel } from '../shell/layout';
+import { show_document, show_panel } from '../shell/navigation';
 import type { CommandEntry } from '../state/commands_state';
 import type { Console } from '../state/console';
 import type { Robot } from '../state/things';

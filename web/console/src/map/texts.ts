@@ -18,7 +18,6 @@ const obstacles: Record<string, Both> = {
 };
 const gone: Record<string, Both> = { robot: ['No news', '通知なし'], sound: ['Silent', '無音'] };
 
-export const title = text('Floor map', 'フロアマップ');
 export const no_map = text('This engine has no map: a plain grid is shown', 'このエンジンには地図がないため、方眼だけを表示しています');
 export const map_trouble = text_of((reason: string) => [`The map could not be read (${reason})`, `地図を読み込めませんでした(${reason})`]);
 export const reload = text('Try again', 'もう一度');

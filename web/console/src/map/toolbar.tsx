@@ -2,6 +2,7 @@
 import { useSignal } from '@preact/signals';
 
 import { useConsole } from '../shell/context';
+import * as panel_titles from '../shell/panel_titles';
 import { Badge, Button, Checkbox, error_text, Pop } from '../ui';
 import { all_layers, type Layers } from './ground';
 import { Help } from './help';
@@ -15,7 +16,7 @@ export function Toolbar() {
   const shows_table = session.shows_table.value;
   return (
     <div class="map-bar">
-      <h2>{session.map?.name || t.title()}</h2>
+      <h2>{session.map?.name || panel_titles.map()}</h2>
       <Observe />
       <div class="map-bar-end">
         <PlaceChoice />

@@ -5,7 +5,7 @@ import { is_notification, notification_of, parse_xml, Results, results_of } from
 import { CommandProgress, ResultsTable } from '../forms';
 import { clock_time } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
-import { show_component } from '../shell/layout';
+import { show_component } from '../shell/navigation';
 import type { Console } from '../state/console';
 import type { LoggedDocument } from '../state/documents';
 import type { Details, ErrorEntry, EventEntry } from '../state/events_state';

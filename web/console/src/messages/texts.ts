@@ -10,7 +10,6 @@ const names: Record<Category, Both> = {
   answer: ['Answers', '応答'],
 };
 
-export const title = text('Events and messages', 'イベントとメッセージ');
 export const list = text('Documents, the newest last', '文書 (新しいものが下)');
 export const category = text_of((name: Category) => names[name]);
 export const kinds = text('Kinds', '種類');

@@ -2,6 +2,7 @@
 import { useRef } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
+import * as panel_titles from '../shell/panel_titles';
 import { reason_of } from '../state/reason_of';
 import { read_recording, recording_of } from '../state/recording';
 import { Button, Checkbox, save_file, SelectField, TextField } from '../ui';
@@ -19,8 +20,8 @@ export function Toolbar({ feed, rows, all }: { feed: Feed; rows: readonly Row[];
   const tape = recording.value;
   const refs = tape ? [...new Set(tape.documents.flatMap((one) => one.component ?? []))].sort() : profile.components.value.map((one) => one.ref);
   return (
-    <div class="messages-bar" role="group" aria-label={t.title()}>
-      <h2 class="unseen">{t.title()}</h2>
+    <div class="messages-bar" role="group" aria-label={panel_titles.messages()}>
+      <h2 class="unseen">{panel_titles.messages()}</h2>
       {!tape && <Pause feed={feed} />}
       <div class="messages-kinds" role="group" aria-label={t.kinds()}>
         {categories.map((name) => (

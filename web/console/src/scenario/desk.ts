@@ -40,7 +40,6 @@ export class Desk {
   readonly reading = computed(() => read_scenario(this.text.value));
   /** The last one that could be run, for the diagram. */
   readonly drawn = signal<Scenario | undefined>(undefined);
-  readonly is_running = signal(false);
   /** All of the diagram, however small. */
   readonly shows_whole = signal(false);
   /** The state that is looked at; empty: the scenario itself. */
@@ -58,6 +57,10 @@ export class Desk {
     const { environment } = console;
     this.put(environment.recall('scenario') ?? plain_lines(reception));
     this.file_name.value = environment.recall('scenario.name') ?? shipped_name;
+  }
+
+  get is_running() {
+    return this.console.runs_scenario;
   }
 
   get is_as_shipped(): boolean {

@@ -3,7 +3,6 @@ import { type Both, text, text_of } from '../i18n/i18n';
 
 const kinds_ja: Record<string, string> = { component: 'コンポーネント', variable: '変数', state: '状態' };
 
-export const title = text('Scenario', 'シナリオ');
 
 // The bar
 export const start = text('Start', '開始');

@@ -4,6 +4,7 @@ import './sequence.css';
 import { useEffect, useRef, useState } from 'preact/hooks';
 
 import { useConsole, useWatch } from '../shell/context';
+import * as panel_titles from '../shell/panel_titles';
 import { Button, CurlButton, EmptyState, SplitPane, Tabs, useIsWide, XmlView } from '../ui';
 import { Drawing } from './drawing';
 import { Inspector } from './inspector';
@@ -34,7 +35,7 @@ export default function SequencePanel() {
   const knows_profile = console.profile.profile.value !== undefined;
   return (
     <div class="sequence">
-      <h2 class="unseen">{t.title()}</h2>
+      <h2 class="unseen">{panel_titles.sequence()}</h2>
       {refs.map((ref) => <Looks key={ref} component={ref} />)}
       <Toolbar store={store} set_adding={set_adding} open_library={() => set_library(true)} />
       <RunSummary store={store} />

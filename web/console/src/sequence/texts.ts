@@ -2,7 +2,6 @@ import { is_touched, text, text_of } from '../i18n/i18n';
 
 const with_keys = (en: string, ja: string, keys: string, ja_keys: string) => text_of(() => (is_touched() ? [en, ja] : [`${en} (${keys})`, `${ja} (${ja_keys})`]));
 
-export const title = text('Sequences', 'シーケンス');
 export const no_profile = text('Nothing is known of the engine yet', 'エンジンについてまだ何も分かっていません');
 export const empty = text('Nothing to do yet. Commands run one after the other; branches run at the same time.', 'まだ何もありません。コマンドは順番に、分岐は同時に実行されます。');
 export const begin_command = text('A command', 'コマンド');

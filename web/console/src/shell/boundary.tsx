@@ -7,14 +7,14 @@ import { Icon } from '../ui/icon';
 import * as texts from '../ui/texts';
 
 interface State {
-  error?: unknown;
+  failed: { why: unknown } | undefined;
 }
 
 export class Boundary extends Component<{ children: ComponentChildren }, State> {
-  override state: State = {};
+  override state: State = { failed: undefined };
 
-  static override getDerivedStateFromError(error: unknown): State {
-    return { error };
+  static override getDerivedStateFromError(why: unknown): State {
+    return { failed: { why } };
   }
 
   override componentDidCatch(error: unknown): void {
@@ -22,16 +22,16 @@ export class Boundary extends Component<{ children: ComponentChildren }, State> 
   }
 
   override render() {
-    if (!('error' in this.state)) return this.props.children;
-    const { error } = this.state;
+    const { failed } = this.state;
+    if (!failed) return this.props.children;
     return (
       <div class="state state-error" role="alert">
         <Icon name="warning" size={24} />
         <p class="state-title">{texts.panel_failed()}</p>
         <p class="state-more">
-          {texts.panel_failed_hint()} <code>{reason_of(error)}</code>
+          {texts.panel_failed_hint()} <code>{reason_of(failed.why)}</code>
         </p>
-        <Button icon="refresh" onClick={() => this.setState({ error: undefined } as State, () => delete this.state.error)}>
+        <Button icon="refresh" onClick={() => this.setState({ failed: undefined })}>
           {texts.retry()}
         </Button>
       </div>

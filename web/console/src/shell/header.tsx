@@ -8,7 +8,7 @@ import { tried } from '../ui/error_text';
 import { StopButton } from '../ui/stop_button';
 import { Pop } from '../ui/pop';
 import { useConsole } from './context';
-import { is_narrow } from './layout';
+import { is_narrow } from './navigation';
 import { LinkMark } from './link_status';
 import { NoticeArea } from './notices';
 import * as t from './texts';

@@ -65,6 +65,8 @@ const most_delay = 15_000; // ms between two tries: whoever does not want to wai
 export class Console {
   /** ms since 1970; changes each second, for ages. */
   readonly now = signal(0);
+  /** Whether this page runs a scenario. Set by the scenario's desk. */
+  readonly runs_scenario = signal(false);
   readonly notices: Notices;
   readonly link: LinkState;
   readonly documents: Documents;

@@ -5,7 +5,7 @@ import { Results } from 'rois-client';
 import { clock_time } from '../i18n/i18n';
 import { CommandProgress, DetailsOf, LoggedXml, ResultsTable } from '../forms';
 import { useConsole } from '../shell/context';
-import { show_component } from '../shell/layout';
+import { show_component } from '../shell/navigation';
 import type { CommandEntry } from '../state/commands_state';
 import { Button, Fact, IconButton, StatusBadge } from '../ui';
 import { describe, of_mark } from './describe';

@@ -5,11 +5,11 @@ import { useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
+import * as panel_titles from '../shell/panel_titles';
 import { Chart } from './chart';
 import { DetailsPane } from './details';
 import { Listing } from './listing';
 import { opened_by, type Thing } from './things';
-import * as texts from './texts';
 import { Toolbar } from './toolbar';
 import { view_of } from './view';
 
@@ -33,7 +33,7 @@ export default function TimelinePanel() {
   };
   return (
     <div class="timeline">
-      <h2 class="unseen">{texts.title()}</h2>
+      <h2 class="unseen">{panel_titles.timeline()}</h2>
       <Toolbar view={view} as_table={as_table.value} choose_table={choose_table} />
       <div class="timeline-body">
         {as_table.value ? <Listing view={view} open={open} /> : <Chart view={view} opened={opened.value} open={open} />}

@@ -1,6 +1,5 @@
 import { count_text, text, text_of } from '../i18n/i18n';
 
-export const title = text('Time line', 'タイムライン');
 export const label = text('Time line of the link, commands, events and components', '接続・コマンド・イベント・コンポーネントのタイムライン');
 export const help = text(
   'Arrow keys go from thing to thing and stop the time, Enter opens one. Plus, minus and the wheel zoom, Page Up and Page Down move in time, Home goes to the beginning, End to now, Space stops and goes on. Dragging chooses a stretch of time, Backspace goes back.',

@@ -1,5 +1,6 @@
 import { clock_time, duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
+import * as panel_titles from '../shell/panel_titles';
 import { Button, Checkbox, IconButton, SelectField } from '../ui';
 import * as t from './texts';
 import { type TimeView } from './view';
@@ -16,7 +17,7 @@ export function Toolbar({ view, as_table, choose_table }: { view: TimeView; as_t
   const usual = !is_all && spans.includes(span);
   const choices = spans.map((one) => ({ value: String(one), label: duration(one) }));
   return (
-    <div class="timeline-bar" role="toolbar" aria-label={t.title()}>
+    <div class="timeline-bar" role="toolbar" aria-label={panel_titles.timeline()}>
       {is_live ? (
         <Button small icon="pause" onClick={() => view.pause()}>{t.pause()}</Button>
       ) : (

@@ -11,7 +11,6 @@ const gestures_ja: Record<string, string> = {
   wave: '手を振る', nod: 'うなずく', shake_head: '首を振る', bow: 'お辞儀', point: '指さす', raise_hand: '手を挙げる', clap: '拍手', thumbs_up: '親指を立てる',
 };
 
-export const title = text('Visitors', '来訪者');
 export const none_here = text('This engine has no visitors to steer', 'このエンジンには動かせる来訪者がいません');
 export const none_here_hint = text('People can be steered in the simulated hall. Start the gateway with', 'シミュレーションのホールでは人を動かせます。次を付けてゲートウェイを起動してください:');
 export const nobody = text('Nobody is in the hall. Let somebody in.', 'ホールには誰もいません。誰かを入れてください。');

@@ -21,6 +21,33 @@ describe('the page', () => {
       await picture(page, 'shell-wide-dark');
     }));
 
+  test('the first view is small', () =>
+    stage.page(async (page) => {
+      await page.getByRole('treeitem', { name: /^speech_synthesis / }).waitFor();
+      await page.locator('.map-canvas').waitFor();
+      await page.locator('.timeline-canvas').waitFor();
+      const files = await page.evaluate(() => performance.getEntriesByType('resource').map(({ name }) => new URL(name).pathname).filter((path) => path.startsWith('/assets/')));
+      expect(files.filter((path) => /panel-.*js$/.test(path)).length, 'other panels are fetched when they are shown').toBe(3);
+      let bytes = 0;
+      for (const path of ['/', ...files]) bytes += Number((await fetch(stage.gateway.url + path, { headers: { 'Accept-Encoding': 'gzip' } })).headers.get('Content-Length'));
+      expect(bytes).toBeGreaterThan(50 * 1024);
+      expect(bytes).toBeLessThan(120 * 1024);
+    }));
+
+  test('a panel that could not be fetched says so, and is fetched again', () =>
+    stage.page(
+      async (page) => {
+        await page.getByText('Connected', { exact: true }).waitFor();
+        await page.route('**/assets/panel-*.js', (route) => route.abort());
+        await page.getByRole('tab', { name: 'Health' }).click();
+        await page.getByRole('alert').getByText('Failed to fetch').waitFor();
+        await page.unroute('**/assets/panel-*.js');
+        await page.getByRole('button', { name: 'Try again' }).click();
+        await page.locator('.health-figures').waitFor();
+      },
+      { may_complain: /./ },
+    ));
+
   test.each([
     ['wide', 'dark', 'en'],
     ['tablet', 'light', 'en'],
