@@ -33,6 +33,7 @@ void serve(Setting const& setting) {
     profile.object.name = "stage";
     EngineSettings engine_settings;
     engine_settings.max_sessions = 100'000;
+    engine_settings.max_predicates = 10'000'000;
     engine_settings.max_waiting_notifications = 100'000;  // those of set_parameter over HTTP, which its row does not fetch
     net::Readers readers;
     Engine engine{profile, known_profiles(), engine_settings, readers, net::fresh_secret};
