@@ -59,16 +59,18 @@ void Engine::Core::enter(SharedComponent const& component) {
     told_profile_.reset();
 }
 
-void Engine::Core::leave(RegisteredComponent& component, Instant now) {
-    executor_.part(component, now);
-    if (auto* session = std::exchange(component.bound_to, nullptr)) {
-        session->bound.erase(&component);
-        journal_->released(session->number, component.ref().code);
+// The component is in the registry no more. A step that fails is done by the next tick.
+void Engine::Core::leave(SharedComponent const& component, Instant now) {
+    Attempts attempts;
+    attempts([&] { executor_.part(*component, now); });
+    if (auto* session = std::exchange(component->bound_to, nullptr)) {
+        session->bound.erase(component.get());
+        attempts([&] { journal_->released(session->number, component->ref().code); });
     }
-    settle(now);
-    auto const last = component.shared_from_this();
-    registry_.remove(component);
-    component.depart();
+    attempts([&] { settle(now); });
+    component->depart();
+    departed_.push_back(component);  // `change` reserved the room
+    attempts.rethrow();
 }
 
 void Engine::Core::add(std::unique_ptr<Component> component) { enter(made(std::move(component), known_profiles_)); }
@@ -85,24 +87,36 @@ void Engine::Core::check(ComponentChange const& change) const {
     }
 }
 
+// Prepares the change with copies. From the exchange on, the change has happened, and nothing is thrown: the next tick continues
+// with a step that fails, and reports the failure.
 void Engine::Core::change(ComponentChange change, Instant now) {
     check(change);
-    std::vector<SharedComponent> coming;
-    coming.reserve(change.coming.size());
-    for (auto& component : change.coming) coming.push_back(made(std::move(component), change.known_profiles));
-    known_profiles_ = std::move(change.known_profiles);
     settle(now);
-    for (auto const& ref : change.going) leave(*registry_.find(ref), now);
-    if (!change.going.empty()) unlist(profile_, {change.going.begin(), change.going.end()});
-    told_profile_.reset();
-    for (auto& component : coming) {
-        enter(component);
-        executor_.halt(*component, CompletedStatus::abort, "it has just come", now);
+    auto registry = registry_;
+    auto profile = profile_;
+    std::vector<SharedComponent> going, coming;
+    for (auto const& ref : change.going) registry.remove(*going.emplace_back(registry_.find(ref)->shared_from_this()));
+    unlist(profile, {change.going.begin(), change.going.end()});
+    for (auto& component : change.coming) {
+        coming.push_back(made(std::move(component), change.known_profiles));
+        auto const& entry = registry.add(coming.back()).entry();
+        list(profile, entry.engine, entry.ref);
     }
-    if (change.going.empty() && coming.empty()) return;
+    departed_.reserve(departed_.size() + going.size());
     auto const notification = std::make_shared<OutgoingNotification const>(ProfileChanged{});
-    for (auto const& [id, session] : sessions_) notifier_.tell(*session, notification);
-    settle(now);
+
+    std::swap(registry_, registry);
+    std::swap(profile_, profile);
+    std::swap(known_profiles_, change.known_profiles);
+    told_profile_.reset();
+    if (going.empty() && coming.empty()) return;
+    Attempts attempts;
+    for (auto const& component : going) attempts([&] { leave(component, now); });
+    for (auto const& component : coming)
+        attempts([&] { executor_.halt(*component, CompletedStatus::abort, "it has just come", now); });
+    for (auto const& [id, session] : sessions_) attempts([&, &to = *session] { notifier_.tell(to, notification); });
+    attempts([&] { settle(now); });
+    if (attempts.failure()) unsettled_ = attempts.failure();
 }
 
 }  // namespace rois

@@ -64,7 +64,7 @@ private:
     using SharedComponent = std::shared_ptr<RegisteredComponent>;
     SharedComponent made(std::unique_ptr<Component>, std::vector<ComponentProfile> const& known);
     void enter(SharedComponent const&);
-    void leave(RegisteredComponent&, Instant now);
+    void leave(SharedComponent const&, Instant now);
     void check(ComponentChange const&) const;
 
     // System interface (system_interface.cpp)
@@ -162,6 +162,7 @@ private:
     Executor executor_;
     Details events_;
     Details errors_;
+    std::vector<SharedComponent> departed_;  // what they said may still be on the agenda
     Steady details_checked_;
     Steady memory_saved_;
     std::vector<std::uint32_t> free_slots_;  // slots of ended sessions, to be used again (Details::Asker)

@@ -81,7 +81,7 @@ void Engine::Core::tick(Instant now) {
     carry_out_what_is_due(now, attempts);
     attempts([&] { executor_.mend(now); });
     end_those_that_must(now, attempts);
-    attempts([&] { settle(now); });
+    if (attempts([&] { settle(now); })) departed_.clear();
     attempts([&] { forget_what_is_old(now); });
     attempts.rethrow();
 }

@@ -401,11 +401,13 @@ void Executor::release(Session& session, RegisteredComponent& component, Instant
 }
 
 void Executor::part(RegisteredComponent& component, Instant now) {
-    halt(component, CompletedStatus::abort, "its component has gone", now);
-    forget_halt(component, now);
+    Attempts attempts;
+    attempts([&] { halt(component, CompletedStatus::abort, "its component has gone", now); });
+    attempts([&] { forget_halt(component, now); });
     for (auto const& [handle, command] : live_)
         if (command->component.get() == &component) command->binding_lost = true;
-    run_ready(now);
+    attempts([&] { run_ready(now); });
+    attempts.rethrow();
 }
 
 void Executor::abort_all(Session& session, Instant now) {

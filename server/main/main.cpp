@@ -183,6 +183,7 @@ void read_again(UserComponents& components, net::Gateway& gateway) {
     try {
         spdlog::info("profiles: reading them again after SIGHUP");
         gateway.change([&] { return components.read(); });
+        components.keep();
     } catch (std::exception const& error) {
         spdlog::warn("profiles: all stay as they are: {}", error.what());
     }
@@ -220,6 +221,7 @@ int serve(CommandLine const& command) {
     UserComponents user_components{
         schemas, {simulation, media, schemas}, profiles, own_refs(settings, simulation->hall().plan()), settings.profiles};
     if (!settings.profiles.empty()) gateway.change([&] { return user_components.read(); });
+    user_components.keep();
     net::Documents const documents{gateway,
                                    telemetry,
                                    *schemas,

@@ -103,8 +103,10 @@ ComponentChange UserComponents::read() {
         next.emplace(file.name, std::move(made));
     }
     for (auto const& ref : change.going) spdlog::info("profiles: the component {} goes", ref);
-    files_ = std::move(next);
+    next_ = std::move(next);
     return change;
 }
+
+void UserComponents::keep() { files_ = std::move(next_); }
 
 }  // namespace rois

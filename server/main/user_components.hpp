@@ -23,6 +23,8 @@ public:
     // What has changed in the folder since the last time; what was found is in the log. A file that is refused now leaves what
     // was made of it before. Throws BadSettings when the folder cannot be read: then nothing has changed.
     ComponentChange read();
+    // The change of the last `read` has happened. Without this call, the next `read` returns it again.
+    void keep();
 
 private:
     // What a file of the folder is good for.
@@ -44,6 +46,7 @@ private:
     std::set<std::string> refs_;
     std::string folder_;
     Files files_;
+    Files next_;  // after the change
 };
 
 }  // namespace rois
