@@ -42,7 +42,7 @@ namespace rois {
 
 namespace {
 
-enum Exit : int { done = 0, could_not_start = 1, profile_refused = 1, bad_configuration = 2 };
+enum Exit : int { done = 0, could_not_start = 1, profile_refused = 1, bad_configuration = 2, not_halted = 71 };
 
 std::vector<ComponentProfile> read_profiles(std::shared_ptr<xml::Schemas const> const& schemas) {
     std::vector<ComponentProfile> profiles;
@@ -232,9 +232,9 @@ int serve(CommandLine const& command) {
     if (!settings.profiles.empty()) server.on_hang_up([&] { read_again(user_components, gateway); });
     if (media) spdlog::info("media are served under {}", media->url());
     spdlog::info("listening on {}", server.url());
-    server.run();
+    bool const halted = server.run();
     spdlog::info("stopped");
-    return done;
+    return halted ? done : not_halted;
 }
 
 int check_health(Settings const& settings) {

@@ -1,6 +1,8 @@
 // The engine's clock: a thread of its own, so that no request and no connection can keep it from ticking.
 #pragma once
 
+#include <pthread.h>
+
 #include <chrono>
 #include <functional>
 #include <thread>
@@ -9,11 +11,13 @@
 
 namespace rois::net {
 
-// Ticks as long as it lives. An exception that leaves a tick is reported, and the next tick comes in time.
+// Ticks as long as it lives, on a thread with the name "clock". An exception that leaves a tick is reported, and the next tick
+// comes in time.
 class Clock {
 public:
     Clock(std::chrono::milliseconds between_ticks, std::function<void()> tick, Troubles& troubles)
         : thread_{[between_ticks, tick = std::move(tick), &troubles](std::stop_token const& stop) {
+              ::pthread_setname_np(::pthread_self(), "clock");
               while (!stop.stop_requested()) {
                   std::this_thread::sleep_for(between_ticks);
                   try {

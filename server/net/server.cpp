@@ -3,12 +3,15 @@
 #include "net/asio.hpp"
 
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <boost/asio/signal_set.hpp>
 #include <csignal>
 #include <cstdlib>
 #include <stdexcept>
+#include <string_view>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 #include "net/clock.hpp"
@@ -56,7 +59,7 @@ public:
 
     void on_too_many_troubles(std::function<void()> what) { give_up_ = std::move(what); }
 
-    void run() {
+    bool run() {
         auto& first = *loops_.front();
         for (auto const& listener : listeners_)
             listener->loop().always(Troubles::Where::accept, [one = listener.get()] { return one->accept(); });
@@ -67,7 +70,7 @@ public:
         for (std::size_t i = 1; i < loops_.size(); ++i) threads.emplace_back([loop = loops_[i].get()] { loop->run(); });
         loops_.front()->run();
         threads.clear();
-        await_halts();
+        return await_halts();
     }
 
 private:
@@ -101,12 +104,15 @@ private:
         }
     }
 
-    // When nobody is connected any more: the engine goes on with telling components to halt until they confirm it.
-    void await_halts() {
+    // When nobody is connected any more: the engine goes on with telling components to halt until they confirm it. Returns
+    // whether all have confirmed in time.
+    bool await_halts() {
         while (!shared_.gateway.not_halted().empty() && std::chrono::steady_clock::now() < last_moment_)
             std::this_thread::sleep_for(shared_.settings.tick);
-        for (auto const& ref : shared_.gateway.not_halted())
+        auto const not_halted = shared_.gateway.not_halted();
+        for (auto const& ref : not_halted)
             spdlog::critical("{} did not confirm that it stands still: make sure that the robot does", ref);
+        return not_halted.empty();
     }
 
     Task<> wait_for_hang_ups() {
@@ -134,9 +140,13 @@ private:
     // The system may know better what to do than a program that does not work: what supervises it starts it again.
     void halt_and_exit() {
         constexpr int internal_software_error = 70;  // EX_SOFTWARE
+        constexpr std::string_view why = "too many exceptions in a second: all components were halted, and the gateway ends";
         shared_.gateway.halt_at_last();
-        spdlog::critical("too many exceptions in a second: all components were halted, and the gateway ends");
+        auto const dropped = shared_.telemetry.dropped_log_lines();
+        spdlog::critical(why);
         spdlog::default_logger_raw()->flush();
+        bool const no_memory = shared_.telemetry.dropped_log_lines() != dropped;  // for a line of the log
+        if (no_memory) std::ignore = ::write(STDERR_FILENO, why.data(), why.size());
         std::_Exit(internal_software_error);
     }
 
@@ -166,6 +176,6 @@ void Server::on_hang_up(std::function<void()> what) { running_->on_hang_up(std::
 
 void Server::on_too_many_troubles(std::function<void()> what) { running_->on_too_many_troubles(std::move(what)); }
 
-void Server::run() { running_->run(); }
+bool Server::run() { return running_->run(); }
 
 }  // namespace rois::net

@@ -32,8 +32,8 @@ public:
     void on_too_many_troubles(std::function<void()>);
 
     // Serves until SIGTERM or SIGINT: then clients are told, and cut when they do not go within the shutdown timeout. A second
-    // signal cuts them at once.
-    void run();
+    // signal cuts them at once. Returns whether all components have confirmed that they stand still.
+    bool run();
 
 private:
     class Running;

@@ -230,6 +230,8 @@ private:
     std::vector<MetricFamily> families_;
 };
 
+std::uint64_t Telemetry::dropped_log_lines() const { return log_ ? log_->dropped() : 0; }
+
 void Telemetry::answered(Operation const& operation, ReturnCode code, std::chrono::nanoseconds spent) {
     ++requests_[operation.index()][static_cast<std::size_t>(code)];
     auto const seconds = std::chrono::duration<double>(spent).count();

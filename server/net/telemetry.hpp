@@ -70,6 +70,8 @@ public:
 
     // Shows what this queue has dropped. Before anybody asks.
     void show(std::shared_ptr<LogQueue const> log) { log_ = std::move(log); }
+    // How many lines that log has dropped.
+    std::uint64_t dropped_log_lines() const;
 
     // The Prometheus text format.
     std::string text(EngineStatistics const&) const;

@@ -37,6 +37,7 @@ public:
     GatewayProcess(GatewayProcess const&) = delete;
     GatewayProcess& operator=(GatewayProcess const&) = delete;
 
+    pid_t id() const { return process_; }
     std::uint16_t port() const { return port_; }
     std::string const& url() const { return url_; }
     client::Address address() const { return {.port = port_}; }

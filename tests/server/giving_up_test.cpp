@@ -1,0 +1,80 @@
+// The real program when its clock fails for good: it halts all components, says why, and ends with 70.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "client/vocabulary.hpp"
+#include "server/http_client.hpp"
+
+namespace rois::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr auto why = "too many exceptions in a second: all components were halted, and the gateway ends";
+
+// A gateway whose robot drives, and in which each thread can be made to fail (preload/failing_thread.cpp).
+class AGatewayThatFails : public testing::Test {
+protected:
+    void SetUp() override {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+        GTEST_SKIP() << "a sanitizer must be the first library, and replaces operator new";
+#endif
+        gateway = std::make_unique<GatewayProcess>(std::vector<std::string>{"--log-level", "debug"},
+                                                   Variables{{"LD_PRELOAD", ROIS_BINARY_DIR "/tests/libfailing_thread.so"}});
+        desk = std::make_unique<HttpClient>(*gateway);
+        desk->call("connect");
+        desk->call("bind", component_ref("navigation"));
+        auto const going = desk->call(
+            "execute", client::sequence(client::unit(
+                           {.component = "navigation", .id = "go", .arguments = {client::target_position({"8000, 6000, 30"})}})));
+        EXPECT_EQ(going.return_code(), "OK");
+    }
+
+    // Sends the signal to the thread with this name.
+    void fail(std::string const& thread, int signal) const {
+        auto const tasks = std::filesystem::path{"/proc"} / std::to_string(gateway->id()) / "task";
+        for (auto const& task : std::filesystem::directory_iterator{tasks}) {
+            std::ifstream in{task.path() / "comm"};
+            std::string name;
+            in >> name;
+            if (name != thread) continue;
+            EXPECT_EQ(syscall(SYS_tgkill, gateway->id(), std::stoi(task.path().filename()), signal), 0);
+            return;
+        }
+        ADD_FAILURE() << "there is no thread " << thread;
+    }
+
+    Ended wait() const {
+        desk->session.clear();  // it cannot be left any more
+        return gateway->wait();
+    }
+
+    std::unique_ptr<GatewayProcess> gateway;
+    std::unique_ptr<HttpClient> desk;
+};
+
+}  // namespace
+
+TEST_F(AGatewayThatFails, HaltsAllComponentsSaysWhyAndEndsWith70) {
+    fail("clock", SIGUSR2);
+    auto const ended = wait();
+    EXPECT_EQ(ended.exit_code, 70);
+    EXPECT_THAT(ended.error, HasSubstr("an exception was survived (tick): a fault that a test has made"));
+    EXPECT_THAT(ended.error, HasSubstr("start of navigation, ended with ABORT: everything was stopped"));
+    EXPECT_THAT(ended.error, HasSubstr(std::string{"critical "} + why));
+}
+
+TEST_F(AGatewayThatFails, SaysWhyAlsoWithoutMemory) {
+    fail("clock", SIGUSR1);
+    auto const ended = wait();
+    EXPECT_EQ(ended.exit_code, 70);
+    EXPECT_THAT(ended.error, HasSubstr(why));
+}
+
+}  // namespace rois::test
