@@ -67,11 +67,13 @@ public:
     Running(Settings settings, std::function<std::string()> fresh_id)
         : settings_{std::move(settings)}, fresh_id_{std::move(fresh_id)}, acceptor_{io_.get_executor()} {
         listen();
-        asio::co_spawn(io_, accept(), asio::detached);
-        thread_ = std::jthread{[this] { io_.run(); }};
+        thread_ = std::jthread{[this](std::stop_token const& stop) { run(stop); }};
     }
 
-    ~Running() { io_.stop(); }
+    ~Running() {
+        thread_.request_stop();
+        io_.stop();
+    }
     Running(Running const&) = delete;
     Running& operator=(Running const&) = delete;
 
@@ -102,6 +104,19 @@ public:
     }
 
 private:
+    // An exception that leaves a coroutine, for example because memory is missing, ends one stream. It never ends this thread.
+    void run(std::stop_token const& stop) {
+        while (!stop.stop_requested()) {
+            try {
+                if (!accepts_) asio::co_spawn(io_, accept(), asio::detached);
+                io_.run();
+            } catch (std::exception const&) {
+                std::this_thread::sleep_for(pause_when_full);
+            }
+            if (!stop.stop_requested()) io_.restart();
+        }
+    }
+
     void listen() {
         try {
             asio::ip::basic_resolver<asio::ip::tcp, Executor> resolver{acceptor_.get_executor()};
@@ -122,6 +137,14 @@ private:
 
     // Those beyond the limit wait until somebody has gone.
     Task<> accept() {
+        struct End {
+            Running& of;
+            ~End() {
+                of.accepts_ = false;
+                of.io_.stop();  // `run` begins again
+            }
+        } const end{*this};
+        accepts_ = true;
         Timer pause{acceptor_.get_executor()};
         while (true) {
             boost::system::error_code error;
@@ -144,6 +167,7 @@ private:
     std::shared_ptr<Directory> const directory_ = std::make_shared<Directory>();
     std::string url_;
     std::size_t connections_ = 0;
+    bool accepts_ = false;  // `accept` goes on
     asio::io_context io_{1};
     Acceptor acceptor_;
     std::jthread thread_;

@@ -29,9 +29,14 @@ public:
     std::size_t used() const { return used_.load(std::memory_order_relaxed); }  // at the last measurement
 
     // From 80 % on: new sessions, new subscriptions and long documents are refused.
-    bool tight() const { return used() >= total_ / 5 * 4; }
-    // From 100 % on: only short requests are accepted, and data that is kept for later is dropped.
-    bool full() const { return used() >= total_; }
+    bool tight() const { return used() >= total_ / 5 * 4 || exhausted(); }
+    // From 100 % on, and while the system has no more memory: only short requests are accepted, and data that is kept for later
+    // is dropped.
+    bool full() const { return used() >= total_ || exhausted(); }
+
+    // Whether an allocation failed a short time ago, whatever the budget allows. Set by the owner of the budget; any thread.
+    bool exhausted() const { return exhausted_.load(std::memory_order_relaxed); }
+    void set_exhausted(bool exhausted) noexcept { exhausted_.store(exhausted, std::memory_order_relaxed); }
 
     // The longest request that is accepted now, in bytes.
     std::size_t longest_document() const {
@@ -69,7 +74,8 @@ public:
     };
     Room reserve(std::size_t bytes);
 
-    // Counts a refusal, and returns its reason: "`what`: the gateway uses 420 of the 512 MiB of its memory_budget; ...".
+    // Counts a refusal, and returns its reason: "`what`: the gateway uses 420 of the 512 MiB of its memory_budget; ...", or that
+    // the system has no more memory.
     std::string refuse(std::string_view what);
     std::uint64_t refusals() const { return refusals_; }
 
@@ -80,6 +86,7 @@ private:
     std::atomic<std::size_t> reserved_ = 0;
     std::atomic<std::size_t> taken_ = 0;  // bytes reported by `took` since the last measurement
     std::atomic<std::uint64_t> refusals_ = 0;
+    std::atomic<bool> exhausted_ = false;
 };
 
 }  // namespace rois

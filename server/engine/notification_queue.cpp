@@ -57,23 +57,27 @@ void NotificationQueue::keep_last(std::size_t events) {
     auto const is_event = [](Numbered const& entry) { return std::holds_alternative<ReceiveEvent>(entry.notification->body); };
     settle_recent();
     std::vector<Numbered> kept;
+    kept.reserve(entries_.size() - sent_);
+    std::size_t dropped = 0;
     auto const first_waiting = entries_.begin() + static_cast<std::ptrdiff_t>(sent_);
     auto too_many = std::count_if(first_waiting, entries_.end(), is_event) - static_cast<std::ptrdiff_t>(events);
     for (auto entry = first_waiting; entry != entries_.end(); ++entry) {
         auto const* gap = kept.empty() ? nullptr : as_lost(kept.back());
         if (too_many <= 0 || !is_event(*entry)) {
-            kept.push_back(std::move(*entry));
+            kept.push_back(*entry);
             continue;
         }
         --too_many;
-        --waiting_;
-        ++lost_;
+        ++dropped;
         if (gap != nullptr) {
             kept.back() = gap_until(entry->sequence, gap->count + 1);
         } else {
             kept.push_back(gap_until(entry->sequence, 1));
         }
     }
+    // Nothing below throws, so the queue changes as a whole or not at all.
+    waiting_ -= dropped;
+    lost_ += dropped;
     entries_ = std::move(kept);
     sent_ = forgotten_ = 0;
 }

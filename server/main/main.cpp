@@ -217,6 +217,7 @@ int serve(CommandLine const& command) {
     net::Telemetry telemetry;
     telemetry.show(log);
     MemoryBudget memory{settings.net.memory_budget, net::memory_in_use};
+    net::MemoryReserve const reserve{memory};
     net::Gateway gateway{engine, readers, telemetry, client_limits(net_settings), memory};
     UserComponents user_components{
         schemas, {simulation, media, schemas}, profiles, own_refs(settings, simulation->hall().plan()), settings.profiles};

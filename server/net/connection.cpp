@@ -2,7 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <boost/asio/post.hpp>
 #include <utility>
 
 #include "net/event_stream.hpp"
@@ -17,6 +16,7 @@ constexpr unsigned most_in_a_row = 4;              // pipelined requests, until 
 constexpr std::size_t most_to_gather = 64 * 1024;  // bytes of answers to pipelined requests
 constexpr std::size_t most_to_keep = 16 * 1024;    // of memory for them, while there are none
 constexpr auto longest_linger = std::chrono::seconds{2};
+constexpr auto longest_wait_without_memory = std::chrono::milliseconds{100};  // for a request, while the system has no memory
 
 Steady now() { return std::chrono::steady_clock::now(); }
 
@@ -28,7 +28,7 @@ Connection::Connection(Loop& loop, Socket socket, Admission::Place place)
     : loop_{loop},
       place_{std::move(place)},
       opener_{std::make_shared<Opener>(place_.address(), place_.limits(), 0U)},
-      wire_{std::move(socket), loop.poller(), loop.shared().settings.write_timeout, loop.shared().telemetry},
+      wire_{std::move(socket), loop.poller(), loop.resumptions(), loop.shared().settings.write_timeout, loop.shared().telemetry},
       counted_{std::in_place, loop.shared().telemetry, Telemetry::Kind::http} {
     loop.add(*this);
     loop.shared().telemetry.accepted();
@@ -56,7 +56,15 @@ void Connection::sweep(Steady at) {
     bool const arriving = websocket || request_due_ != Steady::max();
     auto const unfinished = arriving ? wire_.received().size() + (websocket ? websocket->gathered() : 0) : 0;
     bool const unread = memory.full() && wire_.waits_for_reader();
-    if (unread || unfinished > memory.longest_document()) cut_for_memory();
+    bool const only_waits = memory.exhausted() && waits_since(at - longest_wait_without_memory);
+    if (unread || only_waits || unfinished > memory.longest_document()) cut_for_memory();
+}
+
+// Whether the connection already waited for a request, or for the rest of one, at that time.
+bool Connection::waits_since(Steady then) const {
+    auto const& settings = loop_.shared().settings;
+    bool const idle = idle_due_ != Steady::max() && idle_due_ - settings.idle_timeout <= then;
+    return idle || (request_due_ != Steady::max() && request_due_ - settings.request_timeout <= then);
 }
 
 void Connection::shut_down() {
@@ -94,7 +102,7 @@ Task<Connection::Then> Connection::serve() {
         }
         if (out_.size() > most_to_gather || holds_.size() >= loop_.shared().settings.max_requests_in_flight) co_await flush();
         ++in_a_row;
-        if (in_a_row % most_in_a_row == 0) co_await asio::post(loop_.executor(), asio::use_awaitable_t<Executor>{});
+        if (in_a_row % most_in_a_row == 0) co_await wire_.next_turn();
     }
     co_return then;
 }
@@ -324,7 +332,7 @@ void Connection::forget_out() {
 
 void Connection::cut_for_memory() {
     spdlog::warn("the connection of {} was cut: {}", wire_.peer(),
-                 loop_.shared().gateway.memory().refuse("there is no memory for what it sends or does not read"));
+                 loop_.shared().gateway.memory().refuse("there is no memory for a connection that waits"));
     loop_.shared().telemetry.cut();
     wire_.cut();
 }

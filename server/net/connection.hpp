@@ -62,6 +62,7 @@ private:
     // False when the socket takes only a part at once: then `flush` goes on.
     bool flush_at_once();
     void forget_out();
+    bool waits_since(Steady) const;
     void cut_for_memory();
     Task<> flush();
 

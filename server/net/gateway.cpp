@@ -255,6 +255,7 @@ void Gateway::begin() {
 
 // What was freed goes back to the system, else it would count for as long as the process runs.
 void Gateway::save_memory(Steady now) {
+    MemoryReserve::refill();
     memory_.look();
     if (!memory_.tight() || now - memory_released_ < std::chrono::seconds{1}) return;
     memory_released_ = now;

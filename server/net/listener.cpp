@@ -17,6 +17,7 @@ namespace {
 using ReusePort = asio::detail::socket_option::boolean<SOL_SOCKET, SO_REUSEPORT>;
 
 constexpr auto between_tries = std::chrono::milliseconds{50};
+constexpr unsigned most_without_memory = 64;  // connections taken between two pauses, while the system has no memory
 
 // Nothing if the peer has gone already.
 std::optional<Address> remote_address(Socket const& socket) {
@@ -68,18 +69,32 @@ void Listener::bind_too(Endpoint const& endpoint) {
 
 void Listener::listen() { acceptor_.listen(); }
 
+// While the system has no memory, the listener pauses often enough that the loop can cut connections that wait.
 Task<> Listener::accept() {
-    while (acceptor_.is_open()) {
+    auto const& memory = loop_.shared().gateway.memory();
+    for (unsigned taken = 1; acceptor_.is_open(); ++taken) {
         boost::system::error_code error;
         auto socket = co_await acceptor_.async_accept(into(error));
+        if (error == asio::error::operation_aborted) continue;
         if (!error) {
             auto place = co_await this->place(socket);
-            if (place) loop_.serve(std::move(socket), std::move(*place));
-        } else if (error != asio::error::operation_aborted) {
+            if (place) serve(std::move(socket), std::move(*place));
+        } else {
             spdlog::warn("cannot accept a connection: {}", error.message());
-            pause_.expires_after(between_tries);
-            co_await pause_.async_wait(into(error));
         }
+        bool const crowded = taken % most_without_memory == 0 && memory.exhausted();
+        if (!error && !crowded) continue;
+        pause_.expires_after(between_tries);
+        co_await pause_.async_wait(into(error));
+    }
+}
+
+// A connection that cannot begin, for example because memory is missing, is closed.
+void Listener::serve(Socket socket, Admission::Place place) {
+    try {
+        loop_.serve(std::move(socket), std::move(place));
+    } catch (...) {
+        loop_.shared().troubles.report(Troubles::Where::connection);
     }
 }
 

@@ -37,6 +37,7 @@ public:
 private:
     void open(Endpoint const&);
     Task<std::optional<Admission::Place>> place(Socket&);
+    void serve(Socket, Admission::Place);
 
     Loop& loop_;
     Admission& admission_;

@@ -33,7 +33,8 @@ Loop::Loop(Shared& shared)
       reader_{shared.schemas, shared.settings.document, shared.settings.validation},
       sweeps_for_all_{sweeps_for_all(shared.settings)},
       wakes_{io_.get_executor(), shared.troubles},
-      poller_{io_.get_executor(), shared.troubles} {
+      poller_{io_.get_executor(), shared.troubles},
+      resumptions_{io_.get_executor(), shared.troubles} {
     always(Troubles::Where::sweep, [this] { return sweep(); });
 }
 
@@ -70,6 +71,7 @@ void Loop::look_after() {
             throw;
         }
     }
+    resumptions_.look_after();
     poller_.look_after();
     wakes_.look_after();
 }
@@ -119,8 +121,9 @@ Task<> Loop::sweep() {
 
 void Loop::sweep_now() noexcept {
     try {
-        poller_.look_after();
+        resumptions_.look_after();
         wakes_.look_after();
+        poller_.look_after();
     } catch (...) {
         shared_.troubles.report(Troubles::Where::poller);
     }
@@ -131,7 +134,8 @@ void Loop::sweep_now() noexcept {
 
 void Loop::sweep_some(Steady now) {
     bool const cuts = now >= last_moment_;
-    auto const some = cuts ? connections_.size() : (connections_.size() + sweeps_for_all_ - 1) / sweeps_for_all_;
+    bool const all = cuts || shared_.gateway.memory().exhausted();
+    auto const some = all ? connections_.size() : (connections_.size() + sweeps_for_all_ - 1) / sweeps_for_all_;
     for (std::size_t i = 0; i < some && !connections_.empty(); ++i) {
         if (swept_ >= connections_.size()) swept_ = 0;
         auto& connection = *connections_[swept_++];

@@ -12,6 +12,7 @@
 #include "net/gateway.hpp"
 #include "net/long_documents.hpp"
 #include "net/poller.hpp"
+#include "net/resumptions.hpp"
 #include "net/settings.hpp"
 #include "net/telemetry.hpp"
 #include "net/troubles.hpp"
@@ -57,6 +58,7 @@ public:
     Executor executor() { return io_.get_executor(); }
     Wakes& wakes() { return wakes_; }
     Poller& poller() { return poller_; }
+    Resumptions& resumptions() { return resumptions_; }
 
 private:
     friend class Connection;
@@ -86,6 +88,7 @@ private:
     asio::io_context io_{1};
     Wakes wakes_;
     Poller poller_;
+    Resumptions resumptions_;
 };
 
 }  // namespace rois::net

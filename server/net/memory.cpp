@@ -5,10 +5,107 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <charconv>
+#include <chrono>
+#include <cstdlib>
+#include <exception>
+#include <mutex>
+#include <new>
 #include <string_view>
+#include <utility>
+
+#include "types/instant.hpp"
 
 namespace rois::net {
+
+namespace {
+
+constexpr std::size_t mib = std::size_t{1} << 20U;
+
+// A part of the reserve. It is large enough to be mapped, so any thread can use its address space once it is freed.
+class Block {
+public:
+    explicit Block(std::size_t wanted) : wanted_{wanted} {}
+
+    // Takes as much as the system has, up to what is wanted. Returns false if that is nothing.
+    bool fill() {
+        for (auto size = wanted_; size >= mib && size > size_; size /= 2) {
+            auto* const larger = std::malloc(size);
+            if (larger == nullptr) continue;
+            std::free(std::exchange(memory_, larger));
+            size_ = size;
+        }
+        return memory_ != nullptr;
+    }
+
+    // Returns whether there was something to free.
+    bool release() {
+        size_ = 0;
+        auto* const memory = std::exchange(memory_, nullptr);
+        std::free(memory);
+        return memory != nullptr;
+    }
+
+private:
+    std::size_t wanted_;
+    std::size_t size_ = 0;
+    void* memory_ = nullptr;
+};
+
+class Blocks {
+public:
+    static Blocks& instance() {
+        static Blocks blocks;
+        return blocks;
+    }
+
+    void hold(MemoryBudget& budget) {
+        {
+            std::lock_guard const lock{mutex_};
+            budget_ = &budget;
+        }
+        refill();
+    }
+
+    void forget() {
+        std::lock_guard const lock{mutex_};
+        budget_ = nullptr;
+        usual_.release();
+        last_.release();
+    }
+
+    void refill() {
+        std::lock_guard const lock{mutex_};
+        if (budget_ == nullptr) return;
+        bool const filled = last_.fill() && usual_.fill();
+        bool const calm = std::chrono::steady_clock::now() - released_ > std::chrono::seconds{1};
+        if (filled && calm) budget_->set_exhausted(false);
+    }
+
+    // The allocation is repeated if this returns. A destructor that runs while an exception unwinds the stack must not fail: that
+    // would end the process. The last block is for those. Asio needs memory there: it posts the end of a coroutine.
+    void release() {
+        std::lock_guard const lock{mutex_};
+        if (budget_ == nullptr) throw std::bad_alloc{};
+        budget_->set_exhausted(true);
+        released_ = std::chrono::steady_clock::now();
+        bool const unwinding = std::uncaught_exceptions() > 0;
+        if (usual_.release() || (unwinding && last_.release())) ++releases_;
+        thread_local unsigned tried = 0;  // with how many releases this thread has repeated an allocation
+        if (std::exchange(tried, releases_) == releases_) throw std::bad_alloc{};
+    }
+
+private:
+    std::mutex mutex_;                // guards the members below
+    MemoryBudget* budget_ = nullptr;  // null: there is no reserve
+    Block usual_{8 * mib};
+    Block last_{2 * mib};
+    unsigned releases_ = 0;
+    Steady released_;  // when an allocation failed last
+};
+
+}  // namespace
 
 std::size_t resident_bytes() {
     static int const statm = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
@@ -38,5 +135,17 @@ void release_large_blocks_at_once() {
 }
 
 void release_memory() { malloc_trim(0); }
+
+MemoryReserve::MemoryReserve(MemoryBudget& budget) {
+    Blocks::instance().hold(budget);
+    std::set_new_handler([] { Blocks::instance().release(); });
+}
+
+MemoryReserve::~MemoryReserve() {
+    std::set_new_handler(nullptr);
+    Blocks::instance().forget();
+}
+
+void MemoryReserve::refill() { Blocks::instance().refill(); }
 
 }  // namespace rois::net

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "engine/memory_budget.hpp"
+
 namespace rois::net {
 
 // What is in physical memory, in bytes; 0 if the system does not say. Any thread.
@@ -16,5 +18,20 @@ void release_large_blocks_at_once();
 
 // The same for all that is free now; takes some milliseconds where much is.
 void release_memory();
+
+// Sets 10 MiB of address space aside for the time when the system gives no more memory; no physical memory is used. The first
+// allocation that fails (operator new) frees it and succeeds. The budget is then exhausted: what needs much memory is refused,
+// and unfinished documents are cut. One at a time; the budget must outlive it.
+class MemoryReserve {
+public:
+    explicit MemoryReserve(MemoryBudget&);
+    ~MemoryReserve();
+    MemoryReserve(MemoryReserve const&) = delete;
+    MemoryReserve& operator=(MemoryReserve const&) = delete;
+
+    // Sets aside again what was freed, as far as the system has it. The budget is exhausted until one second after the last
+    // failed allocation. The clock calls this in each tick; does nothing if there is no reserve.
+    static void refill();
+};
 
 }  // namespace rois::net

@@ -57,7 +57,7 @@ void Poller::tell() {
         try {
             watcher->changed(event.events);
         } catch (...) {
-            troubles_.report(Troubles::Where::poller);
+            troubles_.report(Troubles::Where::connection);
         }
     }
 }

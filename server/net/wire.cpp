@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <boost/asio/post.hpp>
 #include <cerrno>
 #include <string_view>
 #include <utility>
@@ -37,14 +36,20 @@ void send_without_pacing(Socket& socket) {
 
 }  // namespace
 
-Wire::Wire(Socket socket, Poller& poller, std::chrono::milliseconds write_timeout, Telemetry& telemetry)
-    : executor_{socket.get_executor()}, poller_{poller}, write_timeout_{write_timeout}, telemetry_{telemetry} {
+Wire::Wire(Socket socket, Poller& poller, Resumptions& resumptions, std::chrono::milliseconds write_timeout, Telemetry& telemetry)
+    : poller_{poller}, resumptions_{resumptions}, write_timeout_{write_timeout}, telemetry_{telemetry} {
+    resumptions_.enter();
     boost::system::error_code ignored;
     socket.non_blocking(true, ignored);
     socket.set_option(asio::ip::tcp::no_delay{true}, ignored);
     if (is_on_this_machine(socket)) send_without_pacing(socket);
     socket_ = socket.release(ignored);
     if (socket_ >= 0 && !poller_.add(socket_, *this)) cut();
+}
+
+Wire::~Wire() {
+    cut();
+    resumptions_.leave();
 }
 
 std::string Wire::peer() const {
@@ -69,12 +74,11 @@ void Wire::resume(Waiter& waiter) {
     std::move(handler)();
 }
 
-// By the loop: who calls this may be on its way through something that the waiter would change.
-void Wire::resume_later(Waiter& waiter) {
+// From the loop, not inline: the caller may still use state that the waiter would change.
+void Wire::resume_later(Waiter& waiter) noexcept {
     if (!waiter) return;
-    auto handler = std::move(*waiter);
+    resumptions_.add(std::move(*waiter));
     waiter.reset();
-    asio::post(executor_, std::move(handler));
 }
 
 void Wire::changed(std::uint32_t events) {
@@ -121,7 +125,13 @@ std::optional<Wire::Outcome> Wire::receive_now(Steady until, std::size_t expecte
 Task<> Wire::readable() {
     received_ = false;
     if (!readable_) return until_resumed(reader_);
-    return asio::post(executor_, Token{});
+    return next_turn();
+}
+
+Task<> Wire::next_turn() {
+    Token token;
+    return asio::async_initiate<Token, void()>([this]<class H>(H&& handler) { resumptions_.add(std::forward<H>(handler)); },
+                                               token);
 }
 
 // Nothing when there is nothing to read yet; 0 at the end. Less than there is room for is all that there was.
@@ -221,7 +231,7 @@ void Wire::sweep(Steady now) {
     }
 }
 
-void Wire::cut() {
+void Wire::cut() noexcept {
     if (socket_ < 0) return;
     poller_.remove(socket_, *this);
     ::close(std::exchange(socket_, -1));

@@ -10,6 +10,7 @@
 
 #include "net/asio.hpp"
 #include "net/poller.hpp"
+#include "net/resumptions.hpp"
 #include "net/telemetry.hpp"
 #include "types/instant.hpp"
 
@@ -17,13 +18,13 @@ namespace rois::net {
 
 class Wire final : private Poller::Watcher {
 public:
-    // The poller is that of the socket's loop, and outlives the wire.
-    Wire(Socket, Poller&, std::chrono::milliseconds write_timeout, Telemetry&);
-    ~Wire() { cut(); }
+    // The poller and the resumptions are those of the socket's loop, and outlive the wire.
+    Wire(Socket, Poller&, Resumptions&, std::chrono::milliseconds write_timeout, Telemetry&);
+    ~Wire();
     Wire(Wire const&) = delete;
     Wire& operator=(Wire const&) = delete;
 
-    Executor const& executor() const { return executor_; }
+    Executor const& executor() const { return resumptions_.executor(); }
 
     // The peer's address and port, for the log.
     std::string peer() const;
@@ -40,6 +41,8 @@ public:
     // there.
     std::optional<Outcome> receive_now(Steady until, std::size_t expected = 0);
     Task<> readable();
+    // Lets the loop's other connections have a turn.
+    Task<> next_turn();
     // Ends a receive that waits: it is late now.
     void stop_waiting();
 
@@ -63,23 +66,23 @@ public:
 
     // Cuts what is overdue.
     void sweep(Steady now);
-    void cut();
+    void cut() noexcept;
 
 private:
     // A coroutine that waits.
-    using Token = asio::use_awaitable_t<Executor>;
-    using Waiter = std::optional<asio::async_result<Token, void()>::handler_type>;
+    using Token = Resumptions::Token;
+    using Waiter = std::optional<Resumptions::Handler>;
     static Task<> until_resumed(Waiter&);
     static void resume(Waiter&);
-    void resume_later(Waiter&);
+    void resume_later(Waiter&) noexcept;
 
     void changed(std::uint32_t events) override;
     std::optional<std::size_t> read_some(std::span<char>);
     void look_whether_gone();
     void probe(bool on);
 
-    Executor executor_;
     Poller& poller_;
+    Resumptions& resumptions_;
     int socket_;  // -1: cut
     std::chrono::milliseconds write_timeout_;
     Telemetry& telemetry_;

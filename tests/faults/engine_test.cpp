@@ -1,7 +1,9 @@
 // A scripted history of the engine in which memory runs out at every single call: the clock goes on, and what moves stops.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <new>
+#include <random>
 
 #include "engine/world.hpp"
 #include "faults/faults.hpp"
@@ -23,6 +25,7 @@ public:
 };
 
 struct Hall {
+    MemoryBudget budget;
     World world{speech};
     Wheels* base = nullptr;
     Wheels* arm = nullptr;
@@ -38,10 +41,10 @@ struct Hall {
         world.engine->add(std::move(first));
         world.engine->add(std::move(second));
         world.engine->add(hand);
-        world.notified[SessionId{"secret-1"}] = 0;
-        world.notified[SessionId{"secret-2"}] = 0;
-        world.notified[SessionId{"secret-3"}] = 0;
+        world.engine->keep_within(budget);
+        for (int i = 1; i <= most_sessions; ++i) world.notified[SessionId{"secret-" + std::to_string(i)}] = 0;
     }
+    static constexpr int most_sessions = 200;
 
     void tick(std::function<void()> what = {}) {
         hand->next = std::move(what);
@@ -86,10 +89,35 @@ struct Hall {
             [this] { world.engine->link_opened(desk.value().session, Link::websocket, world.now); },
             [this] { desk.value().execute(go("fifth", "arm"), after(200ms, go("sixth", "base"))); },
             [this] { desk.value().unsubscribe(subscription); },
+            [this] { use_up_memory(); },
             [this] { world.engine->stop_everything(world.now); },
             [this] { world.engine->clear(); },
             [this] { desk.value().ask(Disconnect{}); },
         };
+    }
+
+    void use_up_memory() {
+        struct Shortage {
+            MemoryBudget& of;
+            ~Shortage() { of.set_exhausted(false); }
+        } const shortage{budget};
+        budget.set_exhausted(true);
+        world.advance(100ms);
+    }
+
+    std::vector<std::function<void()>> end_of_a_round() {
+        return {[this] { end(); }, [this] { arm->stand_still(); }, [this] { world.advance(100ms); }};
+    }
+
+    // The same steps again and again, each time in another order and with other sessions.
+    static void play_rounds(std::vector<std::function<void()>>& steps, std::vector<std::function<void()>> const& last,
+                            int rounds) {
+        for (int round = 0; round < rounds; ++round) {
+            play(steps);
+            play(last);
+            std::mt19937 random{static_cast<unsigned>(round)};
+            std::ranges::shuffle(steps, random);
+        }
     }
 
     // Returns how many steps failed; the next ones do what they can.
@@ -105,10 +133,18 @@ struct Hall {
         return failed;
     }
 
-    // Nobody is heard from any more.
+    // The applications are not heard from any more.
     void end() {
         for (auto* application : {&desk, &guest})
-            if (*application) world.engine->link_closed((*application)->session, Link::websocket, Closing::lost, world.now);
+            if (*application) lose_links((*application)->session);
+    }
+    // Nor are those of earlier rounds.
+    void end_all() {
+        for (int i = 1; i <= most_sessions; ++i) lose_links({"secret-" + std::to_string(i)});
+    }
+    void lose_links(SessionId const& session) {
+        constexpr int most_links = 3;
+        for (int i = 0; i < most_links; ++i) world.engine->link_closed(session, Link::websocket, Closing::lost, world.now);
     }
 
     void tick_quietly(std::chrono::milliseconds duration) {
@@ -125,7 +161,6 @@ struct Hall {
 
 // A delay is fired, and a component that says nothing misses its deadline.
 void expect_time_to_pass(World& world, std::uint64_t n) {
-    world.notified[SessionId{"secret-9"}] = 0;
     auto late = world.connect();
     ASSERT_EQ(late.bind("speech"), ReturnCode::ok) << n;
     world["speech"].on_start = OnStart::stays_silent;
@@ -154,15 +189,17 @@ void expect_no_double_answers(Hall& hall, std::uint64_t n) {
     }
 }
 
-// Returns false when the history was over before its n-th call.
-bool survives(std::uint64_t n, std::uint64_t how_many) {
+// Returns false when the rounds of the history were over before their n-th call.
+bool survives(std::uint64_t n, std::uint64_t how_many, int rounds = 1) {
     Hall hall;
-    auto const history = hall.history();
+    auto history = hall.history();
+    auto const last = hall.end_of_a_round();
     faults::fail_at(faults::Of::memory, n, how_many);
-    Hall::play(history);
+    Hall::play_rounds(history, last, rounds);
     bool const failed = faults::stop();
     hall.tick_quietly(100ms);
-    hall.end();
+    hall.end_all();
+    hall.world.engine->clear();  // the last `stop_everything` may have been later
     hall.tick_quietly(1s);
     expect_all_to_stand_still(hall, n);
     hall.tick_quietly(100s);
@@ -188,6 +225,14 @@ TEST_P(MemoryThatRunsOut, AtAnyCallStopsNoClockAndLeavesNothingMoving) {
     std::uint64_t n = 1;
     while (survives(n, GetParam()) && !HasFailure() && n < 20'000) ++n;
     EXPECT_GT(n, 500) << "the history needs memory that often";
+}
+
+// Each 41st call up to the 20,000th, another selection for each parameter.
+TEST_P(MemoryThatRunsOut, LateInALongHistoryStopsNoClockAndLeavesNothingMoving) {
+    constexpr int rounds = 80;
+    std::uint64_t n = 1 + GetParam() % 41;
+    while (n < 20'000 && !HasFailure() && survives(n, GetParam(), rounds)) n += 41;
+    EXPECT_GE(n, 20'000) << "the rounds need memory that often";
 }
 
 INSTANTIATE_TEST_SUITE_P(ForCalls, MemoryThatRunsOut, testing::Values(1, 2, 7, 60, 600),

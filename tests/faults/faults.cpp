@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
+#include <exception>
 #include <new>
 
 namespace rois::faults {
@@ -32,6 +33,7 @@ Fault& fault(Of of) { return all[static_cast<std::size_t>(of)]; }
 bool fails(Of of) {
     auto& one = fault(of);
     if (!one.armed.load(std::memory_order_relaxed) || exempt) return false;
+    if (of == Of::memory && std::uncaught_exceptions() > 0) return false;
     auto const call = one.calls.fetch_add(1) + 1;
     if (call < one.at || call >= one.until) return false;
     one.happened = true;

@@ -157,6 +157,19 @@ TEST(Gateway, SurvivesMemoryThatRunsOutAtAnyCall) {
     EXPECT_EQ(rig.given_up, 0);
 }
 
+// Each 997th call up to the 20,000th.
+TEST(Gateway, SurvivesMemoryThatRunsOutLate) {
+    Rig rig;
+    for (std::uint64_t n = 997; n <= 20'000 && !testing::Test::HasFailure(); n += 997) {
+        faults::fail_at(Of::memory, n);
+        while (faults::calls(Of::memory) < n) rig.drive(n % 5 == 0 ? Rig::Leaves::without : Rig::Leaves::with_a_word);
+        faults::stop();
+        if (n % 7 == 0) rig.expect_to_live("the call " + std::to_string(n));
+    }
+    rig.expect_to_live("all calls");
+    EXPECT_EQ(rig.given_up, 0);
+}
+
 class Faults : public testing::TestWithParam<Of> {};
 
 TEST_P(Faults, Of30MillisecondsAreSurvived) {

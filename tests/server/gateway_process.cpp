@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -126,6 +127,14 @@ std::size_t GatewayProcess::resident_bytes() const {
     std::size_t whole = 0, resident = 0;
     in >> whole >> resident;
     return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+void GatewayProcess::limit_address_space(std::size_t more) const {
+    std::ifstream in{"/proc/" + std::to_string(process_) + "/statm"};
+    rlim_t whole = 0;
+    in >> whole;
+    rlimit const limit{whole * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + more, RLIM_INFINITY};
+    EXPECT_EQ(prlimit(process_, RLIMIT_AS, &limit, nullptr), 0);
 }
 
 std::string GatewayProcess::log_with(std::string_view text) {

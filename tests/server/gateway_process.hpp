@@ -42,6 +42,8 @@ public:
     std::string const& url() const { return url_; }
     client::Address address() const { return {.port = port_}; }
     std::size_t resident_bytes() const;
+    // From now on the process gets only so many more bytes of address space.
+    void limit_address_space(std::size_t more) const;
 
     // What it has logged, as soon as the text is in it; after ten seconds also without it.
     std::string log_with(std::string_view text);
