@@ -193,7 +193,8 @@ TEST_F(RoisAndMotion, StopAllIsADocumentAsWell) {
 }
 
 TEST(RoisStopAll, NamesWhatHasNotConfirmed) {
-    GatewayProcess const gateway{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--sim-speed", "0"}};
+    GatewayProcess gateway{
+        {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--sim-speed", "0", "--shutdown-timeout", "0.1"}};
     Variables const at{{"ROIS_URL", gateway.url()}};
     auto const stopped = run_rois({"stop-all"}, {}, at);
     EXPECT_EQ(stopped.exit_code, 6);
@@ -203,6 +204,8 @@ TEST(RoisStopAll, NamesWhatHasNotConfirmed) {
     EXPECT_EQ(json::parse(run_rois({"stop-all", "--json"}, {}, at).out)["not_confirmed"], json{"navigation"});
     EXPECT_THAT(run_rois({"health"}, {}, at).error, HasSubstr("; not confirmed that they stand still: navigation\n"));
     EXPECT_EQ(json::parse(run_rois({"health", "--json"}, {}, at).out)["not_confirmed"], json{"navigation"});
+    gateway.signal(SIGTERM);
+    EXPECT_EQ(gateway.wait().exit_code, 71);
 }
 
 TEST_F(RoisAndMotion, StopAllFindsTheGatewayOfASessionFileAndNeedsNoHolder) {

@@ -16,12 +16,6 @@ Command speech(Component const& speaker, std::string const& text) {
     return {.component = speaker.ref, .arguments = {spoken(speaker, text)}};
 }
 
-// The shorter of two, so that one delay on the way does not count.
-milliseconds quickest(Guest& guest, Command const& command, Component const& component) {
-    auto const once = duration_of(guest, command, component);
-    return std::min(once, duration_of(guest, command, component));
-}
-
 Command first_reaction(Guest& guest, Component const& reaction) {
     auto const parameters = ok(guest.get_parameter(reaction.ref)).values("parameters");
     auto const reactions = parameters.find("available_reactions");
@@ -33,8 +27,12 @@ void longer_speech_takes_longer(Stage& stage) {
     auto const& speaker = stage.speaker();
     Guest guest{stage};
     guest.take(speaker);
-    auto const greeting = quickest(guest, speech(speaker, "Hi."), speaker);
-    auto const sentence = duration_of(guest, speech(speaker, some_words), speaker);
+    auto greeting = milliseconds::max(), sentence = milliseconds::max();
+    // The shortest of several count, so that a delay on the way does not.
+    for (int round = 1; round <= 2 || (round <= 5 && sentence <= greeting + clearly); ++round) {
+        greeting = std::min(greeting, duration_of(guest, speech(speaker, "Hi."), speaker));
+        sentence = std::min(sentence, duration_of(guest, speech(speaker, some_words), speaker));
+    }
     require(sentence > greeting + clearly, "\"Hi.\" takes " + in_ms(greeting) + ", and a sentence of " +
                                                std::to_string(std::string{some_words}.size()) + " letters takes " +
                                                in_ms(sentence));

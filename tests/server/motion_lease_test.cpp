@@ -233,7 +233,8 @@ TEST_F(Drive, IsStoppedByStopForEverythingAndNothingStartsUntilItIsCleared) {
 }
 
 TEST(StopForEverything, NamesTheComponentsThatHaveNotConfirmed) {
-    GatewayProcess const gateway{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--sim-speed", "0"}};
+    GatewayProcess gateway{
+        {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--sim-speed", "0", "--shutdown-timeout", "0.1"}};
     HttpClient anybody{gateway};
     for (auto const* path : {"/rois/stop", "/rois/clear"}) {
         auto const reply = anybody.get(path, {}, "POST");
@@ -241,6 +242,8 @@ TEST(StopForEverything, NamesTheComponentsThatHaveNotConfirmed) {
         EXPECT_EQ(what_is_wrong_with(reply), "") << reply.body;
         EXPECT_EQ(reply.text("not_halted"), "navigation") << path;
     }
+    gateway.signal(SIGTERM);
+    EXPECT_EQ(gateway.wait().exit_code, 71);
 }
 
 TEST_F(Drive, StopForEverythingIsAPost) {
