@@ -48,6 +48,6 @@ def svg(medians):
         y = TOP + 60 + 34 * place
         out.append(_text(WIDTH - RIGHT + 8, y, axis, "start", colour))
         out.append(_text(WIDTH - RIGHT + 8, y + 14, f"{numbers[0]:,} to {numbers[-1]:,}: {line[-1]:.2f}", "start", "#777"))
-    out.append(_text((LEFT + WIDTH - RIGHT) / 2, HEIGHT - 18, f"from the smallest number to the largest; larger values than {most:.3g} are drawn there"))
+    out.append(_text((LEFT + WIDTH - RIGHT) / 2, HEIGHT - 18, f"from the smallest number to the largest; values above {most:.3g} are clipped"))
     out.append("</svg>")
     return "\n".join(out) + "\n"
