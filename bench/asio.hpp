@@ -23,7 +23,7 @@ using TcpSocket = asio::basic_stream_socket<Tcp, Executor>;
 using Acceptor = asio::basic_socket_acceptor<Tcp, Executor>;
 using boost::system::error_code;
 
-// Gives each connection to a Session of its own, made of its socket, and lets it `run`.
+// Accepts connections. Makes a Session of each socket and calls its `run`.
 template <class Session, class... Shared>
 void accept_for_ever(Acceptor& acceptor, Shared&... shared) {
     acceptor.async_accept([&](error_code error, TcpSocket socket) {
@@ -31,7 +31,7 @@ void accept_for_ever(Acceptor& acceptor, Shared&... shared) {
             error_code ignored;
             socket.set_option(Tcp::no_delay{true}, ignored);
             socket.non_blocking(true, ignored);
-            ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_CONGESTION, "reno", 4);  // as the gateway does on one machine
+            ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_CONGESTION, "reno", 4);  // like the gateway
             std::make_shared<Session>(std::move(socket), shared...)->run();
         }
         accept_for_ever<Session>(acceptor, shared...);

@@ -1,4 +1,4 @@
-"""What floods a gateway: each kind of docs/safety.md as a program, `attackers.py KIND PORT`, until it is ended."""
+"""The floods of docs/safety.md, each as a program: `attackers.py KIND PORT`. It runs until it is killed."""
 
 import base64
 import itertools
@@ -21,7 +21,7 @@ def bind(component):
 
 
 class Line:
-    """One connection. Whatever goes wrong with it, it begins anew: an attacker does not give up."""
+    """One connection. After any failure it reconnects: an attacker does not give up."""
 
     def __init__(self, port):
         self.port = port
@@ -42,7 +42,7 @@ class Line:
         return f"POST {path} HTTP/1.1\r\nHost: {HOST}\r\n{session}{kind}Content-Length: {length}\r\n\r\n"
 
     def post(self, body, path="/rois"):
-        """The answer's head and body as one text, or nothing when the connection was closed."""
+        """Returns the answer's head and body as one text, or "" if the connection was closed."""
         try:
             self.socket.sendall((self.head(len(body), path) + body).encode())
             return self.take_answer()
@@ -82,7 +82,7 @@ class Line:
 
 
 def each(port, count, act):
-    """So many connections at once, each of which acts again and again; `act` takes the connection and how often it has acted."""
+    """Opens `count` connections and calls `act(connection, turn)` for each of them again and again. `turn` counts from 0."""
 
     def go_on():
         one = Line(port)
@@ -113,7 +113,7 @@ def requests(port):
 
 
 def unread(port):
-    """300 connections that ask for documents, 3,000 at a time, and read nothing."""
+    """300 connections that request documents, 3,000 at a time, and read no answer."""
     asked = f"GET /rois/profile HTTP/1.1\r\nHost: {HOST}\r\n\r\n".encode() * 3_000
 
     def act(one, _):
@@ -128,7 +128,7 @@ def unread(port):
 
 
 def predicates(port):
-    """30 sessions that subscribe with conditions of 1,000 predicates, up to their limit and beyond."""
+    """30 sessions that subscribe with conditions of 1,000 predicates, beyond their limit."""
     every = [
         subscribe("person_detected", [is_equal("number", f"{number}") for number in range(first, first + 1_000)])
         for first in range(0, 30_000, 1_000)
@@ -137,7 +137,7 @@ def predicates(port):
 
 
 def literals(port):
-    """Conditions with a literal of 0.9 MB, in subscriptions and queries, of 60 sessions."""
+    """60 sessions that send conditions with a literal of 0.9 MB, in subscriptions and queries."""
 
     def act(one, turn):
         equal = [is_equal("component_ref", f"{turn}" + "x" * BIG)]
@@ -162,7 +162,7 @@ def bodies(port):
 
 
 def commands(port):
-    """Commands with arguments of 0.9 MB, that end at once."""
+    """Commands with arguments of 0.9 MB that complete at once."""
 
     def act(one, turn):
         if not one.session and one.connect():
@@ -174,7 +174,7 @@ def commands(port):
 
 
 def sessions(port):
-    """Sessions without end: as many as a connection may open, then another connection; and WebSockets without any."""
+    """Opens as many sessions as a connection may, then reconnects; and opens WebSockets without a session."""
     idle = []
 
     def act(one, _):
@@ -189,7 +189,7 @@ def sessions(port):
 
 
 def speeches(port):
-    """Speeches one after another, each of which is a line of the log."""
+    """Speeches one after another; each writes a line to the log."""
     one = Line(port)
     while True:
         if not one.session and one.connect():
@@ -218,7 +218,7 @@ def frame(opcode, content, final=True):
 
 
 def controls(port):
-    """Pings as fast as they go."""
+    """Pings as fast as possible, on 8 WebSockets."""
     pings = frame(9, b"x") * 100
     every = [websocket(port) for _ in range(8)]
     for turn in itertools.count():
@@ -234,7 +234,7 @@ def controls(port):
 
 
 def trickles(port):
-    """Blank lines before a request that never comes, and messages in fragments of one byte."""
+    """Empty lines before a request that is never sent, and messages in fragments of one byte."""
     blank = [Line(port) for _ in range(32)]
     fragments = [websocket(port) for _ in range(32)]
     for one in fragments:
@@ -262,7 +262,7 @@ def namespaces(port):
 
 
 def long_documents(port):
-    """Documents of 0.9 MB that are nearly right, so that all of the validation is done for them."""
+    """Documents of 0.9 MB whose error is near their end, so that they are validated completely."""
     wrong = query("engine_status", [is_equal("component_ref", f"x{number}") for number in range(6_000)])
     wrong = wrong.replace("</query>", "<more/></query>")
     each(port, 8, lambda one, _: one.is_connected() and one.post(wrong))

@@ -1,5 +1,5 @@
-// rois-bare-http PORT ANSWER_BYTES [THREADS]: what HTTP with keep-alive costs at least with Boost.Beast: callbacks, kept buffers,
-// the fields of a message in an arena. It reads the request's body and answers with as many bytes, always the same.
+// rois-bare-http PORT ANSWER_BYTES [THREADS]: the least that HTTP with keep-alive costs with Boost.Beast: callbacks, reused
+// buffers, the fields of a message in an arena. Reads the request's body and sends ANSWER_BYTES constant bytes.
 #include "asio.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
-// rois-bare-websocket PORT [THREADS]: what a WebSocket costs at least with Boost.Beast: each text message is sent back, with
-// callbacks and a kept buffer.
+// rois-bare-websocket PORT [THREADS]: the least that a WebSocket costs with Boost.Beast: sends each text message back, with
+// callbacks and a reused buffer.
 #include "asio.hpp"
 
 #include <boost/beast/core/flat_buffer.hpp>

@@ -1,4 +1,4 @@
-"""The documents that are sent: requests of given sizes, and those that the stage's probes understand."""
+"""The documents that the load generator sends: requests of given sizes, and requests for the stage's probes."""
 
 MESSAGE = "urn:x-rois:psm:xml:message:1"
 ROIS = "http://www.omg.org/spec/RoIS/20240801"
@@ -30,7 +30,7 @@ def query(query_type, predicates=()):
 
 
 def query_of_size(size, query_type="engine_status", component="system_information"):
-    """A query of so many bytes: one that asks for one of many components, by name."""
+    """A query of `size` bytes. Its condition names many components, of which the gateway has one."""
 
     def whole(names):
         return query(query_type, [is_equal("component_ref", name) for name in names])
@@ -43,7 +43,7 @@ def query_of_size(size, query_type="engine_status", component="system_informatio
 
 
 def smallest_query(size):
-    """Shorter than one that has two names to choose from: blanks make up for what is missing, as they do where people write."""
+    """A query whose condition names one component, padded with spaces between elements."""
     text = query("engine_status", [is_equal("component_ref", "system_information")])
     return text.replace("><", ">" + " " * (size - len(text)) + "<", 1) if len(text) < size else text
 
@@ -71,7 +71,7 @@ def execute(units):
 
 
 def execute_of_size(size):
-    """A long sequence of commands, as applications write them who plan ahead."""
+    """A long sequence of commands, as an application sends it that plans ahead."""
     units = []
     while len(execute(units)) < size:
         text = f"Welcome, visitor number {len(units)}. Please take a seat until you are called."
@@ -117,7 +117,7 @@ def all_documents():
 
 
 def write_all(folder):
-    """As *.xml; in the folder `micro` those that the gateway understands, as the first connection has them."""
+    """Writes all documents as *.xml. The subfolder `micro` gets those for the gateway, as the first connection sends them."""
     (folder / "micro").mkdir(parents=True, exist_ok=True)
     for name, text in all_documents().items():
         (folder / f"{name}.xml").write_text(text)
@@ -127,7 +127,7 @@ def write_all(folder):
 
 
 def call_of_xmlrpc():
-    """The comparable call for xmlrpc_server.py, of 600 bytes."""
+    """A comparable call for xmlrpc_server.py, of 600 bytes."""
     return _padded(
         "<?xml version='1.0'?>\n<methodCall>\n<methodName>query</methodName>\n<params>\n"
         "<param>\n<value><string>engine_status</string></value>\n</param>\n"

@@ -1,5 +1,5 @@
-// rois-micro FOLDER [--benchmark_...]: what each station on the way of a request costs by itself, for the documents of the folder
-// that are named after their size, and what the engine costs behind them. ARCHITECTURE.md says which stations there are.
+// rois-micro FOLDER [--benchmark_...]: the cost of each step of a request by itself (ARCHITECTURE.md lists the steps), for those
+// documents of the folder whose names end with their size, and the cost of the engine.
 #include <benchmark/benchmark.h>
 
 #include <cstdio>
@@ -69,7 +69,7 @@ void validate_with_xerces(benchmark::State& state, std::shared_ptr<xml::Schemas 
     count_bytes(state, document);
 }
 
-// With the tables made from the schemas.
+// Validation with the tables made from the schemas.
 void validate(benchmark::State& state, std::shared_ptr<xml::Schemas const> const& schemas, std::string const& document) {
     xml::Acceptor acceptor{schemas, {}};
     for (auto _ : state) {
@@ -78,12 +78,12 @@ void validate(benchmark::State& state, std::shared_ptr<xml::Schemas const> const
     count_bytes(state, document);
 }
 
-// Validation and decoding, as a gateway does it.
+// Validation and decoding, as in the gateway.
 void read(benchmark::State& state, std::shared_ptr<xml::Schemas const> const& schemas, std::string const& document) {
     xml::RequestReader reader{schemas};
     for (auto _ : state) {
         auto const read = reader.read(document);
-        if (std::holds_alternative<Fault>(read)) state.SkipWithError("refused");
+        if (std::holds_alternative<Fault>(read)) state.SkipWithError("the document was rejected");
     }
     count_bytes(state, document);
 }
@@ -133,7 +133,7 @@ public:
         return said;
     }
 
-    // What was told is taken, as a connection would.
+    // Takes the notifications, as a connection does.
     std::size_t take(SessionId const& asker, std::uint64_t& after) {
         auto const taken = engine_.notifications(asker)->read(after, 1'000);
         if (!taken.empty()) after = taken.back().sequence;
@@ -166,7 +166,7 @@ void handle(benchmark::State& state, std::string const& document) {
     }
 }
 
-// An event to many sessions, and each takes it.
+// An event to many sessions; each session takes it.
 void fire(benchmark::State& state, std::string const& subscribe, std::string const& fire) {
     World world{10};
     auto const subscription = request_of(subscribe).operation;
@@ -188,7 +188,7 @@ void fire(benchmark::State& state, std::string const& subscribe, std::string con
 
 // --- Conditions ---
 
-// The condition of a subscription, and an event that meets it.
+// The condition of a subscription, and an event that matches it.
 struct Conditioned {
     explicit Conditioned(std::string const& subscribe)
         : condition{std::get<Subscribe>(request_of(subscribe).operation).condition} {

@@ -1,4 +1,4 @@
-"""Draws how a request's CPU grows, as an SVG that needs nothing else."""
+"""Draws the growth of a request's CPU time as a self-contained SVG."""
 
 from parts import growth
 
@@ -20,7 +20,7 @@ def _text(x, y, text, anchor="middle", colour="#333"):
 
 
 def svg(medians):
-    """CPU of a request against how much there is, relative to the first point of each axis."""
+    """The CPU time of a request along each axis, relative to the first point of the axis."""
     lines = {}
     for axis, numbers in growth.AXES.items():
         costs = [medians[growth.row(axis, number)]["cpu_us"] for number in numbers if growth.row(axis, number) in medians]
@@ -48,6 +48,6 @@ def svg(medians):
         y = TOP + 60 + 34 * place
         out.append(_text(WIDTH - RIGHT + 8, y, axis, "start", colour))
         out.append(_text(WIDTH - RIGHT + 8, y + 14, f"{numbers[0]:,} to {numbers[-1]:,}: {line[-1]:.2f}", "start", "#777"))
-    out.append(_text((LEFT + WIDTH - RIGHT) / 2, HEIGHT - 18, f"from the smallest number to the largest; what is above {most:.3g} is drawn there"))
+    out.append(_text((LEFT + WIDTH - RIGHT) / 2, HEIGHT - 18, f"from the smallest number to the largest; values above {most:.3g} are clipped"))
     out.append("</svg>")
     return "\n".join(out) + "\n"

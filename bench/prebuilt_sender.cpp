@@ -1,5 +1,5 @@
-// rois-prebuilt-sender PORT MESSAGE_BYTES: what fan-out costs at least. Each WebSocket is a subscriber; one that sends a number
-// makes that many frames, put together once for all, go to every other in one write.
+// rois-prebuilt-sender PORT MESSAGE_BYTES: the least that fan-out costs. Each WebSocket is a subscriber. When one of them sends a
+// number, the server prepares that many frames once, and sends them to every other WebSocket in one write.
 #include "asio.hpp"
 
 #include <boost/beast/core/buffers_to_string.hpp>
@@ -23,7 +23,7 @@ struct Everyone {
     std::unordered_set<Subscriber*> subscribers;
 };
 
-// A text frame with the moment at which it was made, as the load generator looks for it.
+// A text frame with its time stamp in the form that the load generator reads.
 std::string frame(std::size_t bytes) {
     using namespace std::chrono;
     auto payload = ">t" + std::to_string(duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count()) + "<";
@@ -67,7 +67,7 @@ private:
         }
     }
 
-    // Its readers are quick: what the kernel does not take at once is an error here.
+    // The subscribers read quickly: a write that the kernel does not take at once is an error.
     void send(std::string const& frames) {
         error_code error;
         auto const sent = stream_.next_layer().write_some(asio::buffer(frames), error);

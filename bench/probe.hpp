@@ -1,4 +1,4 @@
-// A component of the benchmarks' own, which does nothing but answer: so that what is measured is the gateway.
+// A component for benchmarks that only answers, so that the gateway itself is measured.
 #pragma once
 
 #include <memory>
@@ -10,14 +10,14 @@
 
 namespace rois::bench {
 
-// Probes have the query `reading` (value, label), the event `probed` (stamp, value), the parameter `label` and the command
-// `fire` (burst), which makes as many events. Their `start` completes at once. The stamp is "t" and CLOCK_MONOTONIC in ns.
+// A probe has the query `reading` (value, label), the event `probed` (stamp, value), the parameter `label` and the command
+// `fire` (burst), which fires `burst` events. Its `start` completes at once. The stamp is "t" and CLOCK_MONOTONIC in ns.
 ComponentProfile probe_profile();
 
-// The same with the query and the event of other names: what nobody asks for.
+// The same with other names for the query and the event, which no benchmark uses.
 ComponentProfile bystander_profile();
 
-// The profiles that both include.
+// The profiles that both include as sub components.
 std::vector<ComponentProfile> known_profiles();
 
 std::unique_ptr<Component> probe(std::string ref, std::shared_ptr<ComponentProfile const> profile);

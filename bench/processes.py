@@ -1,4 +1,4 @@
-"""Servers and the load generator as processes; what the kernel says of them."""
+"""Starts and stops servers and the load generator; reads their CPU time and memory from the kernel."""
 
 import contextlib
 import json
@@ -11,17 +11,17 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BIN = ROOT / "build" / "release" / "bin"
-WORK = ROOT / "build" / "bench"  # documents, and what the servers said
+WORK = ROOT / "build" / "bench"  # documents, and the output of the servers
 
 
-# A server on one core, who asks it on the others: where both are is not left to chance, which doubles the cost at times.
+# Pins a server to one core and the load generator to the others. Where both run by chance on one core, the cost can double.
 CORES = sorted(os.sched_getaffinity(0))
 SERVER_CORES = set(CORES[:1])
 LOAD_CORES = set(CORES[1:] or CORES)
 
 
 class BenchError(Exception):
-    """Something does not work that must, to measure anything at all."""
+    """The measurement is not possible."""
 
 
 def allow_many_descriptors():
@@ -37,8 +37,8 @@ def free_port():
 
 
 class Server:
-    """A server that runs until `stop`. `seconds_to_ready`: from its start until it answered, or took a connection. One that has
-    threads to share may go wherever the kernel likes."""
+    """A server that runs until `stop`. `seconds_to_ready`: from its start until it answered `health`, or accepted a connection.
+    A server with more than one thread is not pinned."""
 
     def __init__(self, name, command, health=None, threads=1):
         self.name = name
@@ -68,11 +68,11 @@ class Server:
             return False
 
     def resident_bytes(self):
-        """Its memory, what it shares with others included."""
+        """Resident memory, including shared pages."""
         for line in pathlib.Path(f"/proc/{self.pid}/status").read_text().splitlines():
             if line.startswith("VmRSS:"):
                 return int(line.split()[1]) * 1024
-        raise BenchError(f"{self.name} has no memory")
+        raise BenchError(f"/proc/{self.pid}/status of {self.name} has no VmRSS: has it ended?")
 
     def stop(self):
         self.process.terminate()
@@ -84,7 +84,7 @@ class Server:
 
 
 def gateway(threads=1, *arguments, free=False):
-    """`free`: with one thread it may go wherever the kernel likes, too."""
+    """`free`: not pinned, also with one thread."""
     command = [BIN / "rois-gateway", "--listen", "127.0.0.1:{port}", "--threads", threads, "--log-level", "warning"]
     command += ["--max-sessions", 20_000, "--max-connections", 20_000, *arguments]
     return Server(f"gateway-{threads}{'-free' * free}", command, "/readyz", len(CORES) if free else threads)
@@ -129,12 +129,12 @@ def load(mode, server, **options):
             process.kill()
             raise
     if process.returncode != 0:
-        raise BenchError(f"{mode} on {server.name}: {complaint.strip()}")
+        raise BenchError(f"rois-load {mode} on {server.name}: {complaint.strip()}")
     return json.loads(said)
 
 
 def run_beside(server, command):
-    """A client program on the cores that are not the server's, and what it wrote."""
+    """Runs a client program on the cores that are not the server's. Returns its output."""
     whole = [str(part) for part in command]
     pin = lambda: os.sched_setaffinity(0, server.load_cores)  # noqa: E731
     done = subprocess.run(whole, capture_output=True, text=True, timeout=300, preexec_fn=pin)
@@ -145,13 +145,13 @@ def run_beside(server, command):
 
 @contextlib.contextmanager
 def beside(mode, server, **options):
-    """The load generator while something else is measured, from when it is ready."""
+    """Runs the load generator while something else is measured. Begins when it is ready."""
     if mode != "hold":
         options |= {"announce": "yes"}
     process = _start(mode, server, options, stdin=subprocess.PIPE)
     try:
         if not process.stdout.readline():
-            raise BenchError(f"{mode} on {server.name} failed")
+            raise BenchError(f"rois-load {mode} on {server.name} ended before it was ready; see its error above")
         yield process
     finally:
         process.stdin.close()
@@ -161,11 +161,11 @@ def beside(mode, server, **options):
             process.kill()
             process.wait()
     if process.returncode != 0:
-        raise BenchError(f"{mode} on {server.name} failed: {process.returncode}")
+        raise BenchError(f"rois-load {mode} on {server.name} ended with {process.returncode}; see its error above")
 
 
 def machine():
-    """What the numbers were measured on."""
+    """A description of the machine."""
     model = "unknown"
     for line in pathlib.Path("/proc/cpuinfo").read_text().splitlines():
         if line.startswith("model name"):

@@ -1,6 +1,5 @@
-"""python3 bench/profile.py http|websocket|fanout|fanout-8: where the gateway spends its time, by stations (needs linux-perf, and
-what ./dev bench has built). Each sample counts for the innermost station that is on its stack; docs/performance.md keeps the
-numbers."""
+"""python3 bench/profile.py http|websocket|fanout|fanout-8: where the gateway spends its time, by steps. Needs linux-perf, and the
+programs that ./dev bench builds. Each sample counts for the innermost step on its stack. docs/performance.md keeps the results."""
 
 import collections
 import json
@@ -12,7 +11,7 @@ import documents
 import processes
 from parts.fanout import MANY, fire
 
-# The beginning of a function's name -> its station.
+# The beginning of a function's name -> its step.
 STATIONS = {
     "rois::xml::Validator::objection_to": "validation (xerces-c)",
     "rois::xml::scan": "scan of the bytes",
@@ -21,12 +20,12 @@ STATIONS = {
     "rois::xml::decode": "decoding",
     "rois::xml::encode": "encoding of answers",
     "rois::xml::notification_": "encoding of notifications",
-    "rois::Selection::compile": "condition made ready",
-    "rois::Filter::compile": "condition made ready",
+    "rois::Selection::compile": "compiling the condition",
+    "rois::Filter::compile": "compiling the condition",
     "rois::Engine::Core::vocabulary": "condition: vocabulary",
     "rois::Declarations::add": "condition: vocabulary",
-    "rois::(anonymous namespace)::who_may_answer": "condition held against components",
-    "rois::Filter::match": "condition held against components",
+    "rois::(anonymous namespace)::who_may_answer": "condition: matching components",
+    "rois::Filter::match": "condition: matching components",
     "rois::RegisteredComponent::answer": "the component's answer",
     "rois::Notifier::": "events into sessions' queues",
     "rois::NotificationQueue::push": "events into sessions' queues",
@@ -54,7 +53,7 @@ STATIONS = {
     "rois::net::Loop::sweep": "sweep of all connections",
     "rois::net::Gateway::tick": "tick",
     "rois::net::Wire::receive": "receive: buffer",
-    "rois::net::WebSocket::gather": "gathering of what waits",
+    "rois::net::WebSocket::gather": "gathering of waiting output",
     "rois::net::WebSocket::": "WebSocket, the rest",
     "rois::net::Connection::": "connection, the rest",
 }
@@ -68,7 +67,7 @@ KERNEL = (
 
 
 def station(stack):
-    """`stack`: names of functions, the innermost first."""
+    """The step of a sample. `stack`: names of functions, the innermost first."""
     in_kernel = [name for name in stack if name.startswith(("do_syscall", "entry_SYSCALL", "__x64_sys"))]
     if in_kernel:
         names = " ".join(stack)
@@ -83,7 +82,7 @@ def station(stack):
 
 
 def stacks(script):
-    """Of `perf script`: samples are separated by empty lines, a frame is an address and a name."""
+    """Parses the output of `perf script`: empty lines separate samples, and a frame is an address and a name."""
     for sample in script.split("\n\n"):
         frames = [line.strip().split(" ", 1) for line in sample.splitlines() if line.startswith("\t")]
         if frames:
@@ -91,7 +90,7 @@ def stacks(script):
 
 
 def start(what):
-    """The server and the load for it."""
+    """Starts the server. Returns it, with the mode and options of the load generator."""
     if what in ("http", "websocket"):
         options = {"via": what, "connect": "yes", "body": processes.document("query-0.6kB"), "connections": 64}
         return processes.gateway(1), "requests", options

@@ -1,4 +1,4 @@
-"""What was measured, as a table, as goals that are met or not, and as JSON."""
+"""The results as a table, as goals that are met or missed, and as JSON."""
 
 import collections
 import json
@@ -6,11 +6,11 @@ import statistics
 
 from parts import client, console, fanout, floods, growth, memory, requests
 
-AGAINST = collections.ChainMap(requests.AGAINST, fanout.AGAINST, client.AGAINST)  # row -> row that it is divided by
+AGAINST = collections.ChainMap(requests.AGAINST, fanout.AGAINST, client.AGAINST)  # row -> the row that it is compared with
 
 
 def medians(rounds):
-    """Row -> measure -> its median; `rounds` is row -> what each round gave."""
+    """Row -> measure -> its median; `rounds` is row -> measurements."""
     return {
         row: {measure: statistics.median(one[measure] for one in all_rounds) for measure in all_rounds[0]}
         for row, all_rounds in rounds.items()
@@ -18,7 +18,7 @@ def medians(rounds):
 
 
 def spread(rounds, row):
-    """The least and the most CPU of all rounds, in percent of the median."""
+    """The least and the greatest CPU time, relative to the median in percent."""
     values = [one.get("cpu_us", 0) for one in rounds[row]]
     middle = statistics.median(values)
     if middle == 0 or len(values) == 1:
@@ -27,7 +27,7 @@ def spread(rounds, row):
 
 
 def ratio(rounds, row, other):
-    """The CPU of one row to that of another, measured right before or after it: the median of all turns."""
+    """The CPU time of one row divided by that of another, measured right before or after it: the median of all pairs. None if not measured."""
     pairs = list(zip(rounds.get(row, []), rounds.get(other, [])))
     return statistics.median(one["cpu_us"] / another["cpu_us"] for one, another in pairs) if pairs else None
 
@@ -62,12 +62,12 @@ def table(rounds, part):
         rate = one.get("requests_per_second", one.get("messages_per_second"))
         latencies = " ".join(f"{number(one.get(name)):>8}" for name in ("p50_us", "p99_us", "p999_us"))
         lines.append(f"{row:74} {number(cpu):>7} {spread(rounds, row):>10} {against:>6} {number(rate):>9} {latencies}")
-    lines.append(f"(CPU of the {each}; ratio: to the row that it is compared with)")
+    lines.append(f"(CPU of the {each}; ratio: CPU / CPU of the row that it is compared with)")
     return lines
 
 
 class Goal:
-    """`met`: whether it is, or None where it was not measured."""
+    """`met` is None if it was not measured."""
 
     def __init__(self, name, wanted, measured, met):
         self.name, self.wanted, self.measured, self.met = name, wanted, measured, met
@@ -88,7 +88,7 @@ def at_least(name, value, limit, unit):
 
 
 def fanout_goal(rounds, middle, burst, limit):
-    """An absolute number, or where the machine is slow, what the kernel leaves of it."""
+    """Met by an absolute number, or, for slow machines, by the ratio to the prebuilt sender."""
     row = fanout.row(fanout.MANY, burst)
     name = f"3 fan-out to 1,000, {'nothing' if burst == 1 else burst} waiting: CPU a message"
     wanted = f"at most {limit} µs, or 1.15 times prebuilt"
@@ -99,15 +99,15 @@ def fanout_goal(rounds, middle, burst, limit):
 
 
 def validation_goal(rounds):
-    """The validator against xerces-c; `validate/...` are the rows of one that is not xerces-c."""
+    """The tables (rows `validate/...`) compared with xerces-c (rows `xerces/...`)."""
     documents = [row.split("/")[1] for row in rounds if row.startswith("xerces/") and row.endswith("-20kB")]
     times = [ratio(rounds, f"validate/{name}", f"xerces/{name}") for name in documents]
     worst = max(times) if times and None not in times else None
-    return at_most("2 validation of 20 kB: time, against xerces-c", worst, 0.25, "times")
+    return at_most("2 validation of 20 kB: time, compared with xerces-c", worst, 0.25, "times")
 
 
 def goals(rounds):
-    """What ./dev bench has to show. `rounds`: row -> what each round gave, of all parts."""
+    """The goals of ./dev bench. `rounds`: row -> measurements, of all parts."""
     middle = medians(rounds)
     value_of = lambda row, measure: middle.get(row, {}).get(measure)  # noqa: E731
     session = value_of(f"idle {memory.SESSION}", "bytes_each")
@@ -115,11 +115,11 @@ def goals(rounds):
     latencies = [middle[row]["p99_us"] for row in fanout.REQUESTS.values() if row in middle]
     stops = [value for row in middle for name, value in middle[row].items() if name in floods.STOPS]
     return [
-        at_most("1 query 0.6 kB, HTTP: CPU, against bare Beast", ratio(rounds, requests.HTTP, requests.BARE_HTTP), 2, "times"),
-        at_least("1 gSOAP's CPU, against the query's", ratio(rounds, requests.GSOAP, requests.FREE), 3.5, "times"),
-        at_least("1 xmlrpc.server's CPU, against the query's", ratio(rounds, requests.XMLRPC, requests.FREE), 12, "times"),
+        at_most("1 query 0.6 kB, HTTP: CPU, compared with bare Beast", ratio(rounds, requests.HTTP, requests.BARE_HTTP), 2, "times"),
+        at_least("1 gSOAP's CPU, compared with the query's", ratio(rounds, requests.GSOAP, requests.FREE), 3.5, "times"),
+        at_least("1 xmlrpc.server's CPU, compared with the query's", ratio(rounds, requests.XMLRPC, requests.FREE), 12, "times"),
         at_most(
-            "1 query 0.6 kB, WebSocket: CPU, against a bare Beast echo",
+            "1 query 0.6 kB, WebSocket: CPU, compared with a bare echo",
             ratio(rounds, requests.WEBSOCKET, requests.BARE_WEBSOCKET),
             1.5,
             "times",
@@ -136,9 +136,9 @@ def goals(rounds):
             for axis, grown in growing.items()
         ),
         at_most("6 p99 of requests beside 20 events/s to 1,000", max(latencies) / 1_000 if latencies else None, 5, "ms"),
-        at_most("7 C++ client: its CPU a query, against a bare Beast client", ratio(rounds, client.LIBRARY, client.BARE), 1.3, "times"),
+        at_most("7 C++ client: CPU a query, compared with a bare client", ratio(rounds, client.LIBRARY, client.BARE), 1.3, "times"),
         at_most("8 console: all of it with gzip", value_of(console.VIEW, "all_kib"), 156, "KiB"),
-        at_most("8 console: the map stands after", value_of(console.VIEW, "stands_ms"), 1_000, "ms"),
+        at_most("8 console: complete map after", value_of(console.VIEW, "stands_ms"), 1_000, "ms"),
         at_least("8 console: pictures a second, 20 people at 20 Hz", value_of(console.PEOPLE, "pictures_per_second"), 59, "/s"),
         at_most("8 console: the page's process at rest", value_of(console.REST, "page_percent"), 5, "% of a core"),
         at_most("9 p99 of every way to stop, under every flood", max(stops) if stops else None, 50, "ms"),
@@ -146,7 +146,7 @@ def goals(rounds):
 
 
 def write_json(path, machine, version, kept):
-    """`kept`: part -> row -> what each round gave."""
+    """`kept`: part -> row -> measurements."""
     together = dict(collections.ChainMap(*kept.values()))
     middle = medians(together)
     parts = {part: {row: {"median": middle[row], "rounds": rounds[row]} for row in rounds} for part, rounds in kept.items()}

@@ -1,4 +1,4 @@
-"""./dev bench: measures the gateway beside others, round after round, and says what came out. docs/performance.md explains it."""
+"""./dev bench: measures the gateway beside other servers in several rounds, and prints the results. docs/performance.md explains them."""
 
 import argparse
 import importlib
@@ -17,15 +17,15 @@ PARTS = ("requests", "fanout", "memory", "growth", "micro", "client", "console",
 
 def read_arguments():
     parser = argparse.ArgumentParser(prog="./dev bench", description=__doc__)
-    parser.add_argument("what", nargs="*", metavar="WHAT", help=f"which parts: {', '.join(PARTS)}; all when none is named")
-    parser.add_argument("--quick", action="store_true", help="one short round: to see that it works, not what it costs")
-    parser.add_argument("--rounds", type=int, help="how often everything is measured, by turns (5)")
-    parser.add_argument("--plots", action="store_true", help="draw docs/performance-growth.svg anew")
+    parser.add_argument("what", nargs="*", metavar="WHAT", help=f"the parts to run: {', '.join(PARTS)}; default: all")
+    parser.add_argument("--quick", action="store_true", help="one short round: shows that it works, not what it costs")
+    parser.add_argument("--rounds", type=int, help="number of rounds; default: 5")
+    parser.add_argument("--plots", action="store_true", help="draw docs/performance-growth.svg again")
     parser.add_argument("--gateway", action="append", default=[], metavar="ARGUMENT", help="a further argument of rois-gateway")
     arguments = parser.parse_args()
     for part in arguments.what:
         if part not in PARTS:
-            parser.error(f"there is no part {part}: {', '.join(PARTS)}")
+            parser.error(f"unknown part '{part}': expected one of {', '.join(PARTS)}")
     return arguments
 
 
@@ -35,7 +35,7 @@ def version():
 
 
 def measure(parts, rounds, settings):
-    """Part -> row -> what each round gave."""
+    """Returns part -> row -> the measurements of all rounds."""
     kept = {part: {} for part in parts}
     for number in range(rounds):
         for part in parts:

@@ -1,5 +1,5 @@
-// rois-stage: the gateway's own libraries, put together as server/main does, but with as many components as one likes that do
-// nothing but answer. For fan-out, commands and growth.
+// rois-stage: the gateway's own libraries, connected as in server/main, with any number of components that only answer. For
+// fan-out, commands and growth.
 // rois-stage PORT THREADS PROBES BYSTANDERS: probe0, probe1, ... and bystander0, bystander1, ...
 #include <cstdio>
 #include <cstdlib>
@@ -34,7 +34,7 @@ void serve(Setting const& setting) {
     EngineSettings engine_settings;
     engine_settings.max_sessions = 100'000;
     engine_settings.max_predicates = 10'000'000;
-    engine_settings.max_waiting_notifications = 100'000;  // those of set_parameter over HTTP, which its row does not fetch
+    engine_settings.max_waiting_notifications = 100'000;  // the row of set_parameter over HTTP does not fetch them
     net::Readers readers;
     Engine engine{profile, known_profiles(), engine_settings, readers, net::fresh_secret};
     auto const of_probes = std::make_shared<ComponentProfile const>(probe_profile());

@@ -1,4 +1,4 @@
-"""xmlrpc_server.py PORT: the comparable call on Python's xmlrpc.server, with HTTP keep-alive, as pyrois serves it."""
+"""xmlrpc_server.py PORT: a comparable call on Python's xmlrpc.server, with HTTP keep-alive and one thread for each connection."""
 
 import socketserver
 import sys

@@ -1,6 +1,6 @@
-// rois-bare-client PORT DOCUMENT SECONDS [blocking]: what somebody writes who needs this one query and nothing else: a document
-// that is ready, a WebSocket of Boost.Beast, and pugixml, which finds the return code and the one value that is wanted. Callbacks
-// on one thread, or plain calls.
+// rois-bare-client PORT DOCUMENT SECONDS [blocking]: a client written by hand for this one query: a prepared document, a
+// WebSocket of Boost.Beast, and pugixml, which finds the return code and one value. With callbacks on one thread, or with
+// blocking calls.
 #include "asio.hpp"
 
 #include <boost/beast/core/flat_buffer.hpp>
@@ -46,7 +46,7 @@ public:
     }
 
     void ask_with_callbacks() {
-        // Pings when nothing is heard, and an end when that goes on: what the C++ client does, too.
+        // Pings when nothing is received, then a timeout, as the C++ client does.
         stream_.set_option(websocket::stream_base::timeout{std::chrono::seconds{5}, std::chrono::seconds{10}, true});
         write();
         io_.run();
@@ -76,9 +76,11 @@ private:
         auto const bytes = incoming_.data();
         auto const parsed = answer_.load_buffer_inplace(bytes.data(), bytes.size());
         auto const reply = answer_.document_element();
-        if (!parsed || std::strcmp(reply.attribute("return_code").value(), "OK") != 0) throw std::runtime_error("refused");
+        if (!parsed || std::strcmp(reply.attribute("return_code").value(), "OK") != 0)
+            throw std::runtime_error("the answer's return_code is not OK");
         auto const status = reply.child("results").find_child_by_attribute("result", "rois:name", "status");
-        if (std::strcmp(status.child_value("rois:value"), "READY") != 0) throw std::runtime_error("it is not ready");
+        if (std::strcmp(status.child_value("rois:value"), "READY") != 0)
+            throw std::runtime_error("the answer's result 'status' is not READY");
         incoming_.clear();
     }
 

@@ -1,4 +1,4 @@
-// rois-library-client PORT DOCUMENT SECONDS [blocking]: one query after the other through the C++ client, in a coroutine or with
+// rois-library-client PORT DOCUMENT SECONDS [blocking]: one query after the other with the C++ client, in a coroutine or with
 // Blocking.
 #include <stdexcept>
 
@@ -12,7 +12,7 @@ namespace rois::bench {
 
 namespace {
 
-// The document, as an application has it.
+// The query of the document, as an application passes it.
 Query query_of(std::string const& document) {
     xml::Platform const platform;
     xml::RequestReader reader{std::make_shared<xml::Schemas const>(files::schemas())};
@@ -21,7 +21,8 @@ Query query_of(std::string const& document) {
 
 void check(Query::Reply const& reply) {
     auto const* const status = find(reply.results.parameters, "status");
-    if (status == nullptr || status->values.at(0) != "READY") throw std::runtime_error("it is not ready");
+    if (status == nullptr || status->values.at(0) != "READY")
+        throw std::runtime_error("the answer's result 'status' is not READY");
 }
 
 Task<> ask(Client& robot, Query query, RoundTrips& trips) {

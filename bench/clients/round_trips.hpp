@@ -1,4 +1,4 @@
-// What the clients that are compared have in common: how long they ask, and what they say in the end.
+// Common parts of the compared clients: arguments, duration, and the printed result.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace rois::bench {
 
-// PORT DOCUMENT SECONDS [blocking]: where the gateway is, a file with the request, how long is measured after a warm-up; whether
-// the thread waits for each answer, or goes on when it comes.
+// The arguments PORT DOCUMENT SECONDS [blocking]: the gateway's port, a file with the request, the duration of the measurement
+// after a warm-up, and whether the thread blocks until each answer has arrived.
 struct Setting {
     std::uint16_t port = 0;
     std::string document;
@@ -24,21 +24,21 @@ class RoundTrips {
 public:
     explicit RoundTrips(double seconds);
 
-    // One has come to its end, and the next one begins. False when it was the last.
+    // Ends a round trip and begins the next one. Returns false if it was the last.
     bool next();
 
-    // As JSON: the CPU time of this process a round trip, round trips a second, latencies.
+    // JSON: the CPU time of this process a round trip, round trips a second, latencies.
     std::string json();
 
 private:
-    Nanoseconds measured_;  // how long
+    Nanoseconds measured_;  // duration
     Nanoseconds begun_;     // this round trip
     Nanoseconds from_;      // when the warm-up is over
-    Nanoseconds cpu_ = 0;   // then; at the end, what was used since
+    Nanoseconds cpu_ = 0;   // CPU time at `from_`; at the end, the CPU time used since
     Latencies latencies_;
 };
 
-// main of a program: `ask` does round trips until there is no `next`. Writes the JSON, and returns the exit code.
+// `main` of a program: `ask` makes round trips until `next` returns false. Prints the JSON and returns the exit code.
 int measure_round_trips(int argc, char const* const* argv, void (*ask)(Setting const&, RoundTrips&));
 
 }  // namespace rois::bench

@@ -1,4 +1,4 @@
-// What soapcpp2 makes the gSOAP server of: the gateway's query with its condition, and its answer with results, as gSOAP would have them.
+// Input of soapcpp2 for the gSOAP server: the gateway's query with its condition, and its answer with results, in gSOAP's form.
 //gsoap hall service name: hall
 //gsoap hall service namespace: urn:x-rois:bench:hall
 //gsoap hall service style: document

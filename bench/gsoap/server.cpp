@@ -1,5 +1,5 @@
-// rois-gsoap PORT: the same query served by gSOAP, checked as strictly as it can, with HTTP keep-alive, a thread for each
-// connection, as its manual has it.
+// rois-gsoap PORT: the same query served by gSOAP with its strictest checks, HTTP keep-alive and one thread for each connection,
+// as in its manual.
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
     if (argc != 2) return 2;
     soap* const listening = soap_new1(SOAP_IO_KEEPALIVE | SOAP_C_UTFSTRING | SOAP_XML_STRICT);
     listening->max_keep_alive = 0;                           // no limit
-    listening->recv_timeout = listening->send_timeout = 30;  // seconds, as the gateway has it
+    listening->recv_timeout = listening->send_timeout = 30;  // seconds, as in the gateway
     listening->bind_flags = SO_REUSEADDR;
     if (!soap_valid_socket(soap_bind(listening, "127.0.0.1", std::atoi(argv[1]), 4096))) {
         soap_print_fault(listening, stderr);

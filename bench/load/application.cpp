@@ -16,7 +16,7 @@ std::string session_of(std::string const& answer) {
     constexpr std::string_view open = "<session>";
     auto const start = answer.find(open);
     auto const end = answer.find("</session>");
-    if (start == answer.npos || end == answer.npos) throw std::runtime_error("no session: " + answer);
+    if (start == answer.npos || end == answer.npos) throw std::runtime_error("the answer to connect has no session: " + answer);
     return answer.substr(start + open.size(), end - start - open.size());
 }
 
@@ -34,7 +34,8 @@ Application::Application(Options const& options, std::size_t number, std::vector
     for (std::size_t i = 0; i < options.repeat; ++i) {
         for (auto const& document : setup) {
             auto const answer = ask(filled_in(document, number, number * options.repeat + i));
-            if (answer.find("\"OK\"") == answer.npos) throw std::runtime_error("refused: " + answer);
+            if (answer.find("\"OK\"") == answer.npos)
+                throw std::runtime_error("a document of --setup was not answered with OK: " + answer);
         }
     }
 }

@@ -1,4 +1,4 @@
-// A connection that has been prepared as the options say: perhaps with a session of its own.
+// A connection that is prepared as the options require, perhaps with its own session.
 #pragma once
 
 #include <span>
@@ -13,17 +13,17 @@ namespace rois::bench {
 
 class Application {
 public:
-    // Connects, opens a session when the options want one, and sends the documents of `setup`. Throws when an answer says that
-    // something went wrong.
+    // Connects, opens a session if the options require one, and sends the documents of `setup`. Throws std::runtime_error if an
+    // answer is not OK.
     Application(Options const&, std::size_t number, std::vector<std::string> const& setup);
 
     Socket& socket() { return socket_; }
     std::string const& session() const { return session_; }
 
-    // The bytes that carry a document to the server.
+    // The bytes of a request or a frame with this document.
     std::string carried(std::string_view document) const;
 
-    // Becomes an event stream.
+    // Requests an event stream on this connection.
     void open_stream();
 
 private:
@@ -34,16 +34,16 @@ private:
     std::string session_;
 };
 
-// Ends their sessions, on a connection of its own.
+// Ends the sessions of these applications, over a separate connection.
 void disconnect(Options const&, std::span<Application const>);
 
-// Prepares as many as the options say. The options must outlive them.
+// Prepares as many applications as the options require. The options must outlive them.
 std::vector<Application> make_applications(Options const&);
 
-// When that is wanted, says on a line of its own that all is ready.
+// With --announce, prints a line when everything is ready.
 void announce(Options const&);
 
-// Whether this is no answer but something the engine tells on its own.
+// Whether this document is a notification, not an answer.
 bool is_notification(std::string_view document);
 
 }  // namespace rois::bench

@@ -14,14 +14,14 @@ namespace {
 
 constexpr Nanoseconds longest_round = 20'000'000'000;
 
-// The moment at which the component fired, as it stands in the event: ">t<CLOCK_MONOTONIC in ns><"; or when the round began.
+// The component's time stamp in the event, ">t<CLOCK_MONOTONIC in ns><", or `otherwise` if there is none.
 Nanoseconds fired_at(std::string_view event, Nanoseconds otherwise) {
     auto const mark = event.find(">t");
     if (mark == event.npos) return otherwise;
     return std::strtoll(event.data() + mark + 2, nullptr, 10);
 }
 
-// All subscribers hear all events of a round; the next round begins when they have, or when its time has come.
+// In a round, all subscribers receive all events of a burst. The next round begins after that, or, with --rate, when it is due.
 class Rounds {
 public:
     explicit Rounds(Options const& options)
@@ -63,7 +63,7 @@ private:
         } while (now() < end);
     }
 
-    // Nothing comes between two rounds but pings.
+    // Between two rounds only pings arrive.
     void wait_until(Nanoseconds due) {
         while (options_.rate > 0 && now() < due) take_all(due);
     }
@@ -76,7 +76,7 @@ private:
         }
         while (messages_ < wanted) {
             take_all(begun + longest_round);
-            if (now() > begun + longest_round) throw std::runtime_error("not all events arrived");
+            if (now() > begun + longest_round) throw std::runtime_error("not all events arrived within 20 s");
         }
         latencies_.add(now() - (last_fired_ == 0 ? begun : last_fired_));
         firing_.socket().drain();

@@ -14,7 +14,7 @@ namespace {
 
 Nanoseconds read(clockid_t clock) {
     timespec time{};
-    if (clock_gettime(clock, &time) != 0) throw std::runtime_error("a clock cannot be read");
+    if (clock_gettime(clock, &time) != 0) throw std::runtime_error("clock_gettime failed");
     return time.tv_sec * Nanoseconds{1'000'000'000} + time.tv_nsec;
 }
 
@@ -24,7 +24,7 @@ Nanoseconds now() { return read(CLOCK_MONOTONIC); }
 
 Nanoseconds cpu_of(int pid) {
     clockid_t clock{};
-    if (clock_getcpuclockid(pid, &clock) != 0) throw std::runtime_error("there is no process " + std::to_string(pid));
+    if (clock_getcpuclockid(pid, &clock) != 0) throw std::runtime_error("unknown process " + std::to_string(pid));
     return read(clock);
 }
 

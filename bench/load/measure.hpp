@@ -1,4 +1,4 @@
-// Clocks, the server's CPU time, and what is made of latencies.
+// Clocks, the CPU time of a process, and latency statistics.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ using Nanoseconds = std::int64_t;
 // CLOCK_MONOTONIC, which is the same in all processes.
 Nanoseconds now();
 
-// CPU time of a process, all its threads, user and system; 0: this one. Throws when there is no such process.
+// The user and system CPU time of all threads of a process; 0: this process. Throws std::runtime_error for an unknown process.
 Nanoseconds cpu_of(int pid);
 
 class Latencies {

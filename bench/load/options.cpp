@@ -12,7 +12,7 @@ namespace {
 
 std::string text_of(std::string const& file) {
     std::ifstream in{file, std::ios::binary};
-    if (!in) throw std::runtime_error("there is no file " + file);
+    if (!in) throw std::runtime_error("cannot read the file " + file);
     return {std::istreambuf_iterator<char>{in}, {}};
 }
 
@@ -25,7 +25,7 @@ Options::Mode mode_of(std::string const& name) {
     if (name == "requests") return Options::Mode::requests;
     if (name == "hold") return Options::Mode::hold;
     if (name == "fanout") return Options::Mode::fanout;
-    throw std::runtime_error("requests, hold or fanout, not " + name);
+    throw std::runtime_error("unknown mode '" + name + "': expected requests, hold or fanout");
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ std::string filled_in(std::string text, std::size_t connection, std::size_t numb
 }
 
 Options read_options(int argc, char const* const* argv) {
-    if (argc < 2) throw std::runtime_error("requests, hold or fanout?");
+    if (argc < 2) throw std::runtime_error("the mode is missing: expected requests, hold or fanout");
     Options options;
     options.mode = mode_of(argv[1]);
     auto const whole = [](std::string const& text) { return static_cast<std::size_t>(std::stoull(text)); };
@@ -70,7 +70,8 @@ Options read_options(int argc, char const* const* argv) {
     };
     for (int i = 2; i < argc; i += 2) {
         auto const found = known.find(argv[i]);
-        if (found == known.end() || i + 1 == argc) throw std::runtime_error(std::string{"what is "} + argv[i] + "?");
+        if (found == known.end() || i + 1 == argc)
+            throw std::runtime_error(std::string{"unknown option, or option without a value: "} + argv[i]);
         found->second(argv[i + 1]);
     }
     return options;

@@ -13,18 +13,18 @@ namespace rois::bench {
 
 class Readiness {
 public:
-    // `spins`: looks again and again instead of sleeping. Then whoever sends to this process need not wake it, which costs a
-    // server more than many a request where cores are virtual. With more than one socket it looks once in 20 µs: looks without
-    // a pause would contend with the server for the epoll's lock, and bare servers then cost a quarter more.
+    // `spins`: polls instead of sleeping, so that the server does not have to wake this process, which costs more than many a
+    // request on virtual cores. With more than one socket it polls every 20 µs: polling without a pause contends for the epoll's
+    // lock with the server, and bare servers then cost a quarter more.
     explicit Readiness(bool spins);
     ~Readiness();
     Readiness(Readiness const&) = delete;
     Readiness& operator=(Readiness const&) = delete;
 
-    // `name` is what `wait` tells of it.
+    // `wait` returns `name` for this descriptor.
     void watch(int descriptor, std::size_t name);
 
-    // Those that have something to read, until the next call; none when nothing came before `until`.
+    // The descriptors that are readable; none if `until` passed first. Valid until the next call.
     std::span<epoll_event const> wait(Nanoseconds until);
 
 private:

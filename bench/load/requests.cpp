@@ -12,7 +12,7 @@ namespace rois::bench {
 
 namespace {
 
-// One connection's requests, one at a time.
+// The requests of one connection, one at a time.
 class Asker {
 public:
     Asker(Application& application, Options const& options, std::size_t number) : application_{application}, options_{options} {
@@ -20,7 +20,7 @@ public:
             for (auto const& body : options.bodies) prepare(filled_in(body, number, number * options.variants + i));
     }
 
-    // `due`: when it should have been sent, from which its latency counts.
+    // Sends the next request. Its latency counts from `due`.
     void ask(Nanoseconds due) {
         began_ = due;
         answered_ = notified_ = false;
@@ -28,7 +28,7 @@ public:
         next_ = next_ + 1 == requests_.size() ? 0 : next_ + 1;
     }
 
-    // Takes what came. True when the request is over.
+    // Reads the received messages. Returns true when the request is over.
     bool take() {
         while (auto const message = application_.socket().next()) {
             take(*message);
@@ -41,7 +41,7 @@ public:
     std::size_t answer_bytes() const { return answer_bytes_; }
 
 private:
-    // Once, or twice with another field in the head.
+    // Prepares one request, or two with different heads.
     void prepare(std::string const& document) {
         auto const request = application_.carried(document);
         if (!options_.other_heads) return requests_.push_back(request);
@@ -63,14 +63,14 @@ private:
         if (options_.via == Via::http && !options_.await.empty() && !notified_) poll();
     }
 
-    // The last that this message has, so that the next poll asks for what comes after it.
+    // Notes the last sequence of this message; the next poll continues after it.
     void note_sequence(std::string_view heard) {
         constexpr std::string_view attribute = "sequence=\"";
         auto const last = heard.rfind(attribute);
         if (last != heard.npos) heard_ = std::strtoull(heard.data() + last + attribute.size(), nullptr, 10);
     }
 
-    // Over HTTP notifications are asked for.
+    // Sends a long poll: over HTTP, notifications must be requested.
     void poll() {
         auto const path = options_.path + "/notifications?wait=10&after=" + std::to_string(heard_);
         application_.socket().send(http_get(path, application_.session(), "application/xml"));
@@ -108,7 +108,7 @@ public:
         play_until(begun + in_nanoseconds(options_.seconds));
         auto const took = static_cast<double>(now() - begun);
         auto const count = static_cast<double>(latencies_.size());
-        if (count == 0) throw std::runtime_error("no request was answered");
+        if (count == 0) throw std::runtime_error("no request was answered in the measured time");
         auto const each = [&](Nanoseconds from, int pid) { return static_cast<double>(cpu_of(pid) - from) / 1'000 / count; };
         auto const line = "{" + member("cpu_us", each(cpu, options_.pid)) + "," + member("load_cpu_us", each(own_cpu, 0)) + "," +
                           member("requests", count) + "," + member("requests_per_second", count * 1e9 / took) + "," +
@@ -133,7 +133,7 @@ private:
         }
     }
 
-    // Those that are free ask: all of them, or as many as are due.
+    // Idle connections send a request: all of them, or, with --rate, as many as are due.
     void ask(Nanoseconds at) {
         while (!free_.empty() && (options_.rate == 0 || due_ <= at)) {
             askers_[free_.front()].ask(options_.rate == 0 ? now() : due_);
@@ -154,7 +154,7 @@ private:
 }  // namespace
 
 void make_requests(Options const& options) {
-    if (options.bodies.empty()) throw std::runtime_error("no --body");
+    if (options.bodies.empty()) throw std::runtime_error("--body is missing");
     Load{options}.run();
 }
 

@@ -25,10 +25,10 @@ constexpr std::size_t smallest_input = 4 * 1024;
 
 void wait_for(int descriptor, short what) {
     pollfd poll_of{descriptor, what, 0};
-    if (::poll(&poll_of, 1, longest_wait) != 1) throw std::runtime_error("the server did not answer in time");
+    if (::poll(&poll_of, 1, longest_wait) != 1) throw std::runtime_error("the server did not answer within 20 s");
 }
 
-// The value of a field of an HTTP head, 0 when there is none.
+// The numeric value of a field of an HTTP head; 0 if the field is missing.
 std::size_t content_length(std::string_view head) {
     constexpr std::string_view name = "content-length:";
     for (auto line = head.find('\n'); line != head.npos; line = head.find('\n', line + 1)) {
@@ -60,7 +60,7 @@ std::string frame(unsigned char opcode, std::string_view payload) {
         bytes += static_cast<char>(payload.size() >> 8);
         bytes += static_cast<char>(payload.size() & 0xff);
     } else {
-        throw std::runtime_error("a frame of more than 64 KB is not made here");
+        throw std::runtime_error("a frame of more than 64 KB is not supported");
     }
     bytes.append(reinterpret_cast<char const*>(mask.data()), mask.size());
     for (std::size_t i = 0; i < payload.size(); ++i) bytes += static_cast<char>(payload[i] ^ mask[i % 4]);
@@ -88,15 +88,15 @@ std::string text_frame(std::string_view payload) { return frame(1, payload); }
 
 Socket::Socket(std::uint16_t port, Via via, std::string_view path) : via_{via} {
     descriptor_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    if (descriptor_ < 0) fail("no socket");
+    if (descriptor_ < 0) fail("socket failed");
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(port);
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    if (::connect(descriptor_, reinterpret_cast<sockaddr const*>(&address), sizeof address) != 0) fail("no connection");
+    if (::connect(descriptor_, reinterpret_cast<sockaddr const*>(&address), sizeof address) != 0) fail("connect failed");
     int const on = 1;
     ::setsockopt(descriptor_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    ::setsockopt(descriptor_, IPPROTO_TCP, TCP_CONGESTION, "reno", 4);  // the server takes in its acknowledgements
+    ::setsockopt(descriptor_, IPPROTO_TCP, TCP_CONGESTION, "reno", 4);  // on loopback, the server processes the acknowledgements
     if (via == Via::http) return;
     auto hello = head_of("GET", path, {});
     hello.append(
@@ -105,7 +105,8 @@ Socket::Socket(std::uint16_t port, Via via, std::string_view path) : via_{via} {
     via_ = Via::http;
     send(hello);
     auto const answer = wait();
-    if (answer.head.find(" 101 ") == answer.head.npos) throw std::runtime_error("no WebSocket: " + std::string{answer.head});
+    if (answer.head.find(" 101 ") == answer.head.npos)
+        throw std::runtime_error("the WebSocket was refused: " + std::string{answer.head});
     via_ = Via::websocket;
 }
 
@@ -128,7 +129,7 @@ void Socket::send(std::string_view bytes) {
         } else if (errno == EAGAIN) {
             wait_for(descriptor_, POLLOUT);
         } else {
-            fail("nothing can be sent");
+            fail("send failed");
         }
     }
 }
@@ -143,7 +144,7 @@ Socket::Received Socket::receive() {
     auto const got = ::recv(descriptor_, input_.data() + filled_, input_.size() - filled_, MSG_DONTWAIT);
     if (got == 0) throw std::runtime_error("the server closed a connection");
     if (got < 0 && errno == EAGAIN) return Received::none;
-    if (got < 0) fail("nothing can be received");
+    if (got < 0) fail("recv failed");
     filled_ += static_cast<std::size_t>(got);
     return Received::some;
 }

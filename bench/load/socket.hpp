@@ -1,5 +1,5 @@
-// A connection of the load generator: TCP to 127.0.0.1, HTTP or WebSocket on it. What is sent is put together beforehand; while
-// a connection is prepared it waits for each answer, and afterwards it never waits.
+// A connection of the load generator: HTTP or WebSocket over TCP to 127.0.0.1. All sent bytes are prepared in advance. The
+// connection blocks only while it is prepared.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ std::string text_frame(std::string_view payload);  // masked, as clients must
 
 class Socket {
 public:
-    // Connects, and for a WebSocket shakes hands. Throws std::runtime_error when the server does not play along.
+    // Connects, and performs the handshake of a WebSocket. Throws std::runtime_error if either fails.
     Socket(std::uint16_t port, Via via, std::string_view path);
     ~Socket();
     Socket(Socket&&) noexcept;
@@ -29,21 +29,21 @@ public:
     int descriptor() const { return descriptor_; }
     Via via() const { return via_; }
 
-    // Sends all of it; what the kernel does not take at once is waited for.
+    // Sends all bytes; blocks until the kernel has taken them.
     void send(std::string_view bytes);
 
-    // The next whole answer or text frame, until the next call; nothing when there is none yet. Pings are answered on the way.
-    // Throws when the server closed the connection.
+    // The next complete answer or text frame, or nothing if none has arrived. Valid until the next call. Answers pings. Throws
+    // std::runtime_error if the server closed the connection.
     struct Message {
-        std::string_view head;  // of HTTP
+        std::string_view head;  // HTTP only
         std::string_view body;
     };
     std::optional<Message> next();
 
-    // The same, but waits for it, five seconds at most.
+    // The same, but waits up to 20 s.
     Message wait();
 
-    // Reads away whatever came, without looking at it but for WebSockets' pings.
+    // Discards all received messages, but answers pings.
     void drain();
 
 private:

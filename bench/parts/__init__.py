@@ -1,12 +1,12 @@
-"""The parts of ./dev bench. Each has `round(keep, settings)`: measures every row of its own once and keeps what came out."""
+"""The parts of ./dev bench. Each has `round(keep, settings)`, which measures its rows once and passes each result to `keep(row, result)`."""
 
 import dataclasses
 
 
 @dataclasses.dataclass(frozen=True)
 class Settings:
-    seconds: float  # each measurement
-    turns: int  # in a round, of rows that are compared
-    connections: int  # that many are held where it says 10,000
-    gateway: tuple = ()  # further arguments of the gateway
+    seconds: float  # of one measurement
+    turns: int  # measurements in a round, of rows that are compared
+    connections: int  # idle connections that the part memory holds
+    gateway: tuple = ()  # further arguments of rois-gateway
 

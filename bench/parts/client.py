@@ -1,4 +1,4 @@
-"""What a round trip costs whoever asks: the C++ client beside one that is written by hand for this query alone."""
+"""The cost of a round trip for the client: the C++ client beside a program written by hand for this one query."""
 
 import json
 

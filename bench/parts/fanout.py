@@ -1,4 +1,4 @@
-"""One event to many subscribers, and what requests feel of it meanwhile."""
+"""One event to many subscribers, and the latency of requests meanwhile."""
 
 import json
 
@@ -26,7 +26,7 @@ REQUESTS = {
 
 
 def fire(burst):
-    """The fan-out's options: the connection that fires has bound probe0."""
+    """The options of a fan-out. The connection that fires binds probe0 first."""
     folder = WORK / "documents" / "micro"
     return {"fire_setup": folder / "bind-probe0.xml", "fire": folder / f"fire-{burst}.xml", "burst": burst}
 
@@ -63,8 +63,8 @@ def requests_beside_events(settings, via):
             requests = {"via": via, "connect": "yes", "expect": '"OK"', "connections": 16, "rate": 500}
             measured = load("requests", server, body=document("reading-0.6kB"), seconds=seconds, **requests)
             if events_told.poll() is not None:
-                raise BenchError("the events ended before the requests beside them were measured")
+                raise BenchError("the events ended before the measurement of the requests")
             told = json.loads(events_told.stdout.readline())["messages_per_second"]
             if told < 0.975 * 20 * MANY:
-                raise BenchError(f"only {told:.0f} events a second came to {MANY} subscribers beside the requests")
-            return {name: value for name, value in measured.items() if name != "cpu_us"}  # that of the events is in it
+                raise BenchError(f"only {told:.0f} notifications a second reached {MANY} subscribers; expected at least {0.975 * 20 * MANY:.0f}")
+            return {name: value for name, value in measured.items() if name != "cpu_us"}  # it includes that of the events

@@ -1,4 +1,4 @@
-"""What a flood costs the gateway and its other clients: memory, CPU, the p99 of a neighbour's query and of all ways to stop."""
+"""The cost of a flood for the gateway and its other clients: memory, CPU, the p99 of a neighbour's query and of all ways to stop."""
 
 import subprocess
 import sys
@@ -32,7 +32,7 @@ def measured(server, kind, seconds):
 
 
 def probe(server, seconds):
-    """A neighbour that asks, and one that stops, each in its turn, on connections of their own."""
+    """Alternates between a neighbour that sends queries and a client that stops, on separate connections."""
     neighbour, stopper = attackers.Line(server.port), attackers.Line(server.port)
     clock = (~server.pid << 3) | 2
     begun, used, most = time.perf_counter(), time.clock_gettime(clock), 0
@@ -46,7 +46,7 @@ def probe(server, seconds):
             raise RuntimeError(f"{name}: {answer}")
 
     while time.perf_counter() - begun < seconds:
-        if len(times["neighbour"]) % 500 == 0:  # a new session: each "stop-all" is told to the old one, which does not listen
+        if len(times["neighbour"]) % 500 == 0:  # a new session: each "stop-all" queues an error for the old one, which reads nothing
             open_session(neighbour)
         timed("neighbour", neighbour, attackers.query("engine_status"))
         if not stopper.session:

@@ -1,4 +1,4 @@
-"""Whether a request stays as cheap when there is more of something. A point is kept as "axis: number"."""
+"""The cost of a request when there is more of something. The row of a point is "axis: number"."""
 
 import statistics
 
@@ -58,7 +58,7 @@ def subscribed(server, number, subscription):
 
 
 def beside_others(keep, settings):
-    """A command that fires a hundred events of probe0, while so many want those of probe1."""
+    """A command that fires a hundred events of probe0, while `number` subscriptions demand those of probe1."""
     options = {"via": "websocket", "connect": "yes", "expect": '"OK"', "setup": fire(100)["fire_setup"], "body": fire(100)["fire"]}
     for number in AXES[ELSEWHERE]:
         with running(stage()) as (server,), subscribed(server, number, "subscribe-another"):
@@ -77,7 +77,7 @@ def after_events(ask):
 
 
 def growth(rounds, axis):
-    """How much more a request costs at the end of the axis than at its beginning, as the median of the rounds: 0.2 is 20 %.
-    None when it was not measured."""
+    """The relative growth of a request's cost from the first to the last point of the axis, as the median of the rounds: 0.2 is 20 %.
+    None if it was not measured."""
     first, last = (rounds.get(row(axis, AXES[axis][i]), []) for i in (0, -1))
     return statistics.median(b["cpu_us"] / a["cpu_us"] - 1 for a, b in zip(first, last)) if first and last else None

@@ -1,4 +1,4 @@
-"""What the gateway needs at rest, until it is ready, and for each idle connection and session."""
+"""Memory at rest, time until ready, and memory and CPU for idle connections and sessions."""
 
 import time
 
@@ -33,7 +33,7 @@ def round(keep, settings):
 
 
 def idle_cpu(server):
-    """Percent of one core, while nothing is said."""
+    """Percent of one core while all connections are silent."""
     clock = (~server.pid << 3) | 2  # CLOCK_PROCESS_CPUTIME_ID of that process, as clock_getcpuclockid makes it
     begun, used = time.perf_counter(), time.clock_gettime(clock)
     time.sleep(0.5)

@@ -1,4 +1,4 @@
-"""The stations of a request by themselves (Google Benchmark)."""
+"""Micro benchmarks of the steps of a request (Google Benchmark)."""
 
 import json
 import subprocess

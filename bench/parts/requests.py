@@ -1,4 +1,4 @@
-"""What a request costs: the gateway beside bare servers, gSOAP and xmlrpc.server."""
+"""The cost of a request: the gateway beside bare servers, gSOAP and xmlrpc.server."""
 
 from processes import BIN, ROOT, Server, document, gateway, load, running, stage
 
@@ -9,17 +9,17 @@ GSOAP = "gSOAP, HTTP"
 XMLRPC = "xmlrpc.server, HTTP"
 HTTP = "query 0.6 kB, HTTP"
 WEBSOCKET = "query 0.6 kB, WebSocket"
-FREE = "query 0.6 kB, HTTP, wherever the kernel likes"
-OTHER_HEADS = "query 0.6 kB, HTTP, never the same head twice running"
+FREE = "query 0.6 kB, HTTP, not pinned"
+OTHER_HEADS = "query 0.6 kB, HTTP, alternating heads"
 
-# Row -> row that it is divided by.
+# Row -> the row that it is compared with.
 AGAINST = {HTTP: BARE_HTTP, OTHER_HEADS: BARE_HTTP, GSOAP: FREE, XMLRPC: FREE, WEBSOCKET: BARE_WEBSOCKET}
 
 MODES = {"HTTP": "http", "WebSocket": "websocket"}
-ANSWER_BYTES = 557  # of the gateway to the query
-CONNECTIONS = 64  # gSOAP and xmlrpc.server have a thread for each
-PYTHON = "/usr/bin/python3"  # Debian's, whatever else there is
-MANY_VARIANTS = 2_500  # for each of 64 connections: more than are asked for in a second
+ANSWER_BYTES = 557  # of the gateway's answer to the query
+CONNECTIONS = 64  # gSOAP and xmlrpc.server have one thread for each
+PYTHON = "/usr/bin/python3"  # Debian's, not another Python in PATH
+MANY_VARIANTS = 2_500  # for each of 64 connections: more than are sent in a measurement
 
 
 def round(keep, settings):
@@ -51,7 +51,7 @@ def bare_on_two_threads(name):
 
 
 def compare(ask, settings):
-    """By turns, so that all of them meet the same weather."""
+    """Alternates between the servers, so that all meet the same load of the machine."""
     query = "query-0.6kB"
     servers = (
         gateway(1, *settings.gateway),
@@ -89,7 +89,7 @@ def vary_size_and_connections(ask, settings):
 
 
 def operations(ask):
-    """On the stage, where each session can have a component of its own."""
+    """On the stage, where each session binds its own component."""
     with running(stage(probes=64)) as (server,):
         for name, via in MODES.items():
             ask(f"stage: set_parameter, {name}", server, "set_parameter", via=via, setup=document("bind"))
@@ -97,4 +97,4 @@ def operations(ask):
             ask(f"stage: execute until completed, {name}", server, "execute", via=via, **told)
             ask(f"stage: subscribe again, {name}", server, "subscribe", via=via)
         for name, via in MODES.items():
-            ask(f"stage: subscribe to something new, {name}", server, "subscribe-elsewhere", via=via, variants=MANY_VARIANTS)
+            ask(f"stage: new subscription, {name}", server, "subscribe-elsewhere", via=via, variants=MANY_VARIANTS)

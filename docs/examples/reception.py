@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""The reception scenario of the specification (figure 1): wait for a person, go there, find out who it is, tell the message that is there
-for this visitor or ask, bow, say goodbye, return to the start. The history goes to standard output, one line a visitor.
+"""The reception scenario of the specification (figure 1): wait for a person, go there, find out who it is, give this visitor their message
+or ask, bow, say goodbye, return to the start. The history goes to standard output, one line a visitor.
 
-    reception.py [VISITORS]     how many to receive before it ends, 1 when left out; ROIS_URL says where the gateway is"""
+    reception.py [VISITORS]     the number of visitors to receive, default 1; ROIS_URL is the URL of the gateway"""
 import math, os, re, sys, time
 from rois import Engine, NoAnswer, Refused
 
@@ -10,11 +10,11 @@ MESSAGES = {
     "tanaka": "Mr. Tanaka, your meeting is in room 3.", "suzuki": "Ms. Suzuki, your taxi is waiting at the entrance.",
     "somebody": "Welcome. How can I help you?",
 }
-met = set()  # the temporary names of those who were received, and their permanent ids
+met = set()  # temporary names and permanent ids of received visitors
 
 
 def look():
-    """Looks around once: who is where."""
+    """Measures once. Returns person -> position."""
     engine.skip().run("person_localization")
     seen = engine.event("person_localized", 3)
     engine.run("person_localization", "stop")
@@ -23,7 +23,7 @@ def look():
 
 
 def go_before(x, y, th):
-    """Goes to a metre before somebody, beside that when there is no way."""
+    """Goes to 1 m in front of a person, or beside that point if there is no way to it."""
     for side in (th, th + 60, th - 60, th + 120, th - 120):
         angle = math.radians(side)
         place = f"{x + 1000 * math.cos(angle):.0f}, {y + 1000 * math.sin(angle):.0f}, {side + 180:.0f}"
@@ -33,7 +33,7 @@ def go_before(x, y, th):
 
 
 def approach():
-    """Goes before the first one who stands and was not received: two looks a second apart find them at one place, and so does a third."""
+    """Goes to the first new person who stands: two measurements a second apart give the same place, and so does a third."""
     def near(a, b, millimetres):
         return a is not None and b is not None and math.dist(a[:2], b[:2]) <= millimetres
     before = look()
@@ -48,7 +48,7 @@ def say(text):
 
 
 def ask(question):
-    """Says it, and gives what somebody answers."""
+    """Asks, and returns the answer, or None."""
     engine.skip().run("speech_recognition")
     say(question)
     heard = engine.event("speech_recognized", 10)
@@ -67,7 +67,7 @@ def receive(visitors):
     start = engine.query("robot_position")["position_data"][0]
     received = 0
     while received < visitors:
-        engine.run("navigation", target_position=["string[]", start])  # from where the hall is seen
+        engine.run("navigation", target_position=["string[]", start])  # from there the robot sees the hall
         engine.skip().run("person_detection")
         engine.event("person_detected", 30, lambda results: int(results["number"][0]) > 0)
         engine.run("person_detection", "stop")

@@ -1,14 +1,13 @@
 #!/bin/sh
-# The reception scenario of the specification (figure 1), played with curl and a POSIX shell alone:
-# wait for a person, go there, find out who it is, tell the message that is there for this visitor or ask, bow, say goodbye,
-# return to the start.
+# The reception scenario of the specification (figure 1) with curl and a POSIX shell:
+# wait for a person, go there, find out who it is, give this visitor their message or ask, bow, say goodbye, return to the start.
 #
-# docs/examples/reception.sh -h says how it is used.
+# docs/examples/reception.sh -h prints the usage.
 set -eu
 
-use='use: reception.sh [VISITORS]     how many visitors to receive before it ends; 1 when left out
-ROIS_URL says where the gateway is; http://127.0.0.1:8080 when it is not set (what ./dev run starts).
-The history goes to standard output, one line a visitor; each step to standard error.'
+use='use: reception.sh [VISITORS]     the number of visitors to receive; default: 1
+ROIS_URL is the URL of the gateway; default: http://127.0.0.1:8080 (started by ./dev run).
+The history goes to standard output, one line a visitor; each step goes to standard error.'
 visitors=${1-1}
 case $visitors in
     -h | --help) printf '%s\n' "$use"; exit 0 ;;
@@ -22,12 +21,12 @@ url=${url%/}
 names='xmlns="urn:x-rois:psm:xml:message:1" xmlns:rois="http://www.omg.org/spec/RoIS/20240801" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"'
 session=
 answer=         # the last answer
-after=0         # the sequence number of the last notification that was looked at
-notification=   # the last notification that was waited for
-broken=         # since when nothing is answered; after ten seconds the script ends
-news=$(mktemp)  # notifications that were fetched and not looked at, one a line
+after=0         # the sequence of the last notification that was handled
+notification=   # the last notification that was handled
+broken=         # the time since which no request is answered; after ten seconds the script ends
+news=$(mktemp)  # fetched notifications that are not handled yet, one a line
 
-# What is there for whom: the permanent id of a visitor, and the message.
+# The message for a visitor, by permanent id.
 message_for() {
     case $1 in
         tanaka) echo 'Mr. Tanaka, your meeting is in room 3.' ;;
@@ -39,10 +38,10 @@ tell() { printf '%s  %s\n' "$(date +%H:%M:%S)" "$*" >&2; }
 
 # --- Speaking to the engine -----------------------------------------------------------------------------------------
 
-# ask OPERATION [CHILDREN [ATTRIBUTES]]: sends one document, again when the link breaks; fails when the answer, $answer, is not OK.
+# ask OPERATION [CHILDREN [ATTRIBUTES]]: sends one document, and repeats it if the link breaks. Fails if the answer, $answer, is not OK.
 ask() {
     document="<$1 $names ${3:-}>${2:-}</$1>"
-    # curl takes a head that is cut off for one without a body.
+    # curl takes a truncated head for one without a body.
     until answer=$(curl -sS -m 10 --data-binary "$document" -H 'Content-Type: application/xml' \
         ${session:+-H "RoIS-Session: $session"} "$url/rois") && [ -n "$answer" ]; do pause; done
     broken=
@@ -57,7 +56,7 @@ pause() {
     sleep 1
 }
 
-# request OPERATION [CHILDREN [ATTRIBUTES]]: the same, and anything but OK ends the script.
+# request OPERATION [CHILDREN [ATTRIBUTES]]: like `ask`, but the script ends if the answer is not OK.
 request() { ask "$@" || refused "$1"; }
 refused() {
     tell "The engine refused $1: $answer"
@@ -86,17 +85,17 @@ command() {
     printf '<rois:component_ref rois:code="%s"/>%s</rois:command_unit_list>' "$2" "${4:+<rois:arguments>$4</rois:arguments>}"
 }
 
-# execute ID UNIT: refused when an earlier try was accepted, and its answer got lost.
+# execute ID UNIT: if `execute` is rejected, an earlier attempt may have been accepted and its answer lost.
 execute() {
     ask execute "<rois:CommandUnitSequence>$2</rois:CommandUnitSequence>" && return
     first=$answer
     ask get_command_result "<command_id>$1</command_id>" || { answer=$first; refused execute; }
 }
 
-# --- Hearing from the engine ----------------------------------------------------------------------------------------
+# --- Notifications of the engine ------------------------------------------------------------------------------------
 
-# fetch SECONDS: adds the notifications that are there, or come within that time, to the news. An answer that breaks off has delivered
-# those that are complete in it; the next call asks for the rest.
+# fetch SECONDS: adds the waiting notifications to $news, or those that come within this time. A truncated answer has delivered the
+# notifications that are complete in it; the next call fetches the rest.
 fetch() {
     whole=yes
     fetched=$(curl -sS -m $(($1 + 10)) -H "RoIS-Session: $session" "$url/rois/notifications?after=$after&wait=$1") || whole=
@@ -115,7 +114,7 @@ fetch() {
     if [ -n "$whole" ] || [ -s "$news" ]; then broken=; else pause; fi
 }
 
-# next_notification SECONDS: takes the next one into $notification; fails when none comes within that time.
+# next_notification SECONDS: moves the next one to $notification. Fails if none comes within this time.
 next_notification() {
     [ -s "$news" ] || fetch "$(($1 < 30 ? $1 : 30))"
     [ -s "$news" ] || return 1
@@ -125,25 +124,25 @@ next_notification() {
     after=$(printf '%s' "$notification" | sed 's/^[^"]*"\([0-9]*\)".*/\1/')
 }
 
-# wait_for PATTERN SECONDS: takes notifications until one matches the shell pattern; fails when none does within that time.
+# wait_for PATTERN SECONDS: takes notifications until one matches the shell pattern. Fails if none does within this time.
 wait_for() {
     end=$(($(date +%s) + $2))
     while left=$((end - $(date +%s))) && [ "$left" -gt 0 ]; do
         next_notification "$left" || continue
-        # shellcheck disable=SC2254  # the pattern is meant as one
+        # shellcheck disable=SC2254  # a pattern, on purpose
         case $notification in $1) return 0 ;; esac
     done
     return 1
 }
 
-# run COMPONENT TYPE [PARAMETERS]: executes one command and waits until it has completed; $status is its status, $why the same with the reason.
+# run COMPONENT TYPE [PARAMETERS]: executes one command and waits until it has completed. Sets $status, and $why to status and reason.
 commands=0
 run() {
     commands=$((commands + 1))
     execute "step-$commands" "$(command "step-$commands" "$1" "$2" "${3:-}")"
     wait_for "*<command_id>step-$commands</command_id>*" 120 || { tell "$1 $2 did not complete within two minutes"; exit 1; }
     status=$(text_of status "$notification")
-    why=$status  # with the engine's reason, if it has one
+    why=$status  # with the engine's reason, if there is one
     [ "$status" = OK ] || ! ask get_command_result "<command_id>step-$commands</command_id>" || why=$why$(values_of reason "$answer" | sed '1s/^/: /')
 }
 
@@ -164,7 +163,7 @@ wait_for_a_person() {
     run person_detection stop
 }
 
-# Looks around once: who is where in $seen, one a line: "person-1 9500, 7500, -160".
+# Measures once. Sets $seen to persons and positions, one a line: "person-1 9500, 7500, -160".
 look() {
     seen=
     run person_localization start
@@ -179,15 +178,15 @@ look() {
     run person_localization stop
 }
 
-# position_of PERSON SEEN: nothing when they were not seen.
+# position_of PERSON SEEN: prints the person's position, or nothing.
 position_of() { printf '%s' "$2" | sed -n "s/^$1 //p"; }
 
-# near POSITION POSITION MM: whether the two are no farther apart.
+# near POSITION POSITION MM: whether the distance is at most MM.
 near() { awk -v a="$1" -v b="$2" -v most="$3" 'BEGIN { split(a, p, ","); split(b, q, ",")
     exit ((p[1] - q[1]) ^ 2 + (p[2] - q[2]) ^ 2 > most ^ 2) }'; }
 
-# find_standing [PERSON]: that person, or somebody who was not received yet, in $person and $position as soon as they stand: two
-# looks a second apart find them at one place. Fails when nobody does for some time, or the person is out of sight.
+# find_standing [PERSON]: waits until this person, or any person who was not received yet, stands: two measurements a second apart
+# give the same place. Sets $person and $position. Fails if nobody stands for some time, or if the person is out of sight.
 find_standing() {
     looks=0
     look
@@ -211,7 +210,7 @@ find_standing() {
     return 1
 }
 
-# Goes to a metre before the position, beside that when there is no way.
+# Goes to 1 m in front of the position, or beside that point if there is no way to it.
 go_before() {
     for angle in 0 60 -60 120 -120; do
         go_to "$(printf '%s' "$1" | awk -F, -v turn="$angle" '{ a = ($3 + turn) * 3.14159265 / 180
@@ -221,7 +220,7 @@ go_before() {
     return 1
 }
 
-# Goes to somebody who stands, and on to where they are then, five times at most; fails when nobody new is reached.
+# Goes to a standing person, and on to their new position if they have moved, at most five times. Fails if no new person is reached.
 go_there() {
     find_standing || { tell 'Nobody new stands anywhere.'; return 1; }
     tell "$person is at $position (mm, mm, degree); going there."
@@ -238,7 +237,7 @@ go_there() {
     return 1
 }
 
-# The permanent id of the visitor in $visitor, or nothing.
+# Sets $visitor to the permanent id of the visitor, or to nothing.
 identify() {
     visitor=
     run person_identification start
@@ -318,7 +317,7 @@ start=$(values_of position_data "$answer" | sed -n 1p)
 tell "Connected to $url; the robot stands at $start."
 
 received=0
-known_persons=' '   # the temporary names of those who were received, good while the robot does not lose sight of them
+known_persons=' '   # temporary names of received visitors, valid until the robot loses sight of them
 known_visitors=' '  # their permanent ids
 while [ "$received" -lt "$visitors" ]; do
     if receive; then received=$((received + 1)); fi

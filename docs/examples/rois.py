@@ -1,4 +1,4 @@
-"""A client of a RoIS gateway over HTTP, with Python's standard library alone; docs/clients.md says how one is written."""
+"""A client of a RoIS gateway over HTTP, with Python's standard library only. docs/clients.md explains how to write a client."""
 import http.client
 import itertools
 import math
@@ -14,38 +14,38 @@ NAMES = f'xmlns="{M[1:-1]}" xmlns:rois="{R[1:-1]}" xmlns:xsi="http://www.w3.org/
 
 
 class Refused(Exception):
-    """The engine answered with another return code than OK, or with a fault."""
+    """The engine answered with a return code other than OK, or with a fault."""
 
 
 class NoAnswer(Exception):
-    """The gateway did not answer within the deadline. Whether it did what it was asked is not known."""
+    """The gateway did not answer within the deadline. It is unknown whether the request was performed."""
 
 
 class Status(str):
-    """How a command ended: OK, ERROR, ABORT, OUT_OF_RESOURCES or TIMEOUT. If it is not OK, `reason` says why, as the engine does."""
+    """The status of a completed command: OK, ERROR, ABORT, OUT_OF_RESOURCES or TIMEOUT. If it is not OK, `reason` is the engine's reason."""
 
     reason = ""
 
 
 class Engine:
-    """A session. What gets lost on the way is asked for again, for as long as `deadline` seconds; commands have names, so that none
-    is executed twice.
+    """A session. Requests whose answers are lost are repeated for up to `deadline` seconds. Commands have ids, so none is executed
+    twice.
 
-    A robot that moves for this session is held when nothing was heard from this program for `motion_lease` seconds: from 1 to what
-    the gateway has (None), which is 10 unless it was told otherwise. While `run` waits it asks once a second, which is sign enough."""
+    The gateway holds a robot that moves for this session if it receives no request for `motion_lease` seconds: from 1 up to the
+    gateway's own value, which is the default (None) and usually 10. While `run` waits, it sends a request once a second."""
 
-    most_kept = 1000  # notifications that nobody wanted until now; the oldest make room
+    most_kept = 1000  # notifications that no call has wanted yet; the oldest are dropped first
 
-    longest_poll = 1  # seconds: a poll that waits counts as a sign of life, also when this program has been stopped
+    longest_poll = 1  # seconds: a waiting poll counts as a sign of life, even if this program has been stopped
 
     def __init__(self, url, deadline=10, motion_lease=None):
         self.url, self.deadline = url.rstrip("/"), deadline
         self.session = ""
-        self.after = 0  # the sequence of the last notification that came
-        self.lost = 0  # how many the engine has dropped
-        self.dropped = 0  # how many made room here
-        self.news = []  # notifications that came and were not looked at
-        self.kept = []  # those that were looked at, and not wanted yet
+        self.after = 0  # the sequence of the last received notification
+        self.lost = 0  # notifications that the engine has dropped
+        self.dropped = 0  # notifications that this object has dropped
+        self.news = []  # received notifications that were not examined yet
+        self.kept = []  # examined notifications that no call has wanted yet
         self.names = (f"step-{n}" for n in itertools.count(1))
         lease = f'motion_lease_http="{round(motion_lease * 1000)}"' if motion_lease else ""
         self.session = self.request("connect", attributes=lease).findtext(M + "session")
@@ -54,7 +54,7 @@ class Engine:
         return self
 
     def __exit__(self, kind, *_):
-        """Ends the session, and what the robot does for it; also when something went wrong, unless that was that nobody answers."""
+        """Ends the session, and with it the robot's actions, also after an error. Does nothing if the gateway does not answer."""
         if kind is NoAnswer:
             return
         try:
@@ -64,7 +64,7 @@ class Engine:
                 raise
 
     def request(self, operation, content="", attributes=""):
-        """The answer's document; Refused when it is not OK."""
+        """Sends a request and returns the answer's document. Raises Refused if it is not OK."""
         answer = self._fetch("/rois", f"<{operation} {NAMES} {attributes}>{content}</{operation}>".encode())
         if answer.get("return_code") != "OK":
             raise Refused(f"{operation}: {answer.get('return_code')}: {answer.findtext(M + 'reason')}")
@@ -90,7 +90,7 @@ class Engine:
                 f'</rois:command_unit_list>')
         try:
             self.request("execute", f"<rois:CommandUnitSequence>{unit}</rois:CommandUnitSequence>")
-        except Refused as refused:  # perhaps because an earlier try was accepted, and its answer got lost
+        except Refused as refused:  # an earlier attempt may have been accepted and its answer lost
             try:
                 self.request("get_command_result", f"<command_id>{name}</command_id>")
             except Refused:
@@ -105,18 +105,18 @@ class Engine:
         return status
 
     def event(self, event_type, seconds, wanted=lambda results: True):
-        """The results of the first event of this type that `wanted` says yes to, also of those that came while something else was
-        waited for; None when none comes within the time."""
+        """The results of the first event of this type for which `wanted` returns true, including events that came during earlier calls.
+        None if there is none within the time."""
         one = self.next(lambda one: one.findtext(M + "event_type") == event_type and wanted(results_of(one)), seconds)
         return None if one is None else results_of(one)
 
     def skip(self):
-        """Forgets what came until now: `engine.skip().run(...)`, and then `event` tells only what comes of that."""
+        """Forgets all received notifications. After `engine.skip().run(...)`, `event` returns only later events."""
         self.news, self.kept = [], []
         return self
 
     def next(self, wanted, seconds):
-        """The first notification that `wanted` says yes to; None when none comes within the time. Others are kept."""
+        """The first notification for which `wanted` returns true; None if there is none within the time. Others are kept."""
         for one in self.kept:
             if wanted(one):
                 self.kept.remove(one)
@@ -144,7 +144,7 @@ class Engine:
 
     def _fetch(self, path, body=None, patience=10):
         headers = {"Content-Type": "application/xml", "RoIS-Session": self.session}
-        end = None  # of asking again
+        end = None  # of the attempts
         for pause in itertools.chain((0.01, 0.1), itertools.repeat(1)):
             came = b""
             try:
@@ -154,9 +154,9 @@ class Engine:
                     return ElementTree.fromstring(came)
             except urllib.error.HTTPError as fault:
                 raise Refused(reason_of(fault)) from None
-            except (OSError, http.client.HTTPException, ElementTree.ParseError) as trouble:  # the last: cut off in its head
+            except (OSError, http.client.HTTPException, ElementTree.ParseError) as trouble:  # ParseError: truncated in its head
                 if body is None and (news := whole_children_of(came)):
-                    return news  # notifications that arrived before the link broke; the next request asks for the rest
+                    return news  # notifications that arrived before the link broke; the next request fetches the rest
                 end = end or time.monotonic() + self.deadline
                 if time.monotonic() >= end:
                     raise NoAnswer(f"{self.url} does not answer: {trouble}") from None
@@ -165,7 +165,7 @@ class Engine:
 
 
 def reason_of(error):
-    """A fault's code and reason; the status alone where it was no gateway that answered."""
+    """Code and reason of a fault; only the HTTP status if the answer is not from a gateway."""
     try:
         fault = ElementTree.fromstring(error.read())
     except (OSError, http.client.HTTPException, ElementTree.ParseError):
@@ -174,7 +174,7 @@ def reason_of(error):
 
 
 def whole_children_of(text):
-    """The root's children that are complete in a document whose end is missing."""
+    """The complete children of the root in a truncated document."""
     parser, depth, children = ElementTree.XMLPullParser(("start", "end")), 0, []
     try:
         parser.feed(text)
@@ -182,7 +182,7 @@ def whole_children_of(text):
             depth += 1 if event == "start" else -1
             if event == "end" and depth == 1:
                 children.append(element)
-    except ElementTree.ParseError:  # not a document of XML
+    except ElementTree.ParseError:  # not an XML document
         pass
     return children
 
