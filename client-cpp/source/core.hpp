@@ -182,7 +182,7 @@ private:
     client::Steady next_deadline_ = client::Steady::max();  // at or before the earliest deadline of calls_
     client::Loop::Ticket deadlines_ = 0;
     std::atomic<std::uint64_t> last_request_ = 0;
-    std::multimap<CommandId, std::shared_ptr<Watch>> watches_;  // several may have one id: the engine rejects all but one
+    std::multimap<CommandId, std::shared_ptr<Watch>> watches_;  // several may have one id: the engine accepts only one
 
     // Notifications wait in held_ while a subscribe_id is not known yet.
     std::size_t subscribing_ = 0;  // subscriptions under way

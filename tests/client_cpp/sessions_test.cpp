@@ -48,7 +48,7 @@ TEST_P(TheSession, ClosesWhomItWasSharedWithWhenItEnds) {
     guest.open();
     holder.reset();
     told.await_states({"connecting", "open", "lost", "closed"});
-    EXPECT_THAT(guest.call(Search{}).reason, HasSubstr("no such session"));
+    EXPECT_THAT(guest.call(Search{}).reason, HasSubstr("the session does not exist"));
 }
 
 TEST_P(TheSession, IsNotOpenedAnewForWhoeverJoins) {
@@ -60,7 +60,7 @@ TEST_P(TheSession, IsNotOpenedAnewForWhoeverJoins) {
         guest.open();
         ADD_FAILURE() << "it is open";
     } catch (Error const& refused) {
-        EXPECT_THAT(refused.what(), HasSubstr("no such session"));
+        EXPECT_THAT(refused.what(), HasSubstr("the session does not exist"));
     }
     EXPECT_THAT(told.states(), ElementsAre("connecting", "closed"));
 }

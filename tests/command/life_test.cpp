@@ -112,7 +112,7 @@ TEST_F(RoisAndMotion, ACommandThatIsStoppedLetsTheRobotBeHeldAndSaysSo) {
     EXPECT_THAT(held(), HasSubstr("its motion is held: nothing was heard from its application"));
     walk.signal(SIGCONT);
     EXPECT_THAT(walk.error_line(), testing::AllOf(StartsWith("rois: navigation: its motion is held: nothing was heard"),
-                                                  testing::EndsWith("; interrupt this command and give it anew")));
+                                                  testing::EndsWith("; interrupt this command and run it again")));
 }
 
 TEST_F(RoisAndMotion, AHeldSessionKeepsTheRobotGoingWhileTheShellLives) {

@@ -105,10 +105,11 @@ TEST_F(Rois, ReplaysARecordingWhoseLastLineIsCutOff) {
 }
 
 TEST_F(Rois, RefusesWhatIsNoRecording) {
-    expect(2, ":1: this is no recording", {"replay", file_with("none.jsonl", "<xml/>\n")});
+    expect(2, ":1: this is not a recording", {"replay", file_with("none.jsonl", "<xml/>\n")});
     expect(2,
            ":2: ", {"replay", file_with("bad.jsonl", "{\"recording\":\"rois-recording-1\"}\n{\"at\":1,\"direction\":\"up\"}\n")});
-    expect(2, ":2: this is no JSON", {"replay", file_with("torn.jsonl", "{\"recording\":\"rois-recording-1\"}\n{\"at\"\n")});
+    expect(2, ":2: this line is not JSON",
+           {"replay", file_with("torn.jsonl", "{\"recording\":\"rois-recording-1\"}\n{\"at\"\n")});
     expect(2, "cannot be read", {"replay", "/no/such/file"});
     expect(2, "cannot be written", {"search", "--record", "/no/such/folder/file"});
 }

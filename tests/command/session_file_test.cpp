@@ -156,7 +156,7 @@ TEST_F(RoisWithASessionFile, TrustsNoFileThatOthersCouldReadOrWrite) {
     };
     refused_with("this is a symbolic link; name the file itself", link);
     chmod(file.c_str(), 0640);
-    refused_with("others can read it", file);
+    refused_with("other users can read it", file);
     chmod(file.c_str(), 0600);
     if (geteuid() == 0) {
         EXPECT_EQ(chown(file.c_str(), 65'534, static_cast<gid_t>(-1)), 0);

@@ -97,8 +97,8 @@ void expect_refused(std::vector<std::string> const& given, std::string const& sa
 }
 
 TEST(Arguments, AreRefusedWithTheReason) {
-    expect_refused({"volume"}, "'volume' is no NAME=VALUE");
-    expect_refused({"=3"}, "is no NAME=VALUE");
+    expect_refused({"volume"}, "'volume' is not NAME=VALUE");
+    expect_refused({"=3"}, "is not NAME=VALUE");
     expect_refused({"pitch=3"}, "thing has no argument 'pitch'; it has loud, places, levels, volume");
     expect_refused({"volume=loud"}, "volume: ");
     expect_refused({"volume=1", "volume=2"}, "volume: ");
