@@ -93,7 +93,7 @@ void Proxy::cut_before(std::string text) {
 }
 
 void Proxy::misquote(std::string text, std::string as) {
-    if (text.size() != as.size()) throw std::invalid_argument{"lengths are said before"};
+    if (text.size() != as.size()) throw std::invalid_argument{"misquote: both texts must have the same length"};
     std::lock_guard const lock{mutex_};
     misquoted_ = std::move(text);
     misquoted_as_ = std::move(as);
