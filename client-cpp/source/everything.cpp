@@ -66,7 +66,7 @@ void rethrow(std::exception_ptr const& error) {
     if (error) std::rethrow_exception(error);
 }
 
-// The body of the answer. `what` is said in errors.
+// Posts to the path and returns the body of the answer. Throws Error; its text begins with `what`.
 std::string post(Settings const& settings, std::string_view path, std::string const& what) {
     Asked asked{.target = client::read_url(settings.url)};
     asked.request = {http::verb::post, asked.target.path + std::string{path}, 11};
