@@ -1,5 +1,5 @@
-# Installs the public headers: those of the client under rois/, those of the messages under rois/types/, those of the C++ PSM under
-# rois/psm/, with what they include spelt as it is there. cmake -DSOURCE=... -DDESTINATION=... -P install_headers.cmake
+# Installs the public headers: the client's under rois/, the messages' under rois/types/, the C++ PSM's under rois/psm/. Adapts
+# their #include lines. Usage: cmake -DSOURCE=... -DDESTINATION=... -P install_headers.cmake
 function(install_headers from pattern to)
     file(GLOB headers ${from}/${pattern})
     foreach(header IN LISTS headers)

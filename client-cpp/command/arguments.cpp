@@ -40,13 +40,13 @@ ParameterList read_arguments(ComponentProfile const& profile, std::string_view c
     ParameterList arguments;
     for (auto const& text : given) {
         auto const sign = text.find('=');
-        if (sign == std::string::npos || sign == 0) throw Trouble{Exit::usage, quoted(text) + " is no NAME=VALUE"};
+        if (sign == std::string::npos || sign == 0) throw Trouble{Exit::usage, quoted(text) + " is not NAME=VALUE"};
         auto const name = text.substr(0, sign);
         auto const* const declared = find_parameter(known, name);
         if (declared == nullptr) {
             auto const names = listed(known, &ParameterProfile::name);
             throw Trouble{Exit::usage, profile.object.name + " has no argument " + quoted(name) +
-                                           (names.empty() ? "; it has none at all" : "; it has " + names)};
+                                           (names.empty() ? "; it has no arguments" : "; it has " + names)};
         }
         auto const there = std::ranges::find(arguments, declared->name, &Parameter::name);
         auto& argument = there != arguments.end() ? *there : arguments.emplace_back(declared->name, declared->data_type_ref);

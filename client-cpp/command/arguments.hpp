@@ -1,4 +1,4 @@
-// Arguments as people type them, `name=value`, with the types that the component's profile gives them.
+// Arguments from the command line, NAME=VALUE, with the types of the component's profile.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@
 
 namespace rois::command {
 
-// The arguments of a command of this type, which are those that its profile declares for it and the component's parameters. A
-// name that comes again adds a value to a list; `name=` is the empty list, or the empty text. Throws Trouble: for what is no
-// name=value, an unknown name, a value that is not of its type.
+// Returns the arguments of a command of this type. Known names are the command's arguments and the component's parameters. A
+// repeated name adds a value to a list; NAME= is the empty list or text. Throws Trouble for a text without NAME=, an unknown name
+// or a value of the wrong type.
 ParameterList read_arguments(ComponentProfile const&, std::string_view command_type, std::vector<std::string> const& given);
 
 }  // namespace rois::command

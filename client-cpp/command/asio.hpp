@@ -1,4 +1,4 @@
-// Boost.Asio and Beast as they are used here, on one thread with one io_context.
+// Includes and names of Boost.Asio and Beast. All of it runs on one thread with one io_context.
 #pragma once
 
 #include <boost/asio/awaitable.hpp>
@@ -21,7 +21,8 @@ namespace http = boost::beast::http;
 
 using Failure = boost::system::error_code;
 
-// g++ 12 miscompiles a co_await inside the condition of a loop or an if: its result gets a name first.
+// Completion token for co_await; stores the error in `failure`. g++ 12 miscompiles a co_await in the condition of a loop or an
+// if: give the result a name first.
 inline auto into(Failure& failure) { return asio::redirect_error(asio::use_awaitable, failure); }
 
 }  // namespace rois::command

@@ -1,4 +1,4 @@
-// The commands that ask: profile, search, query, get, health.
+// The commands profile, search, query, get and health.
 #include <algorithm>
 
 #include "command/context.hpp"
@@ -12,7 +12,7 @@ namespace rois::command {
 
 namespace {
 
-// Refuses when there is no such component: a query says no more than that nothing answers it.
+// Throws Trouble if the component is unknown. A query would only report that no component answers it.
 void check_there(Context& context, std::string const& ref) {
     if (context.ok(Search{conditions::component_ref == ref}).component_ref_list.empty()) context.component(ref);
 }
@@ -22,7 +22,7 @@ std::vector<ComponentEntry> of(std::vector<ComponentEntry> components, std::stri
     return components;
 }
 
-// The components that have this query.
+// Returns the components that have this query.
 std::vector<ComponentEntry> components_with(std::vector<ComponentEntry> components, std::string const& query) {
     std::erase_if(components, [&](ComponentEntry const& component) {
         auto const known = message_names({component}, MessageKind::query);
@@ -71,7 +71,7 @@ void query(Context& context) {
     if (reply.results.parameters.empty()) remark("the answer has no results");
 }
 
-// By a query, which needs no binding (decision 18).
+// Uses a query, which needs no binding (decision 18).
 void get(Context& context) {
     auto const& options = context.options();
     check_there(context, options.ref);
@@ -111,7 +111,7 @@ void health(Options const& options, Printer& printer) {
                                        (moving.empty() ? "" : "; not confirmed that they stand still: " + listed(moving))};
     if (!ready && printer.form() == Form::human) {
         auto const body = harmless(trimmed(answer.body.substr(0, 200)));
-        throw Trouble{Exit::error, "not healthy: " + options.url + " answers " + std::to_string(answer.status) +
+        throw Trouble{Exit::error, "not healthy: " + options.url + " answered with HTTP status " + std::to_string(answer.status) +
                                        (body.empty() ? "" : ": " + body) + hint_for_url(options.url)};
     }
     printer.line(

@@ -15,7 +15,7 @@ struct Seen {
     std::string born;  // in ticks since the machine was started
 };
 
-// From /proc (proc(5)). The name in it may contain anything, but nothing behind it has a parenthesis.
+// Reads /proc/PID/stat (proc(5)). The process name may contain any character; no later field contains a parenthesis.
 std::optional<Seen> look_at(pid_t process) {
     std::ifstream file{"/proc/" + std::to_string(process) + "/stat"};
     std::string line;
@@ -23,7 +23,7 @@ std::optional<Seen> look_at(pid_t process) {
     std::istringstream rest{line.substr(line.rfind(')') + 1)};
     std::vector<std::string> fields;
     for (std::string field; rest >> field;) fields.push_back(field);
-    constexpr std::size_t born = 19;  // starttime, the 22nd of all
+    constexpr std::size_t born = 19;  // starttime, field 22 of proc(5)
     if (fields.size() <= born) return std::nullopt;
     return Seen{fields.front().front(), fields[born]};
 }

@@ -11,16 +11,16 @@ namespace rois::command {
 // Thread-safe.
 class Caller {
 public:
-    // Of this process. Made before the program goes to the background, where it has another parent.
+    // The parent of this process. Make it before the program goes to the background, where its parent is another one.
     Caller();
 
-    // Whether the caller runs: it has not ended and is not stopped (SIGSTOP, Ctrl-Z). False if it cannot be seen from here, as
-    // with `docker exec`.
+    // Returns whether the caller runs: it has not ended and is not stopped (SIGSTOP, Ctrl-Z). Returns false if it is not visible
+    // from here, as with `docker exec`.
     bool is_alive() const;
 
 private:
     pid_t process_;
-    std::optional<std::string> born_;  // when, so that another process of the same number is told apart
+    std::optional<std::string> born_;  // start time, to detect another process with the same id
 };
 
 }  // namespace rois::command

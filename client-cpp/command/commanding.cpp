@@ -1,4 +1,4 @@
-// The commands that move something: bind, release, set, start, stop, execute.
+// The commands bind, release, set, start, stop, resume and execute.
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -21,43 +21,43 @@ Identifier ref_of(std::string const& code) { return {code, {}, {}, {}}; }
 
 constexpr auto between_looks = std::chrono::seconds{1};  // at the session file
 
-// Returns the next one until then. Returns nothing also if other calls do not find the holder of the session file any more.
-std::optional<Heard> next(Context& context, Until until) {
+// Returns the next update before `until`. Returns nothing also if other commands no longer find this process by the session file.
+std::optional<Update> next(Context& context, Until until) {
     auto& session = context.session();
-    if (!context.holds_session_file()) return session.hear(until);
+    if (!context.holds_session_file()) return session.next_update(until);
     while (context.is_found_by_session_file()) {
         auto const look = std::chrono::steady_clock::now() + between_looks;
-        auto heard = session.hear(until ? std::min(*until, look) : look);
-        if (heard || std::chrono::steady_clock::now() < look) return heard;
+        auto update = session.next_update(until ? std::min(*until, look) : look);
+        if (update || std::chrono::steady_clock::now() < look) return update;
     }
     return std::nullopt;
 }
 
-// Hears until the time is over, or a signal or the end of the link comes; tells what happens to the link, and errors.
+// Waits until the time is over, a signal arrives or the connection closes. Reports changes of the link, and errors.
 void hold(Context& context, Until until) {
     auto& session = context.session();
     auto& printer = context.printer();
     context.keep_recording();
-    while (auto const heard = next(context, until)) {
+    while (auto const update = next(context, until)) {
         if (session.interrupted()) return;
-        if (auto const* const gap = std::get_if<Gap>(&*heard)) {
+        if (auto const* const gap = std::get_if<Gap>(&*update)) {
             printer.gap(*gap);
             bool const is_bound_to_it = context.options().command == "start" || context.holds_session_file();
             if (gap->why == Gap::Why::new_session && is_bound_to_it) throw ended_with_session();
         }
-        auto const* const change = std::get_if<StateChange>(&*heard);
+        auto const* const change = std::get_if<StateChange>(&*update);
         bool const usual = change == nullptr || change->state == State::open || change->state == State::connecting;
         if (!usual) printer.state(*change);
-        if (auto const* const news = std::get_if<News>(&*heard);
+        if (auto const* const news = std::get_if<News>(&*update);
             news != nullptr && std::holds_alternative<ReceiveError>(news->notification))
-            tell_error(context, *news);
+            report_error(context, *news);
     }
     bool const over = session.interrupted() || (until && std::chrono::steady_clock::now() >= *until);
     bool const is_lost = context.holds_session_file() && !context.is_found_by_session_file();
     if (!over && !is_lost) throw Trouble{Exit::no_answer, "the connection has closed"};
 }
 
-void say_bound(Context& context, std::string const& ref) {
+void print_bound(Context& context, std::string const& ref) {
     auto& printer = context.printer();
     if (printer.form() == Form::human) printer.text("bound " + painted(ref, Colour::name, printer.coloured()) + "\n");
 }
@@ -69,8 +69,8 @@ CommandUnitSequence one_command(std::string const& ref, std::string const& type,
     return sequence;
 }
 
-// After a refused `bind_any`: the engine's components, if none meets the condition.
-std::string what_there_is(Context& context, QueryExpression const& condition) {
+// Returns the engine's components for the refusal of a `bind_any`; empty if one of them meets the condition.
+std::string hint_for_bind_any(Context& context, QueryExpression const& condition) {
     auto const answer = context.session().request(Search{condition});
     auto const* const reply = std::get_if<Reply>(&answer);
     auto const* const found = reply != nullptr ? std::get_if<Search::Reply>(reply) : nullptr;
@@ -78,16 +78,16 @@ std::string what_there_is(Context& context, QueryExpression const& condition) {
     return "; the engine has " + components_and_types(context.components());
 }
 
-// A component without a command looks like a file that is not there.
+// Throws Trouble if the file is missing. The name may be that of a component whose command was forgotten.
 void check_file(std::string const& name) {
     std::error_code unknown;
     bool const is_meant = name == "-" || name.find_first_of("./") != std::string::npos || std::filesystem::exists(name, unknown);
     if (!is_meant)
         throw Trouble{Exit::usage, "there is no file " + rois::quoted(name) +
-                                       "; of a component, say which command: rois execute " + name + " start"};
+                                       "; if it is a component, add a command: rois execute " + name + " start"};
 }
 
-// In a shared session, the components that nobody has bound.
+// In a shared session: returns the components that are not bound.
 std::vector<Identifier> free_components(Context& context) {
     if (!context.session().is_joined()) return {};
     return context.ok(Search{conditions::bound == false}).component_ref_list;
@@ -99,16 +99,16 @@ struct Bound {
     Reply reply;
 };
 
-// Appends to `done` what is bound so far.
+// Binds one component after the other. Appends each to `done` at once.
 void bind_each(Context& context, QueryExpression const& condition, std::vector<Bound>& done) {
     auto const& options = context.options();
     for (auto const& ref : options.words) done.push_back({"bind", ref_of(ref), context.bound(ref_of(ref))});
     if (options.where.empty() && options.condition_file.empty()) return;
-    auto reply = context.ok(BindAny{condition}, [&] { return what_there_is(context, condition); });
+    auto reply = context.ok(BindAny{condition}, [&] { return hint_for_bind_any(context, condition); });
     done.push_back({"bind_any", reply.component_ref, reply});
 }
 
-// Binds all, or nothing: a shared session goes on after a refusal.
+// Binds all components, or releases them again if one is refused: a shared session would keep them bound.
 std::vector<Bound> bind_all(Context& context, QueryExpression const& condition) {
     auto const free = free_components(context);
     std::vector<Bound> all;
@@ -146,7 +146,7 @@ void bind(Context& context) {
     }
     for (auto const& bound : *all) {
         if (options.form != Form::human) context.printer().reply(bound.reply, bound.operation);
-        say_bound(context, bound.component.code);
+        print_bound(context, bound.component.code);
     }
     auto& session = context.session();
     if (session.is_joined()) return;

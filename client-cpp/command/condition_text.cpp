@@ -23,7 +23,7 @@ constexpr std::string_view signs = "=<>!(),";
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-// A word ends before a blank, a sign or a quote; but commas inside a word belong to it, as in 0,0.
+// A word ends before a space, a sign or a quote. A comma inside a word is part of it, as in 0,0.
 std::size_t end_of_word(std::string_view text, std::size_t at) {
     while (at < text.size() && !is_blank(text[at]) && text[at] != '"' && text[at] != '\'') {
         bool const separates = text[at] == ',' && (at + 1 == text.size() || is_blank(text[at + 1]));
@@ -201,7 +201,7 @@ private:
                                     {}});
     }
 
-    // A place or a point, and how far that is: 2000, 2000mm, 2m.
+    // A place or a point, and a distance: 2000, 2000mm, 2m.
     Condition near(Reference const& reference) {
         auto const text = value("expected the name of a place, or a point such as 4000,3000");
         auto const away = distance();

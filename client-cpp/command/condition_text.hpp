@@ -1,4 +1,4 @@
-// Conditions as people type them (docs/rois-command.md):
+// Reads conditions from the command line (docs/rois-command.md):
 //
 //     type = Navigation and status = READY
 //     number > 0 and not (position_data within 0,0 4000,3000)
@@ -14,7 +14,7 @@
 
 namespace rois::command {
 
-// What is wrong with such a text, and where: in bytes from its beginning.
+// An invalid condition: the reason, and the byte offset in the text.
 class BadCondition : public std::runtime_error {
 public:
     BadCondition(std::string const& what, std::size_t at) : std::runtime_error{what}, at_{at} {}
@@ -24,7 +24,7 @@ private:
     std::size_t at_;
 };
 
-// An empty text restricts nothing. Throws BadCondition.
+// Reads a condition; an empty text restricts nothing. Throws BadCondition.
 QueryExpression read_condition(std::string_view text);
 
 }  // namespace rois::command

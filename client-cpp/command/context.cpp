@@ -38,12 +38,12 @@ Context::Context(Options options, Signals& signals, Caller const& caller, Backgr
 
 Context::~Context() { signals_.on_first({}); }
 
-// Locks the session file, for a session to come; if another process holds a session under it, acts in that one.
+// Locks the session file for a new session. If another process holds a session under it, joins that one.
 void Context::take_session_file() {
     while (!(session_file_ = SessionFile::lock(options_.session_file))) {
         auto const held = find_held_session(options_.session_file, options_.deadline);
         if (!held) continue;
-        if (!options_.record.empty()) throw Trouble{Exit::usage, "--record: there is no session of its own to record"};
+        if (!options_.record.empty()) throw Trouble{Exit::usage, "--record: this command opens no session to record"};
         join(options_, *held);
         return;
     }
@@ -68,7 +68,7 @@ Session& Context::session() {
     return *session_;
 }
 
-// Until there is a session, a signal ends the program at once.
+// Until a session is open, a signal removes the file and ends the program at once.
 void Context::leave_no_file_if_interrupted() {
     if (!session_file_) return;
     signals_.on_first([file = session_file_.get()] {
@@ -83,8 +83,8 @@ void Context::begin_again(NoSession const& gone) {
     replace_lost_session(gone);
 }
 
-// The engine does not have the session to act in. If the session file named it, its holder has lost it and has not noticed yet,
-// as after a restart of the engine: `bind` ends that holder, and takes its place.
+// The engine does not know the session to join. If it is from the session file, its holder has lost it without noticing, for
+// example after a restart of the engine: `bind` ends that holder and replaces it.
 void Context::replace_lost_session(NoSession const& gone) {
     auto const& held = options_.held;
     if (!held) {
@@ -96,7 +96,7 @@ void Context::replace_lost_session(NoSession const& gone) {
     take_session_file();
 }
 
-// The session of a holder that was killed would keep its components bound until its gateway gives it up.
+// Ends the session of a holder that was killed: it would keep its components bound until its timeout.
 void Context::end_left_session() {
     if (!session_file_ || !session_file_->left()) return;
     auto const& held = *session_file_->left();
@@ -208,7 +208,7 @@ std::string components_and_types(std::vector<ComponentEntry> const& components) 
     });
 }
 
-void tell_error(Context& context, News const& news) {
+void report_error(Context& context, News const& news) {
     context.printer().notification(news.notification, news.sequence);
     explain(context, std::get<ReceiveError>(news.notification));
 }
@@ -224,7 +224,7 @@ void explain(Context& context, ReceiveError const& error) {
     bool const is_held = !ref.empty() && words.starts_with("its motion is held");
     bool const is_shared = context.session().is_joined() || context.options().command == "bind";
     std::string hint;
-    if (is_held) hint = is_shared ? ": rois resume " + ref : "; interrupt this command and give it anew";
+    if (is_held) hint = is_shared ? ": rois resume " + ref : "; interrupt this command and run it again";
     remark((ref.empty() ? "" : harmless(ref) + ": ") + harmless(words) + hint);
 }
 

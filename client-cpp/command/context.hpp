@@ -1,4 +1,4 @@
-// What every command has: its options, where it writes, and its session.
+// The context of a command: its options, its output and its session.
 #pragma once
 
 #include <functional>
@@ -38,42 +38,42 @@ public:
     // If this process holds the session file: writes it and ends the parent. Throws Trouble.
     void go_to_background();
 
-    // Opened when it is asked for the first time. Throws Trouble.
+    // The first call opens or joins the session. Throws Trouble.
     Session& session();
-    // Of `bind`: the joined session has ended. The next `session` is one that another process holds, or one of its own. Throws
-    // Trouble.
+    // For `bind`, after the joined session has ended: the next call of `session` joins one that another process holds, or opens
+    // one. Throws Trouble.
     void begin_again(NoSession const&);
     std::shared_ptr<xml::Schemas const> schemas();
-    // Of `--record`; null without.
+    // The recording of --record; null without.
     std::shared_ptr<RecordingWriter> const& recorded() const { return recorded_; }
-    // With `--record`: the command does what it should, so the recording replaces what the file had. Throws Trouble.
+    // With --record: the command works, so the recording replaces the old content of the file. Throws Trouble.
     void keep_recording();
 
-    // The reply of an operation that is OK. Otherwise writes the refusal, and throws Trouble with its code. The text of `hint`
-    // follows the engine's reason.
+    // Returns the reply of an operation if it is OK. Otherwise writes the refusal, with the text of `hint` after the engine's
+    // reason, and throws Trouble with its code.
     template <class Op>
     typename Op::Reply ok(Op operation, std::function<std::string()> const& hint = {}) {
         return std::get<typename Op::Reply>(checked(std::move(operation), Written::no, hint));
     }
 
-    // The same, written.
+    // The same, and writes the reply.
     template <class Op>
     typename Op::Reply show(Op operation, std::function<std::string()> const& hint = {}) {
         auto reply = checked(std::move(operation), Written::yes, hint);
         return std::get<typename Op::Reply>(std::move(reply));
     }
 
-    // Binds the component. If it is unknown, the refusal names those that there are.
+    // Binds the component. If it is unknown, the refusal lists the known components.
     Bind::Reply bound(Identifier);
 
-    // For the refusal of an unknown component: those that there are. Empty if the component is known.
+    // The list of known components for the refusal of an unknown one; empty if the component is known.
     std::string hint_for_component(std::string const& ref);
 
     // The engine's components; none if the engine does not answer.
     std::vector<ComponentEntry> components();
 
-    // Refuses what this program itself sees to be wrong in what the engine has told: a document like the engine's own refusals of
-    // that operation, or the reason alone for people.
+    // Reports an error that this program has found itself, like a refusal of that operation by the engine: as a document, or only
+    // the reason for people.
     template <class Op>
     [[noreturn]] void refuse(ReturnCode code, std::string const& reason) {
         typename Op::Reply reply;
@@ -82,10 +82,10 @@ public:
         refuse(Reply{std::move(reply)});
     }
 
-    // The condition that the options give, by text or file.
+    // The condition of --where or --condition.
     QueryExpression condition();
 
-    // The component of that ref. Refuses one that is unknown, with those that there are.
+    // Returns the component with this ref. If it is unknown, reports the known components and throws Trouble.
     ComponentEntry component(std::string const& ref);
 
 private:
@@ -104,32 +104,32 @@ private:
     Printer printer_;
     std::shared_ptr<RecordingWriter> recorded_;
     std::shared_ptr<xml::Schemas const> schemas_;
-    std::unique_ptr<SessionFile> session_file_;  // of a session in the background; locked until the session has ended
+    std::unique_ptr<SessionFile> session_file_;  // of a session in the background; locked until that has ended
     std::unique_ptr<Session> session_;
 };
 
-// The names of the components' messages of this kind, each once.
+// Returns the names of the components' messages of this kind, each once.
 std::vector<std::string> message_names(std::vector<ComponentEntry> const&, MessageKind);
 
-// The components with their types: "move (Move), navigation (Navigation)".
+// Returns the components with their types: "move (Move), navigation (Navigation)".
 std::string components_and_types(std::vector<ComponentEntry> const&);
 
-// Writes an error of the engine, and explains it.
-void tell_error(Context&, News const&);
+// Writes an error notification, and calls `explain`.
+void report_error(Context&, News const&);
 
-// Says on standard error what the engine says more of an error, and how to go on after a hold. Asks the engine.
+// Asks the engine for the text of an error and prints it on standard error, with the next step if a motion is held.
 void explain(Context&, ReceiveError const&);
 
-// Writes a remark on standard error, such as that a result is empty.
+// Writes a remark on standard error, for example that a result is empty.
 void remark(std::string const& text);
 
-// When the time of --for is over, counted from the start of the program.
+// Returns the end of --for, counted from the start of the program; nothing without --for.
 Until end_of(Options const&);
 
-// The components that have not confirmed that they stand still, as the answer to /readyz names them.
+// Returns the components that have not confirmed that they stand still, from the body of /readyz.
 std::vector<std::string> not_confirmed(std::string_view readiness);
 
-// What the commands do. Each throws Trouble when it does not go well.
+// The commands. Each throws Trouble if it fails.
 void profile(Context&);
 void search(Context&);
 void query(Context&);

@@ -1,4 +1,4 @@
-// Messages as people read them.
+// Messages as text for people.
 #pragma once
 
 #include <string>
@@ -8,19 +8,19 @@
 
 namespace rois::command {
 
-// Lines with what a reply that is OK has beside its code; empty when that is nothing.
+// Returns the content of an OK reply as lines; empty if it has none.
 std::string described(Reply const&, bool coloured);
 
-// One line, without the time.
+// Returns one line, without the time.
 std::string described(Notification const&, bool coloured);
 
-// All that a component's profile says.
+// Returns the whole profile of a component.
 std::string described(ComponentEntry const&, bool coloured);
 
-// "person_ref=tanaka position_data="9500, 7500, 90""
+// Returns, for example, person_ref=tanaka position_data="9500, 7500, 90".
 std::string values_line(ParameterList const&, bool coloured);
 
-// The last part of a URN.
+// Returns the last part of a URN.
 std::string_view short_type(std::string_view urn);
 
 }  // namespace rois::command

@@ -1,9 +1,9 @@
-// The environment of the `rois` command.
+// The environment variables of the `rois` command.
 #pragma once
 
 namespace rois::command {
 
-// Reports each ROIS_ variable that no program of the project reads on standard error.
+// Warns on standard error of each ROIS_ variable that no program of the project reads.
 void warn_of_unknown_variables();
 
 }  // namespace rois::command

@@ -1,5 +1,5 @@
-// The endpoints of an engine (HTTP, WebSocket, event streams) for what a host answers: enough for applications to be developed
-// with.
+// A server with the endpoints of an engine (HTTP, WebSocket, event streams) for the sessions of a Host. For development and
+// tests.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace rois::command {
 
 class Front {
 public:
-    // "HOST:PORT". Throws Trouble when it cannot listen there.
+    // `listen`: "HOST:PORT". Throws Trouble if it cannot listen there.
     Front(Host&, std::shared_ptr<xml::Schemas const>, std::string const& listen);
     ~Front();
 

@@ -20,7 +20,7 @@ std::string header(HttpMessage const& message, std::string_view name) {
     return {value.data(), value.size()};
 }
 
-// A whole number, or nothing.
+// Returns a whole number, or nothing if the text is not one.
 std::optional<std::uint64_t> number_of(std::string_view text) {
     std::uint64_t number = 0;
     auto const read = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -28,7 +28,7 @@ std::optional<std::uint64_t> number_of(std::string_view text) {
     return number;
 }
 
-// A parameter of the target; 0 when it is not there.
+// Returns a parameter of the target: 0 if it is missing, nothing if it is not a whole number.
 std::optional<std::uint64_t> parameter(std::string_view target, std::string_view name) {
     auto rest = target.substr(std::min(target.size(), target.find('?')));
     while (!rest.empty()) {
@@ -51,16 +51,16 @@ std::string event_of(HostedSession::Numbered const& numbered) {
     }
 }
 
-// A link to a session, as long as it lives.
-class Link {
+// Counts a connection that receives the notifications of a session, while this object lives.
+class ConnectionCount {
 public:
-    explicit Link(HostedSession& session) : session_{session} { ++session_.links; }
-    ~Link() {
-        --session_.links;
+    explicit ConnectionCount(HostedSession& session) : session_{session} { ++session_.connections; }
+    ~ConnectionCount() {
+        --session_.connections;
         session_.used = std::chrono::steady_clock::now();
     }
-    Link(Link const&) = delete;
-    Link& operator=(Link const&) = delete;
+    ConnectionCount(ConnectionCount const&) = delete;
+    ConnectionCount& operator=(ConnectionCount const&) = delete;
 
 private:
     HostedSession& session_;
@@ -136,7 +136,7 @@ asio::awaitable<Front::Connection::Then> Front::Connection::answer(HttpMessage& 
     if ((path == "/healthz" || path == "/readyz") && gets)
         co_return co_await write(message, http::status::ok, "ok\n", "text/plain");
     if (path == "/rois" || path == "/rois/notifications" || path == "/healthz" || path == "/readyz")
-        co_return co_await refuse(message, FaultCode::method_not_allowed, "this method is not for " + std::string{path});
+        co_return co_await refuse(message, FaultCode::method_not_allowed, std::string{path} + " does not allow this method");
     co_return co_await refuse(message, FaultCode::not_found, "only sessions are served here: /rois, /rois/notifications");
 }
 
@@ -215,16 +215,16 @@ asio::awaitable<Front::Connection::Then> Front::Connection::answer_notifications
 
 asio::awaitable<Front::Connection::Then> Front::Connection::poll(HttpMessage& message, std::shared_ptr<HostedSession> session,
                                                                  std::uint64_t after, int wait) {
-    Link const link{*session};
+    ConnectionCount const count{*session};
     asio::steady_timer timer{host_.io(), std::chrono::seconds{wait}};
-    if (session->after(after) == nullptr && wait > 0) co_await session->told(timer);
+    if (session->after(after) == nullptr && wait > 0) co_await session->wait(timer);
     auto body = xml::notifications_begin();
     for (auto const* one = session->after(after); one != nullptr; one = session->after(one->sequence)) body += one->document;
     co_return co_await write(message, http::status::ok, body + xml::notifications_end());
 }
 
 asio::awaitable<void> Front::Connection::stream(std::shared_ptr<HostedSession> session, std::uint64_t after) {
-    Link const link{*session};
+    ConnectionCount const count{*session};
     std::string out =
         "HTTP/1.1 200 OK\r\nContent-Type: text/event-stream\r\nCache-Control: no-store\r\nConnection: close\r\n\r\n";
     Failure failure;
@@ -239,7 +239,7 @@ asio::awaitable<void> Front::Connection::stream(std::shared_ptr<HostedSession> s
         if (failure || session->after(after) != nullptr) continue;
         if (session->ended()) co_return;
         asio::steady_timer timer{host_.io(), sign_of_life};
-        co_await session->told(timer);
+        co_await session->wait(timer);
         if (session->after(after) == nullptr && !session->ended()) out = ":\n\n";
     }
 }

@@ -1,4 +1,4 @@
-// One connection of a front. Only front*.cpp know it.
+// One connection of a Front. Only for front*.cpp.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@ public:
         stream_.socket().set_option(asio::ip::tcp::no_delay{true}, ignored);
     }
 
-    // Requests, until one of them makes something else of the connection. It must be owned by a shared_ptr.
+    // Answers requests until the connection ends, or becomes a WebSocket or an event stream. A shared_ptr must own it.
     asio::awaitable<void> run();
 
 private:
@@ -37,7 +37,7 @@ private:
     asio::awaitable<Then> write(HttpMessage const&, Fault const&);
     asio::awaitable<Then> refuse(HttpMessage const&, FaultCode, std::string reason);
 
-    // The document that answers this one; follows `connect`, `resume` and `disconnect` to the session.
+    // Returns the document that answers this one. Updates `session` after `connect`, `resume` and `disconnect`.
     asio::awaitable<std::string> answer_of(std::string document, std::shared_ptr<HostedSession>& session, bool on_websocket,
                                            std::uint64_t& last_sequence);
 
@@ -47,7 +47,7 @@ private:
     beast::flat_buffer buffer_;
 };
 
-// The status of an answer: 200, or that of a fault.
+// Returns the HTTP status of an answer: 200, or that of its fault.
 http::status status_of(std::string const& answer);
 Fault no_such_session(std::string request_id = {});
 

@@ -20,19 +20,19 @@ bool asks_for_subprotocol(HttpMessage const& message) {
     return false;
 }
 
-// What is written on a WebSocket: answers first, then what the session was told.
+// The output of a WebSocket: queued answers first, then the notifications of its session.
 struct Writing {
     explicit Writing(asio::io_context& io) : timer{io, asio::steady_timer::time_point::max()} {}
 
     std::deque<std::string> answers;
     std::shared_ptr<HostedSession> session;  // null: none yet
-    std::uint64_t told = 0;                  // the last sequence that was written
+    std::uint64_t last_sequence = 0;         // of the last notification that was written
     std::uint64_t number = 0;                // of this WebSocket
     bool over = false;
     asio::steady_timer timer;
 
-    bool is_heard() const { return session && session->websocket == number; }
-    HostedSession::Numbered const* next() const { return is_heard() ? session->after(told) : nullptr; }
+    bool is_current() const { return session && session->websocket == number; }
+    HostedSession::Numbered const* next() const { return is_current() ? session->after(last_sequence) : nullptr; }
 };
 
 std::uint64_t next_number() {
@@ -49,17 +49,17 @@ asio::awaitable<void> write_all(std::shared_ptr<Socket> socket, std::shared_ptr<
             writing->answers.pop_front();
         } else if (auto const* const one = writing->next()) {
             out = one->document;
-            writing->told = one->sequence;
+            writing->last_sequence = one->sequence;
         }
         if (!out.empty()) {
             co_await socket->async_write(asio::buffer(out), into(failure));
-        } else if (writing->session && !writing->is_heard()) {
+        } else if (writing->session && !writing->is_current()) {
             co_await socket->async_close(
                 websocket::close_reason{websocket::close_code::policy_error, "the session goes on elsewhere"}, into(failure));
             co_return;
         } else if (writing->session && !writing->session->ended()) {
             asio::steady_timer timer{host.io(), asio::steady_timer::time_point::max()};
-            co_await writing->session->told(timer);
+            co_await writing->session->wait(timer);
         } else {
             Failure cancelled;
             co_await writing->timer.async_wait(into(cancelled));
@@ -90,19 +90,19 @@ asio::awaitable<void> Front::Connection::upgrade(HttpMessage message) {
     asio::co_spawn(host_.io(), write_all(socket, writing, host_), asio::detached);
     auto const follow = [&](std::shared_ptr<HostedSession> const& session, std::uint64_t last) {
         if (session == writing->session) return;
-        if (writing->session) --writing->session->links;
+        if (writing->session) --writing->session->connections;
         writing->session = session;
-        writing->told = last;
+        writing->last_sequence = last;
         session->websocket = writing->number;
-        ++session->links;
-        session->wake();  // whoever had it until now
+        ++session->connections;
+        session->wake();  // closes the WebSocket that had the session
     };
     while (true) {
         beast::flat_buffer buffer;
         co_await socket->async_read(buffer, into(failure));
         if (failure) break;
         auto session = writing->session;
-        auto last = writing->told;
+        auto last = writing->last_sequence;
         auto document = beast::buffers_to_string(buffer.data());
         auto answer = co_await answer_of(std::move(document), session, true, last);
         writing->answers.push_back(std::move(answer));
@@ -113,7 +113,7 @@ asio::awaitable<void> Front::Connection::upgrade(HttpMessage message) {
     }
     writing->over = true;
     if (writing->session) {
-        --writing->session->links;
+        --writing->session->connections;
         writing->session->used = std::chrono::steady_clock::now();
         writing->session->wake();
     }

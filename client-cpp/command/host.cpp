@@ -11,10 +11,10 @@ namespace rois::command {
 
 namespace {
 
-constexpr std::size_t kept = 10'000;  // notifications of a session, for whoever resumes it
+constexpr std::size_t kept = 10'000;  // notifications of a session, for `resume`
 constexpr auto longest_unused = std::chrono::seconds{90};
 
-// As unguessable as the program's chance is; only tests and developers are served.
+// Good enough for tests and development: no protection against guessing is needed.
 std::string fresh_id() {
     std::random_device chance;
     std::string id;
@@ -28,7 +28,7 @@ std::string fresh_id() {
 
 }  // namespace
 
-void HostedSession::tell(Notification const& notification) {
+void HostedSession::notify(Notification const& notification) {
     if (ended_) return;
     ++last_;
     log_.push_back({last_, std::string{xml::notification_head(notification)} + std::to_string(last_) +
@@ -42,7 +42,7 @@ HostedSession::Numbered const* HostedSession::after(std::uint64_t sequence) cons
     return found == log_.end() ? nullptr : &*found;
 }
 
-asio::awaitable<void> HostedSession::told(asio::steady_timer& timer) {
+asio::awaitable<void> HostedSession::wait(asio::steady_timer& timer) {
     auto const place = waiting_.insert(waiting_.end(), &timer);
     Failure failure;
     co_await timer.async_wait(into(failure));
@@ -80,7 +80,7 @@ void Host::end_unused() {
     auto const now = std::chrono::steady_clock::now();
     std::vector<std::shared_ptr<HostedSession>> unused;
     for (auto const& [id, session] : sessions_)
-        if (session->links == 0 && now - session->used > longest_unused) unused.push_back(session);
+        if (session->connections == 0 && now - session->used > longest_unused) unused.push_back(session);
     for (auto const& session : unused) end(*session);
 }
 

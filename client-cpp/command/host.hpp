@@ -1,4 +1,4 @@
-// What a front serves: sessions, whoever answers in them (rois replay: a recording; rois record --listen: an engine).
+// The sessions that a Front serves. Their Guest answers: a recording (rois replay) or an engine (rois record --listen).
 #pragma once
 
 #include <chrono>
@@ -16,17 +16,17 @@
 
 namespace rois::command {
 
-// Who answers in one session. All on the front's thread.
+// Answers the requests of one session. For the front's thread.
 class Guest {
 public:
     virtual ~Guest() = default;
 
-    // A request, as it stands and as it was read; `reply` takes the document that answers it, now or later, once.
+    // Takes a request, as text and as read. Calls `reply` once with the document that answers it, now or later.
     virtual void take(std::string const& document, std::variant<Request, Fault> const& read,
                       std::function<void(std::string)> reply) = 0;
 };
 
-// One session of an application: its guest, and what it was told.
+// One session of an application: its guest and its notifications.
 class HostedSession {
 public:
     explicit HostedSession(SessionId id) : id_{std::move(id)} {}
@@ -34,26 +34,25 @@ public:
     SessionId const& id() const { return id_; }
     std::unique_ptr<Guest> guest;
 
-    void tell(Notification const&);
+    void notify(Notification const&);
 
     struct Numbered {
         std::uint64_t sequence;
         std::string document;
     };
-    // The first one after this sequence; null when there is none.
+    // Returns the first notification after this sequence, or null.
     Numbered const* after(std::uint64_t sequence) const;
     std::uint64_t last() const { return last_; }
 
-    // Goes on when something was told, the session has ended, somebody woke it, or the timer's time has come.
-    asio::awaitable<void> told(asio::steady_timer& timer);
+    // Waits for a notification, the end of the session, a call of `wake`, or the timer.
+    asio::awaitable<void> wait(asio::steady_timer& timer);
     void wake();
 
     void end();
     bool ended() const { return ended_; }
 
-    // Links that hear; the last one to come is the one that counts for a WebSocket.
-    int links = 0;
-    std::uint64_t websocket = 0;
+    int connections = 0;          // that receive the notifications
+    std::uint64_t websocket = 0;  // number of the WebSocket that has the session; the latest one takes it over
     std::chrono::steady_clock::time_point used = std::chrono::steady_clock::now();
 
 private:
@@ -66,14 +65,14 @@ private:
 
 using MakeGuest = std::function<std::unique_ptr<Guest>(HostedSession&)>;
 
-// All sessions. Those that nobody has used for some time end.
+// All sessions. Ends those that were not used for some time.
 class Host {
 public:
     Host(asio::io_context& io, MakeGuest make) : io_{io}, make_{std::move(make)} {}
 
     asio::io_context& io() { return io_; }
     std::shared_ptr<HostedSession> open();
-    std::shared_ptr<HostedSession> find(std::string const& id) const;  // null when there is none
+    std::shared_ptr<HostedSession> find(std::string const& id) const;  // null if there is none
     void end(HostedSession&);
     void end_unused();
     void end_all();

@@ -62,7 +62,7 @@ Bare request_of(http::verb verb, Address const& address, HttpServer const& serve
 
 struct Outcome {
     std::optional<HttpAnswer> answer;
-    std::string trouble = "no answer in time";
+    std::string trouble{};
 };
 
 template <class Stream>
@@ -101,7 +101,7 @@ asio::awaitable<void> exchange_with_tls(beast::tcp_stream stream, Address const&
     if (!failure) co_await exchange(secured, request, outcome, failure);
 }
 
-// Whether it failed as when a port that speaks TLS is asked in plain HTTP.
+// Returns whether a port that speaks TLS may have caused this failure of plain HTTP.
 bool may_be_tls(Failure const& failure) {
     return failure.category() == http::make_error_code(http::error::end_of_stream).category();
 }
@@ -132,7 +132,7 @@ void rethrow(std::exception_ptr const& error) {
 std::string hint_for_url(std::string const& url) {
     auto const last = url.find_last_not_of('/');
     bool const names_rois = std::string_view{url}.substr(0, last + 1).ends_with("/rois");
-    return names_rois ? "; the URL ends where /rois begins: leave it out" : "";
+    return names_rois ? "; leave /rois out of the URL" : "";
 }
 
 void check(HttpServer const& server) {
@@ -155,11 +155,11 @@ HttpAnswer asked(http::verb verb, HttpServer const& server, std::string const& t
                  std::string const& session) {
     auto const address = address_of(server.url);
     auto request = request_of(verb, address, server, target, session);
-    Outcome outcome;
+    Outcome outcome{.answer = {}, .trouble = "no answer within " + std::to_string(deadline.count()) + " ms"};
     auto io = std::make_unique<asio::io_context>(1);
     asio::co_spawn(*io, run(address, server, request, outcome), rethrow);
     io->run_for(deadline);
-    // The end of one that looks a name up waits for it. Nothing runs on it any more, and the program ends soon.
+    // The destructor would wait for a host name that is still looked up. Leaks the context instead: the program ends soon.
     [[maybe_unused]] static asio::io_context* left_alone = nullptr;
     if (!io->stopped()) left_alone = io.release();
     if (!outcome.answer) throw Trouble{Exit::no_answer, server.url + ": " + outcome.trouble};

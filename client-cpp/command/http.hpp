@@ -1,4 +1,4 @@
-// Single HTTP requests: the engine's health, stop for everything, and what a session has been told.
+// Single HTTP requests: the engine's health, stop for everything, and the notifications of a session.
 #pragma once
 
 #include <chrono>
@@ -11,29 +11,29 @@ struct HttpAnswer {
     std::string body;
 };
 
-// Where requests go: a URL as the client library takes it.
+// The server of a request: a URL as in the client library.
 struct HttpServer {
     std::string url;
     std::string token{};    // empty: none
-    std::string ca_file{};  // empty: the system's certificates alone
+    std::string ca_file{};  // empty: only the system's certificates
 };
 
-// Gets "/readyz" or the like, behind the path of the URL, in this time; in this session, unless it is empty. Throws Trouble
-// (no_answer) when there is no answer; (usage) for a URL that is none.
+// Gets `target`, for example "/readyz", after the path of the URL; in this session, unless it is empty. Throws Trouble: no_answer
+// if there is no answer within `deadline`, usage if the URL is invalid.
 HttpAnswer http_get(HttpServer const&, std::string const& target, std::chrono::milliseconds deadline,
                     std::string const& session = {});
 
-// Posts to "/rois/stop" or the like, without a body. Throws Trouble like `http_get`.
+// Posts to `target`, for example "/rois/stop", without a body. Throws Trouble like `http_get`.
 HttpAnswer http_post(HttpServer const&, std::string const& target, std::chrono::milliseconds deadline);
 
-// Throws Trouble (usage) for a URL that is none, and if the file of certificates cannot be read.
+// Throws Trouble (usage) if the URL is invalid or the file of certificates cannot be read.
 void check(HttpServer const&);
 
-// Whether both URLs name the same host, port and path over the same kind of link (TLS or plain). Throws Trouble (usage) for a URL
-// that is none.
+// Returns whether both URLs have the same host, port, path and security (TLS or plain). Throws Trouble (usage) if a URL is
+// invalid.
 bool is_same_gateway(std::string const& url, std::string const& other);
 
-// What may be wrong with a URL that leads to no engine; empty if nothing is known.
+// Returns advice about a URL at which no engine answers; empty if there is none.
 std::string hint_for_url(std::string const& url);
 
 }  // namespace rois::command

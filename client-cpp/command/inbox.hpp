@@ -1,4 +1,4 @@
-// What came and was not taken yet; between two threads.
+// A thread-safe queue.
 #pragma once
 
 #include <condition_variable>
@@ -18,20 +18,20 @@ public:
         changed_.notify_all();
     }
 
-    // Nothing more will come.
+    // Ends the queue: nothing is put into it after this.
     void close() {
         std::lock_guard const lock{mutex_};
         closed_ = true;
         changed_.notify_all();
     }
 
-    // Nothing is left, and nothing more will come.
+    // Whether the queue is closed and empty.
     bool is_over() {
         std::lock_guard const lock{mutex_};
         return closed_ && waiting_.empty();
     }
 
-    // The next one; nothing at that time, and when it is closed and empty.
+    // Waits for the next item. Returns nothing at the time `until`, and if the queue is closed and empty.
     template <class Until>
     std::optional<T> take(std::optional<Until> until) {
         std::unique_lock lock{mutex_};

@@ -1,4 +1,4 @@
-// What the program is given to read: files, and standard input.
+// Reads files and standard input.
 #pragma once
 
 #include <fstream>
@@ -6,10 +6,10 @@
 
 namespace rois::command {
 
-// Each throws Trouble when the file cannot be read.
+// Both throw Trouble if the file cannot be read.
 std::ifstream open_file(std::string const& file);
 
-// The text of a file; `-` is standard input.
+// Returns the text of a file; `-` is standard input.
 std::string text_of_file(std::string const& file);
 
 }  // namespace rois::command

@@ -110,7 +110,7 @@ void add_ids(Json& list, std::vector<CommandUnit> const& units) {
     }
 }
 
-// What a reply has beside its outcome.
+// The fields of a reply without its return code and reason.
 struct Out {
     Json& object;
 

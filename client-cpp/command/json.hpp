@@ -1,5 +1,5 @@
-// Messages as JSON objects, for `--json`: the names are those of the documents; values are numbers, truths, texts and lists by
-// their types.
+// Messages as JSON objects, for --json. Names are those of the documents; values are numbers, booleans, strings and arrays by
+// their data type.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ Json to_json(ComponentProfile const&);
 Json to_json(StateChange const&);
 Json to_json(Gap const&);
 
-// One line. What is not UTF-8 is replaced.
+// Returns the object as one line. Replaces bytes that are not UTF-8.
 std::string line_of(Json const&);
 
 }  // namespace rois::command

@@ -19,22 +19,21 @@ void check_known(Context& context, std::vector<std::string> const& wanted, std::
                                       "no component has an event " + rois::quoted(type) + "; there are " + listed(known));
 }
 
-bool is_new_session(Heard const& heard) {
-    auto const* const gap = std::get_if<Gap>(&heard);
+bool is_new_session(Update const& update) {
+    auto const* const gap = std::get_if<Gap>(&update);
     return gap != nullptr && gap->why == Gap::Why::new_session;
 }
 
-// Components that were started have stopped with their session: they are started again in the next one. Its link may be lost on
-// the way, too; then it is tried when that is there again.
+// Starts the components of --start again in a new session. Retries if the link is lost meanwhile.
 class Restarting {
 public:
     explicit Restarting(Context& context) : context_{context} {}
 
-    void hear(Heard const& heard) {
-        auto const* const change = std::get_if<StateChange>(&heard);
+    void take(Update const& update) {
+        auto const* const change = std::get_if<StateChange>(&update);
         bool const there = change != nullptr && (change->state == State::open || change->state == State::resumed);
-        due_ = due_ || is_new_session(heard);
-        if (!due_ || (!there && !is_new_session(heard))) return;
+        due_ = due_ || is_new_session(update);
+        if (!due_ || (!there && !is_new_session(update))) return;
         try {
             start_components(context_);
             due_ = false;
@@ -48,10 +47,10 @@ private:
     bool due_ = false;
 };
 
-void show(Printer& printer, Heard const& heard) {
-    if (auto const* const news = std::get_if<News>(&heard)) return printer.notification(news->notification, news->sequence);
-    if (auto const* const change = std::get_if<StateChange>(&heard)) return printer.state(*change);
-    printer.gap(std::get<Gap>(heard));
+void show(Printer& printer, Update const& update) {
+    if (auto const* const news = std::get_if<News>(&update)) return printer.notification(news->notification, news->sequence);
+    if (auto const* const change = std::get_if<StateChange>(&update)) return printer.state(*change);
+    printer.gap(std::get<Gap>(update));
 }
 
 }  // namespace
@@ -75,7 +74,7 @@ std::vector<SubscribeId> subscribe_to(Context& context, std::vector<std::string>
     bool const all = event_types.empty();
     std::vector<SubscribeId> ids;
     for (auto const& type : all ? known : event_types) {
-        // A condition may speak of what only some events have: those that cannot be meant are left out when nobody named them.
+        // The condition may name results that only some events have. Without EVENT, leaves out the events that it does not fit.
         auto answer = context.session().request(Subscribe{type, condition, true});
         auto const* const reply = std::get_if<Reply>(&answer);
         auto const* const subscribed = reply != nullptr ? std::get_if<Subscribe::Reply>(reply) : nullptr;
@@ -87,8 +86,8 @@ std::vector<SubscribeId> subscribe_to(Context& context, std::vector<std::string>
     return ids;
 }
 
-bool Meant::operator()(Heard const& heard) const {
-    auto const* const news = std::get_if<News>(&heard);
+bool Wanted::operator()(Update const& update) const {
+    auto const* const news = std::get_if<News>(&update);
     if (news == nullptr) return true;
     auto const* const event = std::get_if<ReceiveEvent>(&news->notification);
     bool const is_chosen = event == nullptr || events.empty() || std::ranges::find(events, event->subscribe_id) != events.end();
@@ -97,7 +96,7 @@ bool Meant::operator()(Heard const& heard) const {
 
 namespace {
 
-// The time of --for is over: fails if --count asked for more events, and remarks on it if none came.
+// Ends the time of --for: throws Trouble if --count asked for more events, and remarks if none arrived.
 void end_in_time(Options const& options, std::size_t events) {
     if (options.count)
         throw Trouble{Exit::timeout, "only " + std::to_string(events) + " of " + std::to_string(*options.count) +
@@ -105,7 +104,7 @@ void end_in_time(Options const& options, std::size_t events) {
     if (events == 0) remark("no event came in the time of --for");
 }
 
-// The sequence of the last notification that the shared session has been told; 0: none.
+// Returns the sequence of the last notification of the shared session; 0 if there is none.
 std::uint64_t last_sequence(Context& context) {
     auto const& options = context.options();
     for (std::uint64_t last = 0;;) {
@@ -114,7 +113,7 @@ std::uint64_t last_sequence(Context& context) {
                      "/rois/notifications?after=" + std::to_string(last) + "&wait=0", options.deadline, options.session);
         pugi::xml_document notifications;
         if (answer.status != 200 || !notifications.load_string(answer.body.c_str()))
-            throw Trouble{Exit::no_answer, options.url + ": what the session has been told is not to be had (status " +
+            throw Trouble{Exit::no_answer, options.url + ": the notifications of the session cannot be read (HTTP status " +
                                                std::to_string(answer.status) + ")"};
         auto const newest = notifications.document_element().last_child().attribute("sequence").as_ullong();
         if (newest <= last) return last;
@@ -122,17 +121,17 @@ std::uint64_t last_sequence(Context& context) {
     }
 }
 
-// Calls `subscribe`. In a shared session, only what comes from then on is meant, and only events of these subscriptions.
-Meant meant_by(Context& context, std::function<std::vector<SubscribeId>()> const& subscribe) {
-    if (!context.session().is_joined()) return subscribe(), Meant{};
-    Meant meant{.after = last_sequence(context)};
-    meant.events = subscribe();
-    return meant;
+// Calls `subscribe`. In a shared session, selects later notifications, and only events of these subscriptions.
+Wanted wanted_by(Context& context, std::function<std::vector<SubscribeId>()> const& subscribe) {
+    if (!context.session().is_joined()) return subscribe(), Wanted{};
+    Wanted wanted{.after = last_sequence(context)};
+    wanted.events = subscribe();
+    return wanted;
 }
 
 }  // namespace
 
-void listen(Context& context, std::function<void(Heard const&)> const& told, Meant const& meant) {
+void listen(Context& context, std::function<void(Update const&)> const& handle, Wanted const& wanted) {
     auto& session = context.session();
     auto const& options = context.options();
     auto const until = end_of(options);
@@ -140,23 +139,23 @@ void listen(Context& context, std::function<void(Heard const&)> const& told, Mea
     Restarting restarting{context};
     context.keep_recording();
     while (!options.count || events < *options.count) {
-        auto const heard = session.hear(until);
+        auto const update = session.next_update(until);
         if (session.interrupted()) return;
-        if (!heard && until && std::chrono::steady_clock::now() >= *until) return end_in_time(options, events);
-        if (!heard) throw Trouble{Exit::no_answer, "the connection has closed"};
-        if (!meant(*heard)) continue;
-        auto const* const news = std::get_if<News>(&*heard);
+        if (!update && until && std::chrono::steady_clock::now() >= *until) return end_in_time(options, events);
+        if (!update) throw Trouble{Exit::no_answer, "the connection has closed"};
+        if (!wanted(*update)) continue;
+        auto const* const news = std::get_if<News>(&*update);
         if (news != nullptr && std::holds_alternative<ReceiveEvent>(news->notification)) ++events;
-        told(*heard);
+        handle(*update);
         if (news != nullptr && std::holds_alternative<ReceiveError>(news->notification))
             explain(context, std::get<ReceiveError>(news->notification));
-        restarting.hear(*heard);
+        restarting.take(*update);
     }
 }
 
 void subscribe(Context& context) {
     auto const& options = context.options();
-    auto const meant = meant_by(context, [&] {
+    auto const wanted = wanted_by(context, [&] {
         auto const reply = context.ok(Subscribe{options.name, context.condition(), true}, [&]() -> std::string {
             auto const known = message_names(context.components(), MessageKind::event);
             return std::ranges::find(known, options.name) == known.end() ? "; there are the events " + listed(known) : "";
@@ -167,32 +166,32 @@ void subscribe(Context& context) {
     if (context.session().is_joined() && !options.count && !options.span) return;
     listen(
         context,
-        [&](Heard const& heard) {
-            auto const* const change = std::get_if<StateChange>(&heard);
+        [&](Update const& update) {
+            auto const* const change = std::get_if<StateChange>(&update);
             bool const usual = change != nullptr && (change->state == State::open || change->state == State::connecting);
-            if (!usual) show(context.printer(), heard);
+            if (!usual) show(context.printer(), update);
         },
-        meant);
+        wanted);
 }
 
 void watch(Context& context) {
     auto const& options = context.options();
     bool const is_chosen = !options.words.empty() || !options.where.empty() || !options.condition_file.empty();
-    Meant meant;
+    Wanted wanted;
     if (is_chosen || !context.session().is_joined())
-        meant = meant_by(context, [&] { return subscribe_to(context, options.words, context.condition()); });
+        wanted = wanted_by(context, [&] { return subscribe_to(context, options.words, context.condition()); });
     start_components(context);
     listen(
-        context, [&](Heard const& heard) { show(context.printer(), heard); }, meant);
+        context, [&](Update const& update) { show(context.printer(), update); }, wanted);
 }
 
 void record(Context& context) {
     if (!context.options().listen.empty()) return record_others(context);
     subscribe_to(context, context.options().words, {});
     start_components(context);
-    listen(context, [&](Heard const& heard) {
+    listen(context, [&](Update const& update) {
         context.recorded()->check();
-        show(context.printer(), heard);
+        show(context.printer(), update);
     });
 }
 

@@ -1,4 +1,4 @@
-// Hearing events: what subscribe, watch and record have in common.
+// Functions that subscribe, watch and record share.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,20 @@ namespace rois::command {
 // Binds and starts the components of --start.
 void start_components(Context&);
 
-// Subscribes to events of these types, all that the engine's components have when none is given; results inline. Throws Trouble.
+// Subscribes to these event types, or to all of the engine's components if none is given, with inline results. Throws Trouble.
 std::vector<SubscribeId> subscribe_to(Context&, std::vector<std::string> const& event_types, QueryExpression const&);
 
-// What a command listens for. A shared session is told from its beginning, and of all its subscriptions.
-struct Meant {
-    std::uint64_t after = 0;            // a sequence
-    std::vector<SubscribeId> events{};  // subscribed to; empty: all
+// Selects the updates of a command. In a shared session, the command also receives older notifications and events of other
+// subscriptions.
+struct Wanted {
+    std::uint64_t after = 0;            // only notifications after this sequence
+    std::vector<SubscribeId> events{};  // only events of these subscriptions; empty: all
 
-    bool operator()(Heard const&) const;
+    bool operator()(Update const&) const;
 };
 
-// Hears until --count events have come, --for is over, or a signal. Throws Trouble when the connection closes.
-void listen(Context&, std::function<void(Heard const&)> const& heard, Meant const& = {});
+// Calls `handle` with each wanted update until --count events have arrived, --for is over, or a signal arrives. Throws Trouble if
+// the connection closes.
+void listen(Context&, std::function<void(Update const&)> const& handle, Wanted const& = {});
 
 }  // namespace rois::command

@@ -1,4 +1,4 @@
-// The `rois` command: speaks to an engine from the command line. docs/rois-command.md describes it.
+// The `rois` command: controls an engine from the command line (docs/rois-command.md).
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -41,7 +41,7 @@ std::map<std::string_view, std::function<void(Context&)>> const& commands() {
     return all;
 }
 
-int tell(Exit exit, std::string_view what) {
+int report(Exit exit, std::string_view what) {
     if (!what.empty()) std::fprintf(stderr, "rois: %.*s\n", static_cast<int>(what.size()), what.data());
     return static_cast<int>(exit);
 }
@@ -49,8 +49,8 @@ int tell(Exit exit, std::string_view what) {
 int run(int argc, char const* const* argv) {
     warn_of_unknown_variables();
     auto read = read_options(argc, argv);
-    if (auto const* const said = std::get_if<Said>(&read)) {
-        std::fputs(said->words.c_str(), stdout);
+    if (auto const* const printout = std::get_if<Printout>(&read)) {
+        std::fputs(printout->text.c_str(), stdout);
         return 0;
     }
     auto options = std::get<Options>(std::move(read));
@@ -74,8 +74,8 @@ int main(int argc, char** argv) {
         rois::xml::Platform const platform;
         return run(argc, argv);
     } catch (Trouble const& trouble) {
-        return tell(trouble.exit(), trouble.what());
+        return report(trouble.exit(), trouble.what());
     } catch (std::exception const& error) {
-        return tell(Exit::error, error.what());
+        return report(Exit::error, error.what());
     }
 }

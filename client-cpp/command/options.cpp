@@ -19,7 +19,7 @@ namespace rois::command {
 
 namespace {
 
-constexpr auto what_it_is = "rois: speaks to a RoIS HRI engine from the command line (man rois)";
+constexpr auto description = "rois: controls a RoIS HRI engine from the command line (man rois)";
 
 constexpr auto footer =
     "Examples:\n"
@@ -29,9 +29,9 @@ constexpr auto footer =
     "  rois query robot_position --json\n\n"
     "Exit codes: 0 OK, 1 ERROR, 2 wrong use, 3 BAD_PARAMETER, 4 UNSUPPORTED, 5 OUT_OF_RESOURCES, 6 TIMEOUT, 7 a command ended "
     "with\n"
-    "ABORT, 8 no answer, 9 the document was refused, 130 interrupted";
+    "ABORT, 8 no answer, 9 the document was rejected, 130 interrupted";
 
-// What is read as a text and means something else.
+// Option values before their conversion.
 struct Raw {
     double timeout = 10;
     double span = 0;
@@ -43,7 +43,7 @@ struct Raw {
     bool version = false;
 };
 
-// CLI::Range lets nan through.
+// CLI::Range accepts nan.
 CLI::Validator within(double least, double most) {
     return CLI::Validator{[least, most](std::string& text) -> std::string {
                               double value = 0;
@@ -70,36 +70,38 @@ public:
 
 private:
     void general() {
-        app_.set_help_flag("-h,--help", "say this");
-        app_.set_help_all_flag("--help-all", "say this of all commands");
+        app_.set_help_flag("-h,--help", "print this help");
+        app_.set_help_all_flag("--help-all", "print the help of all commands");
         app_.footer(footer);
         app_.require_subcommand(0, 1);
         app_.fallthrough();
-        app_.add_option("--url", options_.url, "where the engine is [http://127.0.0.1:8080] (ROIS_URL)")->option_text("URL");
+        app_.add_option("--url", options_.url, "URL of the gateway [http://127.0.0.1:8080] (ROIS_URL)")->option_text("URL");
         app_.add_option("--token", options_.token, "sent as Authorization: Bearer (ROIS_TOKEN)")
             ->envname("ROIS_TOKEN")
             ->option_text("TOKEN");
-        app_.add_option("--ca-file", options_.ca_file, "certificates that are trusted, PEM (ROIS_CA_FILE)")
+        app_.add_option("--ca-file", options_.ca_file, "trusted certificates, PEM (ROIS_CA_FILE)")
             ->envname("ROIS_CA_FILE")
             ->option_text("FILE");
-        app_.add_option("--session", options_.session, "act in this session, which rois bind holds (ROIS_SESSION)")
+        app_.add_option("--session", options_.session, "use this session, which rois bind holds (ROIS_SESSION)")
             ->option_text("ID");
         app_.add_option("--session-file", options_.session_file,
-                        "act in the session that rois bind holds in the background under this file (ROIS_SESSION_FILE)")
+                        "use the session that rois bind holds in the background under this file (ROIS_SESSION_FILE)")
             ->option_text("FILE");
-        app_.add_flag("--http", options_.over_http, "requests and an event stream instead of a WebSocket");
-        app_.add_option("--timeout", raw_.timeout, "for an answer [10]")->option_text("SECONDS")->check(within(0.01, 86'400));
+        app_.add_flag("--http", options_.over_http, "use HTTP requests and an event stream instead of a WebSocket");
+        app_.add_option("--timeout", raw_.timeout, "longest wait for an answer [10]")
+            ->option_text("SECONDS")
+            ->check(within(0.01, 86'400));
         auto* const xml = app_.add_flag("--xml", raw_.xml, "write XML documents");
-        app_.add_flag("--json", raw_.json, "write JSON, an object a line")->excludes(xml);
+        app_.add_flag("--json", raw_.json, "write JSON, one object a line")->excludes(xml);
         app_.add_option("--colour", options_.colour, "auto, always or never [auto]")
             ->option_text("WHEN")
             ->check(CLI::IsMember({"auto", "always", "never"}));
-        app_.add_option("--record", options_.record, "also write all that the session sees to a file, for rois replay")
+        app_.add_option("--record", options_.record, "also write all documents of the session to a file, for rois replay")
             ->option_text("FILE");
-        app_.add_flag("--version", raw_.version, "say the version");
+        app_.add_flag("--version", raw_.version, "print the version");
     }
 
-    // What the help calls a value, errors call it, too.
+    // Errors name a value as the help does.
     static void name_values(CLI::App& app) {
         for (auto* const option : app.get_options())
             if (auto const& name = option->get_option_text(); !trimmed(name).empty()) option->type_name(name);
@@ -125,14 +127,16 @@ private:
     }
 
     void counted(CLI::App& command) {
-        command.add_option("--count", raw_.count, "end after so many events")->option_text("N")->check(within(1, 1'000'000'000));
+        command.add_option("--count", raw_.count, "end after this many events")
+            ->option_text("N")
+            ->check(within(1, 1'000'000'000));
     }
 
     void starting(CLI::App& command) {
-        command.add_option("--start", options_.starts, "bind this component, and start it; may come again")->option_text("REF");
+        command.add_option("--start", options_.starts, "bind and start this component; may be repeated")->option_text("REF");
     }
 
-    // The rest of the command line.
+    // Adds positional arguments.
     CLI::Option* words(CLI::App& command, std::string const& name, std::string const& what) {
         return command.add_option(name, options_.words, what)->option_text(" ");
     }
@@ -141,22 +145,22 @@ private:
     }
 
     void for_asking() {
-        auto& profile = command("profile", "the engine and its components, or all that one component can do");
+        auto& profile = command("profile", "show the engine and its components, or the profile of one component");
         profile.add_option("REF", options_.ref, "a component")->option_text(" ");
         conditioned(profile);
-        auto& search = command("search", "the components that meet a condition");
-        search.add_option("CONDITION", raw_.condition, "such as: 'type = Navigation and status = READY'")->option_text(" ");
+        auto& search = command("search", "list the components that meet a condition");
+        search.add_option("CONDITION", raw_.condition, "for example 'type = Navigation and status = READY'")->option_text(" ");
         conditioned(search);
-        auto& query = command("query", "ask the engine or a component");
-        query.add_option("QUERY", options_.name, "a type of queries, such as robot_position")->required()->option_text(" ");
-        query.add_option("--of", options_.ref, "this component")->option_text("REF");
+        auto& query = command("query", "query the engine or a component");
+        query.add_option("QUERY", options_.name, "a query type, for example robot_position")->required()->option_text(" ");
+        query.add_option("--of", options_.ref, "query this component")->option_text("REF");
         conditioned(query);
-        auto& get = command("get", "the parameters of a component; it need not be bound");
+        auto& get = command("get", "show the parameters of a component; needs no binding");
         ref(get);
-        words(get, "NAME", "these parameters; all when left out");
-        command("health", "whether the engine is ready; 0 or 1, for docker and others");
-        command("stop-all", "halt all robots of all sessions; nothing starts until clear");
-        command("clear", "let commands start again after stop-all");
+        words(get, "NAME", "parameters; default: all");
+        command("health", "check whether the engine is ready; exit code 0 or 1");
+        command("stop-all", "halt all robots of all sessions; no command starts until clear");
+        command("clear", "allow commands again after stop-all");
     }
 
     void for_commanding() {
@@ -164,66 +168,67 @@ private:
             command("bind", "bind components, and hold them until interrupted, or in the background with --session-file");
         words(bind, "REF", "components");
         conditioned(bind);
-        bounded(bind, "hold them so long");
-        auto& release = command("release", "release components of a held session; without REF, end the one of --session-file");
+        bounded(bind, "hold them for this time");
+        auto& release =
+            command("release", "release components of a held session; without REF, end the session of --session-file");
         words(release, "REF", "components");
         auto& set = command("set", "set parameters of a component");
         ref(set);
-        words(set, "NAME=VALUE", "parameters; a name that comes again adds to a list")->required();
-        auto& start = command("start", "start a component, and wait until that has completed");
+        words(set, "NAME=VALUE", "parameters; a repeated name adds to a list")->required();
+        auto& start = command("start", "start a component, and wait until the command has completed");
         ref(start);
         words(start, "NAME=VALUE", "arguments");
-        bounded(start, "keep it going so long after it has completed");
+        bounded(start, "keep the session for this time after the command");
         unwaited(start);
         auto& stop = command("stop", "stop a component");
         ref(stop);
-        auto& resume = command("resume", "let a component go on that was suspended, or whose motion is held");
+        auto& resume = command("resume", "resume a component that was suspended, or whose motion is held");
         ref(resume);
         auto& execute = command("execute", "run a command of a component, or the sequence in a file");
         words(execute, "FILE|REF",
-              "a file with a CommandUnitSequence, - is standard input; or a component, a command, NAME=VALUE...")
+              "a file with a CommandUnitSequence (-: standard input); or a component, a command, NAME=VALUE...")
             ->required();
-        execute.add_flag("--results", options_.results, "show what each command resulted in");
+        execute.add_flag("--results", options_.results, "show the results of each command");
         unwaited(execute);
     }
 
-    void unwaited(CLI::App& command) { command.add_flag("--no-wait", raw_.no_wait, "do not wait for the end; with --session"); }
+    void unwaited(CLI::App& command) { command.add_flag("--no-wait", raw_.no_wait, "do not wait for the end; needs --session"); }
 
     void for_listening() {
         auto& subscribe = command("subscribe", "subscribe to events of one type, and show them until interrupted");
-        subscribe.add_option("EVENT", options_.name, "a type of events, such as person_detected")->required()->option_text(" ");
+        subscribe.add_option("EVENT", options_.name, "an event type, for example person_detected")->required()->option_text(" ");
         conditioned(subscribe);
         counted(subscribe);
-        bounded(subscribe, "so long");
-        auto& watch = command("watch", "show all that the engine tells: events, errors, ends of commands, and how the link is");
-        words(watch, "EVENT", "types of events; all when left out");
+        bounded(subscribe, "end after this time");
+        auto& watch = command("watch", "show all notifications: events, errors, ends of commands, and the state of the link");
+        words(watch, "EVENT", "event types; default: all");
         conditioned(watch);
         starting(watch);
         counted(watch);
-        bounded(watch, "so long");
+        bounded(watch, "end after this time");
     }
 
     void for_files() {
-        auto& send = command("send", "send any document, and show the answer");
-        send.add_option("FILE", options_.file, "- is standard input")->required()->option_text(" ");
-        auto& record = command("record", "write all that a session sees to a file: its own, or those of applications (--listen)");
+        auto& send = command("send", "send a document, and show the answer");
+        send.add_option("FILE", options_.file, "the document (-: standard input)")->required()->option_text(" ");
+        auto& record = command("record", "write all documents of a session to a file, or those of applications (--listen)");
         record.add_option("FILE", options_.file, "the recording")->required()->option_text(" ");
-        words(record, "EVENT", "types of events; all when left out");
+        words(record, "EVENT", "event types; default: all");
         starting(record);
         counted(record);
-        bounded(record, "so long");
-        listening(record, "take part for the engine there, and record what applications and engine say");
+        bounded(record, "end after this time");
+        listening(record, "serve applications at this address, and record them and the engine");
         auto& replay = command("replay", "serve a recording as an engine");
         replay.add_option("FILE", options_.file, "the recording")->required()->option_text(" ");
-        listening(replay, "where [127.0.0.1:8080]; port 0 takes any free one");
-        replay.add_option("--speed", options_.speed, "so many recorded seconds in a second [1]; 0: without any pause")
+        listening(replay, "address to serve at [127.0.0.1:8080]; port 0: any free port");
+        replay.add_option("--speed", options_.speed, "recorded seconds in a second [1]; 0: no pauses")
             ->option_text("X")
             ->check(within(0, 1e6));
-        auto& scenario = command("scenario", "run a state machine");
-        scenario.add_option("FILE", options_.file, "a file as schemas/scenario.xsd has it")->required()->option_text(" ");
-        words(scenario, "NAME=VALUE", "what variables begin with");
-        scenario.add_flag("--check", options_.check, "only say whether the file is good");
-        scenario.add_flag("-q,--quiet", options_.quiet, "only what the scenario itself prints");
+        auto& scenario = command("scenario", "run the state machine of a robot scenario");
+        scenario.add_option("FILE", options_.file, "a scenario (schemas/scenario.xsd)")->required()->option_text(" ");
+        words(scenario, "NAME=VALUE", "first values of variables");
+        scenario.add_flag("--check", options_.check, "only check the file");
+        scenario.add_flag("-q,--quiet", options_.quiet, "print only the texts of the scenario");
     }
 
     void listening(CLI::App& command, std::string const& what) {
@@ -237,7 +242,7 @@ private:
 
 std::chrono::milliseconds milliseconds_of(double seconds) { return std::chrono::milliseconds{std::llround(seconds * 1'000)}; }
 
-// Where a gateway in the same container is asked for its health without ROIS_URL: at the port of its own ROIS_LISTEN.
+// Returns the URL of a gateway in the same container: the port of its ROIS_LISTEN.
 std::string url_beside_gateway() {
     auto const* const listen = std::getenv("ROIS_LISTEN");
     if (listen == nullptr) return default_url();
@@ -255,7 +260,7 @@ std::string joined(std::vector<std::string> const& words) {
     return text;
 }
 
-// How many letters have to be changed, added or left out to make one word of the other.
+// Returns the edit distance: how many letters must be changed, added or removed to turn one word into the other.
 std::size_t distance(std::string_view one, std::string_view other) {
     std::vector<std::size_t> row(other.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -271,7 +276,7 @@ std::size_t distance(std::string_view one, std::string_view other) {
 
 std::string no_such_command(CLI::App const& app, std::string const& word) {
     std::string nearest;
-    std::size_t least = 3;  // letters: what is farther away is not meant
+    std::size_t least = 3;  // letters; suggests no command that differs more
     for (auto const* const command : app.get_subcommands({})) {
         auto const& name = command->get_name();
         auto const off = name.starts_with(word) && word.size() > 1 ? 0 : distance(word, name);
@@ -279,16 +284,16 @@ std::string no_such_command(CLI::App const& app, std::string const& word) {
         least = off;
         nearest = name;
     }
-    return "no such command: " + word + (nearest.empty() ? "" : "; perhaps " + nearest);
+    return "unknown command " + rois::quoted(word) + (nearest.empty() ? "" : " (did you mean " + rois::quoted(nearest) + "?)");
 }
 
-// What is wrong, and whose help tells more.
+// Returns the error, and which help to read.
 std::string complaint(CLI::App const& app, CLI::ParseError const& error) {
     auto const chosen = app.get_subcommands();
     auto const left_over = app.remaining();
     bool const is_command = chosen.empty() && !left_over.empty() && !left_over.front().starts_with('-');
     auto const wrong = is_command ? no_such_command(app, left_over.front()) : error.what();
-    return wrong + "; rois " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help tells more";
+    return wrong + "; see rois " + (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help";
 }
 
 bool has(CLI::App const& app, std::string const& command, std::string const& option) {
@@ -297,7 +302,6 @@ bool has(CLI::App const& app, std::string const& command, std::string const& opt
     return known != nullptr && known->count() > 0;
 }
 
-// Those that ask for no session at all.
 bool needs_no_session(Options const& options) {
     return options.command == "health" || options.command == "stop-all" || options.command == "clear";
 }
@@ -312,14 +316,14 @@ void join_held_session(Options& options) {
     if (options.session_file.empty() || has_own_session(options)) return;
     if (!options.session.empty())
         throw Trouble{Exit::usage,
-                      "which session? Give --session (ROIS_SESSION) or --session-file (ROIS_SESSION_FILE), not both"};
+                      "--session (ROIS_SESSION) and --session-file (ROIS_SESSION_FILE) name two sessions; give only one"};
     if (options.command == "bind") return;
     auto const held = find_held_session(options.session_file, options.deadline);
     if (!held) throw no_holder(options.session_file);
     join(options, *held);
 }
 
-// Of `stop-all` and `clear`: where the session of the session file is. Empty if no process holds one: they do without.
+// For `stop-all` and `clear`: returns the URL in the session file; empty if no process holds a session.
 std::string url_of_held_session(Options const& options) {
     bool const is_for_everything = options.command == "stop-all" || options.command == "clear";
     if (!is_for_everything || options.session_file.empty()) return {};
@@ -352,8 +356,8 @@ void read_variables(Options& options) {
     read("ROIS_SESSION_FILE", options.session_file);
 }
 
-// An empty value comes from a variable that is not set, and would stand for a default: another engine, or a session of its own.
-// An empty --token sends none, whatever ROIS_TOKEN says. Words have a meaning of their own when they are empty.
+// Rejects empty values: they come from an unset shell variable, and the default would be another engine or session. Allows an
+// empty --token, which overrides ROIS_TOKEN, and empty words.
 void check_empty(CLI::App const& app) {
     for (auto const* const option : app.get_options()) {
         bool const may_be =
@@ -368,45 +372,47 @@ void check(Options const& options, Raw const& raw) {
     if (!options.condition_file.empty() && !raw.condition.empty()) throw Trouble{Exit::usage, "the condition is given twice"};
     if (options.command == "release" && options.session.empty())
         throw Trouble{Exit::usage,
-                      "release: which session? --session (ROIS_SESSION) names it, as rois bind says it, or --session-file "
-                      "(ROIS_SESSION_FILE) the file of one in the background"};
+                      "release needs a session: --session (ROIS_SESSION) with the id that rois bind prints, or --session-file "
+                      "(ROIS_SESSION_FILE)"};
     if (options.command == "release" && options.words.empty() && options.session_file.empty())
-        throw Trouble{Exit::usage, "release: which components? Only with --session-file can they be left out"};
+        throw Trouble{Exit::usage, "release needs components; only with --session-file may REF be left out"};
     if (!options.wait && options.session.empty())
         throw Trouble{Exit::usage, "--no-wait: without --session the command would end with the program"};
     if (options.command == "bind" && options.words.empty() && options.where.empty() && options.condition_file.empty())
-        throw Trouble{Exit::usage, "bind: which components? Name them, or say --where CONDITION"};
-    bool const unasked = options.command == "replay" || needs_no_session(options) || options.check;  // they ask for no session
+        throw Trouble{Exit::usage, "bind needs components: give REF or --where CONDITION"};
+    bool const unasked = options.command == "replay" || needs_no_session(options) || options.check;  // open no session
     if (has_own_session(options) && !unasked && !(options.session.empty() && options.session_file.empty()))
         throw Trouble{
             Exit::usage,
             options.command + " has a session of its own: --session, --session-file and their variables must not be set"};
-    if (options.command == "record" && !options.record.empty()) throw Trouble{Exit::usage, "record: the file is named twice"};
+    if (options.command == "record" && !options.record.empty())
+        throw Trouble{Exit::usage, "record: FILE and --record name two files; leave out --record"};
     bool const others = options.command == "record" && !options.listen.empty();
     if (others && (!options.words.empty() || !options.starts.empty() || options.span || options.count))
-        throw Trouble{Exit::usage, "record --listen: the applications say what is subscribed to, started and recorded"};
+        throw Trouble{Exit::usage,
+                      "record --listen takes no EVENT, --start, --for or --count: it records all documents of the applications"};
     if (!options.record.empty() && (!options.session.empty() || options.command == "replay"))
-        throw Trouble{Exit::usage, "--record: there is no session of its own to record"};
+        throw Trouble{Exit::usage, "--record: this command opens no session to record"};
 }
 
 }  // namespace
 
-std::variant<Options, Said> read_options(int argc, char const* const* argv) {
-    CLI::App app{what_it_is, "rois"};
+std::variant<Options, Printout> read_options(int argc, char const* const* argv) {
+    CLI::App app{description, "rois"};
     Options options;
     Raw raw;
     Grammar const grammar{app, options, raw};
     try {
         app.parse(argc, argv);
     } catch (CLI::CallForHelp const&) {
-        return Said{app.help()};
+        return Printout{app.help()};
     } catch (CLI::CallForAllHelp const&) {
-        return Said{app.help("", CLI::AppFormatMode::All)};
+        return Printout{app.help("", CLI::AppFormatMode::All)};
     } catch (CLI::ParseError const& error) {
         throw Trouble{Exit::usage, complaint(app, error)};
     }
-    if (raw.version) return Said{"rois " ROIS_VERSION "\n"};
-    if (options.command.empty()) throw Trouble{Exit::usage, "which command? rois --help tells what there is"};
+    if (raw.version) return Printout{"rois " ROIS_VERSION "\n"};
+    if (options.command.empty()) throw Trouble{Exit::usage, "a command is missing; see rois --help"};
     check_empty(app);
     check_empty(*app.get_subcommand(options.command));
     options.deadline = milliseconds_of(raw.timeout);

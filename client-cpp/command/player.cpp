@@ -13,17 +13,17 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Names of commands: as recorded, and as this application gives them.
+// Recorded command ids, and the ids that the application has given instead.
 using Names = std::map<CommandId, CommandId>;
 
-// What an operation is answered that the recording does not know.
+// Returns the answer to an operation that is not in the recording: UNSUPPORTED.
 std::variant<Reply, Fault> unknown(Operation const& operation) {
     auto const name = std::string{xml::operation_names()[operation.index()]};
     return std::visit(
         [&](auto const& one) {
             typename std::decay_t<decltype(one)>::Reply reply;
             reply.return_code = ReturnCode::unsupported;
-            reply.reason = "the recording has no answer to such a " + name;
+            reply.reason = "the recording has no answer to this " + name;
             return Reply{std::move(reply)};
         },
         operation);
@@ -31,7 +31,7 @@ std::variant<Reply, Fault> unknown(Operation const& operation) {
 
 }  // namespace
 
-// What is still to be told, and when. It outlives its player while its timer runs.
+// The notifications to send, with their times. Outlives its player while its timer runs.
 class Player::Stage : public std::enable_shared_from_this<Player::Stage> {
 public:
     Stage(asio::io_context& io, HostedSession& session, double speed) : timer_{io}, session_{&session}, speed_{speed} {}
@@ -39,7 +39,7 @@ public:
     void subscribe(SubscribeId const& id) { subscriptions_.insert(id); }
     void unsubscribe(SubscribeId const& id) { subscriptions_.erase(id); }
 
-    // Notifications come after the answer, which is written first.
+    // Schedules notifications. The answer is written before them.
     void add(std::vector<Later> const& all, Names const& names) {
         auto const now = Clock::now();
         for (auto const& later : all) {
@@ -56,12 +56,11 @@ public:
         wait();
     }
 
-    // What the recorded application had been told before it commanded this is told now, so that what follows is in the same
-    // order.
+    // Sends now all notifications that were recorded before this time, so that they stay in order.
     void catch_up(std::chrono::microseconds recorded) {
         for (auto one = due_.begin(); one != due_.end();) {
             if (one->second.recorded <= recorded) {
-                tell(one->second.notification);
+                notify(one->second.notification);
                 one = due_.erase(one);
             } else {
                 ++one;
@@ -80,23 +79,23 @@ private:
         if (due_.empty()) return;
         timer_.expires_at(due_.begin()->first);
         timer_.async_wait([self = shared_from_this()](Failure failure) {
-            if (!failure) self->tell_what_is_due();
+            if (!failure) self->notify_due();
         });
     }
 
-    void tell_what_is_due() {
+    void notify_due() {
         auto const now = Clock::now();
         while (session_ != nullptr && !due_.empty() && due_.begin()->first <= now) {
             auto const due = std::move(due_.begin()->second);
             due_.erase(due_.begin());
-            tell(due.notification);
+            notify(due.notification);
         }
         wait();
     }
 
-    void tell(Notification const& notification) {
+    void notify(Notification const& notification) {
         auto const* const event = std::get_if<ReceiveEvent>(&notification);
-        if (event == nullptr || subscriptions_.contains(event->subscribe_id)) session_->tell(notification);
+        if (event == nullptr || subscriptions_.contains(event->subscribe_id)) session_->notify(notification);
     }
 
     struct Due {
@@ -123,7 +122,7 @@ void Player::take(std::string const&, std::variant<Request, Fault> const& read, 
     reply(request != nullptr ? answer(*request) : xml::encode(std::get<Fault>(read)));
 }
 
-// The n-th of equal requests is answered as the n-th in the recording; when that has no more, as the last one.
+// Answers the n-th of equal requests with the n-th recorded answer, or with the last one if the recording has fewer.
 Exchange const* Player::matching(Operation const& operation) {
     auto const take = [&](std::map<std::string, std::vector<std::size_t>> const& all, std::string const& key) -> Exchange const* {
         auto const found = all.find(key);

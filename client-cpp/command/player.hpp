@@ -1,4 +1,4 @@
-// Answers a session as a recording says.
+// Answers the requests of a session from a recording.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@
 
 namespace rois::command {
 
-// `speed`: recorded seconds in a second; 0: without any pause.
+// `speed`: recorded seconds in a second; 0: no pauses.
 class Player : public Guest {
 public:
     Player(asio::io_context&, HostedSession&, std::shared_ptr<Script const>, double speed);
@@ -31,8 +31,8 @@ private:
 
     std::shared_ptr<Stage> stage_;
     std::shared_ptr<Script const> script_;
-    std::map<std::string, std::size_t> used_;      // how many exchanges of each key
-    std::map<CommandId, CommandId> recorded_ids_;  // by what the application calls them
+    std::map<std::string, std::size_t> used_;      // number of exchanges used so far, by key
+    std::map<CommandId, CommandId> recorded_ids_;  // by the application's ids
 };
 
 }  // namespace rois::command

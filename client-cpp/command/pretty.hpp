@@ -1,4 +1,4 @@
-// Documents as people read them.
+// Documents as text for people.
 #pragma once
 
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace rois::command {
 
-// Two blanks for each level, an element with nothing but text on one line, a line end at the end. What is no XML comes back as it
-// is.
+// Returns the document indented by two spaces a level, with a line end. Elements with only text stay on one line. Returns a text
+// that is not XML unchanged.
 std::string pretty(std::string_view document);
 
-// The line of the place in what was sent, with a mark below what begins there, up to the end of its start tag:
+// Returns the line of the place in the document, with a mark below the start tag or text that begins there:
 //
 //     3 |   <component rois:code="navigation"/>
 //       |   ^~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~~
 //
-// A long line is cut to what stands around the mark. Nothing when the document has no such place.
+// Cuts a long line to the part around the mark. Returns nothing if the document has no such place.
 std::string underlined(std::string_view document, Place, bool coloured);
 
 }  // namespace rois::command

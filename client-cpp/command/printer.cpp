@@ -18,7 +18,7 @@ namespace rois::command {
 
 namespace {
 
-// "12:00:01.123", in UTC as all that the engine tells.
+// "12:00:01.123", in UTC like the engine's times.
 std::string time_of_day() {
     auto const text = to_text(std::chrono::system_clock::now());
     return text.substr(11, 12);
@@ -38,7 +38,7 @@ void Printer::write(std::string const& text) {
     std::lock_guard const lock{mutex_};
     bool const written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
     if (written) return;
-    if (errno == EPIPE) throw Trouble{Exit::interrupted, ""};  // as `rois watch | head -1`: who reads has seen enough
+    if (errno == EPIPE) throw Trouble{Exit::interrupted, ""};  // the reader has ended, as in `rois watch | head -1`
     throw Trouble{Exit::usage, "standard output cannot be written"};
 }
 
@@ -74,8 +74,8 @@ void Printer::state(StateChange const& change) {
 }
 
 void Printer::gap(Gap const& gap) {
-    auto text =
-        std::string{gap.why == Gap::Why::dropped ? "notifications were missed" : "a new session: all that was not heard is lost"};
+    auto text = std::string{gap.why == Gap::Why::dropped ? "notifications were missed"
+                                                         : "a new session: notifications that were not received are lost"};
     if (gap.count) text += ", " + std::to_string(*gap.count) + " of them";
     for (auto const& each : gap.not_restored) text += "; not restored: " + each;
     line(painted(time_of_day(), Colour::quiet, coloured_) + "  " + painted("gap", Colour::bad, coloured_) + "  " + harmless(text),

@@ -1,4 +1,4 @@
-// What the program writes on standard output, in one of three forms; troubles go to standard error.
+// Writes the results of the program on standard output, in one of three forms.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace rois::command {
 
-// human: aligned, coloured on a terminal. xml: the documents, one after the other. json: an object a line.
+// human: aligned, coloured on a terminal. xml: the documents, one after the other. json: one object a line.
 enum class Form : std::uint8_t { human, xml, json };
 
-// Each function writes whole lines at once; they may be called from any thread.
+// Thread-safe. Each function writes whole lines at once. Throws Trouble if standard output cannot be written.
 class Printer {
 public:
     Printer(Form form, bool coloured) : form_{form}, coloured_{coloured} {}
@@ -23,22 +23,22 @@ public:
     Form form() const { return form_; }
     bool coloured() const { return coloured_; }
 
-    // The reply of an operation. One that is not OK goes to standard error for people, and is a document like others otherwise.
+    // Writes a reply. For people, throws Trouble if it is not OK.
     void reply(Reply const&, std::string_view operation);
     void fault(Fault const&, std::string_view operation);
     void notification(Notification const&, std::uint64_t sequence);
 
-    // How the link is, what was missed. In XML, a comment.
+    // Changes of the link and missed notifications. In XML, an element of this program.
     void state(StateChange const&);
     void gap(Gap const&);
 
-    // All that a component's profile says, for people; its document otherwise.
+    // The profile of a component.
     void profile(ComponentEntry const&);
 
-    // A line for people, or its object. In XML, an element of this name with the object's values as attributes.
+    // Writes a line for people, or the object. In XML, an element of this name with the object's values as attributes.
     void line(std::string_view human, std::string_view element, Json const& object);
 
-    // As it is.
+    // Writes the text unchanged.
     void text(std::string_view);
 
 private:

@@ -92,20 +92,20 @@ std::vector<RecordedDocument> read_recording(std::string const& file) {
             if (number > 1) {
                 documents.push_back(document_of(json));
             } else if (json.at("recording").get<std::string>() != format) {
-                complain(file, number, std::string{"this is no recording of the format "} + format);
+                complain(file, number, std::string{"this is not a recording of the format "} + format);
             }
         } catch (Json::parse_error const&) {
-            if (number > 1 && in.eof()) {  // whoever wrote it was ended
-                std::fprintf(stderr, "rois: %s:%zu: this last line is cut off, and left out\n", file.c_str(), number);
+            if (number > 1 && in.eof()) {  // the recording program was killed
+                std::fprintf(stderr, "rois: %s:%zu: the last line is cut off and ignored\n", file.c_str(), number);
                 break;
             }
-            complain(file, number, number == 1 ? "this is no recording: no JSON" : "this is no JSON");
+            complain(file, number, number == 1 ? "this is not a recording: not JSON" : "this line is not JSON");
         } catch (std::exception const& error) {
             if (dynamic_cast<Trouble const*>(&error) != nullptr) throw;
-            complain(file, number, number == 1 ? std::string{"this is no recording: "} + error.what() : error.what());
+            complain(file, number, number == 1 ? std::string{"this is not a recording: "} + error.what() : error.what());
         }
     }
-    if (documents.empty()) complain(file, 1, "nothing is recorded");
+    if (documents.empty()) complain(file, 1, "the recording is empty");
     return documents;
 }
 

@@ -1,4 +1,4 @@
-// Recordings: all that a session saw, a JSON object a line (docs/rois-command.md has the format).
+// Recordings: all documents of a session, one JSON object a line (format: docs/rois-command.md).
 #pragma once
 
 #include <chrono>
@@ -15,26 +15,26 @@ namespace rois::command {
 struct RecordedDocument {
     std::chrono::microseconds at{};        // since the recording began
     Direction direction = Direction::out;  // seen from the application
-    std::string session;                   // of which one, where applications were recorded; else empty
+    std::string session;                   // of a recorded application; else empty
     std::string text;
 };
 
-// Writes as it happens: after each document, the file is whole. From any thread. What the file had stays until it is sure that
-// there is something to record.
+// Writes each document at once, so that the file is always complete. Thread-safe. Keeps the old content of the file until the
+// first call of `keep` after an answer of the engine.
 class RecordingWriter {
 public:
-    // Throws Trouble when the file cannot be written.
+    // Throws Trouble if the file cannot be written.
     RecordingWriter(std::string const& file, std::string_view url);
-    ~RecordingWriter();  // leaves no empty file that was not there
+    ~RecordingWriter();  // removes a new file if nothing was recorded
     RecordingWriter(RecordingWriter const&) = delete;
     RecordingWriter& operator=(RecordingWriter const&) = delete;
 
-    // The recording replaces what the file had, from its beginning. Not while nothing has come from an engine.
+    // Replaces the old content of the file by the recording. Does nothing before the engine has sent a document.
     void keep();
 
     void add(Direction, std::string_view document, std::string_view session = {});
 
-    // Throws Trouble when something could not be written.
+    // Throws Trouble if writing has failed.
     void check();
 
 private:
@@ -43,7 +43,7 @@ private:
     std::mutex mutex_;
     bool const was_there_;
     std::ofstream out_;
-    std::string held_;  // until it is kept
+    std::string held_;  // documents before `keep`
     bool answered_ = false;
     bool kept_ = false;
 };

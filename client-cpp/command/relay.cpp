@@ -15,7 +15,7 @@ Observers observers(std::function<void(Notification)> told, std::shared_ptr<Reco
     observers.tap = [recorded = std::move(recorded), session = std::move(session)](Direction direction,
                                                                                    std::string_view document) {
         recorded->add(direction, document, session);
-        if (direction == Direction::in) recorded->keep();  // there is an engine
+        if (direction == Direction::in) recorded->keep();  // the engine has answered
     };
     return observers;
 }
@@ -30,7 +30,7 @@ std::string no_engine(std::variant<Request, Fault> const& read, NoAnswer const& 
 
 }  // namespace
 
-// Read and written on the front's thread alone.
+// For the front's thread.
 struct Relay::Door {
     HostedSession* session;
 };
@@ -42,7 +42,7 @@ Relay::Relay(asio::io_context& io, HostedSession& session, Settings settings, st
       connection_{std::move(settings), observers(
                                            [&io, door = door_](Notification notification) {
                                                asio::post(io, [door, notification = std::move(notification)] {
-                                                   if (door->session != nullptr) door->session->tell(notification);
+                                                   if (door->session != nullptr) door->session->notify(notification);
                                                });
                                            },
                                            std::move(recorded), std::move(name))} {}

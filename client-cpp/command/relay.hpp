@@ -1,4 +1,4 @@
-// Passes what an application says on to an engine, and back, and writes it down.
+// Passes documents between an application and an engine, and records them.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace rois::command {
 
 class Relay : public Guest {
 public:
-    // `session` is what the recording calls it.
+    // `session`: its name in the recording.
     Relay(asio::io_context&, HostedSession&, Settings, std::shared_ptr<RecordingWriter>, std::string session);
     ~Relay() override;
 
@@ -20,7 +20,7 @@ public:
               std::function<void(std::string)> reply) override;
 
 private:
-    // Where the client's thread finds the session, as long as it is there.
+    // The session for functions posted by the client's thread; its pointer is null after the relay has ended.
     struct Door;
 
     asio::io_context& io_;

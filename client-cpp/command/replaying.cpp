@@ -1,4 +1,4 @@
-// rois replay, and rois record --listen: this program as an engine.
+// The commands replay and record --listen: this program serves as an engine.
 #include "command/context.hpp"
 #include "command/front.hpp"
 #include "command/http.hpp"
@@ -47,7 +47,7 @@ void record_others(Context& context) {
                   return std::make_unique<Relay>(io, session, settings_of(context.options()), context.recorded(),
                                                  std::to_string(++sessions));
               }};
-    serve(context, host, "recording what is said between applications and " + options.url);
+    serve(context, host, "recording documents between applications and " + options.url);
     context.recorded()->check();
 }
 

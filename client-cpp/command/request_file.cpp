@@ -13,7 +13,7 @@ namespace rois::command {
 
 namespace {
 
-// Where the root's start tag begins; the end when there is none.
+// Returns the position of the root's start tag; the end of the text if there is none.
 std::size_t root_of(std::string_view text) {
     for (std::size_t at = text.find('<'); at != text.npos; at = text.find('<', at + 1)) {
         if (text.substr(at, 4) == "<!--") {
@@ -27,13 +27,13 @@ std::size_t root_of(std::string_view text) {
     return text.size();
 }
 
-// The local name of the start tag there.
+// Returns the local name of the start tag at this position.
 std::string_view name_at(std::string_view text, std::size_t at) {
     auto const name = text.substr(std::min(at + 1, text.size()));
     return xml::local_part(name.substr(0, name.find_first_of(" \t\r\n/>")));
 }
 
-// What stands around a part of a request.
+// The texts that make a request of a part of one.
 struct Around {
     std::string before;
     std::string after;
@@ -50,7 +50,8 @@ Around around(std::string_view root) {
     return {};
 }
 
-// The request of a file that is one, or a part of one. What is put before stands in the first line, where places are corrected.
+// Reads the request in a file, or completes a part of one. The text put before the part is in the first line; corrects the
+// columns of errors there.
 Operation read_request(std::shared_ptr<xml::Schemas const> const& schemas, std::string const& name, std::string text) {
     auto const root = root_of(text);
     auto const put = around(name_at(text, root));
@@ -86,7 +87,7 @@ CommandUnitSequence read_sequence_file(std::shared_ptr<xml::Schemas const> const
                                        std::string const& text) {
     auto operation = read_request(schemas, name, text);
     auto* const execute = std::get_if<Execute>(&operation);
-    if (execute == nullptr) throw Trouble{Exit::usage, name + ": this is no CommandUnitSequence"};
+    if (execute == nullptr) throw Trouble{Exit::usage, name + ": this is not a CommandUnitSequence"};
     return std::move(execute->command_unit_list);
 }
 

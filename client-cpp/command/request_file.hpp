@@ -1,4 +1,4 @@
-// Conditions and command sequences in XML files: as parts of a request, or whole requests that have them.
+// Reads conditions and command sequences from XML files with a whole request or a part of one.
 #pragma once
 
 #include <memory>
@@ -10,11 +10,11 @@
 
 namespace rois::command {
 
-// A `condition`, a `fes:Filter`, a `unr:SearchCondition`, or a request with a condition. Throws Trouble, "name:line:column:
-// reason", for what the schemas do not allow.
+// Reads a `condition`, a `fes:Filter`, a `unr:SearchCondition`, or a request with a condition. Throws Trouble, "name:line:column:
+// reason", if it is not valid by the schemas.
 QueryExpression read_condition_file(std::shared_ptr<xml::Schemas const> const&, std::string const& name, std::string const& text);
 
-// A `rois:CommandUnitSequence`, or an `execute`. Throws Trouble.
+// Reads a `rois:CommandUnitSequence`, or an `execute`. Throws Trouble.
 CommandUnitSequence read_sequence_file(std::shared_ptr<xml::Schemas const> const&, std::string const& name,
                                        std::string const& text);
 

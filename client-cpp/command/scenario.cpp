@@ -1,4 +1,4 @@
-// rois scenario: runs the state machine of a robot scenario.
+// The command scenario: runs the state machine of a robot scenario.
 #include <algorithm>
 #include <optional>
 #include <ranges>
@@ -37,7 +37,7 @@ public:
             if (next_) {
                 enter(*std::exchange(next_, {}));
             } else {
-                hear();
+                wait_for_update();
             }
         }
         if (state_->failed) throw Trouble{Exit::error, ""};
@@ -70,7 +70,7 @@ private:
         status_ = CompletedStatus::ok;
         std::vector<std::string> printed;
         variables_.take(state_->steps, nullptr, printed);
-        tell(printed);
+        print(printed);
         drop_old_news();
         entered_ = Clock::now();
         pending_ = execute(state_->commands);
@@ -78,9 +78,9 @@ private:
         fire(Trigger::Kind::at_once, {}, "at once");
     }
 
-    // What came before a state was entered is no trigger in it.
+    // Notifications from before a state was entered do not count as triggers in it.
     void drop_old_news() {
-        while (auto const heard = context_.session().hear(Clock::now())) check(*heard);
+        while (auto const update = context_.session().next_update(Clock::now())) check(*update);
         check_interrupted();
     }
 
@@ -114,12 +114,12 @@ private:
         return context_.ok(Query{query.type, std::move(condition)}).results;
     }
 
-    void hear() {
+    void wait_for_update() {
         auto const due = next_timer();
-        auto const heard = context_.session().hear(due);
+        auto const update = context_.session().next_update(due);
         check_interrupted();
-        if (heard) {
-            take(*heard);
+        if (update) {
+            take(*update);
         } else if (due && Clock::now() >= *due) {
             fire_timers();
         } else {
@@ -127,9 +127,9 @@ private:
         }
     }
 
-    void take(Heard const& heard) {
-        check(heard);
-        auto const* const news = std::get_if<News>(&heard);
+    void take(Update const& update) {
+        check(update);
+        auto const* const news = std::get_if<News>(&update);
         if (news == nullptr) return;
         if (auto const* const event = std::get_if<ReceiveEvent>(&news->notification)) take_event(*event);
         if (auto const* const completed = std::get_if<Completed>(&news->notification)) take_completed(*completed);
@@ -173,7 +173,7 @@ private:
         auto const text = variables_.filled(trigger.seconds);
         auto const seconds = to_double(text);
         bool const possible = seconds && *seconds >= 0 && *seconds < 1e9;
-        if (!possible) throw Trouble{Exit::usage, state_->place + ": " + rois::quoted(text) + " is no number of seconds"};
+        if (!possible) throw Trouble{Exit::usage, state_->place + ": " + rois::quoted(text) + " is not a number of seconds"};
         return entered_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>{*seconds});
     }
 
@@ -187,7 +187,7 @@ private:
         return next;
     }
 
-    // Each of them once in a state, whether what it asks for holds or not.
+    // Tries each timer once in a state, even if its conditions do not hold.
     void fire_timers() {
         auto const now = Clock::now();
         for (auto const& trigger : state_->triggers) {
@@ -203,7 +203,7 @@ private:
         return fire_if([&](Trigger const& trigger) { return trigger.kind == kind; }, &results, by);
     }
 
-    // The first trigger that is meant, and whose steps hold, leads on.
+    // Leaves the state by the first trigger that `is_meant` accepts and whose steps hold.
     template <class IsMeant>
     bool fire_if(IsMeant const& is_meant, Results const* results, std::string const& by) {
         for (auto const& trigger : state_->triggers) {
@@ -217,33 +217,33 @@ private:
 
     void leave(std::string const& to, std::string const& by, std::vector<std::string> const& printed) {
         auto const from = state_->name;
-        tell(printed);
+        print(printed);
         auto const ends = execute(state_->leaving);
         wait_for_all(ends);
-        tell_transition(from, to, by);
+        print_transition(from, to, by);
         fired_.clear();
         next_ = to;
     }
 
     void wait_for_all(std::vector<CommandId> ids) {
         while (!ids.empty()) {
-            auto const heard = context_.session().hear();
+            auto const update = context_.session().next_update();
             check_interrupted();
-            if (!heard) throw Trouble{Exit::no_answer, "the connection has closed"};
-            check(*heard);
-            auto const* const news = std::get_if<News>(&*heard);
+            if (!update) throw Trouble{Exit::no_answer, "the connection has closed"};
+            check(*update);
+            auto const* const news = std::get_if<News>(&*update);
             auto const* const completed = news == nullptr ? nullptr : std::get_if<Completed>(&news->notification);
             if (completed != nullptr) std::erase(ids, completed->command_id);
         }
     }
 
-    // The session's end is the scenario's.
-    void check(Heard const& heard) {
-        if (auto const* const gap = std::get_if<Gap>(&heard); gap != nullptr && gap->why == Gap::Why::new_session)
-            throw Trouble{Exit::no_answer, "the session has ended, and what the robot did for it"};
-        if (auto const* const news = std::get_if<News>(&heard);
+    // Throws Trouble if the session has ended. Reports errors.
+    void check(Update const& update) {
+        if (auto const* const gap = std::get_if<Gap>(&update); gap != nullptr && gap->why == Gap::Why::new_session)
+            throw Trouble{Exit::no_answer, "the session has ended, and its commands with it"};
+        if (auto const* const news = std::get_if<News>(&update);
             news != nullptr && std::holds_alternative<ReceiveError>(news->notification) && !context_.options().quiet)
-            tell_error(context_, *news);
+            report_error(context_, *news);
     }
 
     void check_interrupted() {
@@ -258,11 +258,11 @@ private:
         return text;
     }
 
-    void tell(std::vector<std::string> const& printed) {
+    void print(std::vector<std::string> const& printed) {
         for (auto const& line : printed) context_.printer().line(harmless(line), "print", Json{{"print", line}});
     }
 
-    void tell_transition(std::string const& from, std::string const& to, std::string const& by) {
+    void print_transition(std::string const& from, std::string const& to, std::string const& by) {
         if (context_.options().quiet) return;
         auto& printer = context_.printer();
         auto const time = to_text(std::chrono::system_clock::now());
@@ -280,7 +280,7 @@ private:
     Clock::time_point entered_;
     std::vector<CommandId> pending_;
     CompletedStatus status_ = CompletedStatus::ok;
-    CommandId decisive_;  // the command whose status that is
+    CommandId decisive_;  // the first command that failed
     std::set<Trigger const*> fired_;
     std::optional<std::string> next_;  // entered next
 };
@@ -290,7 +290,7 @@ Variables variables_of(RobotScenario const& scenario, std::vector<std::string> c
     for (auto const& text : given) {
         auto const sign = text.find('=');
         auto const name = text.substr(0, sign);
-        if (sign == std::string::npos) throw Trouble{Exit::usage, rois::quoted(text) + " is no NAME=VALUE"};
+        if (sign == std::string::npos) throw Trouble{Exit::usage, rois::quoted(text) + " is not NAME=VALUE"};
         if (!variables.has(name))
             throw Trouble{Exit::usage, "the scenario has no variable " + rois::quoted(name) + "; there are " +
                                            listed(std::views::keys(scenario.variables))};

@@ -40,7 +40,7 @@ public:
             if (element.name() != "state" && element.name() != "end") continue;
             auto const name = element.token("name", "");
             if (scenario_.states.contains(name)) throw element.complain("a second state " + rois::quoted(name));
-            scenario_.states.emplace(name, ScenarioState{});  // all names, before any is led to
+            scenario_.states.emplace(name, ScenarioState{});  // all names first, so that triggers can be checked
         }
         check_state(root, scenario_.start);
         for (auto const& element : root.children())
@@ -213,7 +213,7 @@ private:
 RobotScenario read_robot_scenario(std::shared_ptr<xml::Schemas const> const& schemas, std::string const& name, std::string text) {
     auto const document = xml::Document::parse(schemas, name, std::move(text));
     auto const root = document.root();
-    if (root.name() != "robot_scenario") throw root.complain("this is no robot scenario: expected the element robot_scenario");
+    if (root.name() != "robot_scenario") throw root.complain("this is not a robot scenario: expected the element robot_scenario");
     return Reader{root}.take();
 }
 

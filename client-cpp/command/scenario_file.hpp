@@ -1,4 +1,4 @@
-// Robot scenarios (figure 1) as they are read from files (schemas/scenario.xsd).
+// Reads robot scenarios (figure 1) from files (schemas/scenario.xsd).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace rois::command {
 
-// --- What happens to variables; texts may hold {name} ---
+// --- Actions on variables; texts may contain {name} ---
 
 struct SetVariable {
     std::string variable;
@@ -37,7 +37,7 @@ struct Print {
     std::string text;
 };
 
-// --- What a trigger asks for ---
+// --- Conditions of triggers ---
 
 struct TakeResult {
     std::string variable;
@@ -45,7 +45,7 @@ struct TakeResult {
     std::string not_in;  // a variable; empty: any value
     std::string beside;  // another result; empty: none
     std::string is;
-    double apart = 0;  // mm: then the list holds places
+    double apart = 0;  // mm; above 0, `not_in` is a list of places
 };
 struct When {
     enum class Relation : std::uint8_t { is, is_not, in, not_in, empty, not_empty, near };
@@ -62,7 +62,7 @@ struct ScenarioCommand {
         std::string name;
         std::string text;
     };
-    std::string component;  // as the scenario names it
+    std::string component;  // its name in the scenario
     std::string type;
     std::vector<Argument> arguments;
     std::optional<std::int64_t> delay;  // ms
@@ -111,8 +111,8 @@ struct RobotScenario {
     std::map<std::string, ScenarioState> states;
 };
 
-// Throws xml::BadDocument, "name:line:column: reason": for what the schema does not allow, for states, components and variables
-// that there are not, and for states that nothing leads out of.
+// Throws xml::BadDocument, "name:line:column: reason", if the text is not valid by the schema, names an unknown state, component
+// or variable, or has a state without a way out.
 RobotScenario read_robot_scenario(std::shared_ptr<xml::Schemas const> const&, std::string const& name, std::string text);
 
 }  // namespace rois::command

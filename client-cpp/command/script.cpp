@@ -19,7 +19,7 @@ struct Overloaded : Cases... {
     using Cases::operator()...;
 };
 
-// Puts the documents of one session together.
+// Builds the script of one session from its documents.
 class Builder {
 public:
     explicit Builder(xml::RequestReader& requests) : requests_{requests} {}
@@ -52,7 +52,7 @@ private:
         auto read = requests_.read(document.text);
         auto* const request = std::get_if<Request>(&read);
         if (request == nullptr) return;
-        // What is sent again after the link broke is one request.
+        // A request that was sent again after the link broke counts once.
         bool const again =
             !request->request_id.empty() && std::ranges::find(asked_, request->request_id, &Asked::request_id) != asked_.end();
         if (!again) asked_.push_back({document.at, std::move(request->operation), std::move(request->request_id)});
@@ -99,7 +99,7 @@ private:
     }
 
     void tell(Notification notification, std::chrono::microseconds at) {
-        if (std::holds_alternative<Lost>(notification)) return;  // of the link that was recorded
+        if (std::holds_alternative<Lost>(notification)) return;  // concerns only the recorded link
         auto const cause = cause_of(notification);
         if (!cause) return;
         auto const delay = std::max(at - answered_at_[*cause], std::chrono::microseconds{0});
@@ -126,7 +126,7 @@ private:
     std::vector<std::chrono::microseconds> answered_at_;
     std::map<CommandId, std::size_t> commands_;
     std::map<SubscribeId, std::size_t> subscriptions_;
-    std::optional<std::size_t> mover_;  // the last exchange that moved anything
+    std::optional<std::size_t> mover_;  // the last `execute` or `set_parameter`
     std::optional<std::size_t> first_;
 };
 
@@ -159,7 +159,7 @@ std::string rough_key(Operation operation) {
 
 std::vector<std::shared_ptr<Script const>> scripts_of(std::vector<RecordedDocument> const& documents,
                                                       xml::RequestReader& requests) {
-    std::list<std::pair<std::string, Builder>> builders;  // they stay where they are
+    std::list<std::pair<std::string, Builder>> builders;  // by session; a list, since a Builder cannot be moved
     for (auto const& document : documents) {
         auto found = std::ranges::find_if(builders, [&](auto const& one) { return one.first == document.session; });
         if (found == builders.end()) found = builders.emplace(builders.end(), document.session, requests);
@@ -170,7 +170,7 @@ std::vector<std::shared_ptr<Script const>> scripts_of(std::vector<RecordedDocume
         auto script = builder.finish();
         if (!script->exchanges.empty()) scripts.push_back(std::move(script));
     }
-    if (scripts.empty()) throw Trouble{Exit::usage, "nothing in this recording is a request and its answer"};
+    if (scripts.empty()) throw Trouble{Exit::usage, "the recording contains no request with its answer"};
     return scripts;
 }
 

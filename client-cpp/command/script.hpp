@@ -1,4 +1,4 @@
-// A recording as what it says of an engine: what is answered to what, and what comes of it.
+// The requests of a recording with their answers and the notifications that followed.
 #pragma once
 
 #include <chrono>
@@ -15,9 +15,9 @@
 
 namespace rois::command {
 
-// A request, without what is different each time: ids of commands and of the request.
+// Returns a key of a request without its request_id and command ids, which differ each time.
 std::string exact_key(Operation);
-// Also without conditions and arguments; empty for operations where these are what matters.
+// Returns a key also without conditions and arguments; empty for bind_any and search, where the condition matters.
 std::string rough_key(Operation);
 
 struct Later {
@@ -30,19 +30,19 @@ struct Exchange {
     std::chrono::microseconds asked_at{};  // in the recording
     Operation request;
     std::variant<Reply, Fault> answer;
-    std::vector<Later> later;  // in the order in which they came
+    std::vector<Later> later;  // in the order of the recording
 };
 
-// What one session saw. Events are those of the last command before them, or of their subscription; a completed is that of its
-// command.
+// One recorded session. `completed` belongs to the exchange of its command. Other notifications belong to the last command before
+// them; if there is none, to their subscription or to `connect`.
 struct Script {
     std::vector<Exchange> exchanges;
     std::map<std::string, std::vector<std::size_t>> exactly;  // exchanges by key, in their order
     std::map<std::string, std::vector<std::size_t>> roughly;
 };
 
-// One for each session of the recording, in their order. What is no document of RoIS is passed over. Throws Trouble when nothing
-// is left.
+// Returns a script for each session of the recording, in order. Ignores documents that are not of RoIS. Throws Trouble if no
+// exchange is left.
 std::vector<std::shared_ptr<Script const>> scripts_of(std::vector<RecordedDocument> const&, xml::RequestReader&);
 
 }  // namespace rois::command

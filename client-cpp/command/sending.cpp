@@ -1,4 +1,4 @@
-// rois send: any document, and what it is answered.
+// The command send.
 #include <variant>
 
 #include "command/context.hpp"
@@ -13,8 +13,8 @@ namespace rois::command {
 
 namespace {
 
-// The text of the document that the engine judged, which begins where the file begins.
-void tell_fault(Context& context, Fault const& fault, std::string const& sent, std::string const& answer) {
+// Writes the fault, and underlines its place in the sent document. Throws Trouble.
+void report_fault(Context& context, Fault const& fault, std::string const& sent, std::string const& answer) {
     auto& printer = context.printer();
     if (printer.form() == Form::json) {
         printer.text(line_of(to_json(fault)));
@@ -38,14 +38,14 @@ void send(Context& context) {
     context.keep_recording();
     auto& printer = context.printer();
     auto const heard = xml::AnswerReader{}.read(answer);
-    if (heard && std::holds_alternative<Fault>(*heard)) tell_fault(context, std::get<Fault>(*heard), sent, answer);
+    if (heard && std::holds_alternative<Fault>(*heard)) report_fault(context, std::get<Fault>(*heard), sent, answer);
     auto const* const answered = heard ? std::get_if<xml::Answered>(&*heard) : nullptr;
     if (printer.form() == Form::json && answered != nullptr) {
         printer.text(line_of(to_json(answered->reply, xml::operation_names()[answered->reply.index()])));
     } else {
         printer.text(pretty(answer));
     }
-    if (answered == nullptr) throw Trouble{Exit::no_answer, "the answer is no document of RoIS"};
+    if (answered == nullptr) throw Trouble{Exit::no_answer, "the answer is not a document of RoIS"};
     auto const code = std::visit([](auto const& one) { return one.return_code; }, answered->reply);
     if (code != ReturnCode::ok) throw Trouble{exit_of(code), ""};
 }

@@ -26,7 +26,7 @@ void collect(std::vector<CommandUnit>& units, std::vector<CommandMessage*>& foun
     }
 }
 
-// Takes the ends of commands out of what is heard.
+// Waits for the ends of commands.
 class Waiting {
 public:
     Waiting(Context& context, std::vector<Awaited> awaited) : context_{context}, awaited_{std::move(awaited)} {}
@@ -34,20 +34,20 @@ public:
     void wait() {
         auto& session = context_.session();
         while (!awaited_.empty()) {
-            auto const heard = session.hear();
+            auto const update = session.next_update();
             if (session.interrupted()) throw Trouble{Exit::interrupted, ""};
-            if (!heard) throw Trouble{Exit::no_answer, "the connection has closed"};
-            take(*heard);
+            if (!update) throw Trouble{Exit::no_answer, "the connection has closed"};
+            take(*update);
         }
         if (failure_) throw Trouble{*failure_};
     }
 
 private:
-    void take(Heard const& heard) {
-        if (auto const* const news = std::get_if<News>(&heard)) {
+    void take(Update const& update) {
+        if (auto const* const news = std::get_if<News>(&update)) {
             if (auto const* const completed = std::get_if<Completed>(&news->notification)) end(*completed, *news);
-            if (std::holds_alternative<ReceiveError>(news->notification)) tell_error(context_, *news);
-        } else if (auto const* const gap = std::get_if<Gap>(&heard); gap != nullptr && gap->why == Gap::Why::new_session) {
+            if (std::holds_alternative<ReceiveError>(news->notification)) report_error(context_, *news);
+        } else if (auto const* const gap = std::get_if<Gap>(&update); gap != nullptr && gap->why == Gap::Why::new_session) {
             throw ended_with_session();
         }
     }
@@ -65,7 +65,7 @@ private:
         if (human)
             printer.text(found->label + "  " + painted(status, good ? Colour::good : Colour::bad, printer.coloured()) +
                          separated("  ") + "\n");
-        // People have been told by the line above. The other forms show the notification, which has no reason.
+        // For people, the line above has the reason. The other forms print the notification, which has none.
         if (!good && !failure_)
             failure_.emplace(exit_of(completed.status), human ? "" : found->label + ": " + status + separated(": "));
         awaited_.erase(found);

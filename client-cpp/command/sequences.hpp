@@ -1,4 +1,4 @@
-// Command sequences: what is in them, and waiting for their ends.
+// Runs command sequences.
 #pragma once
 
 #include <functional>
@@ -10,17 +10,17 @@
 
 namespace rois::command {
 
-// All command messages, in document order, also those inside of other units.
+// Returns all command messages, at any depth, in document order.
 std::vector<CommandMessage*> messages_of(CommandUnitSequence&);
 
-// An id that no other command has.
+// Returns a unique id.
 CommandId fresh_command_id();
 
-// Binds what the sequence needs, executes it and, with --wait, waits until all has completed, which is written as it happens.
-// Throws Trouble with the code of the first command that did not end with OK.
+// Binds the components of the sequence and executes it. Unless --no-wait is given, waits until all commands have completed, and
+// writes each end at once. Throws Trouble with the code of the first command that did not end with OK.
 void run(Context&, CommandUnitSequence);
 
-// Why a command failed, as the engine says it; empty if the engine gives no reason. Asks the engine.
+// Asks the engine why a command failed. Returns an empty text if it gives no reason.
 std::string reason_of(Context&, CommandId const&);
 
 struct Awaited {
@@ -28,10 +28,10 @@ struct Awaited {
     std::string label;  // for people: "start navigation"
 };
 
-// What is thrown when the session is gone in which something was commanded.
+// The error for a session that has ended before its commands.
 Trouble ended_with_session();
 
-// Waits until all have completed. Throws as above.
+// Waits until all have completed. Throws like `run`.
 void wait_for(Context&, std::vector<Awaited>);
 
 }  // namespace rois::command

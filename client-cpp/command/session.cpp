@@ -10,24 +10,24 @@ namespace rois::command {
 
 namespace {
 
-// Whether the command goes on after a request, and so keeps trying when no gateway answers.
+// Returns whether the command runs on after its requests, and so retries without end while no gateway answers.
 bool lasts(Options const& options) {
     bool const is_shared = !options.session.empty();  // there `bind` and `subscribe` end at once
     return options.command == "watch" || options.command == "record" || options.command == "scenario" ||
            ((options.command == "bind" || options.command == "subscribe") && !is_shared) || options.span;
 }
 
-// Commands that are over soon do not try for long.
+// Limits the attempts of commands that end by themselves.
 Settings settings_for(Options const& options) {
     check({options.url, options.token, options.ca_file});
     auto settings = settings_of(options);
     if (!lasts(options)) settings.attempts = 3;
-    // On a WebSocket the engine says nothing of what is not UTF-8 or too long: it closes the link.
+    // On a WebSocket the engine closes the link for a text that is not UTF-8 or too long, without a document.
     if (options.command == "send") settings.way = Way::http;
     return settings;
 }
 
-// How long to wait for a session. A script waits for `bind` in the background and for `start`, whose --for begins later.
+// Returns how long to wait for a session. Scripts wait for `bind` in the background and for `start`, whose --for begins later.
 std::chrono::milliseconds patience(Options const& options) {
     bool const is_waited_for = runs_in_background(options) || options.command == "start";
     if (!lasts(options) || is_waited_for || options.span == std::chrono::milliseconds{0}) return options.deadline;
@@ -59,12 +59,12 @@ Session::Life Session::whose_life(Options const& options) {
 
 bool Session::is_alive() const { return life_ == Life::own || (life_ == Life::of_caller && caller_.is_alive()); }
 
-std::optional<Heard> Session::hear(Until until) {
+std::optional<Update> Session::next_update(Until until) {
     while (true) {
         if (is_alive()) connection_.alive();
         auto const next_sign = std::chrono::steady_clock::now() + connection_.between_signs_of_life();
-        auto heard = inbox_.take(Until{until ? std::min(*until, next_sign) : next_sign});
-        if (heard || inbox_.is_over() || (until && std::chrono::steady_clock::now() >= *until)) return heard;
+        auto update = inbox_.take(Until{until ? std::min(*until, next_sign) : next_sign});
+        if (update || inbox_.is_over() || (until && std::chrono::steady_clock::now() >= *until)) return update;
     }
 }
 

@@ -1,4 +1,4 @@
-// The session in which a command acts: one of its own, that ends with it, or one that another process holds.
+// The session of a command: its own, which ends with it, or one that another process holds.
 #pragma once
 
 #include <atomic>
@@ -17,45 +17,46 @@
 
 namespace rois::command {
 
-// What the engine tells on its own, and what becomes of the link.
+// A notification of the engine.
 struct News {
     Notification notification;
     std::uint64_t sequence = 0;
 };
-using Heard = std::variant<News, StateChange, Gap>;
 
-using Until = std::optional<std::chrono::steady_clock::time_point>;  // none: for ever
+// A notification, or a change of the connection.
+using Update = std::variant<News, StateChange, Gap>;
+
+using Until = std::optional<std::chrono::steady_clock::time_point>;  // empty: no limit
 
 class Session {
 public:
-    // Waits until it is open. `recorded` may be null. Throws Trouble when it cannot be opened, NoSession when the one to join is
-    // not there, std::invalid_argument for a URL that is none.
-    // `caller` lives longer.
+    // Waits until the session is open. `recorded` may be null; `caller` must outlive it. Throws Trouble if it cannot be opened,
+    // NoSession if the session to join does not exist, std::invalid_argument if the URL is invalid.
     Session(Options const&, std::shared_ptr<RecordingWriter> recorded, Caller const& caller);
 
-    // Whether it goes on when the program ends.
+    // Whether another process holds it, so that it does not end with the program.
     bool is_joined() const { return joined_; }
     SessionId id() const { return connection_.session(); }
 
-    // Waits for the answer. Throws Trouble (no_answer) when there is none, NoSession if the joined session has ended.
+    // Waits for the answer. Throws Trouble (no_answer) if there is none, NoSession if the joined session has ended.
     std::variant<Reply, Fault> request(Operation);
 
-    // Any document as it stands, and its answer's. Throws Trouble like `request`.
+    // Sends a document unchanged, and returns the document that answers it. Throws Trouble like `request`.
     std::string send(std::string const& document);
 
-    // The next one in the order of what happened; nothing at that time, after an interruption, and when the link has closed for
-    // good. Who hears gives signs of life, which keep what the session moves going (docs/safety.md).
-    std::optional<Heard> hear(Until until = {});
+    // Waits for the next update. Returns nothing at the time `until`, after `interrupt`, and when the connection has closed.
+    // Gives signs of life meanwhile, so that robots of the session may move on (docs/safety.md).
+    std::optional<Update> next_update(Until until = {});
 
-    // From any thread: ends the session if it is its own, and all that waits.
+    // From any thread: ends all waiting calls, and the session if it is not joined.
     void interrupt();
     bool interrupted() const { return interrupted_; }
 
 private:
     Observers observers(std::shared_ptr<RecordingWriter> recorded);
 
-    // Whose life keeps going what the session moves: that of this program; of whoever has called it, for a session that it holds
-    // for others; or of somebody else, for those who only listen in another's session.
+    // The process whose signs of life let robots of the session move: this program; its caller, if it holds the session for other
+    // commands (`bind`); or another one, if it only listens in a joined session.
     enum class Life { own, of_caller, of_others };
     static Life whose_life(Options const&);
     bool is_alive() const;
@@ -64,10 +65,10 @@ private:
     Caller const& caller_;
     bool const joined_;
     std::string const url_;
-    bool const reports_attempts_;  // of a command that keeps trying
-    std::string reported_;         // the last reason; on the client's thread
+    bool const reports_attempts_;  // if it retries without end
+    std::string reported_;         // the last reason; for the client's thread
     std::atomic<bool> interrupted_ = false;
-    Inbox<Heard> inbox_;  // filled on the client's thread
+    Inbox<Update> inbox_;  // filled on the client's thread
     Connection connection_;
 };
 

@@ -37,7 +37,7 @@ struct flock whole_file(short type) {
     return lock;
 }
 
-// The process that has locked the file; 0: none.
+// Returns the process that has locked the file; 0 if there is none.
 pid_t holder_of(int descriptor) {
     auto lock = whole_file(F_WRLCK);
     if (fcntl(descriptor, F_GETLK, &lock) != 0 || lock.l_type == F_UNLCK) return 0;
@@ -59,18 +59,18 @@ private:
     int descriptor_;
 };
 
-// Refuses FIFOs and devices, which would block or lose the text. Refuses what another user may have written, and so could send
-// the token elsewhere, and what others can read, since the session is a secret. An empty file has no secret yet.
+// Rejects FIFOs and devices, which would block or lose the text. Rejects a file of another user, who could send the token to
+// another gateway, and a file that others can read, since the session is a secret. An empty file has no secret yet.
 void check_trusted(std::string const& file, int descriptor) {
     struct stat status {};
     if (fstat(descriptor, &status) != 0) complain_of_error(file, "cannot be read");
     if (!S_ISREG(status.st_mode)) complain(file, "this is not a regular file");
     if (status.st_uid != geteuid()) complain(file, "it belongs to another user; name a file of your own");
     if (status.st_size > 0 && (status.st_mode & (S_IRWXG | S_IRWXO)) != 0)
-        complain(file, "others can read it, but whoever knows the session can act in it; allow only its owner: chmod 600");
+        complain(file, "other users can read it, but the session in it is a secret; allow only its owner: chmod 600");
 }
 
-// A symbolic link would stay when the holder removes its file. Returns -1 if there is no such file.
+// Rejects symbolic links, which would stay when the holder removes its file. Returns -1 if the file is missing.
 int open_file(std::string const& file, int flags, char const* failure) {
     int const descriptor = open(file.c_str(), flags | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK, S_IRUSR | S_IWUSR);
     if (descriptor < 0 && errno == ELOOP) complain(file, "this is a symbolic link; name the file itself");
@@ -80,7 +80,7 @@ int open_file(std::string const& file, int flags, char const* failure) {
 
 int open_to_read(std::string const& file) { return open_file(file, O_RDONLY, "cannot be read"); }
 
-// Nothing if the file is empty. Throws Trouble (usage) if it cannot be read, or was not written by `SessionFile::write`.
+// Returns nothing if the file is empty. Throws Trouble (usage) if it cannot be read, or was not written by `SessionFile::write`.
 std::optional<HeldSession> read_held_session(std::string const& file, int descriptor) {
     check_trusted(file, descriptor);
     char text[4096];
@@ -94,7 +94,7 @@ std::optional<HeldSession> read_held_session(std::string const& file, int descri
     return HeldSession{content["url"], content["session"], content["process"]};
 }
 
-// Whether the name still leads to the open file, which may have been removed, or replaced by the file of another holder.
+// Returns whether the name still refers to the open file: it may have been removed, or replaced by another holder.
 bool is_still(std::string const& file, int descriptor) {
     struct stat open_one {};
     struct stat named {};
@@ -137,7 +137,7 @@ void end_holder(std::string const& file, pid_t holder, std::chrono::milliseconds
 
 Trouble no_holder(std::string const& file) {
     return {Exit::usage, "--session-file " + rois::quoted(file) +
-                             ": no process holds a session under this file; rois bind --session-file FILE REF begins one"};
+                             ": no process holds a session under this file; rois bind --session-file FILE REF starts one"};
 }
 
 std::unique_ptr<SessionFile> SessionFile::lock(std::string const& file) {

@@ -1,4 +1,4 @@
-// A session that outlives one call of `rois`: a process in the background holds it, and a file names it.
+// A session that outlives one run of `rois`: a process in the background holds it, and a file names it.
 #pragma once
 
 #include <sys/types.h>
@@ -13,7 +13,7 @@
 
 namespace rois::command {
 
-// What the file says: where the engine is, and the session that the process holds there.
+// The content of the file: the gateway, its session, and the process that holds the session.
 struct HeldSession {
     std::string url;
     std::string session;
@@ -29,7 +29,7 @@ std::optional<HeldSession> find_held_session(std::string const& file, std::chron
 // file. Throws Trouble (no_answer) if the holder has not ended within `deadline`.
 void end_holder(std::string const& file, pid_t holder, std::chrono::milliseconds deadline);
 
-// The file, and what to do about it.
+// The error that no process holds a session under the file.
 Trouble no_holder(std::string const& file);
 
 // The holder's side: a file that only its owner can read, locked. The destructor calls `remove`.
@@ -42,16 +42,16 @@ public:
     SessionFile(SessionFile const&) = delete;
     SessionFile& operator=(SessionFile const&) = delete;
 
-    // The session that the file named when it was locked: its holder was killed.
+    // The session that a killed holder left in the file.
     std::optional<HeldSession> const& left() const { return left_; }
 
     // From now on `find_held_session` returns this session. Throws Trouble (usage) if the file cannot be written.
     void write(std::string const& url, std::string const& session);
 
-    // Whether the name still leads to this file. If not, `find_held_session` does not find this holder. From any thread.
+    // Returns whether the name still refers to this file. If not, `find_held_session` does not find this holder. From any thread.
     bool is_there() const;
 
-    // Removes the file, unless the name leads to another file, or the file still names the session that another process left.
+    // Removes the file, unless the name refers to another file, or the file still names the session of a killed holder.
     void remove() const;
 
 private:
@@ -62,8 +62,8 @@ private:
     std::optional<HeldSession> left_;
 };
 
-// Goes on in a child process. Made before any thread: the parent waits, and ends with exit code 0 when the child is ready, or
-// with the child's exit code if that ends first. If the parent is killed before, the child gets SIGTERM.
+// Continues the program in a child process. Make it before any thread. The parent waits, and ends with exit code 0 when the child
+// is ready, or with the child's exit code if that ends first. If the parent is killed before, the child gets SIGTERM.
 class Background {
 public:
     Background();
@@ -71,8 +71,8 @@ public:
     Background(Background const&) = delete;
     Background& operator=(Background const&) = delete;
 
-    // Ends the parent, and lets go of its terminal and of standard input, output and error. Throws Trouble (interrupted) if the
-    // parent was killed: its caller does not know of the session.
+    // Ends the parent, and detaches from its terminal and from standard input, output and error. Throws Trouble (interrupted) if
+    // the parent was killed: its caller does not know of the session.
     void ready();
 
 private:

@@ -12,7 +12,7 @@ namespace rois::command {
 
 namespace {
 
-// One key press often arrives twice: from the terminal and from a parent process.
+// One key press often sends two signals: from the terminal and from a parent process.
 constexpr std::chrono::milliseconds same_signal{500};
 
 sigset_t ends() {
@@ -42,12 +42,12 @@ Signals::~Signals() {
     thread_.join();
 }
 
-void Signals::on_first(std::function<void()> told) {
-    std::lock_guard const telling{telling_};
+void Signals::on_first(std::function<void()> callback) {
+    std::lock_guard const calling{calling_};
     std::unique_lock lock{mutex_};
-    told_ = std::move(told);
-    if (!raised_ || !told_) return;
-    auto const now = told_;
+    callback_ = std::move(callback);
+    if (!raised_ || !callback_) return;
+    auto const now = callback_;
     lock.unlock();
     now();
 }
@@ -68,14 +68,14 @@ void Signals::wait() {
             if (number == SIGUSR1) continue;
             auto const now = std::chrono::steady_clock::now();
             if (raised_ && now - *raised_ < same_signal) continue;
-            if (raised_ || !told_) _exit(static_cast<int>(Exit::interrupted));
+            if (raised_ || !callback_) _exit(static_cast<int>(Exit::interrupted));
             raised_ = now;
         }
-        std::lock_guard const telling{telling_};
+        std::lock_guard const calling{calling_};
         std::unique_lock lock{mutex_};
-        auto const told = told_;
+        auto const callback = callback_;
         lock.unlock();
-        if (told) told();
+        if (callback) callback();
     }
 }
 

@@ -1,4 +1,4 @@
-// SIGINT and SIGTERM, as something that is waited for beside other things.
+// Handles SIGINT and SIGTERM on a thread of its own.
 #pragma once
 
 #include <chrono>
@@ -10,8 +10,8 @@
 
 namespace rois::command {
 
-// Made before any other thread. The first signal is reported to the callback. Another one within half a second counts as the
-// same, so that the session can still be ended properly; a later one ends the program at once.
+// Make it before any other thread. The first signal calls the callback. Another one within half a second counts as the same, so
+// that the session can still end properly; a later one ends the program at once.
 class Signals {
 public:
     Signals();
@@ -19,8 +19,8 @@ public:
     Signals(Signals const&) = delete;
     Signals& operator=(Signals const&) = delete;
 
-    // Called on a thread of its own at the first signal, or now when it has come. Nobody: then a signal ends the program at once.
-    // Whoever was told until now is told no more, nor is still being told, when this returns.
+    // Sets the function to call at the first signal; calls it now if that has arrived. Without a function, a signal ends the
+    // program at once. The previous function is not called, and does not run, after this has returned.
     void on_first(std::function<void()>);
 
     bool raised() const;
@@ -28,9 +28,9 @@ public:
 private:
     void wait();
 
-    std::mutex telling_;  // taken before the other
+    std::mutex calling_;  // locked during the callback; locked before mutex_
     mutable std::mutex mutex_;
-    std::function<void()> told_;
+    std::function<void()> callback_;
     std::optional<std::chrono::steady_clock::time_point> raised_;
     bool over_ = false;
     std::thread thread_;

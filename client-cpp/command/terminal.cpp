@@ -31,7 +31,7 @@ std::string_view sequence_of(Colour colour) {
     return "";
 }
 
-// In UTF-8, whatever the user's locale is. 1 where the system does not know.
+// Uses UTF-8, independent of the user's locale. Returns 1 for characters that the system does not know.
 std::size_t columns_of(char32_t character) {
     static auto const utf8 = newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
     if (character < 0x80 || utf8 == nullptr) return 1;
@@ -88,7 +88,7 @@ std::string Table::text(bool coloured, std::string_view indent) const {
     std::string text;
     for (auto const& row : rows_) {
         std::string line{indent};
-        std::size_t due = 0;  // blanks before the next text
+        std::size_t due = 0;  // spaces before the next text
         for (std::size_t i = 0; i < row.size(); ++i) {
             auto const width = width_of(harmless(row[i].text));
             if (width > 0) {

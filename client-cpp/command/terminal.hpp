@@ -1,4 +1,4 @@
-// What people read: colours on a terminal, and columns that are aligned.
+// Text for people: colours on a terminal, and aligned columns.
 #pragma once
 
 #include <cstddef>
@@ -11,21 +11,19 @@ namespace rois::command {
 
 enum class Colour : std::uint8_t { none, good, bad, name, quiet, value };
 
-// Whether standard output, or standard error, is a terminal that shows colours (NO_COLOR unset, TERM not dumb).
+// Returns whether the file is a terminal that shows colours (NO_COLOR unset, TERM not dumb).
 bool shows_colours(int file_descriptor);
 
-// The text in this colour; as it is when `coloured` is false or the colour is none. What could steer a terminal is written as
-// `?`.
+// Returns the harmless text, in this colour if `coloured` is true.
 std::string painted(std::string_view text, Colour, bool coloured);
 
-// Without control characters, so that nothing from outside steers a terminal. Line ends and tabs become blanks.
+// Replaces control characters, so that no document can control the terminal: line ends and tabs by spaces, others by `?`.
 std::string harmless(std::string_view text);
 
-// How many columns a text takes: one for each character, two for wide ones as those of Japanese, none for what stands above
-// others.
+// Returns the number of columns of a text: 1 for a character, 2 for a wide one (Japanese), 0 for a combining one.
 std::size_t width_of(std::string_view text);
 
-// Rows whose columns begin below each other.
+// Rows with aligned columns.
 class Table {
 public:
     struct Cell {
@@ -36,7 +34,7 @@ public:
     void add(std::vector<Cell> row) { rows_.push_back(std::move(row)); }
     bool empty() const { return rows_.empty(); }
 
-    // Each line ends with a line end; nothing stands behind the last column.
+    // Each line ends with a line end, without trailing spaces.
     std::string text(bool coloured, std::string_view indent = {}) const;
 
 private:

@@ -14,7 +14,7 @@ namespace {
 
 Pose pose_of(std::string const& text) {
     auto const pose = to_pose(text);
-    if (!pose) throw Trouble{Exit::usage, rois::quoted(text) + " is no place \"x, y, th\""};
+    if (!pose) throw Trouble{Exit::usage, rois::quoted(text) + " is not a place: expected \"x, y, th\""};
     return *pose;
 }
 

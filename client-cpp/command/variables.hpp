@@ -1,4 +1,4 @@
-// The variables of a robot scenario, each a list of texts, and what its steps do with them.
+// The variables of a robot scenario, each a list of texts, and the steps that use them.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace rois::command {
 
-// The names in braces, in order.
+// Returns the names in braces, in order.
 std::vector<std::string> names_in(std::string_view text);
 
 class Variables {
@@ -21,11 +21,11 @@ public:
     bool has(std::string const& name) const { return values_.contains(name); }
     void set(std::string const& name, std::string value);
 
-    // The text with what variables hold in place of their names; the values of a list with commas between.
+    // Replaces each {name} by the values of the variable, separated by commas.
     std::string filled(std::string_view text) const;
 
-    // Does the steps in order. False, and nothing is changed or printed, when one of them does not hold. `results` may be null.
-    // What is printed is added to `printed`. Throws Trouble for a place that is none.
+    // Runs the steps in order and adds their output to `printed`. Returns false, and changes nothing, if the condition of a step
+    // does not hold. `results` may be null. Throws Trouble if a text is not a place.
     bool take(std::vector<Step> const&, Results const* results, std::vector<std::string>& printed);
 
 private:

@@ -1,5 +1,5 @@
-// Greets a visitor with the C++ PSM of the specification (section 7.7) and nothing else: waits for somebody, drives up to them,
-// welcomes them and bows. ROIS_URL says where the gateway is.
+// Greets a visitor with only the C++ PSM of the specification (section 7.7): waits for a person, drives up to them, welcomes them
+// and bows. ROIS_URL is the address of the gateway.
 // NOLINTBEGIN(modernize-use-override): the published functions are not virtual
 #include <chrono>
 #include <condition_variable>
@@ -36,7 +36,7 @@ struct Application : RoIS_Service::ServiceApplicationBase {
     std::map<std::string, RoIS_Service::Completed_Status> ended;
 };
 
-// Where the first visitor in sight was last: "x, y, th" in mm and degrees.
+// Keeps the latest position of the first visitor in sight: "x, y, th" in mm and degrees.
 struct Visitors : Person_Localization::Event {
     void person_localized(RoIS_HRI::DateTime, RoIS_HRI::RoIS_IdentifierList, std::vector<RoLo::Architecture::Data> positions) {
         std::lock_guard<std::mutex> lock(mutex);
@@ -61,7 +61,7 @@ int main() {
     Reaction::Command reaction;
     bool greeted = false;
     bool ready = system.connect() == RoIS_HRI::OK && localization.start() == RoIS_HRI::OK;
-    for (int attempt = 0; ready && !greeted && attempt < 3; ++attempt) {  // the visitor may walk on meanwhile
+    for (int attempt = 0; ready && !greeted && attempt < 3; ++attempt) {  // the visitor may walk away meanwhile
         double x = 0, y = 0;
         char comma = 0;
         std::istringstream(visitors.wait()) >> x >> comma >> y;
@@ -74,7 +74,7 @@ int main() {
     greeted = greeted && application.succeeds(synthesis.start(), "speech_synthesis.start");
     reaction.set_parameter({"9"});  // a bow, of annex D
     greeted = greeted && application.succeeds(reaction.start(), "reaction.start");
-    std::cout << (greeted ? "greeted a visitor\n" : "greeted nobody\n");
+    std::cout << (greeted ? "greeted a visitor\n" : "greeted no visitor\n");
     return system.disconnect() == RoIS_HRI::OK && greeted ? 0 : 1;
 }
 // NOLINTEND(modernize-use-override)

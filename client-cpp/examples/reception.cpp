@@ -1,5 +1,5 @@
-// Figure 1 of the specification: waits for visitors, goes to each, tells their message or asks and listens, bows and returns.
-// reception [VISITORS]; ROIS_URL says where the gateway is.
+// Figure 1 of the specification: waits for visitors, drives to each, says their message or asks and listens, bows and returns.
+// Usage: reception [VISITORS]. ROIS_URL is the address of the gateway.
 #include <algorithm>
 #include <cstdio>
 #include <regex>
@@ -16,7 +16,7 @@ std::string message_for(std::string const& visitor) {
     return "Welcome. There is no message for you today.";
 }
 
-// All who are seen now.
+// Returns the people in sight.
 Task<std::vector<Sighting>> look(PersonLocalization localization) {
     auto localized = co_await localization.person_localized();
     co_await localization.start();
@@ -25,7 +25,7 @@ Task<std::vector<Sighting>> look(PersonLocalization localization) {
     co_return seen ? seen->people : std::vector<Sighting>{};
 }
 
-// Goes before somebody who stands and was not received; gives their name, empty when nobody was reached.
+// Drives to a person who stands still and is not in `met`. Returns their name, or an empty text if the robot reached none.
 Task<std::string> approach(Client& robot, PersonLocalization localization, Navigation navigation, std::set<std::string> met) {
     auto const earlier = co_await look(localization);
     co_await robot.sleep(1s);
@@ -53,7 +53,7 @@ Task<> receive(Client& robot, int visitors) {
     auto identified = co_await identification.person_identified();
     auto recognized = co_await recognition.speech_recognized();
     auto const start = (co_await SystemInformation{robot.component("system_information")}.robot_position()).robots.at(0).pose;
-    std::set<std::string> met;  // the temporary names of those who were received, and their permanent ids
+    std::set<std::string> met;  // temporary names and permanent ids of the visitors received so far
     for (int count = 0; count < visitors;) {
         co_await navigation.go_to(start);
         detected.skip();

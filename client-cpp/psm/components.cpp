@@ -1,4 +1,4 @@
-// The published classes of the components: their arguments and results as values of the session.
+// The published classes of the components: convert arguments and results, and call the session.
 #include "psm/session.hpp"
 #include "rois/psm/RoIS_Audio_Streaming.hpp"
 #include "rois/psm/RoIS_Face_Detection.hpp"
@@ -32,7 +32,7 @@ RoIS_HRI::ReturnCode_t get_parameters(std::string const& component_type, EventRe
     return Session::instance().query(component_type, "get_parameter", {}, parameters);
 }
 
-// A command on a stream, to its end.
+// Runs a command on a stream until it has completed.
 RoIS_HRI::ReturnCode_t run_stream(std::string const& component_type, std::string command_type, std::string stream_id) {
     EventResults none;
     return Session::instance().run_to_the_end(component_type, std::move(command_type),

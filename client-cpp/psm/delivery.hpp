@@ -1,4 +1,4 @@
-// The notification thread of the C++ PSM: calls the functions of the application's receivers, one after the other.
+// The notification thread of the C++ PSM. It calls the functions of the application's receivers, one at a time.
 #pragma once
 
 #include <chrono>
@@ -12,39 +12,39 @@
 
 namespace rois::psm {
 
-// What a receiver is registered by: the address of its ServiceApplicationBase or Event.
+// Identifies a receiver: the address of its ServiceApplicationBase or Event.
 using Receiver = void const*;
 
-// Thread-safe. The thread begins with the first notice or `begin_signs`.
+// Thread-safe. The thread starts with the first notice or `begin_signs`.
 class Delivery {
 public:
     enum class Kind : unsigned char {
-        droppable,  // an event: the oldest of these makes room when too many wait
+        droppable,  // an event: the oldest one is dropped if the queue is full
         kept,
     };
 
     static constexpr std::size_t most_waiting = 1'024;
 
     Delivery() = default;
-    // Ends the thread; what waits is not delivered.
+    // Ends the thread; discards queued notices.
     ~Delivery();
     Delivery(Delivery const&) = delete;
     Delivery& operator=(Delivery const&) = delete;
 
-    // From now on the notification thread calls this again and again after the time, and between two notices; not while a
-    // receiver's function runs. Once.
+    // Lets the notification thread call `sign` at this interval and between two notices, but not while a receiver's function
+    // runs. Only the first call has an effect.
     void begin_signs(std::function<void()> sign, std::chrono::milliseconds every);
 
     // Queues a function for the notification thread. Returns false if an event had to be dropped to make room.
     bool post(Kind, std::function<void()>);
 
-    // On the notification thread: calls the function unless the receiver has been ended.
+    // On the notification thread: calls the function, unless `end` was called for the receiver.
     void call(Receiver, std::function<void()> const&);
     void begin(Receiver);
-    // No function of the receiver runs after this. Waits for one that runs, unless it is called by that one.
+    // Ends the receiver: none of its functions runs after this. Waits for a running function, unless that function calls this.
     void end(Receiver);
 
-    // Waits until nothing waits and nothing runs. Does not wait on the notification thread.
+    // Waits until the queue is empty and no function runs. Returns at once on the notification thread.
     void drain();
     bool is_here() const { return std::this_thread::get_id() == here_; }
 
@@ -64,7 +64,7 @@ private:
     std::chrono::milliseconds every_{};
     std::deque<Notice> waiting_;
     std::vector<Receiver> receivers_;
-    Receiver called_ = nullptr;  // whose function runs
+    Receiver called_ = nullptr;  // the receiver whose function runs
     bool busy_ = false;          // a notice is being handled
     bool over_ = false;
     std::thread thread_;

@@ -20,7 +20,7 @@ void declare_prefixes(xml::Writer& out) {
     out.constant("xmlns:unr", xml::unr_namespace).constant("xmlns:xsi", xml::xsi_namespace);
 }
 
-// A declaration may begin a document of its own, but not a part of one.
+// Removes an XML declaration: it is not allowed inside a document.
 std::string_view without_declaration(std::string_view xml) {
     xml = trimmed(xml);
     if (!xml.starts_with("<?xml ")) return xml;
@@ -28,7 +28,7 @@ std::string_view without_declaration(std::string_view xml) {
     return end == xml.npos ? xml : xml.substr(end + 2);
 }
 
-// The place is the last text of the document.
+// Puts the application's XML in place of the text `place`, the last text of the document.
 std::string filled(std::string document, std::string_view xml) {
     return document.replace(document.rfind(place), place.size(), xml);
 }

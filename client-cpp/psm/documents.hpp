@@ -1,4 +1,4 @@
-// The documents of operations whose conditions and sequences are the application's own XML texts.
+// Request documents with the application's own XML as condition or command sequence.
 #pragma once
 
 #include <optional>
@@ -9,19 +9,19 @@
 
 namespace rois::psm {
 
-// One element of a request with a text inside, before the condition.
+// An element of a request, before the condition: its name and its text.
 using Child = std::pair<std::string_view, std::string>;
 
-// A request whose condition is this text, or without one if it is empty or blank. The element names are literals.
+// Returns a request with this condition, or without one if the text is empty or blank. Does not escape the element names.
 std::string request_with_condition(std::string_view operation, std::vector<Child> const&, std::string_view condition);
-// `execute` of this sequence.
+// Returns an `execute` request with this sequence.
 std::string request_with_sequence(std::string_view sequence);
 
-// Why a text cannot stand inside a request; nothing if it can: if it is well-formed elements and nothing else. The engine
-// judges all the rest.
+// Returns why a text cannot be part of a request, or nothing if it consists of well-formed elements only. The engine checks the
+// rest.
 std::optional<std::string> problem_with(std::string_view xml);
 
-// The engine profile of a get_profile_response as a document of its own; empty if there is none.
+// Returns the engine profile of a get_profile_response as a document of its own; empty if there is none.
 std::string engine_profile_in(std::string const& response);
 
 }  // namespace rois::psm

@@ -9,7 +9,7 @@ using rois::psm::Session;
 
 namespace {
 
-// An operation whose reply has results.
+// Runs an operation whose reply has results.
 template <class Reply>
 RoIS_HRI::ReturnCode_t ask_results(std::string_view operation, std::string_view child, std::string const& value,
                                    std::string const& condition, RoIS_HRI::ResultList& results) {

@@ -28,7 +28,7 @@ Settings settings_of_environment() {
     return settings;
 }
 
-// Whether the engine has found fault with the document, which is what the application has given.
+// Returns whether the fault is an error in the application's document.
 bool is_about_the_document(FaultCode code) {
     return code == FaultCode::not_well_formed || code == FaultCode::forbidden_xml || code == FaultCode::invalid ||
            code == FaultCode::too_large;
@@ -70,7 +70,7 @@ Session& Session::instance() {
     return session;
 }
 
-// The connection ends before what its observers use.
+// Ends the connection before the members that its observers use.
 Session::~Session() {
     std::shared_ptr<Client> leaving;
     {
@@ -120,12 +120,12 @@ ReturnCode_t Session::connect() try {
         subscriptions_.clear();
         running_.clear();
         last_command_ = 0;
-        speaks_itself_ = false;
+        application_gives_signs_ = false;
         new_.insert(events_.begin(), events_.end());
     }
     delivery_.begin_signs(
         [this] {
-            if (!speaks_itself_) give_sign_of_life();
+            if (!application_gives_signs_) give_sign_of_life();
         },
         fresh->between_signs_of_life());
     activate(fresh);
@@ -149,7 +149,7 @@ ReturnCode_t Session::disconnect() try {
     }
     auto const why = reason();
     leaving.reset();
-    abort_commands();  // those of which the engine could not tell any more
+    abort_commands();  // the commands whose end the engine could no longer report
     delivery_.drain();
     set_reason(why);
     std::lock_guard const lock{mutex_};
@@ -160,20 +160,20 @@ ReturnCode_t Session::disconnect() try {
     return RoIS_HRI::ERROR;
 }
 
-// The session's client may end meanwhile: it does so when nobody else holds it.
+// With the lock held: this thread must not hold the last reference of a client that ends meanwhile.
 void Session::give_sign_of_life() const {
     std::lock_guard const lock{mutex_};
     if (client_) client_->alive();
 }
 
 void Session::alive() {
-    speaks_itself_ = true;
+    application_gives_signs_ = true;
     give_sign_of_life();
 }
 
 void alive() { Session::instance().alive(); }
 
-// New receivers receive from now on. Events for which there is no component are tried again with the next connection.
+// Registers new receivers and subscribes for them. Subscriptions that fail, as without a component, are retried by connect().
 void Session::activate(std::shared_ptr<Client> const& client) {
     std::vector<std::pair<std::string, std::string>> wanted;
     {
@@ -252,7 +252,7 @@ ReturnCode_t Session::execute(std::string_view sequence) try {
 
 // --- Bindings ---
 
-// Its type is asked for once, and the client is told: it binds the component again in a new session.
+// Asks for the type of a bound component, once.
 void Session::note_bound(std::shared_ptr<Client> const& client, std::string const& ref) {
     auto const answer = client->wait(client->request({GetProfile{conditions::component_ref == ref}, {}}));
     std::string type;
@@ -279,7 +279,7 @@ ReturnCode_t Session::bind_any(std::string_view condition, std::string& ref) {
                              [&](BindAny::Reply const& reply, std::string const&) { bound = reply.component_ref.code; });
     if (code != RoIS_HRI::OK) return code;
     ref = bound;
-    return bind(std::move(bound));
+    return bind(std::move(bound));  // lets the client bind it again in a new session
 }
 
 ReturnCode_t Session::release(std::string ref) {
@@ -390,7 +390,7 @@ ReturnCode_t Session::subscribe(std::string const& event_type, std::string const
     return RoIS_HRI::ERROR;
 }
 
-// The results always come with the events: a subscription that the application and an Event object share is one for the engine.
+// Always asks for inline results, so that the application and an Event object can share one subscription of the engine.
 ReturnCode_t Session::subscribe_on(std::shared_ptr<Client> const& client, std::string const& event_type,
                                    std::string const& condition, bool Subscription::*by, std::string& id) {
     std::string response;
@@ -429,7 +429,7 @@ ReturnCode_t Session::unsubscribe(std::string const& id) {
     });
 }
 
-// In the engine's new session, in place of the one that is gone.
+// Repeats the subscriptions in a new session of the engine.
 void Session::subscribe_again() {
     auto const own = client();
     if (!own) return;

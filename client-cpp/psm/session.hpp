@@ -20,7 +20,7 @@ namespace rois::psm {
 
 void set_reason(std::string);
 
-// A condition on components of a type of the specification, in XML.
+// Returns the condition, in XML, that the component has this type of the specification.
 std::string condition_on_type(std::string const& type);
 
 // Thread-safe. Every function that returns a return code sets the calling thread's reason and throws nothing.
@@ -31,12 +31,12 @@ public:
     Session(Session const&) = delete;
     Session& operator=(Session const&) = delete;
 
-    // --- What the interfaces are made of ---
+    // --- For the interfaces ---
 
     RoIS_HRI::ReturnCode_t connect();
     RoIS_HRI::ReturnCode_t disconnect();
 
-    // An operation; its reply is given to `take` if it is OK.
+    // Runs an operation. Passes the reply to `take` if it is OK.
     template <class Op, class Take>
     RoIS_HRI::ReturnCode_t call(Op operation, Take take);
     template <class Op>
@@ -44,7 +44,7 @@ public:
         return call(std::move(operation), [](typename Op::Reply const&) {});
     }
 
-    // An operation with the application's XML. Its reply is given to `take` if it is OK, with the document.
+    // Runs an operation with the application's XML. Passes the reply and its document to `take` if it is OK.
     template <class R, class Take>
     RoIS_HRI::ReturnCode_t send(std::string_view xml, std::string document, Take take);
 
@@ -56,18 +56,18 @@ public:
     RoIS_HRI::ReturnCode_t unsubscribe(std::string const& id);
     RoIS_HRI::ReturnCode_t get_error_detail(std::string const& id, std::string_view condition, Results& results);
 
-    // --- What the components are made of ---
+    // --- For the components. RoIS_Common.hpp says which component a type addresses. ---
 
-    // Starts a command of the component that is meant by this type; see RoIS_Common.hpp.
+    // Starts a command of the component of this type.
     RoIS_HRI::ReturnCode_t run(std::string const& component_type, std::string command_type, ParameterList arguments);
-    // The same, and waits until it has completed.
+    // Starts a command of the component of this type, and waits until it has completed.
     RoIS_HRI::ReturnCode_t run_to_the_end(std::string const& component_type, std::string command_type, ParameterList arguments,
                                           EventResults& results);
-    // Asks the component that is meant by this type; `more` narrows the condition.
+    // Queries the component of this type; `more` narrows the condition.
     RoIS_HRI::ReturnCode_t query(std::string const& component_type, std::string query_type, std::optional<Condition> more,
                                  EventResults& results);
 
-    // The application gives signs of life by itself from now on (alive.hpp).
+    // Gives a sign of life; from now on the notification thread gives none (alive.hpp).
     void alive();
 
     // --- Receivers ---
@@ -80,12 +80,12 @@ public:
 private:
     struct Bound {
         std::string ref;
-        std::string type;  // the last part of its URN; empty if it is not known
+        std::string type;  // the last part of its URN; empty if unknown
     };
     struct Subscription {
         std::string event_type;
         std::string condition;
-        std::string engine_id;        // in the present session of the engine
+        std::string engine_id;        // in the engine's current session
         bool by_application = false;  // by EventIF::subscribe
         bool by_receivers = false;    // by Event objects
     };
@@ -97,16 +97,16 @@ private:
     Session() = default;
 
     std::shared_ptr<Client> client() const;  // null while not connected
-    std::shared_ptr<Client> ready_client();  // the same; makes new receivers receive
+    std::shared_ptr<Client> ready_client();  // the same; activates new receivers
     void activate(std::shared_ptr<Client> const&);
     Observers observers();
     void give_sign_of_life() const;
     RoIS_HRI::ReturnCode_t failed(Answer const&, Client const&) const;
-    // Sends a document and reads its answer. `note` is called with a reply that is OK, on the client's thread, and so before any
-    // notification that follows it.
+    // Sends a document and reads its answer. Calls `note` with a reply that is OK, on the client's thread: before any later
+    // notification.
     static Task<Answer> exchange(std::shared_ptr<Client>, std::string document, std::string& response,
                                  std::function<void(Reply const&)> note);
-    // The same, once the application's XML in it is known to be well-formed. Nothing is sent otherwise.
+    // The same, but sends nothing if the application's XML is not well-formed.
     RoIS_HRI::ReturnCode_t send_on(std::shared_ptr<Client> const&, std::string_view xml, std::string document,
                                    std::string& response, std::function<void(Reply const&)> note) const;
     RoIS_HRI::ReturnCode_t subscribe_on(std::shared_ptr<Client> const&, std::string const& event_type,
@@ -129,23 +129,23 @@ private:
     void deliver_completed(std::string const& id, RoIS_Service::Completed_Status);
     std::vector<RoIS_Service::ServiceApplicationBase*> applications() const;
 
-    mutable std::mutex mutex_;  // guards all that follows; never held while the engine or the application is called
+    mutable std::mutex mutex_;  // guards the members below; not held during calls to the engine or the application
     std::mutex connecting_;     // one connect or disconnect at a time
     std::shared_ptr<Client> client_;
-    std::vector<Bound> bound_;                           // the last one last
+    std::vector<Bound> bound_;                           // in the order of binding
     std::map<std::string, Subscription> subscriptions_;  // by the id that the application knows
     std::set<std::string> running_;                      // ids of accepted commands that have not completed
-    std::map<std::string, std::string> errors_;          // the library's own, with their texts; the oldest go first
+    std::map<std::string, std::string> errors_;          // the library's own errors: text by id
     std::vector<RoIS_Service::ServiceApplicationBase*> applications_;
     std::vector<RoIS_Common::Event*> events_;
     std::set<Receiver> new_;  // registered, but not receiving yet
     unsigned long last_command_ = 0;
     unsigned long last_error_ = 0;
 
-    std::atomic<bool> speaks_itself_ = false;  // it has called alive()
-    std::atomic<bool> dropping_ = false;       // a report of dropped events waits: more of them need none of their own
+    std::atomic<bool> application_gives_signs_ = false;  // it has called alive()
+    std::atomic<bool> dropping_ = false;                 // a report of dropped events is queued; a second one is not needed
 
-    Delivery delivery_;  // last: its thread ends first
+    Delivery delivery_;  // the last member: its thread must end first
 };
 
 template <class Op, class Take>

@@ -1,4 +1,4 @@
-// What the engine reports on its own, from the client's thread to the receivers on the notification thread.
+// Passes the engine's notifications from the client's thread to the receivers on the notification thread.
 #include <algorithm>
 #include <utility>
 
@@ -19,7 +19,7 @@ static_assert(static_cast<RoIS_Service::ErrorType>(ErrorType::user_defined_error
 
 }  // namespace
 
-// --- Notifications. Taken on the client's thread, delivered on the notification thread ---
+// --- Notifications: received on the client's thread, delivered on the notification thread ---
 
 Observers Session::observers() {
     Observers all;
@@ -93,7 +93,7 @@ void Session::take_gap(Gap const& gap) {
         }
     }
     abort_commands();
-    report("the engine's session ended with the link; a new one goes on in its place" + lost);
+    report("the engine's session ended with the link; a new session replaces it" + lost);
     post(Delivery::Kind::kept, [this] { subscribe_again(); });
 }
 

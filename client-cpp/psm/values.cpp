@@ -34,7 +34,7 @@ void Arguments::identifier(std::string name, std::string code) {
     if (!code.empty()) list_.push_back(reference(std::move(name), std::move(code)));
 }
 
-// The published Reaction takes a list where its component takes one identifier: a longer list is refused by the engine.
+// The published Reaction takes a list where its component takes one identifier; the engine rejects a longer list.
 void Arguments::identifiers(std::string name, std::vector<std::string> codes) {
     if (codes.empty()) return;
     auto list = reference(std::move(name), {});

@@ -1,4 +1,4 @@
-// Values between the C++ PSM, where all of them are plain strings and numbers, and the messages.
+// Converts values between the plain strings and numbers of the C++ PSM and the messages.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace rois::psm {
 
-// Arguments of set_parameter. Empty texts, empty lists and negative numbers are left out: their parameters stay as they are.
+// Arguments of set_parameter. Leaves out empty texts, empty lists and negative numbers: their parameters stay unchanged.
 class Arguments {
 public:
     void text(std::string name, std::string value);
@@ -27,7 +27,7 @@ private:
     ParameterList list_;
 };
 
-// Results of an event, an answer or get_parameter, by name. What is missing is empty or -1.
+// Results of an event, an answer or get_parameter, by name. A missing result is empty or -1.
 class EventResults {
 public:
     EventResults() = default;
@@ -37,7 +37,7 @@ public:
     std::vector<std::string> texts(std::string_view name) const;
     long integer(std::string_view name) const;
     std::vector<long> integers(std::string_view name) const;
-    // The same by what they are called in the PSM.
+    // The same, with the names of the PSM.
     std::string time(std::string_view name) const { return text(name); }
     std::string identifier(std::string_view name) const { return text(name); }
     std::vector<std::string> identifiers(std::string_view name) const { return texts(name); }

@@ -1,4 +1,4 @@
-// The types of Boost.Asio that are used here, all with the concrete executor of the client's thread.
+// Types of Boost.Asio with the concrete executor of the client's thread.
 #pragma once
 
 #include <boost/asio/awaitable.hpp>
@@ -19,11 +19,11 @@ using Socket = asio::basic_stream_socket<asio::ip::tcp, Executor>;
 using Timer = asio::basic_waitable_timer<std::chrono::steady_clock, asio::wait_traits<std::chrono::steady_clock>, Executor>;
 using boost::system::error_code;
 
-// A coroutine of a link. g++ 12 miscompiles a co_await inside the condition of a loop or an if (it drops what follows): give its
-// result a name first.
+// A coroutine of a link. g++ 12 drops the code after a co_await in the condition of a loop or an if: give the result a name
+// first.
 using Opening = asio::awaitable<void, Executor>;
 
-// Completion token: await it, and find the error in `error`.
+// Completion token for co_await; stores the error in `error`.
 inline auto into(error_code& error) { return asio::redirect_error(asio::use_awaitable_t<Executor>{}, error); }
 
 }  // namespace rois::client

@@ -1,4 +1,4 @@
-// What the comfortable layer asks: replies that are OK, or Error.
+// Requests of the public classes: an OK reply, or an Error.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,8 @@
 
 namespace rois::detail {
 
-// `what` must live as long as the program. Error says it, and about whom.
+// Sends an operation and returns its reply. Throws Error unless the return code is OK; its text begins with `what` and `whom`.
+// `what` must have static lifetime.
 template <class Op>
 Task<typename Op::Reply> asked(std::shared_ptr<Core> core, Op operation, std::string_view what, std::string whom = {}) {
     Request request{std::move(operation), {}};

@@ -1,4 +1,4 @@
-// A connection below a link: TCP, or TLS on it. Comes with Beast: for the sources of links alone.
+// Connects a TCP or TLS stream. Includes much of Asio: only for the sources of links.
 #pragma once
 
 #include "asio.hpp"
@@ -21,8 +21,8 @@ using TlsSocket = asio::ssl::stream<Socket>;
 template <class Stream>
 inline constexpr bool is_tls = std::is_same_v<Stream, TlsSocket>;
 
-// What TLS trusts: the system's certificates, and the file of the settings. Throws std::runtime_error, naming the file, if it
-// cannot be read.
+// Returns a TLS context that trusts the system's certificates and those of the settings' file. Throws std::runtime_error, naming
+// the file, if it cannot be read.
 inline std::unique_ptr<asio::ssl::context> trust(Settings const& settings) {
     auto context = std::make_unique<asio::ssl::context>(asio::ssl::context::tls_client);
     context->set_default_verify_paths();
@@ -35,7 +35,7 @@ inline std::unique_ptr<asio::ssl::context> trust(Settings const& settings) {
     return context;
 }
 
-// What to do about a failed TLS handshake, where that is known.
+// Returns advice about a failed TLS handshake, or nothing.
 inline std::string hint_for(error_code const& error) {
     bool const is_plain = error.category() == asio::error::get_ssl_category() &&
                           ERR_GET_REASON(static_cast<unsigned long>(error.value())) == SSL_R_WRONG_VERSION_NUMBER;
@@ -44,7 +44,8 @@ inline std::string hint_for(error_code const& error) {
 
 using Resolver = asio::ip::basic_resolver<asio::ip::tcp, Executor>;
 
-// Resolves a name, connects and, with TLS, checks who is there. `lowest` is the socket of `stream`.
+// Resolves the host, connects and, with TLS, verifies its certificate. Returns an error message, empty on success. `lowest` is
+// the socket of `stream`.
 template <class Stream>
 asio::awaitable<std::string, Executor> connect(Stream& stream, Socket& lowest, Resolver& resolver, Target const& target) {
     error_code error;

@@ -1,4 +1,4 @@
-// One request on its way, and who waits for its answer.
+// A request that is under way, and the coroutine that awaits its answer.
 #pragma once
 
 #include <coroutine>
@@ -14,10 +14,10 @@
 
 namespace rois::client {
 
-// The link broke after the request was sent, and the same session has been resumed: whether it was done is not known.
+// The link broke after the request was sent, and the session was resumed: the engine may have run the operation or not.
 struct Interrupted {};
 
-// Until when there must be an answer, and how long that was in the beginning.
+// The deadline of a call: its length and its end.
 struct Deadline {
     Deadline(std::chrono::milliseconds time) : whole{bounded(time)} {}
 
@@ -30,16 +30,16 @@ struct Deadline {
     Steady due = from_now(whole);
 };
 
-// Lives on the client's thread. Awaited once.
+// For the client's thread. Its outcome is awaited once.
 class Call {
 public:
     enum class Kind : std::uint8_t {
-        again,       // sent again when the link breaks: doing it twice is as good as once
-        in_session,  // the same, in its session alone: it names what only this session knows
-        once,        // not sent again: who waits hears of it
-        raw,         // a document as it stands
+        again,       // idempotent: sent again after the link broke
+        in_session,  // sent again only in the same session, whose ids it contains
+        once,        // not sent again: the outcome is Interrupted
+        raw,         // any text; not sent again: the outcome is NoAnswer::link_lost
     };
-    using Outcome = std::variant<Answer, std::string, Interrupted>;  // a text for a raw one
+    using Outcome = std::variant<Answer, std::string, Interrupted>;  // a text for `raw`
 
     Call(Kind how, std::string document, std::string request_id, Deadline within)
         : kind{how}, text{std::move(document)}, id{std::move(request_id)}, deadline{within} {}
@@ -47,14 +47,14 @@ public:
     Call(Call const&) = delete;
     Call& operator=(Call const&) = delete;
 
-    // What the outcome is made of. Who waits goes on.
+    // Sets the outcome, made of these parts, and resumes the waiting coroutine.
     template <class... Parts>
     void give(Parts&&... parts) {
         outcome_.emplace(std::forward<Parts>(parts)...);
         if (auto const waiter = std::exchange(waiter_, {})) waiter.resume();
     }
 
-    // Whether it was given an outcome. One whose deadline has passed stays in the row until its answer comes.
+    // Whether it has an outcome. A call whose deadline has passed stays in the queue until its answer arrives.
     bool is_over() const { return outcome_.has_value(); }
 
     struct Awaiter {
@@ -63,11 +63,11 @@ public:
         void await_suspend(std::coroutine_handle<> waiter) const { call->waiter_ = waiter; }
         Outcome& await_resume() const { return *call->outcome_; }
     };
-    Awaiter outcome() { return {this}; }  // stays here
+    Awaiter outcome() { return {this}; }  // returns a reference; the call owns the outcome
 
     Kind const kind;
     std::string const text;
-    std::string const id;  // empty for a raw one
+    std::string const id;  // empty for `raw`
     Deadline const deadline;
     bool sent = false;  // on this link
 

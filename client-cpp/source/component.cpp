@@ -8,7 +8,7 @@ using detail::asked;
 
 namespace {
 
-// Why a command failed, as the engine says it, or why the engine cannot be asked; empty if the engine has no reason.
+// Asks the engine why a command failed. Returns its reason (may be empty), or why the engine did not answer.
 Task<std::string> reason_of(std::shared_ptr<detail::Core> core, CommandId id) {
     Request request{GetCommandResult{std::move(id), {}}, {}};
     auto answer = co_await core->request(std::move(request), core->settings().deadline);

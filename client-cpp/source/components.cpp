@@ -35,7 +35,7 @@ std::optional<millimetres> length_of(std::optional<int> number) {
     return number ? std::optional{millimetres{static_cast<double>(*number)}} : std::nullopt;
 }
 
-// The parameters of a component, made into what says them.
+// Gets the parameters of a component and converts them.
 template <class Parameters>
 Task<Parameters> read_parameters(Component component, Parameters (*made)(Reading const&)) {
     auto const list = co_await component.get_parameter();

@@ -27,7 +27,7 @@ Condition near_expression(Expression reference, Expression where, millimetres aw
     return {DistanceComparison{DistanceRelation::d_within, {std::move(reference), std::move(where)}, away.value, "mm"}};
 }
 
-// The specification's own types by their names.
+// Adds the prefix of the specification's types to a name without colons.
 std::string urn_of(std::string_view urn_or_name) {
     bool const urn = urn_or_name.find(':') != urn_or_name.npos;
     return (urn ? "" : "urn:x-rois:def:component:OMG::") + std::string{urn_or_name};
@@ -87,7 +87,7 @@ Condition TypeReference::operator==(std::string_view urn_or_name) const { return
 
 Condition TypeReference::operator!=(std::string_view urn_or_name) const { return component_type != urn_of(urn_or_name); }
 
-// What stands in a row stays in a row.
+// Joins a && b && c into one And with three operands.
 Condition operator&&(Condition a, Condition b) {
     if (auto* const all = std::get_if<And>(&a.predicate)) {
         all->operands.push_back(std::move(b));

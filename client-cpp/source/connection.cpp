@@ -95,7 +95,8 @@ void Connection::close() { core_->close(); }
 void Connection::spawn(Task<> task) { core_->spawn(std::move(task)); }
 
 void Connection::check_not_own_thread() const {
-    if (core_->loop().is_here()) throw std::logic_error{"rois: waiting on the client's thread would wait for ever"};
+    if (core_->loop().is_here())
+        throw std::logic_error{"rois: a wait on the client's thread would never end; use co_await there"};
 }
 
 }  // namespace rois

@@ -10,7 +10,7 @@ using client::Steady;
 
 namespace {
 
-// With times that can be doubled and counted from now on.
+// Limits the times, so that they can be doubled and added to a clock.
 Settings within_bounds(Settings settings) {
     for (auto* const time : {&settings.deadline, &settings.connect_deadline, &settings.ping_interval, &settings.stream_silence,
                              &settings.first_pause, &settings.longest_pause})
@@ -26,7 +26,7 @@ Core::Core(Settings settings, Observers observers)
       target_{client::read_url(settings_.url)},
       name_{std::random_device{}()},
       session_{settings_.session},
-      dice_{name_} {}
+      random_{name_} {}
 
 void Core::start() {
     loop_.start(shared_from_this());
@@ -56,7 +56,7 @@ SessionId Core::session() const {
     return session_;
 }
 
-// In a session that is shared, others name commands, too.
+// In a shared session the id contains name_: other programs give ids, too.
 CommandId Core::fresh_command_id() {
     auto const whose = is_joined() ? std::to_string(name_) + "-" : "";
     return {"command-" + whose + std::to_string(++last_command_)};
@@ -74,7 +74,7 @@ void Core::change(State state, std::string reason) {
 
 namespace {
 
-// A coroutine that nobody awaits.
+// A coroutine that runs without being awaited.
 struct Detached {
     struct promise_type {
         Detached get_return_object() const { return {}; }
@@ -122,7 +122,7 @@ std::shared_ptr<Call> Core::send(Call::Kind kind, std::string document, std::str
     return call;
 }
 
-// One alarm for all, at the earliest deadline that there was: most are never reached.
+// Uses one alarm for all deadlines: most are never reached.
 void Core::watch_deadlines(Steady earliest) {
     next_deadline_ = earliest;
     loop_.cancel(deadlines_);
@@ -145,13 +145,13 @@ void Core::end_late_calls() {
     for (auto const& call : late) {
         auto reason = "no answer within " + std::to_string(call->deadline.whole.count()) + " ms";
         if (!is_open() && !last_reason_.empty()) reason += ": " + last_reason_;
-        // One that was sent keeps its place in the row until its answer has come, or the link has broken.
+        // A sent call keeps its place in the queue until its answer has arrived, or the link has broken.
         if (!call->sent || !is_open()) std::erase(calls_, call);
         call->give(NoAnswer{NoAnswer::Why::deadline, std::move(reason)});
     }
 }
 
-// Answers come in the order of the requests. An id is a check: documents that were sent as they stand may have any.
+// Answers arrive in the order of the requests. The request_id is only a check: raw documents may have any.
 void Core::take_answer(std::string_view document, std::optional<xml::Heard>& heard) {
     auto const first = std::ranges::find_if(calls_, [](auto const& call) { return call->sent; });
     if (first == calls_.end()) {
@@ -177,7 +177,7 @@ void Core::take_answer(std::string_view document, std::optional<xml::Heard>& hea
         take_first();
         call->give(std::in_place_type<Answer>, std::move(answered->reply));
     } else if (fault->code == FaultCode::no_session) {
-        call->sent = false;  // it never ran: it is sent in the next session
+        call->sent = false;  // the engine did not run it: it is sent in the next session
         session_gone();
     } else {
         take_first();
@@ -185,7 +185,7 @@ void Core::take_answer(std::string_view document, std::optional<xml::Heard>& hea
     }
 }
 
-// Sends what waits.
+// Sends the waiting calls.
 void Core::flush() {
     for (auto const& call : calls_) {
         if (call->sent) continue;
@@ -199,28 +199,28 @@ void Core::flush() {
 void Core::begin_close(Farewell farewell) {
     if (is_closed()) return;
     auto const self = shared_from_this();
-    bool const says_it = is_open() && farewell == Farewell::due && !is_joined();
-    bool const hears_more = is_open() && farewell == Farewell::said && settings_.way == Way::http;
+    bool const sends_disconnect = is_open() && farewell == Farewell::due && !is_joined();
+    bool const awaits_stream_end = is_open() && farewell == Farewell::said && settings_.way == Way::http;
     phase_ = Phase::closing;
-    state_ = State::closed;  // observers are told when they have heard the rest
+    state_ = State::closed;  // `finish` notifies the observers, after the last notification
     loop_.cancel(attempt_);
     for (auto const& call : std::exchange(calls_, {})) call->give(closed());
     for (auto const& stream : subscriptions_.streams()) stream->end();
     for (auto const& [id, watch] : std::exchange(watches_, {})) watch->abort(closed().reason);
     for (auto const& sleeper : std::exchange(sleeping_, {}))
         if (auto const flag = sleeper.lock()) flag->raise();
-    if (!says_it && !hears_more) {
+    if (!sends_disconnect && !awaits_stream_end) {
         finish();
         opened.raise();
         return;
     }
     opened.raise();
     constexpr auto longest = std::chrono::milliseconds{1'000};
-    if (says_it) send_on_link(client::document_of({Disconnect{}, "disconnect"}));
+    if (sends_disconnect) send_on_link(client::document_of({Disconnect{}, "disconnect"}));
     attempt_ = loop_.in(std::min(longest, settings_.connect_deadline), [this] { finish(); });
 }
 
-// The thread stays for those who still ask, until nobody can.
+// The thread runs on until `destroy`: other threads may still call functions.
 void Core::finish() {
     if (phase_ == Phase::closed) return;
     phase_ = Phase::closed;

@@ -1,4 +1,5 @@
-// The inside of a connection: its thread, its session, what is on the way. Facades and coroutines keep it alive.
+// The state of a connection: its thread, its session and the calls that are under way. Public handles and coroutines keep it
+// alive.
 #pragma once
 
 #include <atomic>
@@ -19,16 +20,16 @@
 
 namespace rois::detail {
 
-// Lives on the client's thread; what is called from others says so. Sources: core.cpp (beginning, end, calls), core_session.cpp
-// (link and session), core_life.cpp (signs of life), core_notifications.cpp, core_operations.cpp (what operations mean to it).
+// For the client's thread, except where noted. Sources: core.cpp (start, end, calls), core_session.cpp (link and session),
+// core_life.cpp (signs of life), core_notifications.cpp, core_operations.cpp (operations with side effects on the connection).
 class Core final : public std::enable_shared_from_this<Core>, private client::Link::Listener {
 public:
     Core(Settings, Observers);
 
     // From any thread:
     void start();
-    void close();    // begins to
-    void destroy();  // closes, waits for the end where it may; observers hear no more
+    void close();    // begins to close
+    void destroy();  // closes, and waits for the end unless it is on the client's thread; no observer is called after this
     State state() const { return state_; }
     SessionId session() const;
     client::Loop& loop() { return loop_; }
@@ -38,34 +39,33 @@ public:
 
     void spawn(Task<>);
 
-    // A coroutine goes on on the client's thread, or where it is when that has ended: whoever would change something asks
-    // is_closed() first. Throws nothing; all others await it first.
+    // Awaited first by all coroutines below: the coroutine continues on the client's thread, or on its own thread if the client's
+    // thread has ended. It must check is_closed() before it changes anything. Throws nothing.
     auto here() { return loop_.here(); }
 
-    // Sends it, now or when there is a session; its outcome is to be awaited.
+    // Sends a document, now or when a session is open. Await the call's outcome.
     std::shared_ptr<client::Call> send(client::Call::Kind, std::string document, std::string request_id, client::Deadline);
-    // A request with all that it means to the connection. Its id is given here.
+    // Sends a request with a new request_id, and updates the connection by its answer (bindings, subscriptions, commands).
     Task<Answer> request(Request, std::chrono::milliseconds deadline);
 
     Task<std::shared_ptr<Stream>> subscribe(Subscribe);  // throws Error
-    void streams_changed();                              // from any thread: one may have lost its last handle
+    void streams_changed();                              // from any thread: a stream may have lost its last handle
 
-    // Executes a sequence, whose commands get ids, and watches them: one for each, in document order. Throws Error, which says
-    // `what`.
+    // Runs a sequence and returns a Watch for each command, in document order. Fills in empty command ids. Throws Error, whose
+    // text begins with `what`.
     Task<std::vector<std::shared_ptr<Watch>>> begin(CommandUnitSequence, std::string what);
 
-    // Raised when there is a session, and when the connection is closed.
+    // Raised when a session is open, and when the connection is closed.
     client::Flag opened;
     bool is_open() const { return phase_ == Phase::open; }
-    // The application's own threads speak for it from now on (Connection::alive).
-    void alive();
+    void alive();  // Connection::alive; from any thread
     std::chrono::milliseconds between_signs_of_life() const;
 
     bool is_closed() const { return phase_ == Phase::closing || phase_ == Phase::closed; }
     std::string const& last_reason() const { return last_reason_; }
-    NoAnswer closed() const;  // what is said to whoever asks then
+    NoAnswer closed() const;  // the outcome of calls on a closed connection
 
-    // Waits so long, or until the connection closes.
+    // Waits for this time, or until the connection closes.
     Task<> pass(std::chrono::milliseconds);
 
 private:
@@ -93,7 +93,7 @@ private:
     void all_restored();
     void become_open();
     std::chrono::milliseconds pause();
-    bool is_joined() const { return !settings_.session.empty(); }  // in the session of another program
+    bool is_joined() const { return !settings_.session.empty(); }  // shares the session of another program
     void send_on_link(client::Link::Document);
 
     // --- core.cpp ---
@@ -102,7 +102,7 @@ private:
     void end_late_calls();
     void take_answer(std::string_view document, std::optional<xml::Heard>&);
     void flush();
-    enum class Farewell : std::uint8_t { due, said };  // the engine's session ends, too, or has ended
+    enum class Farewell : std::uint8_t { due, said };  // whether `disconnect` is still to be sent
     void begin_close(Farewell);
     void finish();
 
@@ -114,10 +114,10 @@ private:
 
     // --- core_notifications.cpp ---
     void take(xml::Told);
-    void tell_held();
-    void tell_first_held();
-    void tell(xml::Told);
-    void tell_gap(Gap const&);
+    void deliver_held();
+    void deliver_first_held();
+    void deliver(xml::Told);
+    void report_gap(Gap const&);
     void complete(CommandId const&, CompletedStatus);
 
     // --- core_operations.cpp ---
@@ -130,62 +130,62 @@ private:
     Task<Answer> disconnect(std::chrono::milliseconds deadline);
     Task<Answer> subscribe_at_engine(Subscribe, std::chrono::milliseconds deadline);
     void end_subscribing();
-    Task<> unsubscribe_unheard(SubscribeId);
+    Task<> unsubscribe_unused(SubscribeId);
     void note_bound(Identifier const&);
     void note_released(Identifier const&);
-    void end_unheard();
+    void end_unused();
 
     Settings const settings_;
     Observers const observers_;
     client::Target const target_;
     client::Loop loop_;
     std::atomic<State> state_ = State::connecting;
-    std::atomic<bool> muted_ = false;  // observers hear no more
+    std::atomic<bool> muted_ = false;  // observers are called no more
     std::atomic<std::uint64_t> last_command_ = 0;
 
     bool destroyed_ = false;
-    std::uint32_t const name_;  // by chance
+    std::uint32_t const name_;  // random
 
     // The session.
     Phase phase_ = Phase::resting;
     std::shared_ptr<client::Link> link_;
-    mutable std::mutex session_mutex_;  // guards session_ for others; only this thread changes it
+    mutable std::mutex session_mutex_;  // guards session_; the client's thread, which alone changes it, reads it without
     SessionId session_;
     bool had_session_ = false;
     std::uint64_t last_sequence_ = 0;
-    unsigned attempts_ = 0;  // in a row that have led to no session
-    // Links in a row that failed, since one delivered an answer or a notification or lasted for longest_pause. A link with a
-    // session leaves at most one, which stands for the attempt without a pause.
+    unsigned attempts_ = 0;  // failed attempts in a row
+    // Failed links in a row. An answer, a notification or a link that lasted for longest_pause resets it to 0; opening or
+    // resuming a session leaves at most 1, for the attempt without a pause.
     unsigned failures_ = 0;
     client::Steady opened_at_;
     client::Loop::Ticket attempt_ = 0;
     std::string last_reason_;
-    std::uint64_t dice_;
+    std::uint64_t random_;
     std::vector<Identifier> bound_;
     client::Subscriptions subscriptions_;
-    std::map<std::string, std::string> restoring_;  // request ids, and what is made anew
-    std::optional<Gap> gap_;                        // to be told when all is restored
+    std::map<std::string, std::string> restoring_;  // bindings and subscriptions that are being restored, by request id
+    std::optional<Gap> gap_;                        // to report when all is restored
 
     // Signs of life.
-    std::atomic<bool> spoken_for_ = false;  // by the application's own threads
+    std::atomic<bool> application_gives_signs_ = false;  // this thread gives none any more
     client::Steady pinged_at_;
-    client::Steady said_at_;  // when a document went out last
-    bool sent_raw_ = false;   // in this session: what it does is not known
-    bool proving_ = false;    // a sign is on its way
+    client::Steady last_sent_at_;  // when the last document was sent
+    bool sent_raw_ = false;        // a raw document was sent in this session; its effect is unknown
+    bool proving_ = false;         // a sign is under way
     client::Loop::Ticket life_ = 0;
 
     std::vector<std::weak_ptr<client::Flag>> sleeping_;
 
-    // What is on the way.
+    // Calls and commands that are under way.
     xml::AnswerReader reader_;
-    std::deque<std::shared_ptr<client::Call>> calls_;       // in the order in which they came
-    client::Steady next_deadline_ = client::Steady::max();  // none of theirs is earlier
+    std::deque<std::shared_ptr<client::Call>> calls_;       // in the order of sending
+    client::Steady next_deadline_ = client::Steady::max();  // at or before the earliest deadline of calls_
     client::Loop::Ticket deadlines_ = 0;
     std::atomic<std::uint64_t> last_request_ = 0;
-    std::multimap<CommandId, std::shared_ptr<Watch>> watches_;  // one for each who waits, also of a name that is refused
+    std::multimap<CommandId, std::shared_ptr<Watch>> watches_;  // several may have one id: the engine accepts only one
 
-    // While it is not known yet which events are whose, notifications wait.
-    std::size_t subscribing_ = 0;
+    // Notifications wait in held_ while a subscribe_id is not known yet.
+    std::size_t subscribing_ = 0;  // subscriptions under way
     std::deque<xml::Told> held_;
 };
 

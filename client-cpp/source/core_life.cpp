@@ -1,4 +1,4 @@
-// Signs of life: requests that change nothing, while a robot may move for the session and the application is alive.
+// Signs of life: requests without effect, sent while a robot may move for the session and the application is alive.
 #include <algorithm>
 
 #include "core.hpp"
@@ -7,16 +7,16 @@ namespace rois::detail {
 
 namespace {
 
-// Between two pings, while a robot moves, the gateway lets 0.75 s pass at most.
+// A robot may move until this long after a ping: while one moves, the gateway sends a ping at least every 0.75 s.
 constexpr std::chrono::milliseconds after_ping{1'500};
 
-// Of a gateway whose lease is not known. Its default is 2 s; a connection may ask for 1 s.
+// The gateway's default lease; its real one is unknown here.
 constexpr std::chrono::milliseconds usual_lease{2'000};
 
 }  // namespace
 
 void Core::alive() {
-    spoken_for_ = true;
+    application_gives_signs_ = true;
     loop_.post([self = shared_from_this()] { self->give_sign_of_life(); });
 }
 
@@ -29,7 +29,7 @@ void Core::pinged() {
     expect_signs_of_life();
 }
 
-// Over HTTP the gateway sends no pings: whatever is bound may move.
+// Over HTTP the gateway sends no pings: any bound component may move.
 bool Core::wants_signs_of_life() const {
     if (!is_open()) return false;
     bool const over_http = settings_.way == Way::http || is_joined();
@@ -37,25 +37,26 @@ bool Core::wants_signs_of_life() const {
     return may_move || !watches_.empty() || std::chrono::steady_clock::now() < pinged_at_ + after_ping;
 }
 
-// Of an application that lives on this thread: one sign after the other, as long as they are wanted.
+// Until the application gives signs itself: gives one after the other while a robot may move.
 void Core::expect_signs_of_life() {
-    if (life_ != 0 || spoken_for_ || !wants_signs_of_life()) return;
+    if (life_ != 0 || application_gives_signs_ || !wants_signs_of_life()) return;
     life_ = loop_.in(between_signs_of_life(), [this] {
         life_ = 0;
-        if (!spoken_for_) give_sign_of_life();
+        if (!application_gives_signs_) give_sign_of_life();
         expect_signs_of_life();
     });
 }
 
-// Whatever else was sent just now is a sign as well.
+// Sends nothing if another document was sent just now: it is a sign, too.
 void Core::give_sign_of_life() {
     if (proving_ || !wants_signs_of_life()) return;
-    if (std::chrono::steady_clock::now() < said_at_ + between_signs_of_life() / 2) return;
+    if (std::chrono::steady_clock::now() < last_sent_at_ + between_signs_of_life() / 2) return;
     proving_ = true;
     spawn(prove_life());
 }
 
-// `connect` changes nothing in a session that is there. If the engine has ended the session meanwhile, it opens another one.
+// Sends `connect`, which has no effect in an open session. If the engine has ended the session meanwhile, `connect` opens
+// another.
 Task<> Core::prove_life() {
     auto const self = shared_from_this();
     Request request{Connect{}, {}};

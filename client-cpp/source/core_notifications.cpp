@@ -1,11 +1,11 @@
-// What the engine tells on its own: each once, in order, with the gaps between.
+// Notifications of the engine: each is delivered once, in order, with the gaps between them.
 #include <algorithm>
 
 #include "core.hpp"
 
 namespace rois::detail {
 
-// The link may break at any time: what was received counts as heard, even if it waits here.
+// Updates last_sequence_ at once, also for a notification that is held back: the link may break at any time.
 void Core::take(xml::Told told) {
     if (told.sequence <= last_sequence_) return;
     failures_ = 0;
@@ -17,26 +17,26 @@ void Core::take(xml::Told told) {
         held_.push_back({told.sequence - 1, Lost{missing}});
     }
     held_.push_back(std::move(told));
-    tell_held();
+    deliver_held();
 }
 
-void Core::tell_held() {
-    while (subscribing_ == 0 && !held_.empty()) tell_first_held();
+void Core::deliver_held() {
+    while (subscribing_ == 0 && !held_.empty()) deliver_first_held();
 }
 
-void Core::tell_first_held() {
+void Core::deliver_first_held() {
     auto told = std::move(held_.front());
     held_.pop_front();
-    tell(std::move(told));
+    deliver(std::move(told));
 }
 
-void Core::tell(xml::Told told) {
-    client::Subscriptions::Hearing hearing;
+void Core::deliver(xml::Told told) {
+    client::Subscriptions::Receivers receivers;
     auto* const event = std::get_if<ReceiveEvent>(&told.notification);
-    if (event != nullptr) hearing = subscriptions_.hearing(*event);
-    if (auto const* const lost = std::get_if<Lost>(&told.notification)) tell_gap({Gap::Why::dropped, lost->count, {}});
+    if (event != nullptr) receivers = subscriptions_.receivers_of(*event);
+    if (auto const* const lost = std::get_if<Lost>(&told.notification)) report_gap({Gap::Why::dropped, lost->count, {}});
     if (observers_.notification && !muted_) observers_.notification(told.notification, told.sequence);
-    for (auto const& [id, stream] : hearing) {
+    for (auto const& [id, stream] : receivers) {
         event->subscribe_id = id;
         stream->take(*event);
     }
@@ -44,7 +44,7 @@ void Core::tell(xml::Told told) {
         complete(completed->command_id, completed->status);
 }
 
-void Core::tell_gap(Gap const& gap) {
+void Core::report_gap(Gap const& gap) {
     for (auto const& stream : subscriptions_.streams()) stream->take_gap();
     if (observers_.gap && !muted_) observers_.gap(gap);
 }

@@ -1,5 +1,5 @@
-// What operations mean to the connection beside their answers: bindings and subscriptions to be made anew, commands that must not
-// run twice.
+// Operations with side effects on the connection: it restores bindings and subscriptions in a new session, and runs no command
+// twice.
 #include <algorithm>
 
 #include "core.hpp"
@@ -11,7 +11,7 @@ using client::Interrupted;
 
 namespace {
 
-// Each command of a sequence, wherever it stands, in document order.
+// Calls the function for each command of a sequence at any depth, in document order.
 void for_each_command(std::vector<CommandUnit>& units, auto const& function) {
     for (auto& unit : units) {
         if (auto* const command = std::get_if<CommandMessage>(&unit.unit)) function(*command);
@@ -25,7 +25,7 @@ void for_each_command(std::vector<CommandUnit>& units, auto const& function) {
     }
 }
 
-// Whether it names what only its session knows; another one may give the name to something else.
+// Returns whether the operation contains an id of its session, which another session may give to something else.
 bool is_of_session(Operation const& operation) {
     return std::holds_alternative<Unsubscribe>(operation) || std::holds_alternative<GetCommandResult>(operation) ||
            std::holds_alternative<GetEventDetail>(operation) || std::holds_alternative<GetErrorDetail>(operation);
@@ -74,7 +74,7 @@ Task<Answer> Core::plain(Request request, std::chrono::milliseconds deadline) {
 
 // --- Commands ---
 
-// They are watched before they are sent: over HTTP, `completed` may come before the answer.
+// Watches the commands before it sends them: over HTTP, `completed` may arrive before the answer.
 Task<std::vector<std::shared_ptr<Watch>>> Core::begin(CommandUnitSequence sequence, std::string what) {
     auto const self = shared_from_this();
     co_await here();
@@ -95,14 +95,15 @@ Task<std::vector<std::shared_ptr<Watch>>> Core::begin(CommandUnitSequence sequen
     co_return watches;
 }
 
-// Those that this call has begun to watch: others may watch a command of the same name.
+// Removes these watches only: other calls may watch commands with the same ids.
 void Core::forget(std::vector<std::shared_ptr<Watch>> const& watches) {
     if (is_closed()) return;
     std::erase_if(watches_, [&](auto const& each) { return std::ranges::count(watches, each.second) > 0; });
 }
 
-// A sequence that may have arrived: the engine takes no id twice in a session, so it may be sent again there. When it is refused
-// then, the first command tells whether it is known from the first time.
+// If the link breaks before the answer, sends the sequence again in the same session: the engine accepts each command id only
+// once there. If the engine rejects it then, asks for the result of the first command to learn whether the first attempt had
+// arrived.
 Task<Answer> Core::execute(Execute operation, std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     co_await here();
@@ -149,7 +150,8 @@ void Core::note_released(Identifier const& ref) {
     std::erase_if(bound_, [&](auto const& bound) { return bound.code == ref.code; });
 }
 
-// One that may have been done has bound a component that is not known to be ours: parameters are told to its owner alone.
+// If the link breaks before the answer, looks for a component that the session has bound but bound_ does not contain: the engine
+// answers get_parameter only to the owner of the binding.
 Task<Answer> Core::bind_any(BindAny operation, std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     co_await here();
@@ -193,12 +195,12 @@ Task<Answer> Core::subscribe_at_engine(Subscribe operation, std::chrono::millise
     co_return answer;
 }
 
-// `subscribing_` is counted down when it is noted whose events these are.
+// Leaves `subscribing_` incremented: the caller notes the subscribe_id and then calls end_subscribing.
 Task<Answer> Core::subscribe_by_request(Subscribe operation, std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     co_await here();
     if (is_closed()) co_return closed();
-    if (auto const* const known = subscriptions_.find(operation); known != nullptr && known->heard())
+    if (auto const* const known = subscriptions_.find(operation); known != nullptr && known->has_streams())
         operation.inline_results = true;
     auto answer = co_await subscribe_at_engine(operation, deadline);
     if (auto const* const reply = good<Subscribe::Reply>(answer)) {
@@ -232,16 +234,16 @@ Task<std::shared_ptr<Stream>> Core::subscribe(Subscribe operation) {
     co_return stream;
 }
 
-// What waits is told from the loop, so that who has just subscribed goes on first.
+// Delivers held events from the loop, so that the coroutine that has just subscribed continues first.
 void Core::end_subscribing() {
     if (--subscribing_ > 0) return;
     loop_.post([self = shared_from_this()] {
-        self->tell_held();
-        self->end_unheard();
+        self->deliver_held();
+        self->end_unused();
     });
 }
 
-// In place of a session that is gone, what nobody hears is not made anew, or is ended as soon as it is.
+// While a new session is being restored, sends nothing: `restore` skips unused subscriptions, and all_restored ends them.
 Task<Answer> Core::unsubscribe(Unsubscribe operation, std::chrono::milliseconds deadline) {
     auto const self = shared_from_this();
     co_await here();
@@ -251,8 +253,8 @@ Task<Answer> Core::unsubscribe(Unsubscribe operation, std::chrono::milliseconds 
     if (auto* const known = subscriptions_.find(id)) {
         ours = true;
         known->by_request = false;
-        if (known->heard() || gap_ || subscriptions_.ends_nothing(*known)) {
-            if (!known->heard() && !gap_) subscriptions_.forget(id);
+        if (known->has_streams() || gap_ || subscriptions_.needs_no_unsubscribe(*known)) {
+            if (!known->has_streams() && !gap_) subscriptions_.forget(id);
             Reply reply{Unsubscribe::Reply{}};
             co_return reply;
         }
@@ -265,25 +267,25 @@ Task<Answer> Core::unsubscribe(Unsubscribe operation, std::chrono::milliseconds 
         co_return reply;
     }
     auto const* const known = subscriptions_.find(id);
-    if (known != nullptr && !known->heard() && !known->by_request && good<Unsubscribe::Reply>(answer) != nullptr)
+    if (known != nullptr && !known->has_streams() && !known->by_request && good<Unsubscribe::Reply>(answer) != nullptr)
         subscriptions_.forget(id);
     co_return answer;
 }
 
-// Handles may go after the loop has ended: what it is told then stays in it, and must not keep it.
+// Uses a weak pointer: if the loop has ended, the function stays in its queue and must not keep the Core alive.
 void Core::streams_changed() {
     loop_.post([weak = weak_from_this()] {
-        if (auto const self = weak.lock()) self->end_unheard();
+        if (auto const self = weak.lock()) self->end_unused();
     });
 }
 
-// Not while it is not known what a new subscription is to the engine.
-void Core::end_unheard() {
+// Does nothing while the subscribe_id of a new subscription is unknown: it may be one of these.
+void Core::end_unused() {
     if (subscribing_ > 0 || is_closed()) return;
-    for (auto& id : subscriptions_.forget_unheard()) spawn(unsubscribe_unheard(std::move(id)));
+    for (auto& id : subscriptions_.forget_unused()) spawn(unsubscribe_unused(std::move(id)));
 }
 
-Task<> Core::unsubscribe_unheard(SubscribeId id) {
+Task<> Core::unsubscribe_unused(SubscribeId id) {
     auto const self = shared_from_this();
     Request request{Unsubscribe{std::move(id)}, {}};
     co_await plain(std::move(request), settings_.deadline);

@@ -1,4 +1,4 @@
-// The link and the session: attempts, resuming, making anew what went with a session.
+// The link and the session: connects, resumes the session, and restores bindings and subscriptions in a new one.
 #include <algorithm>
 
 #include "core.hpp"
@@ -10,14 +10,14 @@ using client::Failure;
 
 namespace {
 
-// The answer to `disconnect`, or what says that there is no session any more.
+// Returns whether this is the answer to `disconnect`, or the fault that the session has ended.
 bool is_farewell(xml::Heard const& heard) {
     if (std::holds_alternative<Fault>(heard)) return std::get<Fault>(heard).code == FaultCode::no_session;
     auto const* const answered = std::get_if<xml::Answered>(&heard);
     return answered != nullptr && std::holds_alternative<Disconnect::Reply>(answered->reply);
 }
 
-// What another attempt will not change.
+// Returns whether a retry would end with the same fault.
 bool is_lasting(FaultCode code) {
     return code == FaultCode::unauthorized || code == FaultCode::not_allowed || code == FaultCode::not_found ||
            code == FaultCode::method_not_allowed;
@@ -30,12 +30,14 @@ void Core::attempt() {
     auto const make = settings_.way == Way::websocket && !is_joined() ? client::websocket_link : client::http_link;
     try {
         link_ = make(loop_, target_, settings_, *this);
-    } catch (std::exception const& problem) {  // the file of trusted certificates
+    } catch (std::exception const& problem) {  // the file of trusted certificates cannot be read
         give_up_link(problem.what(), Failure::lasting);
         return;
     }
-    attempt_ = loop_.in(settings_.connect_deadline,
-                        [this] { give_up_link("no session with " + target_.authority + " in time", Failure::passing); });
+    attempt_ = loop_.in(settings_.connect_deadline, [this] {
+        auto const time = std::to_string(settings_.connect_deadline.count()) + " ms";
+        give_up_link("no session with " + target_.authority + " within " + time, Failure::passing);
+    });
     link_->open();
 }
 
@@ -48,15 +50,15 @@ void Core::connected() {
     }
 }
 
-// Only requests are proof that the application lives: this thread, or the system, answers pings and keeps a stream open also
-// while the application's own thread hangs.
+// Asks the engine to count only requests as signs of life: this thread answers pings and keeps the event stream open even while
+// the application's own thread hangs.
 void Core::open_session() {
     Connect const connect{.motion_lease = settings_.motion_lease, .motion_lease_http = {}, .motion_proof = MotionProof::request};
     send_on_link(client::document_of({connect, "connect"}));
 }
 
 void Core::send_on_link(client::Link::Document document) {
-    said_at_ = std::chrono::steady_clock::now();
+    last_sent_at_ = std::chrono::steady_clock::now();
     if (observers_.tap && !muted_) observers_.tap(Direction::out, *document);
     if (link_) link_->send(std::move(document));
 }
@@ -68,7 +70,7 @@ void Core::document(std::string_view text) {
     if (heard && std::holds_alternative<xml::Told>(*heard)) {
         take(std::get<xml::Told>(*std::move(heard)));
     } else if (phase_ == Phase::closing) {
-        // Over HTTP the end of the event stream is the last that is heard: it may have `completed` for what the session ended.
+        // Over HTTP, waits for the end of the event stream: it may still bring `completed` for commands that the session ended.
         if (heard && is_farewell(*heard) && settings_.way == Way::websocket) finish();
     } else if (is_open()) {
         take_answer(text, heard);
@@ -82,7 +84,7 @@ void Core::document(std::string_view text) {
     }
 }
 
-// The answer to `connect` or `resume`.
+// Takes the answer to `connect` or `resume`.
 void Core::take_opening(xml::Heard heard) {
     if (auto const* const fault = std::get_if<Fault>(&heard)) {
         if (fault->code == FaultCode::no_session && !session_.text.empty()) {
@@ -103,7 +105,7 @@ void Core::take_opening(xml::Heard heard) {
     }
     auto const* const connected = std::get_if<Connect::Reply>(&reply);
     if (connected == nullptr) {
-        give_up_link("no session: the gateway does not answer to connect", Failure::passing);
+        give_up_link("no session: the gateway sent a reply of another operation than connect", Failure::passing);
         return;
     }
     if (connected->return_code != ReturnCode::ok) {
@@ -123,14 +125,15 @@ void Core::take_opening(xml::Heard heard) {
     }
 }
 
-// The engine knows the session no longer: the next one follows, on a new link. Another program's has no next one.
+// The engine no longer knows the session. Opens a new one on a new link; closes the connection if the session was another
+// program's.
 void Core::session_gone() {
     {
         std::lock_guard const lock{session_mutex_};
         session_ = {};
     }
     if (is_joined()) {
-        give_up_link("there is no such session", Failure::lasting);
+        give_up_link("the session does not exist, or has ended", Failure::lasting);
     } else {
         give_up_link("the engine has ended the session", Failure::passing);
     }
@@ -175,13 +178,14 @@ void Core::give_up_link(std::string const& reason, Failure failure) {
         return;
     }
     if (refused) refuse_too_large(*refused, reason);
-    if (is_closed()) return;  // who was told has closed it
+    if (is_closed()) return;  // an observer has closed it
     auto const retry_in = pause();
     attempt_ = loop_.in(retry_in, [this] { attempt(); });
     if (!was_open && observers_.attempt_failed && !muted_) observers_.attempt_failed({attempts_, reason, retry_in});
 }
 
-// The largest that is on its way, which the gateway did not take: it would break the next link, too. Null when there is none.
+// Removes and returns the largest sent call, which the gateway has rejected: it would break the next link, too. Null if there is
+// none.
 std::shared_ptr<Call> Core::take_largest() {
     auto const size = [](auto const& call) { return call->sent ? call->text.size() : 0; };
     auto const largest = std::ranges::max_element(calls_, {}, size);
@@ -201,18 +205,18 @@ void Core::refuse_too_large(Call& call, std::string const& reason) {
     }
 }
 
-// A session that is gone leaves a gap, which is told in the next one. What waits is told while its names are known; what a
-// session told that was gone before all was made anew belongs to the gap.
+// Notes a gap, to be reported in the next session. Delivers the waiting notifications while their subscribe_ids are known. If
+// this session ended before all was restored in it, its notifications belong to the gap.
 void Core::leave_session() {
     if (gap_) {
         held_.clear();
         return;
     }
-    while (!held_.empty()) tell_first_held();
+    while (!held_.empty()) deliver_first_held();
     gap_ = Gap{Gap::Why::new_session, {}, {}};
 }
 
-void Core::give_up_misunderstood() { give_up_link("what the gateway says is not understood", Failure::passing); }
+void Core::give_up_misunderstood() { give_up_link("the gateway sent an unexpected document", Failure::passing); }
 
 // See Settings::first_pause.
 std::chrono::milliseconds Core::pause() {
@@ -221,17 +225,18 @@ std::chrono::milliseconds Core::pause() {
     auto longest = settings_.first_pause;
     for (auto i = 1U; i < pauses && longest < settings_.longest_pause; ++i) longest *= 2;
     longest = std::min(longest, settings_.longest_pause);
-    dice_ = dice_ * 6'364'136'223'846'793'005U + 1'442'695'040'888'963'407U;
-    auto const cut = static_cast<std::int64_t>(dice_ >> 33U) % (longest.count() / 2 + 1);
+    random_ = random_ * 6'364'136'223'846'793'005U + 1'442'695'040'888'963'407U;
+    auto const cut = static_cast<std::int64_t>(random_ >> 33U) % (longest.count() / 2 + 1);
     return longest - std::chrono::milliseconds{cut};
 }
 
-// --- A new session in place of the one that is gone ---
+// --- A new session in place of the one that has ended ---
 
-// Binds and subscribes anew, but for what nobody hears any more. Events may come before it is known whose they are: they wait.
+// Repeats the bindings and the subscriptions that are still used. Holds back events that arrive before their subscribe_id is
+// known.
 void Core::restore() {
     phase_ = Phase::restoring;
-    subscriptions_.forget_unheard();
+    subscriptions_.forget_unused();
     ++subscribing_;
     std::vector<client::Link::Document> documents;
     auto const add = [&](Operation operation, std::string what) {
@@ -281,14 +286,14 @@ void Core::restored(std::string const& request_id, Outcome const& outcome, Reply
     if (restoring_.empty()) all_restored();
 }
 
-// What nobody hears any more since `restore` ends now that its names are known.
+// Also ends subscriptions that became unused during `restore`: their subscribe_ids are known now.
 void Core::all_restored() {
     --subscribing_;
     become_open();
-    end_unheard();
+    end_unused();
 }
 
-// Who waits hears in this order: that there is a session, what was missed, then the answers and notifications to come.
+// Reports in this order: the open session, the gap, the outcomes of interrupted calls, then new answers and notifications.
 void Core::become_open() {
     bool const same = !gap_ && state_ == State::lost;
     loop_.cancel(attempt_);
@@ -312,7 +317,7 @@ void Core::become_open() {
     change(same ? State::resumed : State::open);
     if (gap) {
         for (auto const& [id, watch] : std::exchange(watches_, {})) watch->abort("the session ended before the command");
-        tell_gap(*gap);
+        report_gap(*gap);
     }
     auto const reason = std::exchange(last_reason_, {});
     for (auto const& call : not_again) call->give(NoAnswer{NoAnswer::Why::link_lost, reason});
@@ -324,7 +329,7 @@ void Core::become_open() {
         }
     }
     opened.raise();
-    tell_held();
+    deliver_held();
     expect_signs_of_life();
 }
 

@@ -6,7 +6,7 @@ namespace rois {
 
 namespace {
 
-// The engine hears when nobody is left who hears.
+// Returns a pointer that reports to the core when the last handle of the stream is destroyed.
 std::shared_ptr<detail::Stream> watched(std::shared_ptr<detail::Core> const& core, std::shared_ptr<detail::Stream> stream) {
     auto* const inside = stream.get();
     return {inside, [weak = std::weak_ptr{core}, kept = std::move(stream)](detail::Stream*) mutable {
@@ -44,8 +44,8 @@ Task<std::optional<ReceiveEvent>> EventStream::next_event(std::optional<std::chr
     return next_of(core_, stream_, within);
 }
 
-void EventStream::each_event(std::function<void(ReceiveEvent const&)> told) {
-    core_->loop().post([stream = stream_, told = std::move(told)]() mutable { stream->tell(std::move(told)); });
+void EventStream::each_event(std::function<void(ReceiveEvent const&)> handler) {
+    core_->loop().post([stream = stream_, handler = std::move(handler)]() mutable { stream->deliver_to(std::move(handler)); });
 }
 
 void EventStream::skip() {

@@ -67,7 +67,7 @@ void rethrow(std::exception_ptr const& error) {
     if (error) std::rethrow_exception(error);
 }
 
-// The state that the gateway answers with. Errors begin with `what`.
+// Posts to the path and returns the state that the gateway answers. Throws Error; its text begins with `what`.
 StopState post(Settings const& settings, std::string_view path, std::string const& what) {
     Asked asked{.target = client::read_url(settings.url)};
     asked.request = {http::verb::post, asked.target.path + std::string{path}, 11};

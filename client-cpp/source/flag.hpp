@@ -1,4 +1,4 @@
-// What several coroutines may wait for on the client's thread.
+// A signal that several coroutines can await on the client's thread.
 #pragma once
 
 #include <coroutine>
@@ -7,7 +7,7 @@
 
 namespace rois::client {
 
-// Raised once in a while: each time all who wait go on.
+// Each `raise` resumes all coroutines that wait at that time.
 class Flag {
 public:
     struct Awaiter {

@@ -1,5 +1,5 @@
-// HTTP: requests one after the other over one connection, notifications as an event stream over another. For http_link.cpp and
-// http_link_tls.cpp.
+// A link over HTTP: sends requests one at a time over one connection, and receives notifications as an event stream over another.
+// For http_link.cpp and http_link_tls.cpp.
 #pragma once
 
 #include "byte_stream.hpp"
@@ -26,7 +26,7 @@ std::shared_ptr<Link> http_link_tls(Loop&, Target const&, Settings const&, Link:
 template <class Stream>
 class HttpLink : public Link, public std::enable_shared_from_this<HttpLink<Stream>> {
 public:
-    // `context` is for TLS alone.
+    // `context` is null without TLS.
     HttpLink(Loop& loop, Target target, Settings const& settings, Listener& listener, std::unique_ptr<asio::ssl::context> context)
         : loop_{loop}, target_{std::move(target)}, settings_{settings}, listener_{&listener}, context_{std::move(context)} {}
 
@@ -36,13 +36,13 @@ public:
 
     void send(Document document) override {
         outgoing_.push_back(std::move(document));
-        if (std::exchange(asking_, true)) return;
-        spawn([self = this->shared_from_this()] { return self->ask(); });
+        if (std::exchange(sending_, true)) return;
+        spawn([self = this->shared_from_this()] { return self->send_requests(); });
     }
 
     void attach(SessionId const& session, std::uint64_t last_sequence) override {
         session_ = session;
-        spawn([self = this->shared_from_this(), last_sequence] { return self->hear(last_sequence); });
+        spawn([self = this->shared_from_this(), last_sequence] { return self->open_events(last_sequence); });
     }
 
     void cut() override {
@@ -81,7 +81,7 @@ private:
         asio::co_spawn(loop_.executor(), std::move(coroutine), asio::detached);
     }
 
-    // The link's first connection.
+    // Opens the connection for requests.
     Opening open_requests() {
         auto const line = requests_ = std::make_shared<Line>(loop_, context_.get());
         auto const problem = co_await connect(line->stream, beast::get_lowest_layer(line->stream), line->resolver, target_);
@@ -100,9 +100,8 @@ private:
         if (!session_.text.empty()) request.set("RoIS-Session", session_.text);
     }
 
-    // Sends what waits, one after the other. Gateways close connections that are silent for more than a minute: such a one is
-    // left before.
-    Opening ask() {
+    // Sends the queued requests one at a time. Gateways close a connection after a minute of silence: opens another one before.
+    Opening send_requests() {
         auto const self = this->shared_from_this();
         while (!outgoing_.empty() && listener_ != nullptr) {
             constexpr auto longest_idle = std::chrono::seconds{30};
@@ -116,12 +115,12 @@ private:
                     co_return;
                 }
             }
-            co_await ask_one(requests_);
+            co_await send_request(requests_);
         }
-        asking_ = false;
+        sending_ = false;
     }
 
-    Opening ask_one(std::shared_ptr<Line> line) {
+    Opening send_request(std::shared_ptr<Line> line) {
         http::request<http::string_body> request;
         request.method(http::verb::post);
         request.target(target_.path);
@@ -131,8 +130,11 @@ private:
         request.prepare_payload();
         http::response_parser<http::string_body> parser;
         parser.body_limit(settings_.longest_document);
-        // An engine answers at once: who does not is gone.
-        auto const late = loop_.in(2 * settings_.ping_interval, [this] { fail("no answer comes", Failure::passing); });
+        // An engine answers at once, so a gateway that does not is gone.
+        auto const longest = 2 * settings_.ping_interval;
+        auto const late = loop_.in(longest, [this, longest] {
+            fail("no answer from the gateway within " + std::to_string(longest.count()) + " ms", Failure::passing);
+        });
         error_code error;
         co_await http::async_write(line->stream, request, into(error));
         if (!error) co_await http::async_read(line->stream, line->incoming, parser, into(error));
@@ -153,16 +155,16 @@ private:
         bool const document = answer[http::field::content_type].find("xml") != beast::string_view::npos;
         auto const status = answer.result_int();
         if (status == 401) {
-            fail(target_.authority + " refuses the token: 401", Failure::lasting);
+            fail(target_.authority + " rejects the token (HTTP status 401)", Failure::lasting);
         } else if (document && status != 503) {
             listener_->document(answer.body());
         } else {
-            fail(target_.authority + " answers with " + std::to_string(status), Failure::passing);
+            fail(target_.authority + " answered with HTTP status " + std::to_string(status), Failure::passing);
         }
     }
 
-    // The event stream.
-    Opening hear(std::uint64_t last_sequence) {
+    // Opens the event stream.
+    Opening open_events(std::uint64_t last_sequence) {
         auto const self = this->shared_from_this();
         if (notifications_) notifications_->close();
         auto const line = notifications_ = std::make_shared<Line>(loop_, context_.get());
@@ -186,11 +188,11 @@ private:
             fail("the event stream broke: " + error.message(), Failure::passing);
             co_return;
         }
-        co_await hear_on(line, parser);
+        co_await read_events(line, parser);
     }
 
-    // A stream, or the fault that there is none: its document is told when it is whole.
-    Opening hear_on(std::shared_ptr<Line> line, http::response_parser<http::buffer_body>& parser) {
+    // Reads the events or, if the status is not 200, the document of a fault.
+    Opening read_events(std::shared_ptr<Line> line, http::response_parser<http::buffer_body>& parser) {
         bool const streams = parser.get().result() == http::status::ok;
         if (streams && listener_ != nullptr) listener_->attached();
         EventSource source;
@@ -206,13 +208,13 @@ private:
             if (!streams) {
                 fault += came;
             } else if (!take(source, came)) {
-                fail("a notification is too long", Failure::passing);
+                fail("a notification is longer than " + std::to_string(settings_.longest_document) + " bytes", Failure::passing);
             }
         }
         if (!streams && !error && listener_ != nullptr) {
             listener_->document(fault);
         } else if (!error && !outgoing_.empty()) {
-            stream_over_ = true;  // the session has ended: the answer says more
+            stream_over_ = true;  // the session has ended: the answer under way gives the reason
         } else {
             fail(error ? "the event stream broke: " + error.message() : "the gateway closed the event stream", Failure::passing);
         }
@@ -239,13 +241,13 @@ private:
     Loop& loop_;
     Target target_;
     Settings const& settings_;
-    Listener* listener_;  // null: nothing more is told
+    Listener* listener_;  // null after the link has failed or was cut
     std::unique_ptr<asio::ssl::context> context_;
     SessionId session_;
     std::shared_ptr<Line> requests_;
     std::shared_ptr<Line> notifications_;
-    std::deque<Document> outgoing_;  // the first one is being asked
-    bool asking_ = false;
+    std::deque<Document> outgoing_;  // the first one is being sent, or awaits its answer
+    bool sending_ = false;
     bool stream_over_ = false;
     Loop::Ticket silence_ = 0;
 };

@@ -1,4 +1,4 @@
-// One link to the gateway, from its first attempt to its end; a new one is made for each attempt.
+// The interface of a link to the gateway: a WebSocket, or the HTTP connections of one attempt. Each attempt makes a new link.
 #pragma once
 
 #include <cstdint>
@@ -15,22 +15,25 @@
 
 namespace rois::client {
 
-// Whether it is worth another attempt; too_large: yes, but without the document that the gateway does not take.
-enum class Failure : std::uint8_t { passing, lasting, too_large };
+enum class Failure : std::uint8_t {
+    passing,    // retry
+    lasting,    // a retry would fail, too
+    too_large,  // retry without the document that the gateway rejects
+};
 
-// Lives on the client's thread.
+// For the client's thread.
 class Link {
 public:
-    // Hears of a link until it has failed or was cut, never from inside a call of the link's functions.
+    // Called until the link has failed or was cut; never from inside the link's functions.
     class Listener {
     public:
         virtual void connected() = 0;
-        // The session's notifications come on this link from now on.
+        // The session's notifications arrive on this link from now on.
         virtual void attached() = 0;
         // An answer or a notification; valid during the call.
         virtual void document(std::string_view) = 0;
         virtual void failed(std::string const& reason, Failure) = 0;
-        // The gateway asks whether somebody is there, as it does all the time while a robot moves for the session.
+        // The gateway sent a ping, as it often does while a robot moves for the session.
         virtual void pinged() = 0;
 
     protected:
@@ -47,12 +50,11 @@ public:
     virtual void open() = 0;
     virtual void send(Document) = 0;
 
-    // What brings a session's notifications, those after `last_sequence`, to this link. Over HTTP that is its event stream; who
-    // hears no_session instead hears it as a document. On a WebSocket it is the document `resume`, but for the session opened on
-    // it.
+    // Requests the session's notifications after `last_sequence` on this link. HTTP: opens the event stream; a fault, such as
+    // no_session, is reported as a document. WebSocket: sends `resume` (not needed for a session that this link has opened).
     virtual void attach(SessionId const&, std::uint64_t last_sequence) = 0;
 
-    // Ends it without a word; nothing is heard of it from now on.
+    // Closes the link at once. The listener is not called any more.
     virtual void cut() = 0;
 };
 

@@ -20,7 +20,7 @@ void Loop::cancel(Ticket ticket) {
     times_.erase(found);
 }
 
-// The timer is set anew for what is earlier alone: most alarms are deadlines that are never reached.
+// Sets the timer only for an earlier alarm: most alarms are deadlines that are cancelled before they expire.
 void Loop::arm() {
     if (alarms_.empty() || alarms_.begin()->first.first >= armed_) return;
     armed_ = alarms_.begin()->first.first;
@@ -43,7 +43,7 @@ void Loop::start(std::shared_ptr<void> owner) {
         own_id_ = std::this_thread::get_id();
         io_.run();  // until it is stopped by `finish`
         io_.restart();
-        while (io_.poll() > 0) {  // what was cancelled is told so
+        while (io_.poll() > 0) {  // runs the handlers of cancelled operations
         }
         finished_.set_value(io_.stopped() ? Left::nothing : Left::something);
         io_.run();
@@ -51,7 +51,7 @@ void Loop::start(std::shared_ptr<void> owner) {
     }};
 }
 
-// What was posted before it was over still runs.
+// Functions that were posted before over_ was set still run.
 void Loop::end() {
     {
         std::lock_guard const lock{over_mutex_};

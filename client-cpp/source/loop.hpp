@@ -1,4 +1,4 @@
-// The client's thread: what runs there, and when.
+// The event loop of the client's thread.
 #pragma once
 
 #include "asio.hpp"
@@ -21,7 +21,7 @@ namespace rois::client {
 
 using Steady = std::chrono::steady_clock::time_point;
 
-// A time that a clock can count twice from now on: a century is for ever here, and what is negative is over at once.
+// Limits a time to 0 to 100 years, so that it can be doubled and added to a clock.
 inline std::chrono::milliseconds bounded(std::chrono::milliseconds time) {
     constexpr auto longest = std::chrono::milliseconds{std::chrono::years{100}};
     return std::clamp(time, std::chrono::milliseconds{0}, longest);
@@ -38,7 +38,7 @@ public:
     Executor executor() { return io_.get_executor(); }
     bool is_here() const { return std::this_thread::get_id() == own_id_; }
 
-    // From any thread; it runs on the client's. When that has ended, the function is dropped: false.
+    // From any thread: runs the function on the client's thread. Drops it and returns false if that thread has ended.
     template <class Function>
     bool post(Function function) {
         std::lock_guard const lock{over_mutex_};
@@ -46,8 +46,8 @@ public:
         return !over_;
     }
 
-    // What follows runs on the client's thread, at once when it is there. When that has ended, it runs where it is: several may
-    // then, so nothing is changed but what is theirs alone.
+    // The awaiting coroutine continues on the client's thread. If that thread has ended, it continues on its own thread: then
+    // several may run at once, and must not change shared data.
     auto here() {
         struct Awaiter {
             Loop* loop;
@@ -60,19 +60,19 @@ public:
         return Awaiter{this};
     }
 
-    // Alarms, on the client's thread. A ticket is good once; one that has rung or is 0 may be cancelled all the same. After
-    // `finish` none rings.
+    // Alarms, on the client's thread. Each calls `ring` once, but not after `finish`. `cancel` ignores a ticket that has rung or
+    // is 0.
     using Ticket = std::uint64_t;
     Ticket at(Steady, std::function<void()>);
     Ticket in(std::chrono::milliseconds time, std::function<void()> ring) { return at(from_now(time), std::move(ring)); }
     void cancel(Ticket);
 
-    // Runs until `finish` was called and nothing is left. Keeps `owner` as long.
+    // Starts the thread. It keeps `owner` and runs until `finish` was called and no handler is left.
     void start(std::shared_ptr<void> owner);
-    // On the client's thread: all alarms are forgotten, and the thread ends when nothing is left to do.
+    // On the client's thread: cancels all alarms, and lets the thread end.
     void finish();
-    // Waits for its end. Lets it end alone on the client's thread itself, and when a name is still looked up, which may take long
-    // and cannot be ended.
+    // Waits until the thread has ended. Detaches it instead on the client's thread, and while a host name is looked up, which may
+    // take long and cannot be cancelled.
     void join();
 
 private:
@@ -82,17 +82,17 @@ private:
     asio::io_context io_{1};
     asio::executor_work_guard<Executor> work_;
     Timer timer_;
-    Steady armed_ = Steady::max();  // when the timer expires; alarms that were cancelled do not change it
+    Steady armed_ = Steady::max();  // when the timer expires; cancelled alarms do not change it
     std::map<std::pair<Steady, Ticket>, std::function<void()>> alarms_;
     std::map<Ticket, Steady> times_;
     Ticket last_ticket_ = 0;
     bool finishing_ = false;
-    std::mutex over_mutex_;  // guards over_, also while something is posted
-    bool over_ = false;      // the thread runs nothing more that is posted from now on
+    std::mutex over_mutex_;  // guards over_, also during `post`
+    bool over_ = false;      // `post` drops functions from now on
     std::thread thread_;
     std::atomic<std::thread::id> own_id_;
     enum class Left : std::uint8_t { nothing, something };
-    std::promise<Left> finished_;  // whether something is still under way
+    std::promise<Left> finished_;  // whether handlers are left
 };
 
 }  // namespace rois::client

@@ -1,4 +1,4 @@
-// Values out of results and parameters, by name; what is not there, or not of its type, is as if it were empty.
+// Reads and writes typed values of results and parameters, by name. A missing or invalid value is empty.
 #pragma once
 
 #include <chrono>
@@ -20,23 +20,23 @@ public:
     std::optional<std::string> text(std::string_view name) const;
     std::vector<std::string> texts(std::string_view name) const;
     std::optional<int> integer(std::string_view name) const;
-    std::vector<double> numbers(std::string_view name) const;  // of int[]: one text
+    std::vector<double> numbers(std::string_view name) const;  // of int[], which is one text
     bool truth(std::string_view name) const;
     std::optional<Utc> time(std::string_view name) const;
     std::optional<Milliseconds> milliseconds(std::string_view name) const;
     std::optional<Identifier> identifier(std::string_view name) const;
     std::vector<Identifier> identifiers(std::string_view name) const;
-    // Who or what, and where: two lists in the same order.
+    // People or objects and their positions: two lists in the same order.
     std::vector<Sighting> sightings(std::string_view refs, std::string_view positions) const;
 
 private:
     ParameterList const& parameters_;
 };
 
-// The results of an event, which has them inline.
+// The inline results of an event; empty if it has none.
 Results const& results_of(ReceiveEvent const&);
 
-// Parameters that are set, one after the other.
+// Builds a list of parameters; leaves out empty values.
 class Arguments {
 public:
     Arguments& text(std::string_view name, std::optional<std::string> const&);

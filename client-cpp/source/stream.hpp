@@ -1,4 +1,4 @@
-// What waits behind an EventStream.
+// The queue of an EventStream, and the state of a command.
 #pragma once
 
 #include <atomic>
@@ -13,14 +13,14 @@
 
 namespace rois::detail {
 
-// Lives on the client's thread, but for its end and `gaps`. Its owner keeps it as long as a coroutine waits for it.
+// For the client's thread, except the destructor and `gaps`. A coroutine that awaits `news` must keep the stream alive.
 class Stream {
 public:
     explicit Stream(std::size_t most_waiting) : most_waiting_{most_waiting} {}
 
     void take(ReceiveEvent const& event) {
-        if (told_) {
-            told_(event);
+        if (handler_) {
+            handler_(event);
             return;
         }
         if (events_ >= most_waiting_) drop_one();
@@ -31,7 +31,7 @@ public:
 
     // Events were missed here.
     void take_gap() {
-        if (told_) {
+        if (handler_) {
             ++gaps_;
         } else if (items_.empty() || !std::holds_alternative<Gap>(items_.back())) {
             items_.emplace_back(Gap{});
@@ -52,9 +52,9 @@ public:
         return event;
     }
 
-    void tell(std::function<void(ReceiveEvent const&)> told) {
-        while (auto const event = next()) told(*event);
-        told_ = std::move(told);
+    void deliver_to(std::function<void(ReceiveEvent const&)> handler) {
+        while (auto const event = next()) handler(*event);
+        handler_ = std::move(handler);
     }
 
     void skip() {
@@ -70,12 +70,12 @@ public:
 
     std::uint64_t gaps() const { return gaps_; }
 
-    client::Flag news;  // raised when an event waits, or none will come
+    client::Flag news;  // raised when an event waits, and when the stream has ended
 
 private:
     struct Gap {};
 
-    // The oldest event becomes a gap.
+    // Replaces the oldest event by a gap.
     void drop_one() {
         bool const gap = std::holds_alternative<Gap>(items_.front());
         if (gap) items_.pop_front();
@@ -86,26 +86,26 @@ private:
 
     std::size_t const most_waiting_;
     std::deque<std::variant<ReceiveEvent, Gap>> items_;
-    std::size_t events_ = 0;  // among these
-    std::function<void(ReceiveEvent const&)> told_;
+    std::size_t events_ = 0;  // number of events in items_
+    std::function<void(ReceiveEvent const&)> handler_;
     std::atomic<std::uint64_t> gaps_ = 0;
     bool ended_ = false;
 };
 
-// A command that was accepted, and how it ended.
+// The end of a command, for those who await it. For the client's thread.
 class Watch {
 public:
     explicit Watch(CommandId named) : id{std::move(named)} {}
 
     CommandId const id;
-    std::optional<CompletedStatus> status;  // on the client's thread
-    std::string reason;                     // why this side ended it
-    client::Flag completed;                 // raised when there is one
+    std::optional<CompletedStatus> status;
+    std::string reason;      // why `abort` was called; empty if the engine has reported the end
+    client::Flag completed;  // raised when `status` is set
 
-    // The engine has said how it ended, and knows the reason.
+    // The engine has reported the end of the command. The engine knows the reason.
     void complete(CompletedStatus how) { end(how, {}); }
 
-    // The session or the connection has ended, and the command with it. `why` is not empty.
+    // The session or the connection has ended before the command. `why` is not empty.
     void abort(std::string why) { end(CompletedStatus::abort, std::move(why)); }
 
 private:

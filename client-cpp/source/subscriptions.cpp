@@ -15,13 +15,13 @@ std::string key_of(Subscribe operation) {
 
 }  // namespace
 
-bool Subscription::heard() const {
+bool Subscription::has_streams() const {
     return std::ranges::any_of(streams, [](auto const& stream) { return !stream.expired(); });
 }
 
 Subscription& Subscriptions::of(Subscribe const& operation, SubscribeId const& engine_id) {
     auto id = engine_id;
-    while (find(id) != nullptr) id.text += '+';  // an older session's; each session counts from one
+    while (find(id) != nullptr) id.text += '+';  // an id of an earlier session: each session counts from 1
     auto& found = known_[key_of(operation)];
     if (!found) {
         found = std::make_unique<Subscription>();
@@ -43,16 +43,16 @@ Subscription* Subscriptions::find(SubscribeId const& id) {
     return found == known_.end() ? nullptr : found->second.get();
 }
 
-Subscriptions::Hearing Subscriptions::hearing(ReceiveEvent& event) {
-    Hearing hearing;
+Subscriptions::Receivers Subscriptions::receivers_of(ReceiveEvent& event) {
+    Receivers receivers;
     auto const engine_id = event.subscribe_id;
     for (auto const& [key, subscription] : known_) {
         if (subscription->engine_id != engine_id) continue;
         event.subscribe_id = subscription->id;
         for (auto const& weak : subscription->streams)
-            if (auto stream = weak.lock()) hearing.emplace_back(subscription->id, std::move(stream));
+            if (auto stream = weak.lock()) receivers.emplace_back(subscription->id, std::move(stream));
     }
-    return hearing;
+    return receivers;
 }
 
 std::vector<std::shared_ptr<detail::Stream>> Subscriptions::streams() {
@@ -63,15 +63,15 @@ std::vector<std::shared_ptr<detail::Stream>> Subscriptions::streams() {
     return list;
 }
 
-std::vector<SubscribeId> Subscriptions::forget_unheard() {
+std::vector<SubscribeId> Subscriptions::forget_unused() {
     std::vector<SubscribeId> over;
     for (auto each = known_.begin(); each != known_.end();) {
         auto const& subscription = *each->second;
-        if (subscription.heard() || subscription.by_request) {
+        if (subscription.has_streams() || subscription.by_request) {
             ++each;
             continue;
         }
-        if (!ends_nothing(subscription)) over.push_back(subscription.engine_id);
+        if (!needs_no_unsubscribe(subscription)) over.push_back(subscription.engine_id);
         each = known_.erase(each);
     }
     return over;
@@ -81,7 +81,7 @@ void Subscriptions::forget(SubscribeId const& id) {
     std::erase_if(known_, [&](auto const& each) { return each.second->id == id; });
 }
 
-bool Subscriptions::ends_nothing(Subscription const& one) const {
+bool Subscriptions::needs_no_unsubscribe(Subscription const& one) const {
     return one.engine_id.text.empty() || std::ranges::any_of(known_, [&](auto const& each) {
                return each.second.get() != &one && each.second->engine_id == one.engine_id;
            });

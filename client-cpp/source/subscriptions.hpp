@@ -1,4 +1,4 @@
-// What the application has subscribed to, and which streams hear it (decision 20).
+// The subscriptions of the application, and the streams that receive their events (decision 20).
 #pragma once
 
 #include <map>
@@ -12,38 +12,37 @@
 
 namespace rois::client {
 
-// One event type with one condition, as the application has written it.
+// A subscription to one event type with one condition.
 struct Subscription {
     Subscribe operation;
-    SubscribeId id;           // as the application knows it: the first that the engine gave, unless another one has that
-    SubscribeId engine_id;    // as the engine knows it in this session; empty when it refused to
-    bool by_request = false;  // the application has subscribed itself, beside the streams
+    SubscribeId id;           // for the application: the engine's first id, made unique if another subscription has it
+    SubscribeId engine_id;    // the engine's id in this session; empty if the engine refused the subscription
+    bool by_request = false;  // the application has sent `subscribe` itself
     std::vector<std::weak_ptr<detail::Stream>> streams;
 
-    bool heard() const;  // whether a stream is left
+    bool has_streams() const;
 };
 
-// Lives on the client's thread.
+// For the client's thread.
 class Subscriptions {
 public:
-    // The one with this type and condition; made when there is none.
+    // Returns the subscription with this type and condition; adds it if it is missing.
     Subscription& of(Subscribe const&, SubscribeId const& engine_id);
-    // Null when there is none.
+    // Null if there is none.
     Subscription* find(Subscribe const&);
     Subscription* find(SubscribeId const& id);
 
-    // The streams that hear this event, with the subscribe_id that each of them knows; the event's becomes one of these.
-    using Hearing = std::vector<std::pair<SubscribeId, std::shared_ptr<detail::Stream>>>;
-    Hearing hearing(ReceiveEvent&);
+    // Returns the streams of this event, each with its subscribe_id, and sets the event's subscribe_id to one of these.
+    using Receivers = std::vector<std::pair<SubscribeId, std::shared_ptr<detail::Stream>>>;
+    Receivers receivers_of(ReceiveEvent&);
     std::vector<std::shared_ptr<detail::Stream>> streams();
 
-    // Forgets those that nobody hears any more, and gives the engine's ids that are to be ended.
-    std::vector<SubscribeId> forget_unheard();
+    // Removes the subscriptions that are no longer used. Returns the engine's ids to unsubscribe.
+    std::vector<SubscribeId> forget_unused();
     void forget(SubscribeId const& id);
-    // Whether the engine has nothing to end with it: another one is the same there, or it has none.
-    bool ends_nothing(Subscription const&) const;
+    // Whether the engine has refused this subscription, or another one shares its engine_id.
+    bool needs_no_unsubscribe(Subscription const&) const;
 
-    // All, to make them anew.
     std::vector<Subscription*> all();
 
 private:

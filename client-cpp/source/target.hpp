@@ -1,4 +1,4 @@
-// Where the gateway is.
+// The address of the gateway.
 #pragma once
 
 #include <string>
@@ -13,12 +13,12 @@ enum class Security : std::uint8_t { plain, tls };
 struct Target {
     std::string host;  // a name or an address; an IPv6 address without its brackets
     std::string port;
-    std::string authority;  // as the header Host has it
-    std::string path;       // of /rois
+    std::string authority;  // for the header Host
+    std::string path;       // of /rois, with the URL's own path before it
     Security security = Security::plain;
 };
 
-// Throws std::invalid_argument for what is no URL of http, https, ws or wss.
+// Throws std::invalid_argument if the text is not a URL of http, https, ws or wss.
 Target read_url(std::string_view url);
 
 }  // namespace rois::client

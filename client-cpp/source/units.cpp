@@ -19,7 +19,7 @@ Pose before(Pose const& somebody, millimetres away, degrees turn) {
             somebody.crs};
 }
 
-// Rounded to a thousandth: a micrometre.
+// Rounds to a thousandth of a millimetre or degree.
 std::string to_text(Pose const& pose) {
     auto const number = [](double value) { return xml::number_text(std::round(value * 1'000) / 1'000 + 0.0); };
     return number(pose.x.value) + ", " + number(pose.y.value) + ", " + number(pose.th.value);

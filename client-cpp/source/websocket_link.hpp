@@ -1,4 +1,4 @@
-// A WebSocket, over whatever carries its bytes. For websocket_link.cpp and websocket_link_tls.cpp.
+// A link over a WebSocket, on TCP or TLS. For websocket_link.cpp and websocket_link_tls.cpp.
 #pragma once
 
 #include "byte_stream.hpp"
@@ -25,7 +25,7 @@ std::shared_ptr<Link> websocket_link_tls(Loop&, Target const&, Settings const&, 
 template <class Stream>
 class WebSocketLink : public Link, public std::enable_shared_from_this<WebSocketLink<Stream>> {
 public:
-    // `context` is for TLS alone.
+    // `context` is null without TLS.
     WebSocketLink(Loop& loop, Target target, Settings const& settings, Listener& listener,
                   std::unique_ptr<asio::ssl::context> context)
         : target_{std::move(target)},
@@ -68,7 +68,7 @@ private:
         }
     }
 
-    // A ping goes out when nothing was heard for half of the time that Beast calls idle.
+    // Beast sends a ping after half of the idle_timeout without traffic.
     void set_options() {
         stream_.set_option(websocket::stream_base::timeout{.handshake_timeout = settings_.connect_deadline,
                                                            .idle_timeout = 2 * settings_.ping_interval,
@@ -145,7 +145,7 @@ private:
         });
     }
 
-    // Once the gateway has said why, that is the reason, whatever fails first.
+    // Reports the reason of the gateway's close frame, if there was one, rather than the error.
     void broke(error_code error) {
         auto const& closed = stream_.reason();
         if (!closed) {
@@ -167,12 +167,12 @@ private:
 
     Target target_;
     Settings const& settings_;
-    Listener* listener_;  // null: nothing more is told
+    Listener* listener_;  // null after the link has failed or was cut
     std::unique_ptr<asio::ssl::context> context_;
     Resolver resolver_;
     Full stream_;
     beast::flat_buffer incoming_;
-    std::deque<Document> outgoing_;  // the first one is being written
+    std::deque<Document> outgoing_;  // the first one is being sent
 };
 
 }  // namespace rois::client

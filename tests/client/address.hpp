@@ -1,4 +1,4 @@
-// How a gateway is reached.
+// The address of a gateway.
 #pragma once
 
 #include <chrono>
@@ -8,11 +8,11 @@
 namespace rois::client {
 
 struct Address {
-    std::string host = "127.0.0.1";  // a name or a number
+    std::string host = "127.0.0.1";  // a name or an IP address
     std::uint16_t port = 0;
-    std::string authority = "localhost";         // what the header Host says
+    std::string authority = "localhost";         // for the header Host
     std::string token{};                         // the bearer token; empty: none
-    std::chrono::milliseconds patience{20'000};  // how long one thing is waited for
+    std::chrono::milliseconds patience{20'000};  // longest wait for one thing
 };
 
 }  // namespace rois::client

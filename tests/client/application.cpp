@@ -35,10 +35,10 @@ private:
         }
     }
 
-    // The answer of the first long poll that has anything; as many as the patience takes.
+    // Repeats the long poll until it returns a notification, or the patience is over.
     HttpReply poll() {
         using Clock = std::chrono::steady_clock;
-        constexpr std::chrono::seconds longest{30};  // of one (wire.md, endpoints)
+        constexpr std::chrono::seconds longest{30};  // long poll (wire.md, endpoints)
         constexpr std::chrono::milliseconds imprecision{500};
         auto const patience = std::max(std::chrono::ceil<std::chrono::seconds>(patience_), std::chrono::seconds{1});
         auto const end = Clock::now() + patience;
@@ -49,12 +49,12 @@ private:
             auto reply = client_.notifications(last_, static_cast<unsigned>(wait.count()));
             if (reply.root().first_child()) return reply;
             empty = reply.body;
-            if (Clock::now() < due) throw LineEnded{"a long poll has nothing to tell and does not wait: " + empty};
+            if (Clock::now() < due) throw LineEnded{"a long poll returned early without a notification: " + empty};
         }
         throw LineEnded{"no notification for " + std::to_string(patience.count()) + " s: " + empty};
     }
 
-    // With the namespaces that the list around it declares.
+    // Adds the namespaces that the enclosing list declares.
     static std::string document_of(pugi::xml_node notification) {
         for (auto const declared : notification.parent().attributes()) {
             if (!notification.attribute(declared.name())) notification.append_copy(declared);
@@ -84,7 +84,7 @@ public:
 
     void wait(std::vector<std::string>& news) override { news.push_back(next_text()); }
 
-    void look(std::vector<std::string>&) override {}  // they come with the answers
+    void look(std::vector<std::string>&) override {}  // they arrive with the answers
 
     void use(std::string const&) override {}  // the session is the socket's
 

@@ -1,4 +1,4 @@
-// A service application in the domain's words, the same over HTTP with long poll and over a WebSocket.
+// A service application with a function for each operation, over HTTP with long poll or over a WebSocket.
 #pragma once
 
 #include <cstdint>
@@ -19,23 +19,23 @@ enum class Way : std::uint8_t { http, websocket };
 std::ostream& operator<<(std::ostream&, Way);
 inline constexpr Way all_ways[] = {Way::http, Way::websocket};
 
-// How an application reaches the gateway.
+// The transport of an application.
 class Wire {
 public:
     virtual ~Wire() = default;
-    // The answer to one request document; notifications that come before it are put into `news`.
+    // Sends a request document and returns its answer. Appends notifications that arrive before it to `news`.
     virtual std::string ask(std::string const& request, std::vector<std::string>& news) = 0;
-    // Waits until there is at least one notification; throws LineEnded when none comes for very long.
+    // Waits for at least one notification. Throws LineEnded if none arrives within the patience.
     virtual void wait(std::vector<std::string>& news) = 0;
-    // Puts into `news` what has arrived, without waiting.
+    // Appends the notifications that have arrived to `news`, without waiting.
     virtual void look(std::vector<std::string>& news) = 0;
-    // The session in which requests are made from now on.
+    // Sets the session of later requests.
     virtual void use(std::string const& session) = 0;
 };
 
 std::unique_ptr<Wire> wire_to(Address const&, Way);
 
-// Whoever derives says what is checked of each answer and notification, and leaves in its destructor.
+// A derived class checks each answer and notification, and calls `leave` in its destructor.
 class Application {
 public:
     // Not connected yet.
@@ -44,7 +44,7 @@ public:
     Application(Application const&) = delete;
     Application& operator=(Application const&) = delete;
 
-    // An operation and its children.
+    // Sends an operation with these child elements.
     Document ask(std::string const& operation, Xml const& children = {}, Attributes const& attributes = {});
 
     Document connect();
@@ -64,21 +64,21 @@ public:
 
     // The next notification.
     Document hear();
-    // The next notification if one has arrived. Over a WebSocket, those that came before the last answer have.
+    // The next notification if one has arrived. Over a WebSocket, only those before the last answer have.
     std::optional<Document> hear_now();
-    // Passes over others until it comes.
+    // The next event of this type; skips other notifications.
     Document hear_event(std::string const& type);
-    // The status with which a command completes; passes over others until then.
+    // The status with which a command completes; skips other notifications.
     std::string status_of(std::string const& command_id);
 
-    // All that was heard until now, in order.
+    // All notifications so far, in order.
     std::vector<Document> const& history() const { return history_; }
 
     std::string const& session() const { return session_; }  // of the last connect
 
 protected:
     virtual void check_answer(Document const& answer, std::string const& operation, std::string const& request_id) = 0;
-    // `sequence` is the one that is due.
+    // `sequence` is the expected one.
     virtual void check_notification(Document const&, std::uint64_t sequence) = 0;
 
     bool is_connected() const { return connected_; }
@@ -89,9 +89,9 @@ private:
     void take(std::vector<std::string> const& news);
 
     std::unique_ptr<Wire> wire_;
-    std::vector<Document> waiting_;  // arrived and not heard yet
+    std::vector<Document> waiting_;  // arrived, not returned yet
     std::vector<Document> history_;
-    std::uint64_t last_sequence_ = 0;  // of those that have arrived
+    std::uint64_t last_sequence_ = 0;  // that has arrived
     unsigned requests_ = 0;
     std::string session_;
     bool connected_ = false;

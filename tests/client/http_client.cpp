@@ -101,7 +101,7 @@ HttpClient::~HttpClient() {
                   "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
         line.rest();
     } catch (std::exception const&) {
-        // The gateway has gone, and the session with it.
+        // The gateway has ended, and the session with it.
     }
 }
 
@@ -118,7 +118,7 @@ HttpReply HttpClient::say(std::string_view bytes, std::string_view method) {
 HttpReply HttpClient::read(std::string_view method) {
     HttpReply reply;
     auto const head = line_->take_until("\r\n\r\n");
-    if (!head.starts_with("HTTP/1.1 ") || head.size() < 12) throw LineEnded{"this is no HTTP answer: " + head};
+    if (!head.starts_with("HTTP/1.1 ") || head.size() < 12) throw LineEnded{"not an HTTP answer: " + head};
     reply.status = std::atoi(head.substr(9, 3).c_str());
     reply.headers = read_headers(head);
     reopens_ = lower(reply.header("connection")).find("close") != std::string::npos;
@@ -142,14 +142,14 @@ std::string HttpClient::next_chunk() {
     auto const size = line_->take_until("\r\n");
     char* end = nullptr;
     auto const length = std::strtoul(size.c_str(), &end, 16);
-    if (end == size.c_str()) throw LineEnded{"this is no size of a chunk: " + size};
+    if (end == size.c_str()) throw LineEnded{"not the size of a chunk: " + size};
     if (length == 0) {
         while (line_->take_until("\r\n") != "\r\n") {  // trailers
         }
         return {};
     }
     auto chunk = line_->take(length);
-    if (line_->take(2) != "\r\n") throw LineEnded{"a chunk is longer than it says: " + size};
+    if (line_->take(2) != "\r\n") throw LineEnded{"a chunk is longer than its size: " + size};
     return chunk;
 }
 
@@ -188,7 +188,7 @@ HttpReply HttpClient::call(std::string const& operation, Xml const& children, At
 }
 
 HttpReply HttpClient::notifications(unsigned after, unsigned wait) {
-    constexpr std::chrono::seconds on_its_way{5};  // at most, an answer
+    constexpr std::chrono::seconds on_its_way{5};  // longest delay of an answer
     reopen_when_closed();
     line_->be_patient(std::max<std::chrono::milliseconds>(address_.patience, std::chrono::seconds{wait} + on_its_way));
     auto reply = get("/rois/notifications?after=" + std::to_string(after) + "&wait=" + std::to_string(wait));

@@ -26,7 +26,7 @@ int connect_to(addrinfo const& peer, std::chrono::milliseconds patience) {
     auto const socket = ::socket(peer.ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
     if (socket < 0) return -1;
     timeval const longest{patience.count() / 1'000, patience.count() % 1'000 * 1'000};
-    setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &longest, sizeof longest);  // holds for connect, too
+    setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &longest, sizeof longest);  // limits connect, too
     int const on = 1;
     setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
     if (connect(socket, peer.ai_addr, peer.ai_addrlen) == 0) return socket;
@@ -42,10 +42,10 @@ Line::Line(Address const& address) : patience_{address.patience} {
     wanted.ai_flags = AI_NUMERICSERV;
     addrinfo* list = nullptr;
     if (getaddrinfo(address.host.c_str(), std::to_string(address.port).c_str(), &wanted, &list) != 0)
-        throw LineEnded{"there is no host " + address.host};
+        throw LineEnded{"unknown host " + address.host};
     std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> const found{list, freeaddrinfo};
     for (auto const* peer = list; peer && socket_ < 0; peer = peer->ai_next) socket_ = connect_to(*peer, patience_);
-    if (socket_ < 0) throw LineEnded{"nobody listens at " + address.host + ":" + std::to_string(address.port)};
+    if (socket_ < 0) throw LineEnded{"no server accepts connections at " + address.host + ":" + std::to_string(address.port)};
 }
 
 Line::~Line() { close(socket_); }
@@ -69,7 +69,7 @@ bool Line::receive(Clock::time_point deadline) {
     auto const left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
     pollfd waiting{socket_, POLLIN, 0};
     if (poll(&waiting, 1, static_cast<int>(std::max<std::int64_t>(left.count(), 0))) == 0)
-        throw LineEnded{"nothing came for " + in_seconds(patience_) + "; before: " + received_};
+        throw LineEnded{"nothing received for " + in_seconds(patience_) + "; before: " + received_};
     std::array<char, 65'536> buffer;
     auto const size = recv(socket_, buffer.data(), buffer.size(), 0);
     if (size <= 0) return false;

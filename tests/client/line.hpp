@@ -1,4 +1,4 @@
-// A TCP connection on which a client can say anything, right or wrong.
+// A TCP connection on which a test can send any bytes, valid or not.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@
 
 namespace rois::client {
 
-// The peer closed the connection, or nothing came for far too long.
+// The peer closed the connection, or sent nothing within the patience.
 class LineEnded : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -18,28 +18,28 @@ public:
 
 class Line {
 public:
-    // Throws LineEnded when nobody takes the connection.
+    // Connects. Throws LineEnded if no server accepts the connection.
     explicit Line(Address const&);
     ~Line();
     Line(Line const&) = delete;
     Line& operator=(Line const&) = delete;
 
-    // What the peer does not take any more, because it has closed, is left out.
+    // Sends all bytes; stops silently if the peer has closed.
     void send(std::string_view bytes);
-    // As much as goes without waiting; says how much that was.
+    // Sends without waiting. Returns the number of bytes sent.
     std::size_t send_now(std::string_view bytes);
-    void finish();  // nothing more will be sent
+    void finish();  // closes the sending direction
 
-    // How long what comes next is waited for; the address's patience at first.
+    // Sets the longest wait of the functions below; at first that of the address.
     void be_patient(std::chrono::milliseconds patience) { patience_ = patience; }
 
-    // The next bytes, exactly so many. Throws LineEnded, also when they do not come in time.
+    // Returns the next `size` bytes. Throws LineEnded if they do not arrive.
     std::string take(std::size_t size);
-    // Up to and with the mark.
+    // Returns the bytes up to and including the mark. Throws LineEnded.
     std::string take_until(std::string_view mark);
-    // Whether the peer closes now, without another byte.
+    // Returns whether the peer closes without another byte.
     bool ends();
-    // Everything until the peer closes.
+    // Returns all bytes until the peer closes.
     std::string rest();
 
 private:

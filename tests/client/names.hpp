@@ -1,13 +1,13 @@
-// The names of a document that is read, whatever prefixes it was written with.
+// Gives the names of a received document known prefixes.
 #pragma once
 
 #include <pugixml.hpp>
 
 namespace rois::client {
 
-// Whoever writes a document chooses its prefixes. After this, elements, attributes and the values of xsi:type have those of
-// wire.md: none for messages, and rois, fes, gml, unr and xsi. What has one of these prefixes and another namespace is renamed to
-// `other:...`, so that it is not taken for what it is not. What has no namespace at all keeps its name.
+// Replaces the prefixes of elements, attributes and the values of xsi:type by those of wire.md: none for messages, and rois, fes,
+// gml, unr and xsi. A name with one of these prefixes but another namespace becomes `other:...`. A name without a namespace
+// stays.
 void give_known_prefixes(pugi::xml_document&);
 
 }  // namespace rois::client

@@ -32,7 +32,7 @@ struct Errors {
 
 void leave(j_common_ptr codec) { std::longjmp(reinterpret_cast<Errors*>(codec->err)->way_out, 1); }
 
-// Nothing that has a destructor may live here: the library leaves by a jump.
+// Must not have objects with destructors: libjpeg leaves it by longjmp.
 bool decode(std::string_view jpeg, Bitmap& bitmap) {
     jpeg_decompress_struct codec;
     Errors errors;
@@ -65,7 +65,7 @@ MediaUrl::MediaUrl(std::string const& url) {
     static std::string const scheme = "http://";
     auto const slash = url.find('/', scheme.size());
     auto const colon = url.rfind(':', slash);
-    if (!url.starts_with(scheme) || slash == url.npos) throw std::invalid_argument{url + " is no URL of media"};
+    if (!url.starts_with(scheme) || slash == url.npos) throw std::invalid_argument{url + " is not a URL of media"};
     bool const has_port = colon >= scheme.size();
     address.host = url.substr(scheme.size(), (has_port ? colon : slash) - scheme.size());
     address.port = static_cast<std::uint16_t>(has_port ? std::stoi(url.substr(colon + 1, slash - colon - 1)) : 80);
@@ -115,7 +115,7 @@ std::array<int, 3> Bitmap::at(int column, int row) const {
 
 Bitmap decoded_jpeg(std::string_view jpeg) {
     Bitmap bitmap;
-    if (!decode(jpeg, bitmap)) throw std::runtime_error{"this is no JPEG"};
+    if (!decode(jpeg, bitmap)) throw std::runtime_error{"not a JPEG"};
     return bitmap;
 }
 
@@ -126,7 +126,7 @@ Mailbox::Mailbox() : socket_{socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)} {
     socklen_t size = sizeof here;
     auto* const name = reinterpret_cast<sockaddr*>(&here);
     if (socket_ < 0 || bind(socket_, name, size) != 0 || getsockname(socket_, name, &size) != 0)
-        throw LineEnded{"there is no datagram socket"};
+        throw LineEnded{"cannot open a UDP socket"};
     setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     port_ = ntohs(here.sin_port);
 }
@@ -136,12 +136,12 @@ Mailbox::~Mailbox() { close(socket_); }
 std::string Mailbox::take() {
     std::array<char, 65'536> buffer;
     auto const size = recv(socket_, buffer.data(), buffer.size(), 0);
-    if (size < 0) throw LineEnded{"no datagram came"};
+    if (size < 0) throw LineEnded{"no datagram received"};
     return {buffer.data(), static_cast<std::size_t>(size)};
 }
 
 RtpPacket::RtpPacket(std::string const& datagram) {
-    if (datagram.size() < 12) throw std::runtime_error{"this is no RTP packet"};
+    if (datagram.size() < 12) throw std::runtime_error{"not an RTP packet"};
     std::string_view const bytes{datagram};
     auto const first = number(bytes.substr(0, 1)), second = number(bytes.substr(1, 1));
     version = first >> 6;

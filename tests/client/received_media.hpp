@@ -1,4 +1,4 @@
-// What a receiver of media makes of what it gets.
+// Receives and decodes media.
 #pragma once
 
 #include <array>
@@ -13,18 +13,18 @@
 
 namespace rois::client {
 
-// Of "http://127.0.0.1:8081/abc": where to connect to, and what to ask for.
+// A URL like "http://127.0.0.1:8081/abc", as the address and the target of a request.
 struct MediaUrl {
     Address address;
     std::string target;
 
-    explicit MediaUrl(std::string const& url);  // throws std::invalid_argument when it is none
+    explicit MediaUrl(std::string const& url);  // throws std::invalid_argument if the URL is invalid
 };
 
-// "GET /abc HTTP/1.1" and what belongs to it.
+// Returns the request "GET /abc HTTP/1.1" with its header.
 std::string media_request(MediaUrl const&, std::string const& method = "GET");
 
-// The sound or film at this URL, as it flows.
+// Reads the sound or video at this URL.
 class Receiving {
 public:
     explicit Receiving(std::string const& url) : url_{url}, line_{url_.address} {
@@ -34,7 +34,7 @@ public:
 
     std::string const& head() const { return head_; }
     Line& line() { return line_; }
-    std::string next_picture();  // of a film: a JPEG
+    std::string next_picture();  // of a video: a JPEG
 
 private:
     MediaUrl url_;
@@ -45,7 +45,7 @@ private:
 enum class ByteOrder : std::uint8_t { little_endian, big_endian };
 std::vector<std::int16_t> samples_of(std::string_view bytes, ByteOrder);
 
-// How much of the sound's energy is at this frequency, 0 to 1. Best over whole periods.
+// Returns the share of the sound's energy at this frequency, 0 to 1. Most exact for whole periods.
 double share_of(double frequency, std::vector<std::int16_t> const& samples, double rate);
 
 // Three bytes a pixel, row by row from the top left.
@@ -55,7 +55,7 @@ struct Bitmap {
 
     std::array<int, 3> at(int column, int row) const;
 };
-Bitmap decoded_jpeg(std::string_view);  // throws std::runtime_error when it is none
+Bitmap decoded_jpeg(std::string_view);  // throws std::runtime_error if it is not a JPEG
 
 // A UDP socket on a free port of the loopback.
 class Mailbox {
@@ -66,7 +66,7 @@ public:
     Mailbox& operator=(Mailbox const&) = delete;
 
     std::uint16_t port() const { return port_; }
-    // The next datagram. Throws LineEnded when none comes for very long.
+    // Returns the next datagram. Throws LineEnded if none arrives.
     std::string take();
 
 private:
@@ -74,7 +74,7 @@ private:
     std::uint16_t port_ = 0;
 };
 
-// RFC 3550, 5.1
+// RFC 3550, 5.1.
 struct RtpPacket {
     unsigned version, payload_type;
     bool marker;

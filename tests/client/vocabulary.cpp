@@ -18,7 +18,7 @@ Xml typed(std::string const& type, Xml const& content) {
     return element("rois:command_unit_list", {{"xsi:type", "rois:" + type}}, content);
 }
 
-// The type ParameterType under one of its names.
+// Returns the type ParameterType under one of its names.
 Xml parameter(std::string_view name, Argument const& argument) {
     auto content = element("rois:data_type_ref", {{"rois:code", argument.type}});
     for (auto const& value : argument.values) content += text_element("rois:value", value);
@@ -46,7 +46,7 @@ void collect_ids(pugi::xml_node node, std::vector<std::string>& ids) {
 Document::Document(std::string const& text)
     : text_{std::make_shared<std::string const>(text)}, document_{std::make_shared<pugi::xml_document>()} {
     if (!document_->load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_ws_pcdata_single))
-        throw std::runtime_error{"no XML document: " + text};
+        throw std::runtime_error{"not an XML document: " + text};
     give_known_prefixes(*document_);
 }
 

@@ -1,4 +1,4 @@
-// What a gateway says, read; and what applications say, written: both in the names of wire.md.
+// Reads documents of a gateway and writes documents of applications, with the names of wire.md.
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@ namespace rois::client {
 
 using Values = std::map<std::string, std::vector<std::string>>;  // of results or parameters, by name
 
-// An answer, a notification or a fault, in the names of wire.md whatever prefixes it has.
+// An answer, a notification or a fault, with the names of wire.md.
 class Document {
 public:
     explicit Document(std::string const& text);
@@ -45,7 +45,7 @@ Xml equal(std::string const& reference, std::string const& literal);
 Xml literal_first(std::string const& literal, std::string const& reference);
 Xml both(Xml const& one, Xml const& other);
 Xml either(Xml const& one, Xml const& other);
-Xml like(std::string const& reference, std::string const& pattern);  // "*" and "?"; "!" before them as they are
+Xml like(std::string const& reference, std::string const& pattern);  // wildcards "*" and "?", escaped by "!"
 Xml compared(std::string const& comparison, std::string const& reference, std::string const& literal);  // PropertyIs...
 Xml between(std::string const& reference, std::string const& lower, std::string const& upper);
 Xml is_null(std::string const& reference);
@@ -54,13 +54,13 @@ Xml related(std::string const& relation, std::string const& reference, Xml const
 Xml box(std::string const& lower, std::string const& upper, std::string const& frame = "");
 Xml place(std::string const& name);
 Xml distance(std::string const& length, std::string const& unit = "mm");
-Xml undefined_function(std::string const& reference);  // a predicate that no gateway understands: is_free(reference)
+Xml undefined_function(std::string const& reference);  // an unknown predicate: is_free(reference)
 Xml nearest(std::string const& place);                 // `<fes:SortBy>`, by the component's distance to it
 Xml sorted_by(std::string const& reference, std::string const& order);
 Xml ordered(Xml const& filter, Xml const& sort_by);  // `<condition>`; the filter may be empty
 Xml where(Xml const& filter);                        // `<condition>`
 
-// `<condition>` with the published examples' wrapper, of one component of this type.
+// `<condition>` for the component type, in the wrapper of the published examples.
 Xml of_type(std::string const& type);
 
 // --- Parameters and commands ---
@@ -74,7 +74,7 @@ struct Argument {
 Argument speech_text(std::string const& text);
 Argument target_position(std::vector<std::string> const& positions);
 Argument time_limit(std::string const& milliseconds);
-Xml parameters(std::vector<Argument> const&);  // what set_parameter takes
+Xml parameters(std::vector<Argument> const&);  // for set_parameter
 
 struct Command {
     std::string component;
@@ -86,12 +86,12 @@ struct Command {
 
 Xml unit(Command const&);                                      // of a sequence
 Xml pause(int delay);                                          // a unit that only delays
-Xml branch(std::vector<Command> const&);                       // one after the other
+Xml branch(std::vector<Command> const&);                       // commands one after the other
 Xml command_list(Command const&);                              // a branch of the flat form
 Xml concurrent(Xml const& branches);                           // the published parallel unit, of branches in either form
 Xml one_after_another(Xml const& units);                       // the seed's sequential unit
 Xml side_by_side(Xml const& units);                            // the seed's parallel unit
-Xml sequence(Xml const& units);                                // what execute takes
+Xml sequence(Xml const& units);                                // for execute
 std::vector<std::string> command_ids(Document const& answer);  // of an answer of execute, in document order
 
 }  // namespace rois::client

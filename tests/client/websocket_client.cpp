@@ -51,8 +51,8 @@ void WebSocketClient::ask(std::string const& operation, Xml const& children, Att
 
 Frame WebSocketClient::next() {
     auto const head = line().take(2);
-    if ((head[0] & 0xF0) != 0x80) throw LineEnded{"this is no whole frame without reserved bits"};
-    if (head[1] & 0x80) throw LineEnded{"a server does not mask"};
+    if ((head[0] & 0xF0) != 0x80) throw LineEnded{"a frame is fragmented or has reserved bits"};
+    if (head[1] & 0x80) throw LineEnded{"a server must not mask frames"};
     std::size_t size = static_cast<unsigned char>(head[1]);
     if (size >= 126) {
         auto const length = line().take(size == 126 ? 2 : 8);

@@ -1,4 +1,4 @@
-// A WebSocket client that can break every rule. What a server breaks of RFC 6455 is thrown as LineEnded.
+// A WebSocket client that can send invalid frames. Throws LineEnded if the server violates RFC 6455.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace rois::client {
 inline constexpr auto good_key = "dGhlIHNhbXBsZSBub25jZQ==";
 inline constexpr auto its_accept = "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=";  // RFC 6455, 1.3
 
-// The handshake, with these header fields beside or instead of the right ones; an empty value leaves one out.
+// Sends the handshake; `other` adds or replaces header fields, an empty value removes one.
 HttpReply shake_hands(HttpClient&, Headers const& other = {});
 
 enum class Kind : unsigned { continuation = 0, text = 1, binary = 2, close = 8, ping = 9, pong = 10 };
@@ -22,7 +22,7 @@ struct Frame {
     Kind kind;
     std::string payload;
 
-    int close_code() const;  // 0 when it is no close frame
+    int close_code() const;  // 0 if it is not a close frame
 };
 
 class WebSocketClient {
@@ -32,21 +32,21 @@ public:
 
     Line& line() { return http_.line(); }
 
-    // A whole masked frame. `first_byte` overrides FIN, RSV and opcode.
+    // Sends a masked frame. `first_byte` sets FIN, RSV and opcode.
     void send(std::string_view payload, Kind = Kind::text);
     void send_raw(unsigned first_byte, std::string_view payload);
     void ask(std::string const& operation, Xml const& children = {}, Attributes const& attributes = {});
 
     Frame next();
-    // The next text frame's root element; pings are answered.
+    // Returns the root element of the next text frame; answers pings.
     pugi::xml_node next_document();
-    // Asks, and gives what comes next.
+    // Calls `ask`, and returns the next document.
     pugi::xml_node call(std::string const& operation, Xml const& children = {}, Attributes const& attributes = {});
-    // The code with which the server closes, and ends the connection; other frames are passed over.
+    // Waits until the server closes the connection, and returns its close code; skips other frames.
     int closes();
 
     std::string const& session() const { return http_.session; }
-    // Keeps its session when it goes: closes without a word.
+    // Lets the destructor keep the session: closes without a close frame.
     void vanish() { http_.session.clear(); }
 
 private:

@@ -4,8 +4,7 @@ namespace rois::client {
 
 namespace {
 
-// White space of a value is told apart from that around it, and a line's end from one that a reader makes of it (XML 1.0, 2.11
-// and 3.3.3).
+// Also escapes white space and line ends that a parser would normalize (XML 1.0, 2.11 and 3.3.3).
 void append_escaped(std::string& written, std::string_view text, bool in_attribute) {
     for (char const c : text) {
         if (c == '&') {

@@ -1,4 +1,4 @@
-// XML to be said, which cannot be put together wrong: what comes from somewhere else is always escaped.
+// Builds well-formed XML: escapes all texts except literals of the source.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,10 @@
 
 namespace rois::client {
 
-using Attributes = std::vector<std::pair<std::string, std::string>>;  // names and values, as they are
+using Attributes = std::vector<std::pair<std::string, std::string>>;  // names and unescaped values
 
-// Elements, one after the other. What stands in a source file is taken as it is written there; all other texts come in as values
-// of attributes or as characters of an element, where they are escaped: a std::string is no Xml.
+// A sequence of elements. A string literal is XML and taken unchanged. All other texts enter as attribute values or characters of
+// an element, and are escaped; a std::string does not convert to Xml.
 class Xml {
 public:
     Xml() = default;
@@ -22,7 +22,7 @@ public:
     std::string const& text() const { return text_; }
     bool empty() const { return text_.empty(); }
 
-    // The first element with another attribute before its own.
+    // Returns a copy whose first element has another attribute before its own.
     Xml with(std::string_view name, std::string_view value) const;
 
     Xml& operator+=(Xml const& more);

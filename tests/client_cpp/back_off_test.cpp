@@ -1,4 +1,4 @@
-// The pauses between two attempts to connect, and what is reported of attempts that fail.
+// The pauses between attempts to connect, and the reports of failed attempts.
 #include "client_cpp/rig.hpp"
 #include "client_cpp/scripted_gateway.hpp"
 
@@ -8,7 +8,7 @@ namespace {
 using testing::HasSubstr;
 using testing::SizeIs;
 
-// --- Links of one session, before a gateway that the test plays ---
+// --- Links of one session, with a scripted gateway ---
 
 class TheBackOff : public testing::Test {
 protected:
@@ -23,19 +23,19 @@ protected:
     }
     void connect() {
         gateway.accept();
-        gateway.hear("connect");
+        gateway.receive("connect");
         gateway.answer("<session>one</session>");
     }
     void resume() {
         gateway.accept();
-        gateway.hear("resume");
+        gateway.receive("resume");
         gateway.answer();
     }
 
     ScriptedGateway gateway;
 };
 
-// With pauses of an hour, every link must follow at once.
+// The pauses are an hour long, so the test ends only if each link follows without a pause.
 TEST_F(TheBackOff, IsResetByANotification) {
     History history;
     Client client{with_pauses(gateway.url(), 1h, 1h), history.observers()};
@@ -47,7 +47,7 @@ TEST_F(TheBackOff, IsResetByANotification) {
     history.await_notifications(50);
 }
 
-// If the pauses grew, the last of them would take half a minute at least.
+// If the pauses grew, the last one would last at least half a minute.
 TEST_F(TheBackOff, IsResetByAResumedSession) {
     Client client{with_pauses(gateway.url(), 1ms, 1h)};
     connect();
@@ -68,7 +68,7 @@ TEST_F(TheBackOff, GrowsWhileNoLinkResumesTheSession) {
     connect();
     for (int link = 0; link < 7; ++link) {
         gateway.accept();
-        gateway.hear("resume");
+        gateway.receive("resume");
     }
     auto const all = told.get_future().get();
     std::vector<std::chrono::milliseconds> const longest{8ms, 16ms, 32ms, 50ms, 50ms, 50ms};
@@ -84,8 +84,8 @@ TEST_F(TheBackOff, GrowsWhileNoLinkResumesTheSession) {
 class TheFlakyLink : public BothWays {};
 ROIS_BOTH_WAYS(TheFlakyLink);
 
-// Another session makes the robot report 25 targets ten times a second, so this one receives nothing but events. The pauses are
-// the defaults, and a session keeps 1,024 notifications.
+// Another session makes the robot report 25 targets ten times a second, so this session receives only events. The pauses are the
+// defaults, and a session keeps 1,024 notifications.
 TEST_P(TheFlakyLink, LosesNothingAt250EventsPerSecondWhenItBreaksEvery100Kilobytes) {
     constexpr int rounds = 120;
     constexpr int each = 25;
@@ -118,7 +118,7 @@ TEST_P(TheFlakyLink, LosesNothingAt250EventsPerSecondWhenItBreaksEvery100Kilobyt
 class ARefusedConnection : public BothWays {};
 ROIS_BOTH_WAYS(ARefusedConnection);
 
-TEST_P(ARefusedConnection, IsReportedAtOnceWhileTheClientKeepsTrying) {
+TEST_P(ARefusedConnection, IsReportedAtOnceWhileTheClientRetries) {
     Proxy proxy{shared_gateway().port()};
     proxy.refuse(true);
     auto patient = settings(proxy.url());

@@ -1,4 +1,4 @@
-// Links that break, in every way: the session goes on, nothing is done twice, and what is missed is told.
+// Links that break: the session is resumed, no command runs twice, and missed notifications are reported.
 #include <algorithm>
 
 #include "client/http_client.hpp"
@@ -15,14 +15,14 @@ using testing::SizeIs;
 
 class TheLink : public BothWays {
 protected:
-    // A gateway of its own for tests in which sessions end on their own.
+    // A gateway that ends lost sessions at once.
     static GatewayProcess forgetful() {
         return GatewayProcess{{"--listen", "127.0.0.1:0", "--session-timeout", "0.1", "--resume-window", "0"}};
     }
 };
 ROIS_BOTH_WAYS(TheLink);
 
-// What a sequence number each, without one missing, says of all that was heard.
+// Expects each sequence number once, without gaps except reported ones.
 void expect_all_once(History const& history) {
     std::uint64_t last = 0;
     for (auto const& [sequence, told] : history.notifications()) {
@@ -46,7 +46,7 @@ TEST_P(TheLink, ResumesItsSession) {
     robot(detection.release());
 }
 
-TEST_P(TheLink, NoticesThatNobodyIsThere) {
+TEST_P(TheLink, NoticesASilentGateway) {
     Proxy proxy{shared_gateway().port()};
     auto impatient = settings(proxy.url());
     impatient.ping_interval = 50ms;
@@ -60,7 +60,7 @@ TEST_P(TheLink, NoticesThatNobodyIsThere) {
     EXPECT_THAT(history.states(), Contains("resumed"));
 }
 
-TEST_P(TheLink, TakesBytesAsTheyCome) {
+TEST_P(TheLink, AcceptsDelayedAndSplitBytes) {
     Proxy proxy{shared_gateway().port()};
     proxy.drip(7, 0ms);
     History history;
@@ -69,7 +69,7 @@ TEST_P(TheLink, TakesBytesAsTheyCome) {
     proxy.delay(30ms);
     auto const begun = std::chrono::steady_clock::now();
     EXPECT_EQ(robot.call(Search{}).return_code, ReturnCode::ok);
-    EXPECT_GE(std::chrono::steady_clock::now() - begun, 60ms) << "there and back";
+    EXPECT_GE(std::chrono::steady_clock::now() - begun, 60ms) << "delayed both ways";
     EXPECT_THAT(history.states(), ElementsAre("connecting", "open"));
 }
 
@@ -92,7 +92,7 @@ TEST_P(TheLink, RunsNoSequenceTwice) {
     robot(synthesis.release());
 }
 
-TEST_P(TheLink, IsAnotherOneWhenAnAnswerIsToAnotherRequest) {
+TEST_P(TheLink, IsReplacedAfterAnAnswerToAnotherRequest) {
     Proxy proxy{shared_gateway().port()};
     History history;
     auto const misquote = [&] { proxy.misquote("request_id=\"rois-cpp-", "request_id=\"somebody-"); };
@@ -109,15 +109,15 @@ TEST_P(TheLink, IsAnotherOneWhenAnAnswerIsToAnotherRequest) {
     EXPECT_THAT(history.completions(), ElementsAre(testing::Pair(testing::_, 1)));
     misquote();
     auto const moving = robot.bind_any(type == "Move");
-    EXPECT_EQ(robot(moving.component_status()), ComponentStatus::ready) << "bound once, and ours";
+    EXPECT_EQ(robot(moving.component_status()), ComponentStatus::ready) << "bound once, by this session";
     EXPECT_EQ(proxy.connections(), GetParam() == Way::http ? 8U : 4U);
     EXPECT_EQ(history.states().back(), "resumed");
     robot(moving.release());
     robot(synthesis.release());
 }
 
-// A gateway takes a mebibyte at once. On a WebSocket it closes the link then; what else was on the way is done on the next one.
-TEST_P(TheLink, IsNotBrokenTwiceByADocumentThatIsTooLarge) {
+// A gateway accepts at most 1 MiB. It closes a WebSocket for a longer document; the other calls are repeated on the next link.
+TEST_P(TheLink, BreaksOnlyOnceForADocumentThatIsTooLarge) {
     History history;
     Blocking robot{settings(), history.observers()};
     auto& client = robot.client();
@@ -146,8 +146,8 @@ TEST_P(TheLink, IsNotBrokenTwiceByADocumentThatIsTooLarge) {
     robot(synthesis.release());
 }
 
-// The first attempt follows at once, all others after a pause, since nothing is answered on links that are open.
-TEST_P(TheLink, IsNoGoodOneBeforeItHasAnswered) {
+// The first attempt follows at once. The next ones follow after a pause, since no link delivers an answer.
+TEST_P(TheLink, DoesNotResetThePauseBeforeItHasAnswered) {
     Proxy proxy{shared_gateway().port()};
     auto slow = settings(proxy.url());
     slow.first_pause = slow.longest_pause = 1h;
@@ -167,7 +167,7 @@ TEST_P(TheLink, IsNoGoodOneBeforeItHasAnswered) {
     EXPECT_EQ(history.states(), states);
 }
 
-TEST_P(TheLink, TellsARefusalAfterABreakAsARefusal) {
+TEST_P(TheLink, ReportsARefusalWhoseFirstAnswerWasLost) {
     Proxy proxy{shared_gateway().port()};
     Blocking robot{settings(proxy.url())};
     auto const synthesis = robot.client().component("speech_synthesis");  // not bound
@@ -182,7 +182,7 @@ TEST_P(TheLink, TellsARefusalAfterABreakAsARefusal) {
     }
 }
 
-TEST_P(TheLink, BindsNoSecondOneWhenItsAnswerWasLost) {
+TEST_P(TheLink, BindsOnlyOneComponentWhenTheAnswerWasLost) {
     Proxy proxy{shared_gateway().port()};
     Blocking robot{settings(proxy.url())};
     robot.open();
@@ -199,7 +199,7 @@ TEST_P(TheLink, BindsNoSecondOneWhenItsAnswerWasLost) {
     other(third.release());
 }
 
-TEST_P(TheLink, SendsNoDocumentAsItStandsTwice) {
+TEST_P(TheLink, SendsARawDocumentOnlyOnce) {
     Proxy proxy{shared_gateway().port()};
     Blocking robot{settings(proxy.url())};
     robot.open();
@@ -209,7 +209,7 @@ TEST_P(TheLink, SendsNoDocumentAsItStandsTwice) {
     EXPECT_EQ(std::get<NoAnswer>(answer).why, NoAnswer::Why::link_lost);
 }
 
-TEST_P(TheLink, MakesAnewWhatWentWithItsSession) {
+TEST_P(TheLink, RestoresBindingsAndSubscriptionsInANewSession) {
     auto const gateway = forgetful();
     Proxy proxy{gateway.port()};
     History history;
@@ -224,7 +224,7 @@ TEST_P(TheLink, MakesAnewWhatWentWithItsSession) {
 
     proxy.refuse(true);
     proxy.cut();
-    Blocking other{settings(gateway.url())};  // the binding is free when the session is gone
+    Blocking other{settings(gateway.url())};  // can bind the component when the session has ended
     Component const its_detection = other.client().component("person_detection");
     while (other.call(Bind{its_detection.ref()}).return_code != ReturnCode::ok) other(other.client().sleep(10ms));
     other(its_detection.release());
@@ -244,11 +244,10 @@ TEST_P(TheLink, MakesAnewWhatWentWithItsSession) {
     auto events = 0;
     for (auto const& [sequence, told] : history.notifications()) events += std::holds_alternative<ReceiveEvent>(told) ? 1 : 0;
     EXPECT_EQ(events, 1) << "subscribed once";
-    EXPECT_FALSE(history.completions().contains(following.id().text))
-        << "of the session that is gone nothing is told but the gap";
+    EXPECT_FALSE(history.completions().contains(following.id().text)) << "only the gap is reported of the session that has ended";
 }
 
-TEST_P(TheLink, TellsWhatItCannotMakeAnew) {
+TEST_P(TheLink, ReportsABindingThatItCannotRestore) {
     auto const gateway = forgetful();
     Proxy proxy{gateway.port()};
     History history;
@@ -263,7 +262,7 @@ TEST_P(TheLink, TellsWhatItCannotMakeAnew) {
     EXPECT_THAT(history.gaps().front().not_restored, ElementsAre(HasSubstr("bind reaction: ")));
 }
 
-TEST_P(TheLink, TellsWhatTheEngineDropped) {
+TEST_P(TheLink, ReportsNotificationsThatTheEngineDropped) {
     GatewayProcess const gateway{{"--listen", "127.0.0.1:0", "--max-waiting-notifications", "16"}};
     Proxy proxy{gateway.port()};
     History history;
@@ -273,7 +272,7 @@ TEST_P(TheLink, TellsWhatTheEngineDropped) {
     for (int i = 0; i < 40; ++i) many.push_back(robot(detection.person_detected(result("number") >= -i)));
     proxy.refuse(true);
     proxy.cut();
-    // Over another link of the same session, the component is told to detect while nobody hears.
+    // Starts the detection over HTTP in the same session, while the session has no link for notifications.
     history.await_states({"connecting", "open", "lost"});
     Blocking witness{quick(gateway.url())};
     auto witnessed = witness.events<PersonDetected>();

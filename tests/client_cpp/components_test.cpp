@@ -1,4 +1,4 @@
-// The facades of all 17 components, against the simulated hall.
+// The classes of all 17 components, against the simulated hall.
 #include <cmath>
 #include <stdexcept>
 #include <thread>
@@ -15,14 +15,14 @@ using testing::HasSubstr;
 using testing::SizeIs;
 using testing::StartsWith;
 
-// A hall in which somebody known waves and talks again and again, whose robot streams.
+// A hall with a known visitor who waves and talks repeatedly, and a robot that streams.
 GatewayProcess& lively_hall() {
     static GatewayProcess hall{
         {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/lively_visitor.xml", "--sim-speed", "20", "--media", "127.0.0.1:0"}};
     return hall;
 }
 
-// One that nobody enters, whose robot may go anywhere.
+// A hall without visitors.
 GatewayProcess& empty_hall() {
     static GatewayProcess hall{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml", "--sim-speed", "20"}};
     return hall;
@@ -32,7 +32,7 @@ class TheFacades : public testing::Test {
 protected:
     explicit TheFacades(GatewayProcess& hall = lively_hall()) : robot{quick(hall.url())} {}
 
-    // The next event that is so, as long as somebody has started the component.
+    // Waits for the next event that `is_it` accepts. The component must be started.
     template <class E>
     E heard(Events<E>& events, std::function<bool(E const&)> const& is_it) {
         while (true) {
@@ -42,7 +42,7 @@ protected:
         }
     }
 
-    // Binds any component of this type, subscribes, starts it and gives the first event that is so.
+    // Binds any component of this type, subscribes, starts it, and returns the first event that `is_it` accepts.
     template <class Facade, class E>
     E first(Task<Events<E>> (Facade::*subscribe)(QueryExpression) const, std::function<bool(E const&)> const& is_it) {
         auto const component = robot.bind_any<Facade>();
@@ -93,7 +93,7 @@ auto const within_the_hall = [](Sighting const& seen) {
            seen.pose.crs == "urn:x-rois:def:crs:simulation::hall";
 };
 
-TEST_F(TheFacades, SystemInformation) {
+TEST_F(TheFacades, ReportRobotPositionsAndEngineStatus) {
     SystemInformation const system{robot.client().component("system_information")};
     auto const position = robot(system.robot_position());
     ASSERT_THAT(position.robots, SizeIs(1));
@@ -104,8 +104,8 @@ TEST_F(TheFacades, SystemInformation) {
     EXPECT_LE(robot(system.engine_status()).operable_time.value(), position.timestamp);
 }
 
-// The engine's reason comes with the status, for commands of every kind.
-TEST_F(TheFacadesThatMove, SayWhyACommandFailed) {
+// The status has the engine's reason, for all kinds of commands.
+TEST_F(TheFacadesThatMove, ReportWhyACommandFailed) {
     auto const navigation = robot.bind<Navigation>("navigation");
     auto const unreachable = robot(navigation.go_to(Pose{-5_m, -5_m}));
     EXPECT_EQ(unreachable, CompletedStatus::error);
@@ -124,7 +124,7 @@ TEST_F(TheFacadesThatMove, SayWhyACommandFailed) {
     EXPECT_THAT(stopped.reason, testing::Not(testing::IsEmpty()));
 }
 
-TEST_F(TheFacadesThatMove, SayThatTheEndOfTheConnectionEndedACommand) {
+TEST_F(TheFacadesThatMove, ReportACommandThatTheEndOfTheConnectionEnded) {
     auto const follow = robot.bind<Follow>("follow");
     auto following = begun(robot.client(), follow.start({reference("target_object_ref", "nobody"), integer("distance", 500)}));
     robot.call(Disconnect{});
@@ -133,13 +133,13 @@ TEST_F(TheFacadesThatMove, SayThatTheEndOfTheConnectionEndedACommand) {
     EXPECT_THAT(ended.reason, HasSubstr("the connection is closed"));
 }
 
-TEST_F(TheFacades, Detection) {
+TEST_F(TheFacades, DetectPeopleFacesAndSounds) {
     first<PersonDetection, PersonDetected>(&PersonDetection::person_detected, [](auto& event) { return event.number == 1; });
     first<FaceDetection, FaceDetected>(&FaceDetection::face_detected, [](auto& event) { return event.number == 1; });
     first<SoundDetection, SoundDetected>(&SoundDetection::sound_detected, [](auto& event) { return event.number == 1; });
 }
 
-TEST_F(TheFacades, Localization) {
+TEST_F(TheFacades, LocalizePeopleFacesAndSounds) {
     auto const is_one = [](std::vector<Sighting> const& seen, char const* name) {
         return seen.size() == 1 && seen[0].ref.code.starts_with(name) && within_the_hall(seen[0]);
     };
@@ -156,14 +156,14 @@ TEST_F(TheFacades, Localization) {
     EXPECT_EQ(set.minimum_interval, 40ms);
 }
 
-TEST_F(TheFacades, PersonIdentification) {
+TEST_F(TheFacades, IdentifyPeople) {
     auto const event = first<PersonIdentification, PersonIdentified>(&PersonIdentification::person_identified,
                                                                      [](auto& told) { return !told.people.empty(); });
     EXPECT_THAT(event.people, ElementsAre(Field(&Identifier::code, "tanaka")));
     EXPECT_EQ(event.people[0].codebook_ref, "urn:x-rois:def:codebook:simulation::visitor");
 }
 
-TEST_F(TheFacades, SpeechRecognition) {
+TEST_F(TheFacades, RecognizeSpeech) {
     auto const recognition = robot.bind<SpeechRecognition>("speech_recognition");
     expect_ok(recognition.set(
         SpeechRecognitionParameters().with_language("en").with_grammar("greeting = hello | goodbye").with_rule("greeting")));
@@ -183,7 +183,7 @@ TEST_F(TheFacades, SpeechRecognition) {
     EXPECT_LT(from.timestamp, to.timestamp);
 }
 
-TEST_F(TheFacades, GestureRecognition) {
+TEST_F(TheFacades, RecognizeGestures) {
     auto const event = first<GestureRecognition, GestureRecognized>(&GestureRecognition::gesture_recognized,
                                                                     [](auto& told) { return !told.gestures.empty(); });
     EXPECT_EQ(event.gestures[0].code, "wave");
@@ -192,7 +192,7 @@ TEST_F(TheFacades, GestureRecognition) {
     EXPECT_THAT(robot(recognition.recognizable_gestures()), Contains(Field(&Identifier::code, "bow")));
 }
 
-TEST_F(TheFacades, SpeechSynthesis) {
+TEST_F(TheFacades, SpeakAndKeepParameters) {
     auto const synthesis = robot.bind<SpeechSynthesis>("speech_synthesis");
     expect_ok(synthesis.say("Welcome."));
     expect_ok(synthesis.say(
@@ -200,7 +200,7 @@ TEST_F(TheFacades, SpeechSynthesis) {
     expect_ok(synthesis.set(Speech().with_speech_text("Hello.").with_volume(60).with_language("de").with_character("default")));
     auto const set = robot(synthesis.parameters());
     EXPECT_EQ(set.speech_text, "Hello.");
-    EXPECT_FALSE(set.SSML_text) << "one drops the other";
+    EXPECT_FALSE(set.SSML_text) << "a plain text replaces SSML";
     EXPECT_EQ(set.volume, 60);
     EXPECT_EQ(set.language, "de");
     EXPECT_EQ(set.character, "default");
@@ -208,14 +208,14 @@ TEST_F(TheFacades, SpeechSynthesis) {
     EXPECT_THAT(set.synthesizable_characters, Contains("default"));
 }
 
-TEST_F(TheFacades, Reaction) {
+TEST_F(TheFacades, PerformReactions) {
     auto const reaction = robot.bind<Reaction>("reaction");
     EXPECT_THAT(robot(reaction.available_reactions()), Contains(Field(&Identifier::code, "9")));
     expect_ok(reaction.react("9"));
     EXPECT_THROW(robot(reaction.react("51")), Error);
 }
 
-TEST_F(TheFacadesThatMove, Navigation) {
+TEST_F(TheFacadesThatMove, NavigateToTargets) {
     auto const navigation = robot.bind<Navigation>("navigation");
     auto reached = robot(navigation.reached_target());
     expect_ok(navigation.go(NavigationParameters()
@@ -240,7 +240,7 @@ TEST_F(TheFacadesThatMove, Navigation) {
     EXPECT_EQ(set.routing_policy, RoutingPolicy::time);
 }
 
-TEST_F(TheFacadesThatMove, Follow) {
+TEST_F(TheFacadesThatMove, FollowAPerson) {
     auto const follow = robot.bind<Follow>("follow");
     Identifier const nobody{"nobody", {}, {}, {}};
     EXPECT_EQ(robot(follow.follow(FollowParameters().with_target_object_ref(nobody).with_distance(1_m).with_time_limit(100ms))),
@@ -257,7 +257,7 @@ TEST_F(TheFacadesThatMove, Follow) {
     EXPECT_EQ(set.time_limit, 5s);
 }
 
-TEST_F(TheFacadesThatMove, Move) {
+TEST_F(TheFacadesThatMove, DriveLinesAndCurves) {
     SystemInformation const system{robot.client().component("system_information")};
     auto const where = [&] { return robot(system.robot_position()).robots.at(0).pose; };
     auto const before = where();
@@ -278,22 +278,22 @@ TEST_F(TheFacadesThatMove, Move) {
     ASSERT_TRUE(curve.curve);
     EXPECT_EQ(curve.curve->radius, 300_mm);
     EXPECT_EQ(curve.curve->direction, 45_deg);
-    EXPECT_FALSE(curve.line) << "one drops the other";
+    EXPECT_FALSE(curve.line) << "a curve replaces a line";
 }
 
-TEST_F(TheFacades, AudioStreaming) { expect_stream<AudioStreaming>("audio/wav"); }
+TEST_F(TheFacades, StreamAudio) { expect_stream<AudioStreaming>("audio/wav"); }
 
-TEST_F(TheFacades, VideoStreaming) { expect_stream<VideoStreaming>("multipart/x-mixed-replace"); }
+TEST_F(TheFacades, StreamVideo) { expect_stream<VideoStreaming>("multipart/x-mixed-replace"); }
 
-// --- What is said inside a co_await ---
+// --- Temporaries inside a co_await ---
 
 template <class... Parameters>
 constexpr bool none_is_aggregate = (!std::is_aggregate_v<Parameters> && ...);
 static_assert(none_is_aggregate<LocalizationParameters, SpeechRecognitionParameters, Speech, NavigationParameters,
                                 FollowParameters, MoveParameters, StreamParameters, Target, Pose, Box, QueryExpression>);
 
-// Too long for a string to have it in itself: what is destroyed twice is noticed.
-constexpr auto long_text = "Welcome to the hall of the conformance program, in which nobody is at home.";
+// Too long for the small buffer of a string: the sanitizer notices if it is destroyed twice.
+constexpr auto long_text = "Welcome to the empty hall of the conformance program, which has no visitors.";
 
 Task<Speech> say_it_all_at_once(Client& client) {
     auto const synthesis = co_await client.bind<SpeechSynthesis>("speech_synthesis");
@@ -312,7 +312,7 @@ Task<Speech> say_it_all_at_once(Client& client) {
     co_return said;
 }
 
-TEST_F(TheFacadesThatMove, TakeWhatIsSaidInsideAnAwait) {
+TEST_F(TheFacadesThatMove, AcceptTemporariesInsideACoAwait) {
     auto const said = robot(say_it_all_at_once(robot.client()));
     EXPECT_EQ(said.speech_text, long_text);
     EXPECT_EQ(said.language, "en");
@@ -321,7 +321,7 @@ TEST_F(TheFacadesThatMove, TakeWhatIsSaidInsideAnAwait) {
 
 // --- Events as callbacks ---
 
-TEST_F(TheFacades, TellEventsToAFunction) {
+TEST_F(TheFacades, PassEventsToAFunction) {
     auto const gestures = robot.bind<GestureRecognition>("gesture_recognition");
     auto recognized = robot(gestures.gesture_recognized());
     auto const third = std::make_shared<std::promise<std::pair<std::string, std::thread::id>>>();
@@ -336,11 +336,11 @@ TEST_F(TheFacades, TellEventsToAFunction) {
     EXPECT_NE(thread, std::this_thread::get_id()) << "on the client's thread";
 }
 
-TEST_F(TheFacades, TellWhatWaitsFirst) {
+TEST_F(TheFacades, PassWaitingEventsFirst) {
     auto const detection = robot.bind<PersonDetection>("person_detection");
     auto waiting = robot(detection.person_detected());
     auto witness = robot(detection.person_detected());
-    for (int i = 0; i < 2; ++i) {  // each start tells the number
+    for (int i = 0; i < 2; ++i) {  // each start sends an event
         expect_ok(detection.start());
         EXPECT_TRUE(robot(witness.next(5s)));
         expect_ok(detection.stop());

@@ -1,4 +1,4 @@
-// Conditions and units alone, without an engine.
+// Conditions and units, without an engine.
 #include "rois/condition.hpp"
 
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace rois::conditions;
 
-// What is written, in short: names without prefixes, (Element attribute=value ...), 'literal', reference.
+// Returns XML in a short form: names without prefixes, (Element attribute=value ...), 'literal', reference.
 std::string short_form(pugi::xml_node element) {
     std::string const name{std::string_view{element.name()}.substr(std::string_view{element.name()}.find(':') + 1)};
     bool const literal = name == "Literal" && !element.first_child().first_child();
@@ -34,7 +34,7 @@ std::string written(QueryExpression condition) {
 
 Utc at(std::string const& time) { return *to_utc(time); }
 
-TEST(AConditionInCode, IsWrittenAsTheStandardSays) {
+TEST(AConditionInCode, IsWrittenAsFilterEncoding) {
     Reference const number{"number"};
     auto const a = number == 1;
     auto const b = status == "READY";
@@ -78,14 +78,14 @@ TEST(AConditionInCode, IsWrittenAsTheStandardSays) {
         std::tuple{"(PropertyIsEqualTo number '1')", "(PropertyIsEqualTo status 'READY')", "(PropertyIsEqualTo bound 'false')"};
     auto const of = [](std::string const& all, auto... each) { return "(" + all + ((" " + std::string{each}) + ...) + ")"; };
     auto const filter = [&](std::string const& predicate) { return of("condition", of("Filter", predicate)); };
-    EXPECT_EQ(written(a && b && c), filter(of("And", x, y, z))) << "what stands in a row stays in a row";
+    EXPECT_EQ(written(a && b && c), filter(of("And", x, y, z))) << "one And with three operands";
     EXPECT_EQ(written(a || b || c), filter(of("Or", x, y, z)));
     EXPECT_EQ(written(a && (b || !c)), filter(of("And", x, of("Or", y, of("Not", z)))));
     EXPECT_EQ(written(narrowed(b, a)), filter(of("And", x, y)));
     EXPECT_EQ(written(narrowed({}, a)), filter(x));
 }
 
-TEST(AConditionInCode, SaysWhoComesFirst) {
+TEST(AConditionInCode, SetsTheOrder) {
     EXPECT_EQ(written(ordered(type == "Move", nearest_to("desk"), descending(parameter("volume")), ascending(component_ref))),
               "(condition (Filter (PropertyIsEqualTo component_type 'urn:x-rois:def:component:OMG::Move')) (SortBy "
               "(SortProperty (Function name=distance location 'desk')) "
@@ -95,7 +95,7 @@ TEST(AConditionInCode, SaysWhoComesFirst) {
 
 // --- Units ---
 
-TEST(Units, CalculateWithTheirOwnKind) {
+TEST(Units, CalculateOnlyWithTheSameUnit) {
     EXPECT_EQ(1.5_m, 1500_mm);
     EXPECT_EQ(2_m + 3_mm - 1_mm, 2002_mm);
     EXPECT_EQ(-90_deg * 2, 4.0 * -45_deg);
@@ -106,7 +106,7 @@ TEST(Units, CalculateWithTheirOwnKind) {
     static_assert(!std::is_convertible_v<degrees, millimetres>);
 }
 
-TEST(Units, SayWherePeopleAre) {
+TEST(Units, ComputeDistancesAndPoses) {
     EXPECT_EQ(distance(Pose{0_m, 0_m}, Pose{3_m, -4_m}), 5_m);
     auto const place = before(Pose{1_m, 1_m, 90_deg, "urn:my:map"}, 2_m);
     EXPECT_EQ(to_text(place), "1000, 3000, 270") << "they look at each other";
@@ -114,7 +114,7 @@ TEST(Units, SayWherePeopleAre) {
     EXPECT_EQ(to_text(before(Pose{1_m, 1_m, 90_deg}, 2_m, 90_deg)), "-1000, 1000, 360") << "to their left";
 }
 
-TEST(Units, AreReadAsTheWireHasThem) {
+TEST(Units, AreReadFromText) {
     struct Row {
         std::string text;
         std::optional<Pose> pose;

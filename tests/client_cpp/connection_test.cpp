@@ -1,4 +1,4 @@
-// Connection: calls, documents, deadlines, states; over both ways, with the real gateway.
+// Connection: calls, documents, deadlines and states, over WebSocket and HTTP, with the real gateway.
 #include "client_cpp/rig.hpp"
 
 namespace rois::test {
@@ -23,14 +23,14 @@ TEST_P(TheConnection, OpensASessionAndEndsIt) {
         EXPECT_THAT(session.text, SizeIs(testing::Ge(16U)));
     }
     EXPECT_THAT(history.states(), ElementsAre("connecting", "open", "closed"));
-    // Ended, not abandoned: nobody can resume it.
+    // The session has ended: it cannot be resumed.
     Blocking other{settings()};
     auto const text = "<resume xmlns='urn:x-rois:psm:xml:message:1' session='" + session.text + "' last_sequence='0'/>";
     auto const answer = other(other.client().send(text));
     EXPECT_THAT(std::get<std::string>(answer), HasSubstr(GetParam() == Way::http ? "not_allowed" : "no_session"));
 }
 
-TEST_P(TheConnection, GivesReturnCodesAsValues) {
+TEST_P(TheConnection, ReturnsReturnCodesAsValues) {
     Blocking robot{settings()};
     auto const unknown = robot.call(Bind{{"nobody", {}, {}, {}}});
     EXPECT_EQ(unknown.return_code, ReturnCode::bad_parameter);
@@ -45,13 +45,13 @@ TEST_P(TheConnection, GivesReturnCodesAsValues) {
     EXPECT_THAT(profile.profile->components, testing::Contains("navigation"));
 }
 
-TEST_P(TheConnection, GivesFaultsAsTheyAre) {
+TEST_P(TheConnection, ReturnsFaultsUnchanged) {
     Blocking robot{settings()};
     Request resume{Resume{}, {}};
     EXPECT_EQ(std::get<Fault>(robot(robot.client().request(resume))).code, FaultCode::not_allowed);
 }
 
-TEST_P(TheConnection, SendsAnyDocumentAndGivesWhatAnswersIt) {
+TEST_P(TheConnection, SendsAnyDocumentAndReturnsItsAnswer) {
     std::vector<std::string> tapped;
     Observers observers;
     observers.tap = [&](Direction direction, std::string_view document) {
@@ -65,7 +65,7 @@ TEST_P(TheConnection, SendsAnyDocumentAndGivesWhatAnswersIt) {
         auto const good =
             std::get<std::string>(robot(robot.client().send("<search xmlns='urn:x-rois:psm:xml:message:1' request_id='mine'/>")));
         EXPECT_THAT(good, HasSubstr("request_id=\"mine\""));
-        // Among operations, each gets its own.
+        // Operations get their own answers.
         EXPECT_EQ(robot.call(Search{}).return_code, ReturnCode::ok);
     }
     EXPECT_THAT(
@@ -75,11 +75,11 @@ TEST_P(TheConnection, SendsAnyDocumentAndGivesWhatAnswersIt) {
                     StartsWith("< <search_response "), StartsWith("> <disconnect "), StartsWith("< <disconnect_response ")));
 }
 
-TEST_P(TheConnection, GivesADocumentItsAnswerWhateverItsRequestIdIs) {
+TEST_P(TheConnection, ReturnsTheAnswerToADocumentWithAnyRequestId) {
     Blocking robot{settings()};
     robot.open();
     auto const both = [](Client& client, std::string id) -> Task<std::string> {
-        client.spawn([](Client& other) -> Task<> {  // among operations of its own
+        client.spawn([](Client& other) -> Task<> {  // another operation at the same time
             Search const all;
             co_await other.call(all);
         }(client));
@@ -90,7 +90,7 @@ TEST_P(TheConnection, GivesADocumentItsAnswerWhateverItsRequestIdIs) {
         EXPECT_THAT(robot(both(robot.client(), id)), HasSubstr("request_id=\"" + std::string{id} + '"'));
 }
 
-TEST_P(TheConnection, GivesNobodyTheAnswerOfACallThatWaitsNoMore) {
+TEST_P(TheConnection, DropsTheAnswerToACallThatTimedOut) {
     Proxy proxy{shared_gateway().port()};
     Blocking robot{settings(proxy.url())};
     robot.open();
@@ -116,7 +116,7 @@ TEST_P(TheConnection, EveryCallHasADeadline) {
     EXPECT_EQ(std::get<NoAnswer>(raw).why, NoAnswer::Why::deadline);
 }
 
-TEST_P(TheConnection, WaitsForEverWhenItIsToldTo) {
+TEST_P(TheConnection, WaitsWithoutLimitForTheLongestDeadline) {
     constexpr auto ever = std::chrono::milliseconds::max();
     auto patient = settings();
     patient.deadline = patient.connect_deadline = patient.ping_interval = patient.stream_silence = patient.longest_pause = ever;
@@ -137,7 +137,7 @@ TEST_P(TheConnection, WaitsForEverWhenItIsToldTo) {
     robot(detection.release());
 }
 
-TEST_P(TheConnection, KeepsTheFirstOfTwoCommandsOfOneName) {
+TEST_P(TheConnection, KeepsTheFirstOfTwoCommandsWithOneId) {
     Blocking robot{settings()};
     auto& client = robot.client();
     auto const follow = robot.bind<Follow>("follow");
@@ -157,7 +157,7 @@ TEST_P(TheConnection, KeepsTheFirstOfTwoCommandsOfOneName) {
     robot(follow.release());
 }
 
-TEST_P(TheConnection, KeepsTryingAndSaysWhyNothingComes) {
+TEST_P(TheConnection, RetriesAndReportsTheReason) {
     Proxy proxy{shared_gateway().port()};
     proxy.refuse(true);
     Blocking robot{settings(proxy.url())};
@@ -169,7 +169,7 @@ TEST_P(TheConnection, KeepsTryingAndSaysWhyNothingComes) {
     EXPECT_EQ(robot.call(Search{}).return_code, ReturnCode::ok);
 }
 
-TEST_P(TheConnection, GivesUpAfterItsAttempts) {
+TEST_P(TheConnection, ClosesAfterTheLastAttempt) {
     Proxy proxy{shared_gateway().port()};
     proxy.refuse(true);
     auto few = settings(proxy.url());
@@ -184,11 +184,11 @@ TEST_P(TheConnection, GivesUpAfterItsAttempts) {
     EXPECT_THROW(robot.open(), Error);
     EXPECT_EQ(proxy.connections(), 3U);
     history.await_states({"connecting", "closed"});
-    EXPECT_EQ(asked.get(), State::closed) << "as the call was told";
+    EXPECT_EQ(asked.get(), State::closed) << "when the call ends";
     EXPECT_EQ(robot.call(Search{}).return_code, ReturnCode::error);
 }
 
-TEST_P(TheConnection, DoesNotTryAgainWhereNoGatewayIs) {
+TEST_P(TheConnection, DoesNotRetryAtAPathWithoutAGateway) {
     Proxy proxy{shared_gateway().port()};
     History history;
     Blocking robot{settings(proxy.url() + "/nowhere"), history.observers()};
@@ -212,7 +212,7 @@ TEST_P(TheConnection, EndsWithDisconnect) {
     EXPECT_THAT(after.reason, HasSubstr("closed"));
 }
 
-TEST_P(TheConnection, WaitsOnlyElsewhere) {
+TEST_P(TheConnection, RejectsAWaitOnTheClientsThread) {
     Blocking robot{settings()};
     auto const caught = robot([](Client& client) -> Task<bool> {
         co_await client.sleep(1ms);
@@ -227,7 +227,7 @@ TEST_P(TheConnection, WaitsOnlyElsewhere) {
     EXPECT_TRUE(caught);
 }
 
-TEST(TheUrl, IsReadOrRefused) {
+TEST(TheUrl, IsAcceptedOrRejected) {
     for (auto const* bad : {"", "localhost", "ftp://a", "http://", "http://:80", "http://a:0", "http://a:65536", "http://a:1x",
                             "http://a b", "http://u@a", "http://a/?q", "http://[::1", "http://a]"})
         EXPECT_THROW(Blocking{quick(bad)}, std::invalid_argument) << bad;

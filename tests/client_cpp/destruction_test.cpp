@@ -1,4 +1,5 @@
-// A connection may go at any time, whatever it is doing: nobody waits for ever, and nothing is left (the sanitizers look).
+// A connection may be destroyed at any time: no thread or coroutine waits forever, and no memory leaks (checked by the
+// sanitizers).
 #include <thread>
 
 #include "client_cpp/rig.hpp"
@@ -31,21 +32,21 @@ TEST_P(Destruction, AtOnce) {
     for (int i = 0; i < 20; ++i) Client robot{settings()};
 }
 
-TEST_P(Destruction, AtAnyMomentOfTheBeginning) {
+TEST_P(Destruction, WhileItConnects) {
     for (int i = 0; i < 20; ++i) {
         Client robot{settings()};
         std::this_thread::sleep_for(i * 150us);
     }
 }
 
-TEST_P(Destruction, WhileItTriesInVain) {
+TEST_P(Destruction, WhileItRetries) {
     Proxy proxy{shared_gateway().port()};
     proxy.refuse(true);
     Client robot{settings(proxy.url())};
     while (proxy.connections() < 3) std::this_thread::sleep_for(1ms);
 }
 
-TEST_P(Destruction, WhileNothingIsAnswered) {
+TEST_P(Destruction, WhileACallHasNoAnswer) {
     Proxy proxy{shared_gateway().port()};
     History history;
     Client robot{settings(proxy.url()), history.observers()};
@@ -57,7 +58,7 @@ TEST_P(Destruction, WhileNothingIsAnswered) {
     }(robot));
 }
 
-// What a coroutine that waits for everything at once hears in the end.
+// Waits for everything at once, and records how each wait ends.
 struct Ends {
     std::atomic<int> count = 0;
 };
@@ -83,7 +84,7 @@ Task<> wait_for_time(Client& robot, Ends& ends) {
     if (problem && problem->why == NoAnswer::Why::closed) ++ends.count;
 }
 
-TEST_P(Destruction, EndsWhatIsAwaited) {
+TEST_P(Destruction, EndsPendingOperations) {
     Ends ends;
     {
         Client robot{settings()};
@@ -107,7 +108,7 @@ TEST_P(Destruction, OnItsOwnThread) {
     EXPECT_EQ(gone.get_future().wait_for(5s), std::future_status::ready);
 }
 
-TEST_P(Destruction, WaitsForNoNameThatIsStillLookedUp) {
+TEST_P(Destruction, DoesNotWaitForAHostNameLookup) {
     SlowName name;
     std::promise<void> gone;
     std::thread user{[&] {
@@ -122,7 +123,7 @@ TEST_P(Destruction, WaitsForNoNameThatIsStillLookedUp) {
     user.join();
 }
 
-TEST_P(Destruction, LeavesHandlesThatSayThatItIsOver) {
+TEST_P(Destruction, KeepsObserversUntilTheLastHandleIsGone) {
     std::optional<EventStream> stream;
     std::optional<Component> component;
     std::weak_ptr<int> inside;
@@ -140,10 +141,10 @@ TEST_P(Destruction, LeavesHandlesThatSayThatItIsOver) {
     EXPECT_FALSE(inside.expired());
     stream.reset();
     component.reset();
-    EXPECT_TRUE(inside.expired()) << "nothing is left with the last handle";
+    EXPECT_TRUE(inside.expired()) << "the last handle was the last owner";
 }
 
-// What is asked by a handle of a client that is gone, in a coroutine of another one.
+// Uses the handles of a destroyed client in a coroutine of another client.
 Task<> ask_when_it_is_over(Destruction::Handles& handles, std::promise<std::vector<std::string>>& told) {
     std::vector<std::string> said;
     auto const event = co_await handles.stream->next_event(1h);
@@ -168,7 +169,7 @@ Task<> ask_when_it_is_over(Destruction::Handles& handles, std::promise<std::vect
     told.set_value(std::move(said));
 }
 
-TEST_P(Destruction, LeavesHandlesThatAnswerInAnotherClient) {
+TEST_P(Destruction, LeavesHandlesThatAnotherClientCanUse) {
     Blocking other{settings()};
     other.open();
     Handles handles;
@@ -186,8 +187,8 @@ TEST_P(Destruction, LeavesHandlesThatAnswerInAnotherClient) {
     handles.stream->skip();
 }
 
-// The observers live as long as the inside of the connection.
-TEST_P(Destruction, LeavesNothingBehindItsHandles) {
+// The connection's state owns the observers: they show whether it was destroyed.
+TEST_P(Destruction, LeavesNoReferencesToObservers) {
     auto const inside = std::make_shared<int>();
     for (int i = 0; i < 10; ++i) {
         Handles handles;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The client library as others get it: installs it, builds a program outside the tree with CMake and with pkg-config, and runs both against
-# the gateway. Does the same with the example of the C++ PSM in docs/client-cpp.md, in the older C++17.
+# Installs the client library, builds a program outside the tree with CMake and with pkg-config, and runs both against the gateway. Does
+# the same with the example of the C++ PSM in docs/client-cpp.md, in C++17.
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -8,7 +8,7 @@ build=${ROIS_BINARY_DIR:?}
 work=$(mktemp -d)
 gateway=
 trap 'test -z "$gateway" || kill "$gateway"; rm -rf "$work"' EXIT
-prefix="$work/some where"  # blanks in names do no harm
+prefix="$work/some where"  # spaces in names must work
 
 cmake --install "$build" --component client --prefix "$prefix" >"$work/install.log"
 for header in "$prefix"/include/*; do

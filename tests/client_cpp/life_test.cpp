@@ -1,4 +1,4 @@
-// What moves goes on while the application's own thread lives, and is held when that hangs (docs/safety.md), at the real gateway.
+// Motion leases (docs/safety.md): a robot moves on while the application's thread lives, and is held when that thread hangs.
 #include "client_cpp/rig.hpp"
 
 namespace rois::test {
@@ -9,9 +9,9 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 constexpr auto lease = 1000ms;
-constexpr auto longer = 2500ms;  // than the lease, and what a machine that is busy adds
+constexpr auto longer = 2500ms;  // than the lease, with time for a busy machine
 
-// Waits without the client, as a thread that hangs.
+// Blocks the thread without using the client.
 void hang(std::chrono::milliseconds time) { std::this_thread::sleep_for(time); }
 
 Task<Command> set_out(Client& robot) {
@@ -51,14 +51,14 @@ TEST_P(TheApplication, MovesOnWhileItsThreadWaits) {
     EXPECT_THAT(history.notifications(), IsEmpty());
 }
 
-TEST_P(TheApplication, MovesOnWhileItsThreadWaitsShortly) {
+TEST_P(TheApplication, MovesOnWhileItsThreadWaitsForShortTimes) {
     Blocking robot{moving(), history.observers()};
     robot(set_out(robot.client()));
     for (int i = 0; i < 25; ++i) robot(robot.client().sleep(100ms));
     EXPECT_THAT(history.notifications(), IsEmpty());
 }
 
-TEST_P(TheApplication, MovesOnWhileItsThreadSaysThatItIsAlive) {
+TEST_P(TheApplication, MovesOnWhileItsThreadCallsAlive) {
     Blocking robot{moving(), history.observers()};
     robot(set_out(robot.client()));
     for (auto time = 0ms; time < longer; time += robot.client().between_signs_of_life()) {
@@ -77,7 +77,7 @@ TEST_P(TheApplication, IsHeldWhenItsThreadHangsAndGoesOnWithResume) {
     EXPECT_THAT(find(details.parameters, "text")->values.front(), HasSubstr("nothing was heard from its application"));
     EXPECT_EQ(robot(robot.client().component("navigation").resume()), CompletedStatus::ok);
     robot(robot.client().sleep(longer));
-    EXPECT_THAT(errors(), ElementsAre(ErrorType::user_defined_error)) << "once is enough";
+    EXPECT_THAT(errors(), ElementsAre(ErrorType::user_defined_error)) << "reported once";
 }
 
 TEST_P(TheApplication, IsHeldWhenItsThreadHangsThoughACoroutineListens) {
@@ -112,7 +112,7 @@ TEST_P(TheApplication, OfCoroutinesIsHeldWhenOneBlocksTheClientsThread) {
     await_hold();
 }
 
-TEST_P(TheApplication, AsksForNoLongerLeaseThanTheGatewayHas) {
+TEST_P(TheApplication, CannotExtendTheLeaseOfTheGateway) {
     auto settings = moving();
     settings.motion_lease = 3000ms;
     Blocking robot{settings, history.observers()};
@@ -133,11 +133,11 @@ TEST_P(TheApplication, StopsEverythingAndClears) {
     outside.url = gateway.url();
     auto const stopped = stop_everything(outside);
     EXPECT_TRUE(stopped.stopped);
-    EXPECT_THAT(stopped.not_halted, testing::AnyOf(IsEmpty(), ElementsAre("navigation"))) << "it may still roll";
+    EXPECT_THAT(stopped.not_halted, testing::AnyOf(IsEmpty(), ElementsAre("navigation"))) << "the robot may still be braking";
     EXPECT_EQ(robot(command.completed()), CompletedStatus::abort);
     try {
         robot(robot.client().component("navigation").start());
-        ADD_FAILURE() << "it has started";
+        ADD_FAILURE() << "the command was accepted";
     } catch (Error const& refused) {
         EXPECT_EQ(refused.code(), ReturnCode::error);
         EXPECT_THAT(refused.what(), HasSubstr("everything was stopped"));
@@ -147,14 +147,17 @@ TEST_P(TheApplication, StopsEverythingAndClears) {
 }
 
 TEST(StopForEverything, NamesTheComponentsThatHaveNotConfirmed) {
-    GatewayProcess const gateway{{"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--sim-speed", "0"}};
+    GatewayProcess gateway{
+        {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--sim-speed", "0", "--shutdown-timeout", "0.1"}};
     Settings settings;
     settings.url = gateway.url();
     EXPECT_THAT(stop_everything(settings).not_halted, ElementsAre("navigation"));
     EXPECT_THAT(clear_everything(settings).not_halted, ElementsAre("navigation"));
+    gateway.signal(SIGTERM);
+    EXPECT_EQ(gateway.wait().exit_code, 71);
 }
 
-TEST(StopForEverything, SaysWhyItFailed) {
+TEST(StopForEverything, ReportsWhyItFailed) {
     auto const why = [](Settings const& settings) -> std::string {
         try {
             stop_everything(settings);

@@ -1,5 +1,5 @@
-// A session that is gone, and the one that takes its place: what goes over to it, and what must not. Sessions go here with their
-// gateway; the one that is started anew gives the same names to other things.
+// The new session after one that has ended: what the connection restores, and what it must not. The sessions end with their
+// gateway; the next gateway gives the same ids to other things.
 #include "client_cpp/rig.hpp"
 
 namespace rois::test {
@@ -12,7 +12,7 @@ using testing::StartsWith;
 
 class TheNewSession : public BothWays {
 protected:
-    // There is no gateway for a while, and then a new one.
+    // Ends the gateway, calls `meanwhile`, and starts another gateway.
     void lose_session(std::function<void()> const& meanwhile = [] {}) {
         proxy.refuse(true);
         proxy.cut();
@@ -23,13 +23,13 @@ protected:
         proxy.refuse(false);
     }
 
-    // One detection, which is told to this stream and to nobody else.
-    void expect_it_alone_hears(Blocking& robot, Events<PersonDetected>& kept) {
+    // Expects one event of one detection, for this stream only.
+    void expect_only_receiver(Blocking& robot, Events<PersonDetected>& kept) {
         auto const detection = PersonDetection{robot.client().component("person_detection")};
-        EXPECT_EQ(robot.call(Search{}).return_code, ReturnCode::ok) << "all that was to be asked before was asked";
+        EXPECT_EQ(robot.call(Search{}).return_code, ReturnCode::ok) << "after all earlier requests";
         EXPECT_EQ(robot(detection.start()), CompletedStatus::ok);
         EXPECT_TRUE(robot(kept.next(5s)));
-        EXPECT_EQ(robot(detection.stop()), CompletedStatus::ok) << "which is told after it";
+        EXPECT_EQ(robot(detection.stop()), CompletedStatus::ok) << "completes after the event";
         auto events = 0;
         for (auto const& [sequence, told] : history.notifications()) events += std::holds_alternative<ReceiveEvent>(told) ? 1 : 0;
         EXPECT_EQ(events, 1);
@@ -41,12 +41,12 @@ protected:
 };
 ROIS_BOTH_WAYS(TheNewSession);
 
-// --- What is left while the session is lost: the new one gives its name at the engine to the one that is kept ---
+// --- Subscriptions that end around the lost session: the new session gives their id to the subscription that is kept ---
 
-// When it is left; in the end nobody but the one that is kept must be subscribed to.
+// When the first subscription ends. At the end, only the second one must exist.
 enum class Moment : std::uint8_t { unanswered, lost, restored };
 
-class TheNewSessionAfter : public TheNewSession {
+class ANewSessionDoesNotRestore : public TheNewSession {
 protected:
     void play(Moment moment, bool by_request) {
         std::atomic<Client*> leaves = nullptr;
@@ -82,27 +82,27 @@ protected:
         if (moment == Moment::restored) leaves = &robot.client();
         lose_session([&] {
             if (moment == Moment::lost) leave(robot.client());
-            robot(robot.client().sleep(0ms));  // after that
+            robot(robot.client().sleep(0ms));  // waits until the client's thread has done that
         });
         history.await_states({"connecting", "open", "lost", "open"});
-        expect_it_alone_hears(robot, kept);
+        expect_only_receiver(robot, kept);
         if (by_request) {
             EXPECT_EQ(unsubscribed.get_future().get().return_code, ReturnCode::ok);
         }
     }
 };
-ROIS_BOTH_WAYS(TheNewSessionAfter);
+ROIS_BOTH_WAYS(ANewSessionDoesNotRestore);
 
-TEST_P(TheNewSessionAfter, AStreamThatWasLeft) { play(Moment::unanswered, false); }
-TEST_P(TheNewSessionAfter, AStreamThatWasLeftMeanwhile) { play(Moment::lost, false); }
-TEST_P(TheNewSessionAfter, AStreamThatIsLeftWhileItIsMadeAnew) { play(Moment::restored, false); }
-TEST_P(TheNewSessionAfter, AnUnsubscribe) { play(Moment::unanswered, true); }
-TEST_P(TheNewSessionAfter, AnUnsubscribeMeanwhile) { play(Moment::lost, true); }
-TEST_P(TheNewSessionAfter, AnUnsubscribeWhileItIsMadeAnew) { play(Moment::restored, true); }
+TEST_P(ANewSessionDoesNotRestore, AStreamDroppedBeforeTheBreak) { play(Moment::unanswered, false); }
+TEST_P(ANewSessionDoesNotRestore, AStreamDroppedWhileTheLinkIsLost) { play(Moment::lost, false); }
+TEST_P(ANewSessionDoesNotRestore, AStreamDroppedDuringTheRestore) { play(Moment::restored, false); }
+TEST_P(ANewSessionDoesNotRestore, ASubscriptionEndedBeforeTheBreak) { play(Moment::unanswered, true); }
+TEST_P(ANewSessionDoesNotRestore, ASubscriptionEndedWhileTheLinkIsLost) { play(Moment::lost, true); }
+TEST_P(ANewSessionDoesNotRestore, ASubscriptionEndedDuringTheRestore) { play(Moment::restored, true); }
 
-// --- Names ---
+// --- Ids ---
 
-TEST_P(TheNewSession, IsNotAskedForWhatOnlyTheOldOneKnew) {
+TEST_P(TheNewSession, ReceivesNoIdsOfTheOldSession) {
     Blocking robot{settings(proxy.url()), history.observers()};
     auto& client = robot.client();
     robot.open();
@@ -119,10 +119,11 @@ TEST_P(TheNewSession, IsNotAskedForWhatOnlyTheOldOneKnew) {
         ASSERT_TRUE(std::holds_alternative<NoAnswer>(answer));
         EXPECT_EQ(std::get<NoAnswer>(answer).why, NoAnswer::Why::session_lost);
     }
-    EXPECT_EQ(robot.call(GetEventDetail{{"e-1"}, {}}).return_code, ReturnCode::bad_parameter) << "afterwards it is asked";
+    EXPECT_EQ(robot.call(GetEventDetail{{"e-1"}, {}}).return_code, ReturnCode::bad_parameter)
+        << "later requests reach the engine";
 }
 
-TEST_P(TheNewSession, GivesNoSubscriptionANameThatAnotherOneHas) {
+TEST_P(TheNewSession, GivesEachSubscriptionAUniqueId) {
     Blocking robot{settings(proxy.url()), history.observers()};
     robot.open();
     auto const subscribed = [&](std::string type) { return robot.call(Subscribe{std::move(type), {}, true}).subscribe_id; };
@@ -133,14 +134,14 @@ TEST_P(TheNewSession, GivesNoSubscriptionANameThatAnotherOneHas) {
     std::vector const after{subscribed("reached_target"), subscribed("person_identified")};  // 2 and 3 at the engine
     EXPECT_THAT(after, testing::Each(Ne(before[2])));
     EXPECT_EQ(robot.call(Unsubscribe{after[1]}).return_code, ReturnCode::ok);
-    EXPECT_EQ(subscribed("person_detected"), before[2]) << "which is still there";
+    EXPECT_EQ(subscribed("person_detected"), before[2]) << "the subscription that was kept";
 }
 
 // --- Observers that close ---
 
 class TheNewSessionWhenAnObserverCloses : public TheNewSession {
 protected:
-    // Closes when it hears this; gives the last document that was sent.
+    // Closes the connection when `when` is observed. Returns the last document that was sent.
     std::string close_at(std::string_view when) {
         std::atomic<Client*> closes = nullptr;
         std::string last;
@@ -173,25 +174,25 @@ protected:
 };
 ROIS_BOTH_WAYS(TheNewSessionWhenAnObserverCloses);
 
-TEST_P(TheNewSessionWhenAnObserverCloses, AsTheLinkIsLostDoesNotBegin) {
+TEST_P(TheNewSessionWhenAnObserverCloses, AtTheLostLinkDoesNotBegin) {
     close_at("lost");
     EXPECT_THAT(history.states(), ElementsAre("connecting", "open", "lost", "closed"));
 }
 
-TEST_P(TheNewSessionWhenAnObserverCloses, AsItIsAskedForDoesNotBegin) {
+TEST_P(TheNewSessionWhenAnObserverCloses, AtTheConnectDoesNotBegin) {
     EXPECT_THAT(close_at("connect"), StartsWith("<connect "));
     EXPECT_THAT(history.states(), ElementsAre("connecting", "open", "lost", "closed"));
 }
 
-TEST_P(TheNewSessionWhenAnObserverCloses, AsTheGapIsToldEnds) {
+TEST_P(TheNewSessionWhenAnObserverCloses, AtTheGapEnds) {
     EXPECT_THAT(close_at("gap"), StartsWith("<disconnect "));
     EXPECT_THAT(history.states(), ElementsAre("connecting", "open", "lost", "open", "closed"));
 }
 
-// --- Answers that are not understood ---
+// --- Unexpected answers ---
 
-// What says nothing is no answer to a document that was sent on an earlier link.
-TEST_P(TheNewSession, IsMadeAgainWhenItsAnswersAreNotUnderstood) {
+// An unexpected document must not count as the answer to a document that was sent on an earlier link.
+TEST_P(TheNewSession, IsRetriedAfterAnUnexpectedAnswer) {
     for (auto const& [said, heard] : {std::pair{"<bind_response", "(bind_response"}, {"\"restore-", "\"nothing-"}}) {
         Blocking robot{settings(proxy.url()), history.observers()};
         auto& client = robot.client();

@@ -25,7 +25,7 @@ sockaddr_in loopback(std::uint16_t port) {
     return address;
 }
 
-// A connection that is cut ends with a reset.
+// Closes a connection with a reset.
 void close_hard(int descriptor) {
     linger const now{1, 0};
     setsockopt(descriptor, SOL_SOCKET, SO_LINGER, &now, sizeof now);
@@ -93,7 +93,7 @@ void Proxy::cut_before(std::string text) {
 }
 
 void Proxy::misquote(std::string text, std::string as) {
-    if (text.size() != as.size()) throw std::invalid_argument{"lengths are said before"};
+    if (text.size() != as.size()) throw std::invalid_argument{"misquote: both texts must have the same length"};
     std::lock_guard const lock{mutex_};
     misquoted_ = std::move(text);
     misquoted_as_ = std::move(as);
@@ -135,7 +135,7 @@ void Proxy::cut_all() {
     wake();
 }
 
-// Whether the time for a random cut has come.
+// Counts passed bytes. Returns whether a cut is due.
 bool Proxy::tears(std::size_t bytes) {
     if (times_ == 0) return false;
     if (bytes < left_) {
@@ -161,7 +161,7 @@ void Proxy::accept() {
     pairs_.push_back({client, gateway, false, {}, {}});
 }
 
-// Takes what has come; false when this side has closed.
+// Reads the waiting bytes. Returns false if this side has closed.
 bool Proxy::pass(Pair& pair, int from, Direction& direction) {
     std::array<char, 16 * 1024> bytes;
     auto const size = recv(from, bytes.data(), bytes.size(), MSG_DONTWAIT);
@@ -211,7 +211,7 @@ void Proxy::run() {
         if (watched[1].revents != 0) {
             std::uint64_t count = 0;
             if (read(wake_, &count, sizeof count) < 0) return;
-            continue;  // what is watched has changed
+            continue;  // pairs_ has changed
         }
         bool tear = false;
         auto index = std::size_t{2};
@@ -243,7 +243,7 @@ void Proxy::run() {
             close_hard(pair->gateway);
             pair = pairs_.erase(pair);
         }
-        if (tear) {  // also when the other side has closed meanwhile
+        if (tear) {  // even if the other side has closed meanwhile
             ++cuts_;
             cut_all();
         }

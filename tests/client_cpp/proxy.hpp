@@ -1,4 +1,4 @@
-// Stands between a client and a gateway and does to the bytes what networks do.
+// A proxy between a client and a gateway that cuts, delays and changes the traffic.
 #pragma once
 
 #include <atomic>
@@ -14,7 +14,7 @@
 
 namespace rois::test {
 
-// Listens on a free port of the loopback until it ends. Functions may be called from any thread.
+// Listens on a free port of the loopback. Thread-safe.
 class Proxy {
 public:
     explicit Proxy(std::uint16_t gateway);
@@ -27,25 +27,25 @@ public:
 
     // Cuts all connections now.
     void cut();
-    // Cuts all connections after a random number of bytes, up to `longest`; again and again, `times` in all.
+    // Cuts all connections `times` times, each after a random number of bytes up to `longest`.
     void cut_at_random(std::uint32_t seed, std::size_t longest, std::size_t times);
-    // Cuts all connections after this number of bytes, again and again.
+    // Cuts all connections each time this number of bytes has passed.
     void cut_every(std::size_t bytes);
-    // The next time that the gateway says this, its words are lost and all connections are cut.
+    // When the gateway sends this text next, drops it and cuts all connections.
     void cut_before(std::string text);
-    // The next time that the gateway says this, it is as if it had said that, which is as long.
+    // When the gateway sends this text next, replaces it by `as`, which must have the same length.
     void misquote(std::string text, std::string as);
-    // What is sent either way is lost, without any other sign; connections to come are as good as new.
+    // Silently drops all bytes of the present connections, in both directions. New connections work.
     void half_open();
-    // Whether connections to come are cut at once.
+    // Whether to cut new connections at once.
     void refuse(bool);
-    // Connections to come go to this port.
+    // Sets the port for new connections.
     void lead_to(std::uint16_t gateway);
-    // Bytes are passed on so much later; or in pieces of so many, each so much later.
+    // Passes bytes on after this time; `drip` passes pieces of this size, each after this time.
     void delay(std::chrono::milliseconds);
     void drip(std::size_t bytes, std::chrono::milliseconds each);
 
-    std::size_t connections() const { return accepted_; }  // so far
+    std::size_t connections() const { return accepted_; }  // number so far
     std::size_t cuts() const { return cuts_; }
 
 private:
@@ -80,7 +80,7 @@ private:
     std::atomic<std::size_t> accepted_ = 0;
     std::atomic<std::size_t> cuts_ = 0;
 
-    std::mutex mutex_;  // guards what follows
+    std::mutex mutex_;  // guards the members below
     std::list<Pair> pairs_;
     std::uint16_t gateway_;
     bool refuses_ = false;

@@ -1,4 +1,4 @@
-// The reception as an application in C++: the same day as with every client, the same history.
+// The example reception in C++: the same day as with the other clients gives the same history.
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace rois::test {
 namespace {
 
-// What the reception prints, and how it ends.
+// The output of the reception, and its exit code.
 std::string printed(std::string const& url, std::string const& visitors, int exit_code = 0) {
     std::string text;
     auto* const pipe = popen(("ROIS_URL=" + url + " " ROIS_BINARY_DIR "/bin/reception " + visitors + " 2>&1").c_str(), "r");
@@ -22,7 +22,7 @@ std::string printed(std::string const& url, std::string const& visitors, int exi
     return text;
 }
 
-TEST(TheReceptionInCpp, TellsTheHistoryOfTheDay) {
+TEST(TheReceptionInCpp, PrintsTheExpectedHistory) {
     std::string const data = ROIS_SOURCE_DIR "/tests/server/data/";
     GatewayProcess const gateway{{"--floor-plan", data + "watchful_hall.xml", "--scenario", data + "three_visitors.xml",
                                   "--sim-speed", "20", "--seed", "7"}};
@@ -30,7 +30,7 @@ TEST(TheReceptionInCpp, TellsTheHistoryOfTheDay) {
     EXPECT_EQ(printed(gateway.url(), "3"), std::string(std::istreambuf_iterator<char>{expected}, {}));
 }
 
-TEST(TheReceptionInCpp, SaysWhyItCannotReceive) {
+TEST(TheReceptionInCpp, ReportsWhyItFailed) {
     auto const& gateway = shared_gateway().url();
     for (std::string const visitors : {"abc", "0", "-3", "2abc", "1.5", "1000000"})
         EXPECT_EQ(printed(gateway, visitors, 1), "reception: VISITORS is a whole number, 1 to 999999, not '" + visitors + "'\n");

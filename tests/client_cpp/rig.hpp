@@ -1,4 +1,4 @@
-// What the tests of the client library have in common: a gateway, a proxy before it, and observers that remember.
+// Tools for the tests of the client library: quick settings, a history of observations, and pending operations.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ namespace rois::test {
 using namespace std::chrono_literals;
 using namespace rois::conditions;
 
-// Settings that do not make a test wait.
+// Settings with short pauses.
 inline Settings quick(std::string url, Way way = Way::websocket) {
     Settings settings;
     settings.url = std::move(url);
@@ -33,7 +33,7 @@ inline Settings quick(std::string url, Way way = Way::websocket) {
     return settings;
 }
 
-// Remembers what observers are told. Must outlive the connection.
+// Records the calls of observers. Must outlive the connection.
 class History {
 public:
     Observers observers() {
@@ -46,16 +46,15 @@ public:
         return all;
     }
 
-    // Waits until it is so, or fails.
+    // Waits until `reached` returns true; fails the test after `within`.
     void await(std::function<bool()> const& reached, std::chrono::seconds within = 20s) {
         std::unique_lock lock{mutex_};
-        EXPECT_TRUE(news_.wait_for(lock, within, reached))
-            << "it did not come to that; states: " << testing::PrintToString(states_);
+        EXPECT_TRUE(news_.wait_for(lock, within, reached)) << "not reached; states: " << testing::PrintToString(states_);
     }
     void await_state(std::string const& state) {
         await([&] { return !states_.empty() && states_.back() == state; });
     }
-    void await_once(std::string const& state) {  // then or before
+    void await_once(std::string const& state) {  // returns at once if it was reached before
         await([&] { return std::ranges::count(states_, state) > 0; });
     }
     void await_gap() {
@@ -72,7 +71,7 @@ public:
     std::vector<Gap> gaps() const { return locked(gaps_); }
     std::vector<std::pair<std::uint64_t, Notification>> notifications() const { return locked(notifications_); }
 
-    // How often each command is told to have completed.
+    // Returns how many `completed` notifications each command had.
     std::map<std::string, int> completions() const {
         std::map<std::string, int> count;
         for (auto const& [sequence, told] : notifications())
@@ -100,7 +99,7 @@ private:
     std::vector<std::pair<std::uint64_t, Notification>> notifications_;
 };
 
-// Begins an operation, whose outcome is waited for later.
+// Starts an operation. Returns its outcome as a future.
 template <class T>
 std::future<T> begun(Client& client, Task<T> task) {
     auto const promise = std::make_shared<std::promise<T>>();
@@ -111,7 +110,7 @@ std::future<T> begun(Client& client, Task<T> task) {
     return promise->get_future();
 }
 
-// For tests that say the same over both ways.
+// For tests over WebSocket and HTTP.
 class BothWays : public testing::TestWithParam<Way> {
 public:
     Settings settings(std::string url = shared_gateway().url()) const { return quick(std::move(url), GetParam()); }

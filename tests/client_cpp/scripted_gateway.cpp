@@ -36,11 +36,11 @@ public:
     }
 
     void write(std::string const& document) {
-        await("that what is said is heard", [&](auto done) { socket_->async_write(asio::buffer(document), done); });
+        await("the end of a write", [&](auto done) { socket_->async_write(asio::buffer(document), done); });
     }
 
-    std::string heard_name;
-    std::string heard_id;
+    std::string received_name;
+    std::string received_id;
 
 private:
     struct Done {
@@ -55,7 +55,7 @@ private:
         begin(Done{&outcome});
         io_.restart();
         io_.run_for(patience);
-        if (!outcome) throw std::runtime_error{"waited in vain for " + what};
+        if (!outcome) throw std::runtime_error{"no event within 20 s: " + what};
         if (*outcome) throw std::runtime_error{"waited for " + what + ": " + outcome->message()};
     }
 
@@ -82,25 +82,25 @@ void ScriptedGateway::accept() { inside_->accept(); }
 
 void ScriptedGateway::cut() { inside_->cut(); }
 
-std::string ScriptedGateway::hear(std::string const& operation) {
+std::string ScriptedGateway::receive(std::string const& operation) {
     auto document = inside_->read();
     pugi::xml_document tree;
     tree.load_string(document.c_str());
     auto const root = tree.document_element();
     if (root.name() != operation) throw std::runtime_error{"waited for " + operation + ": " + document};
-    inside_->heard_name = operation;
-    inside_->heard_id = root.attribute("request_id").value();
+    inside_->received_name = operation;
+    inside_->received_id = root.attribute("request_id").value();
     return document;
 }
 
 void ScriptedGateway::answer(std::string const& content, std::string const& return_code) {
-    auto const element = inside_->heard_name + "_response";
-    inside_->write("<" + element + message + attribute("return_code", return_code) + attribute("request_id", inside_->heard_id) +
-                   ">" + content + "</" + element + ">");
+    auto const element = inside_->received_name + "_response";
+    inside_->write("<" + element + message + attribute("return_code", return_code) +
+                   attribute("request_id", inside_->received_id) + ">" + content + "</" + element + ">");
 }
 
 void ScriptedGateway::fault(std::string const& code) {
-    inside_->write(std::string{"<fault"} + message + attribute("code", code) + attribute("request_id", inside_->heard_id) +
+    inside_->write(std::string{"<fault"} + message + attribute("code", code) + attribute("request_id", inside_->received_id) +
                    "><reason>says the script</reason></fault>");
 }
 

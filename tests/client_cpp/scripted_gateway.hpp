@@ -1,4 +1,4 @@
-// A gateway that the test itself plays, step by step.
+// A gateway that a test controls step by step.
 #pragma once
 
 #include <memory>
@@ -6,7 +6,7 @@
 
 namespace rois::test {
 
-// Speaks WebSocket on a free port of the loopback. What does not come within a while, or goes wrong, throws std::runtime_error.
+// Speaks WebSocket on a free port of the loopback. The functions throw std::runtime_error after 20 s, or if they fail.
 class ScriptedGateway {
 public:
     ScriptedGateway();
@@ -16,12 +16,12 @@ public:
 
     std::string url() const;
 
-    // The next link, in place of the one that there was, which is cut.
+    // Cuts the present link and waits for the next one.
     void accept();
     void cut();
-    // The next document that comes must be this operation; gives it whole.
-    std::string hear(std::string const& operation);
-    // Answers what was heard last.
+    // Waits for the next document, which must be this operation. Returns the document.
+    std::string receive(std::string const& operation);
+    // Answers the document that was received last.
     void answer(std::string const& content = {}, std::string const& return_code = "OK");
     void fault(std::string const& code);
     void event(int sequence, std::string const& subscribe_id);

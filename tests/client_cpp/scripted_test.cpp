@@ -1,4 +1,4 @@
-// What the real gateway seldom does: step by step, before one that the test plays.
+// Rare orders of messages, with a scripted gateway.
 #include "client_cpp/rig.hpp"
 #include "client_cpp/scripted_gateway.hpp"
 
@@ -10,11 +10,11 @@ protected:
     TheScript() { connect("one"); }
     ~TheScript() override { gateway.cut(); }
 
-    void hear_subscribe(std::string const& event_type) {
-        EXPECT_THAT(gateway.hear("subscribe"), testing::HasSubstr(">" + event_type + "<"));
+    void receive_subscribe(std::string const& event_type) {
+        EXPECT_THAT(gateway.receive("subscribe"), testing::HasSubstr(">" + event_type + "<"));
     }
     void subscribe(std::string const& event_type, std::string const& id) {
-        hear_subscribe(event_type);
+        receive_subscribe(event_type);
         gateway.answer("<subscribe_id>" + id + "</subscribe_id>");
     }
     EventStream subscribed(std::string const& event_type, std::string const& id) {
@@ -23,24 +23,24 @@ protected:
         return stream.get();
     }
 
-    // A question that is the next that is heard; all that was said before the answer is heard then.
+    // Exchanges a request, so that the client has received all earlier documents.
     void ask() {
         auto asking = begun(client, client.call(Search{}));
-        gateway.hear("search");
+        gateway.receive("search");
         gateway.answer("<component_ref_list/>");
         EXPECT_EQ(asking.get().return_code, ReturnCode::ok);
     }
 
-    // The next link is there, and the session is not.
-    void begin_anew(std::string const& session) {
+    // Accepts the next link, reports that the session has ended, and opens another session.
+    void replace_session(std::string const& session) {
         gateway.accept();
-        gateway.hear("resume");
+        gateway.receive("resume");
         gateway.fault("no_session");
         connect(session);
     }
     void connect(std::string const& session) {
         gateway.accept();
-        gateway.hear("connect");
+        gateway.receive("connect");
         gateway.answer("<session>" + session + "</session>");
     }
 
@@ -50,13 +50,13 @@ protected:
     Client& client = robot.client();
 };
 
-// They wait while it is not known yet whose events a new subscription's are.
-TEST_F(TheScript, TellsEventsOfASessionThatIsGoneToThoseWhoHeardThemThere) {
+// The client holds events back while the subscribe_id of a new subscription is unknown.
+TEST_F(TheScript, DeliversHeldEventsOfTheOldSessionToItsStreams) {
     auto one = subscribed("a", "s-1");
     auto subscribing = begun(client, client.subscribe("b"));
-    hear_subscribe("b");
+    receive_subscribe("b");
     gateway.event(1, "s-1");
-    begin_anew("two");
+    replace_session("two");
     subscribe("a", "s-2");
     subscribe("b", "s-1");
     auto other = subscribing.get();
@@ -65,12 +65,12 @@ TEST_F(TheScript, TellsEventsOfASessionThatIsGoneToThoseWhoHeardThemThere) {
     EXPECT_FALSE(robot(other.next_event(0ms)));
 }
 
-TEST_F(TheScript, TellsNothingOfASessionThatWasGoneBeforeAllWasMadeAnew) {
+TEST_F(TheScript, DropsNotificationsOfASessionThatEndedDuringTheRestore) {
     auto one = subscribed("a", "s-1");
-    begin_anew("two");
-    hear_subscribe("a");
+    replace_session("two");
+    receive_subscribe("a");
     gateway.event(1, "s-2");
-    begin_anew("three");
+    replace_session("three");
     subscribe("a", "s-2");
     gateway.event(1, "s-2");
     ask();
@@ -80,11 +80,11 @@ TEST_F(TheScript, TellsNothingOfASessionThatWasGoneBeforeAllWasMadeAnew) {
     EXPECT_THAT(history.gaps(), testing::SizeIs(1));
 }
 
-TEST_F(TheScript, TellsNoEventsToWhomANewSessionRefuses) {
+TEST_F(TheScript, DeliversNoEventsToAStreamThatTheNewSessionRefused) {
     auto one = subscribed("a", "s-1");
     auto other = subscribed("b", "s-2");
-    begin_anew("two");
-    hear_subscribe("a");
+    replace_session("two");
+    receive_subscribe("a");
     gateway.answer({}, "UNSUPPORTED");
     subscribe("b", "s-1");
     gateway.event(1, "s-1");
@@ -96,11 +96,11 @@ TEST_F(TheScript, TellsNoEventsToWhomANewSessionRefuses) {
 
 TEST_F(TheScript, RunsNoSequenceInTwoSessions) {
     auto running = begun(client, client.component("c").start());
-    gateway.hear("execute");
+    gateway.receive("execute");
     gateway.accept();
-    gateway.hear("resume");
+    gateway.receive("resume");
     gateway.answer();
-    gateway.hear("execute");
+    gateway.receive("execute");
     gateway.fault("no_session");
     connect("two");
     EXPECT_THROW(running.get(), Error);

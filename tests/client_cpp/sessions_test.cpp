@@ -1,4 +1,4 @@
-// Sessions that several programs share, and what is told of one that ends.
+// Sessions that several programs share, and the end of a session.
 #include "client_cpp/rig.hpp"
 
 namespace rois::test {
@@ -12,7 +12,7 @@ using testing::SizeIs;
 
 class TheSession : public BothWays {
 protected:
-    // To act in the session of this one.
+    // Settings that join the session of `holder`.
     Settings beside(Blocking& holder) const {
         auto joining = settings();
         joining.session = holder.client().session().text;
@@ -21,7 +21,7 @@ protected:
 };
 ROIS_BOTH_WAYS(TheSession);
 
-TEST_P(TheSession, IsSharedWithWhomeverItIsToldTo) {
+TEST_P(TheSession, IsSharedWithAProgramThatKnowsItsId) {
     History history;
     Blocking holder{settings(), history.observers()};
     auto const detection = holder.bind<PersonDetection>("person_detection");
@@ -33,14 +33,14 @@ TEST_P(TheSession, IsSharedWithWhomeverItIsToldTo) {
         EXPECT_EQ(guest.client().session(), holder.client().session());
         auto const same = guest.client().component("person_detection");
         EXPECT_EQ(guest(same.stop()), CompletedStatus::ok) << "it is bound in this session";
-        EXPECT_THAT(told.completions(), SizeIs(2)) << "what was told before is told first";
+        EXPECT_THAT(told.completions(), SizeIs(2)) << "earlier notifications are received first";
     }
     EXPECT_EQ(holder(detection.start()), CompletedStatus::ok) << "the session goes on";
     EXPECT_THAT(history.completions(), SizeIs(3));
     EXPECT_THAT(history.states(), ElementsAre("connecting", "open"));
 }
 
-TEST_P(TheSession, ClosesWhomItWasSharedWithWhenItEnds) {
+TEST_P(TheSession, ClosesTheConnectionsThatShareItWhenItEnds) {
     History told;
     std::optional<Blocking> holder{settings()};
     holder->open();
@@ -48,10 +48,10 @@ TEST_P(TheSession, ClosesWhomItWasSharedWithWhenItEnds) {
     guest.open();
     holder.reset();
     told.await_states({"connecting", "open", "lost", "closed"});
-    EXPECT_THAT(guest.call(Search{}).reason, HasSubstr("no such session"));
+    EXPECT_THAT(guest.call(Search{}).reason, HasSubstr("the session does not exist"));
 }
 
-TEST_P(TheSession, IsNotOpenedAnewForWhoeverJoins) {
+TEST_P(TheSession, IsNotOpenedForAProgramThatJoins) {
     auto joining = settings();
     joining.session = "nobody";
     History told;
@@ -60,12 +60,12 @@ TEST_P(TheSession, IsNotOpenedAnewForWhoeverJoins) {
         guest.open();
         ADD_FAILURE() << "it is open";
     } catch (Error const& refused) {
-        EXPECT_THAT(refused.what(), HasSubstr("no such session"));
+        EXPECT_THAT(refused.what(), HasSubstr("the session does not exist"));
     }
     EXPECT_THAT(told.states(), ElementsAre("connecting", "closed"));
 }
 
-TEST_P(TheSession, TellsTheEndOfItsCommandsBeforeItsOwn) {
+TEST_P(TheSession, ReportsTheEndOfItsCommandsBeforeItsOwnEnd) {
     for (auto const ends_it : {true, false}) {
         History history;
         std::string id;

@@ -17,7 +17,7 @@ SlowName::SlowName() : state_{std::make_shared<State>()} { latest = state_; }
 
 }  // namespace rois::test
 
-// Stands before that of the system.
+// Replaces the function of the system.
 extern "C" int getaddrinfo(char const* name, char const* service, addrinfo const* hints, addrinfo** found) {
     if (name != nullptr && std::string_view{name}.ends_with(".slow")) {
         auto const state = rois::test::latest;

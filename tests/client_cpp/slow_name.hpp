@@ -1,4 +1,4 @@
-// A name whose look-up takes as long as a test wants.
+// Host names with a slow lookup.
 #pragma once
 
 #include <latch>
@@ -6,7 +6,7 @@
 
 namespace rois::test {
 
-// All names that end with ".slow" are looked up until they are allowed to be unknown.
+// The lookup of a name that ends with ".slow" blocks until `end_lookup`; then the name is unknown.
 class SlowName {
 public:
     SlowName();

@@ -1,5 +1,4 @@
-// A hundred cuts at random during ten thousand events and five hundred commands: nothing is missed without a word, nothing comes
-// twice.
+// A hundred random cuts during 10,000 events and 500 commands: no notification is lost or repeated without a report.
 #include <map>
 #include <set>
 
@@ -15,8 +14,8 @@ constexpr std::size_t cuts = 100;
 class TheStorm : public BothWays {};
 ROIS_BOTH_WAYS(TheStorm);
 
-// What was heard: of each subscription the events, by their ids; and each command's ends.
-struct Heard {
+// Counts the received notifications: events by subscription and id, and the ends of each command.
+struct Received {
     std::map<std::string, int> events;  // "subscribe_id event_id"
     std::map<std::string, int> completions;
     std::uint64_t last = 0;
@@ -40,7 +39,7 @@ struct Heard {
     }
 };
 
-// One command after the other; each detection begins with an event, which every subscription hears.
+// Runs one command after the other. Each start sends one event to every subscription.
 Task<int> detect(Client& robot, std::vector<EventStream>& streams) {
     auto const detection = co_await robot.bind<PersonDetection>("person_detection");
     for (int i = 0; i < subscriptions; ++i) {
@@ -63,10 +62,10 @@ Task<int> detect(Client& robot, std::vector<EventStream>& streams) {
 TEST_P(TheStorm, MissesNothingAndRepeatsNothing) {
     GatewayProcess const gateway{{"--sim-speed", "20"}};
     Proxy proxy{gateway.port()};
-    Heard heard;
+    Received received;
     std::uint64_t gaps = 0;
     Observers observers;
-    observers.notification = [&](Notification const& told, std::uint64_t sequence) { heard.take(told, sequence); };
+    observers.notification = [&](Notification const& told, std::uint64_t sequence) { received.take(told, sequence); };
     observers.gap = [&](Gap const&) { ++gaps; };
     std::vector<EventStream> streams;
     {
@@ -81,13 +80,13 @@ TEST_P(TheStorm, MissesNothingAndRepeatsNothing) {
     }
     EXPECT_GE(proxy.cuts(), cuts);
     EXPECT_EQ(gaps, 0U);
-    EXPECT_EQ(heard.unreported, 0U);
-    EXPECT_EQ(heard.twice, 0U);
-    EXPECT_EQ(heard.lost, 0U);
-    EXPECT_EQ(heard.completions.size(), static_cast<std::size_t>(commands));
-    for (auto const& [id, count] : heard.completions) EXPECT_EQ(count, 1) << id;
-    EXPECT_GE(heard.events.size(), static_cast<std::size_t>(commands) * subscriptions);
-    for (auto const& [id, count] : heard.events) EXPECT_EQ(count, 1) << id;
+    EXPECT_EQ(received.unreported, 0U);
+    EXPECT_EQ(received.twice, 0U);
+    EXPECT_EQ(received.lost, 0U);
+    EXPECT_EQ(received.completions.size(), static_cast<std::size_t>(commands));
+    for (auto const& [id, count] : received.completions) EXPECT_EQ(count, 1) << id;
+    EXPECT_GE(received.events.size(), static_cast<std::size_t>(commands) * subscriptions);
+    for (auto const& [id, count] : received.events) EXPECT_EQ(count, 1) << id;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Ends TLS before a gateway, as a web server would.
+// A proxy that terminates TLS before a gateway.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,14 @@
 
 namespace rois::test {
 
-// A key of its own, and a certificate for "localhost" and 127.0.0.1 that it has signed itself.
+// Has its own key and a self-signed certificate for "localhost" and 127.0.0.1.
 class TlsProxy {
 public:
     explicit TlsProxy(std::uint16_t gateway);
     ~TlsProxy();
 
     std::uint16_t port() const;
-    std::string certificate() const;  // a PEM file, which lives as long as the proxy
+    std::string certificate() const;  // a PEM file, removed with the proxy
 
 private:
     class Inside;

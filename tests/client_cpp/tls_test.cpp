@@ -1,4 +1,4 @@
-// wss and https, before which a proxy ends TLS.
+// wss and https, with a TLS proxy before the gateway.
 #include "client_cpp/rig.hpp"
 #include "client_cpp/tls_proxy.hpp"
 
@@ -25,7 +25,7 @@ protected:
 };
 ROIS_BOTH_WAYS(Tls);
 
-TEST_P(Tls, SpeaksWithWhomItTrusts) {
+TEST_P(Tls, AcceptsATrustedCertificate) {
     TlsProxy const proxy{shared_gateway().port()};
     for (auto const* host : {"127.0.0.1", "localhost"}) {
         auto trusting = settings(url(proxy, host));
@@ -38,9 +38,10 @@ TEST_P(Tls, SpeaksWithWhomItTrusts) {
     }
 }
 
-TEST_P(Tls, SpeaksWithNobodyElse) {
+TEST_P(Tls, RejectsOtherCertificates) {
     TlsProxy const proxy{shared_gateway().port()};
-    EXPECT_THAT(why_not(settings(url(proxy, "127.0.0.1"))), HasSubstr("certificate verify failed")) << "signed by nobody known";
+    EXPECT_THAT(why_not(settings(url(proxy, "127.0.0.1"))), HasSubstr("certificate verify failed"))
+        << "signed by an unknown authority";
     auto other_name = settings(url(proxy, "127.0.0.2"));
     other_name.ca_file = proxy.certificate();
     auto const reason = why_not(other_name);
@@ -50,7 +51,7 @@ TEST_P(Tls, SpeaksWithNobodyElse) {
     EXPECT_THAT(why_not(no_file), HasSubstr("No such file"));
 }
 
-TEST_P(Tls, FindsThatNobodySpeaksTls) {
+TEST_P(Tls, ReportsAPortWithoutTls) {
     auto url = "https://127.0.0.1:" + std::to_string(shared_gateway().port());
     EXPECT_THAT(why_not(settings(url)), HasSubstr("no TLS"));
 }

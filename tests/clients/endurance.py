@@ -1,5 +1,5 @@
-"""500 commands, each with 20 events, through docs/examples/rois.py, while somebody else cuts the link to ROIS_URL. What came of it goes to
-standard output as JSON; web/client/tests/python.test.ts judges it."""
+"""Runs 500 commands, each with 20 events, through docs/examples/rois.py, while the caller cuts the link to ROIS_URL. Prints the outcome as
+JSON; web/client/tests/python.test.ts checks it."""
 import collections
 import json
 import os
@@ -37,10 +37,10 @@ statuses, events = collections.Counter(), []
 for sent in range(COMMANDS):
     places = [f"4000, 5000, {sent * EVENTS_EACH + i}e-9" for i in range(EVENTS_EACH)]
     statuses[engine.run("navigation", target_position=["string[]", *places])] += 1
-    while (results := engine.event("reached_target", 0)) is not None:  # they came before the command had completed
+    while (results := engine.event("reached_target", 0)) is not None:  # they arrived before `completed`
         events.append(number_of(results))
 engine.request("disconnect")
-engine.completed.update(one.findtext(M + "command_id") for one in engine.kept)  # nobody has waited for these
+engine.completed.update(one.findtext(M + "command_id") for one in engine.kept)  # those that `run` did not wait for
 json.dump({"statuses": statuses, "in_order": events == list(range(COMMANDS * EVENTS_EACH)), "events": len(events),
            "completed": len(engine.completed), "completed_twice": [name for name, times in engine.completed.items() if times > 1],
            "lost": engine.lost + engine.dropped}, sys.stdout)

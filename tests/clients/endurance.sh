@@ -1,15 +1,15 @@
 #!/bin/sh
-# Commands, 500 unless $1 says how many, each with 20 events, with the functions of docs/examples/reception.sh, while somebody else cuts
-# the link to ROIS_URL. What came of it goes to standard output as JSON; web/client/tests/shell.test.ts judges it.
+# Runs $1 commands (default: 500), each with 20 events, with the functions of docs/examples/reception.sh, while the caller cuts the link to
+# ROIS_URL. Prints the outcome as JSON; web/client/tests/shell.test.ts checks it.
 set -eu
 wanted=${1:-500}
 events_each=20
 program=$(dirname "$0")/../../docs/examples/reception.sh
-seen=$(mktemp)  # every notification that was looked at, one a line
+seen=$(mktemp)  # all notifications read, one a line
 news=
 trap 'rm -f "$seen" "$news" "$news.rest"' EXIT
 
-set --  # the program looks at what it was called with
+set --  # the program reads its arguments
 eval "$(sed '/^# --- The states of figure 1/,$d' "$program")"
 
 request connect
@@ -17,7 +17,7 @@ session=$(text_of session "$answer")
 request bind "$(ref navigation)"
 request subscribe '<event_type>reached_target</event_type>' 'inline_results="true"'
 
-# Where the robot is already, each written in another way.
+# Targets at the robot's own position, so that it need not move; each has another number.
 places() {
     place=$(($1 * events_each))
     last=$((place + events_each))

@@ -1,6 +1,6 @@
 #!/bin/bash
-# Runs the examples and the `rois` commands by the lines that the README shows, word for word, and compares what they print. Only
-# build/release is replaced by the folder of the build under test.
+# Runs the examples and the `rois` commands with the exact lines of the README, and compares their output. Replaces only build/release by
+# the folder of the build under test.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 data=$root/tests/server/data
@@ -43,7 +43,7 @@ for line in "${lines[@]}"; do
     wait "$gateway" || true
 done
 
-# The `rois` commands in a fresh shell, but for the one that does not end by itself.
+# Runs the `rois` commands in a fresh shell, except the one that does not end by itself.
 block=$(awk '/^## / { here = /`rois` command/ } here && /^```/ { inside = !inside; next } here && inside && !/^rois watch/' "$root/README.md")
 block=${block//\$PWD\/build\/release/$ROIS_BINARY_DIR}
 start

@@ -19,19 +19,19 @@ NO_NUMBERS = ("abc", "0", "-3", "2abc", "1.5", "1_0", "1000000", "")
 PLACES = ["string[]", "4000, 5000", "4100, 5000", "4200, 5000"]
 
 
-def nobody():
-    """The URL of a port where nobody listens."""
+def unused_url():
+    """Returns the URL of a port without a server."""
     with socket.create_server(("127.0.0.1", 0)) as taken:
         return f"http://127.0.0.1:{taken.getsockname()[1]}"
 
 
 def run(*program, url):
-    """How an example ends, and what it says on standard error."""
+    """Runs an example; returns its exit code and standard error."""
     return subprocess.run([*program], env=os.environ | {"ROIS_URL": url}, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
 
 def answer_once(server):
-    """Opens a session for whoever comes first."""
+    """Answers the first connection with the answer to `connect`."""
     body = b'<connect_response xmlns="urn:x-rois:psm:xml:message:1" return_code="OK"><session>s</session></connect_response>'
     came, _ = server.accept()
     with came:
@@ -62,51 +62,51 @@ class WithAGateway(GatewayTest):
         self.engine.subscribe("reached_target")
 
     def reached(self):
-        """Where the robot came, of what was heard already."""
+        """Returns the target of the next `reached_target` that has arrived."""
         return (self.engine.event("reached_target", 0) or {}).get("target", [None])[0]
 
-    def test_events_that_come_before_a_command_has_completed_are_kept(self):
+    def test_events_before_the_end_of_a_command_are_kept(self):
         self.assertEqual(self.engine.run("navigation", target_position=PLACES), "OK")
         self.assertEqual([self.reached() for _ in range(4)], PLACES[1:] + [None])
 
-    def test_what_an_event_was_not_wanted_for_is_kept(self):
+    def test_events_that_a_filter_rejects_are_kept(self):
         self.engine.run("navigation", target_position=PLACES)
         second = self.engine.event("reached_target", 0, lambda results: results["target"] == [PLACES[2]])
         self.assertEqual(second["target"], [PLACES[2]])
         self.assertEqual([self.reached() for _ in range(3)], [PLACES[1], PLACES[3], None])
 
-    def test_what_was_heard_can_be_skipped(self):
+    def test_kept_events_can_be_skipped(self):
         self.engine.run("navigation", target_position=PLACES)
         self.assertEqual(self.engine.skip().run("navigation", target_position=["string[]", "4300, 5000"]), "OK")
         self.assertEqual([self.reached() for _ in range(2)], ["4300, 5000", None])
-        self.assertEqual(self.engine.dropped, 0, "that was meant")
+        self.assertEqual(self.engine.dropped, 0, "skipped events do not count as dropped")
 
-    def test_the_oldest_make_room_and_are_counted(self):
+    def test_the_oldest_events_are_dropped_and_counted(self):
         self.engine.most_kept = 2
         self.engine.run("navigation", target_position=PLACES)
         self.assertEqual([self.reached() for _ in range(3)], [PLACES[2], PLACES[3], None])
         self.assertEqual(self.engine.dropped, 1)
 
-    def test_the_reception_says_in_a_line_what_was_refused_and_ends_its_session(self):
+    def test_the_reception_reports_a_refusal_in_one_line_and_ends_its_session(self):
         end = run("python3", "-B", EXAMPLES / "reception.py", url=self.url)  # navigation is bound here
         self.assertEqual(end.returncode, 1)
         self.assertRegex(end.stderr, r"\Areception\.py: bind: OUT_OF_RESOURCES: .*\n\Z")
-        self.engine.bind("person_detection")  # what it had bound
+        self.engine.bind("person_detection")  # the reception had bound it
 
-    def test_the_reception_says_in_a_line_that_no_gateway_is_there(self):
+    def test_the_reception_reports_a_missing_gateway_in_one_line(self):
         end = run("python3", "-B", EXAMPLES / "reception.py", url=f"{self.url}/nowhere")
         self.assertEqual(end.returncode, 1)
         self.assertRegex(end.stderr, r"\Areception\.py: not_found: .*\n\Z")
 
 
 class BehindAProxyThatCuts(GatewayTest):
-    """Notifications arrive although each connection breaks before the answer with all of them is complete."""
+    """All notifications arrive although each connection breaks before the answer with them is complete."""
 
     def setUp(self):
         self.proxy = CuttingProxy(int(self.url.rsplit(":", 1)[1]), 4_000)
         self.addCleanup(self.proxy.stop)
 
-    def test_the_shell_client_takes_those_that_are_complete(self):
+    def test_the_shell_client_reads_the_complete_notifications(self):
         end = subprocess.run(["sh", ROOT / "tests" / "clients" / "endurance.sh", "2"],  # 20 events of 800 bytes each a command
                              env=os.environ | {"ROIS_URL": self.proxy.url}, capture_output=True, text=True)
         self.assertEqual(end.returncode, 0, end.stderr)
@@ -114,7 +114,7 @@ class BehindAProxyThatCuts(GatewayTest):
                                                   "twice": 0, "missed": 0, "lost": 0})
         self.assertGreaterEqual(self.proxy.cuts, 4)
 
-    def test_the_python_client_takes_those_that_are_complete(self):
+    def test_the_python_client_reads_the_complete_notifications(self):
         places = [f"4000, 5000, {i}e-9" for i in range(20)]
         with rois.Engine(self.proxy.url) as engine:
             engine.bind("navigation")
@@ -125,14 +125,14 @@ class BehindAProxyThatCuts(GatewayTest):
 
 
 class WithoutAGateway(unittest.TestCase):
-    def test_the_receptions_say_what_is_no_number(self):
+    def test_the_receptions_reject_an_invalid_number(self):
         for *program, name, code in (("python3", "-B", "reception.py", 1), ("sh", "reception.sh", 2)):
             for visitors in NO_NUMBERS:
-                end = run(*program, EXAMPLES / name, visitors, url=nobody())
+                end = run(*program, EXAMPLES / name, visitors, url=unused_url())
                 self.assertEqual(end.stderr, f"{name}: VISITORS is a whole number, 1 to 999999, not '{visitors}'\n")
                 self.assertEqual(end.returncode, code)
 
-    def test_what_answers_and_is_no_gateway_is_named_by_its_status(self):
+    def test_another_server_is_reported_by_its_status(self):
         def answer(server):
             came, _ = server.accept()
             with came:
@@ -148,9 +148,9 @@ class WithoutAGateway(unittest.TestCase):
 
     def test_a_call_ends_at_its_deadline(self):
         with self.assertRaisesRegex(rois.NoAnswer, "refused"):
-            rois.Engine(nobody(), deadline=0)
+            rois.Engine(unused_url(), deadline=0)
 
-    def test_so_does_one_for_news(self):
+    def test_a_wait_for_notifications_ends_at_its_deadline(self):
         with socket.create_server(("127.0.0.1", 0)) as server:
             opening = threading.Thread(target=answer_once, args=(server,))
             opening.start()
@@ -159,8 +159,8 @@ class WithoutAGateway(unittest.TestCase):
         with self.assertRaises(rois.NoAnswer):
             engine.next(lambda one: True, 1_000_000)
 
-    def test_the_receptions_say_so(self):
-        environment = os.environ | {"ROIS_URL": nobody()}
+    def test_the_receptions_report_a_missing_gateway(self):
+        environment = os.environ | {"ROIS_URL": unused_url()}
         ends = [subprocess.Popen([*program, EXAMPLES / name], env=environment, stderr=subprocess.PIPE, text=True)
                 for *program, name in (("python3", "-B", "reception.py"), ("sh", "reception.sh"))]
         for end in ends:

@@ -1,4 +1,4 @@
-// Completion as a user meets it: bash on a terminal, keys that are typed.
+// Completion in an interactive bash on a terminal.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -19,7 +19,7 @@ namespace {
 class Shell {
 public:
     explicit Shell(std::string const& url) {
-        // A key of our own says what the line has become.
+        // Binds a key that prints the current line.
         auto const rc = file_with("bashrc", "source '" ROIS_SOURCE_DIR
                                             "/client-cpp/command/completion/rois'\n"
                                             R"(bind -x '"\C-xp": printf "[[%s]]" "$READLINE_LINE"')"
@@ -41,10 +41,10 @@ public:
     Shell(Shell const&) = delete;
     Shell& operator=(Shell const&) = delete;
 
-    // The line with all that could stand there; or what another key makes of it.
+    // Returns the line with all completions, or the line after another key.
     std::string completed(std::string const& typed, std::string const& key = "\x1b*") {
         auto const keys = "\x15" + typed + key + "\x18p";
-        if (write(terminal_, keys.data(), keys.size()) < 0) throw std::runtime_error{"nothing can be typed"};
+        if (write(terminal_, keys.data(), keys.size()) < 0) throw std::runtime_error{"cannot write to the terminal"};
         auto const end = said_until("]]");
         auto const begin = said_.rfind("[[", end) + 2;
         auto line = said_.substr(begin, end - begin);
@@ -59,7 +59,7 @@ private:
             pollfd ready{terminal_, POLLIN, 0};
             char bytes[4096];
             auto const size = poll(&ready, 1, 20'000) > 0 ? read(terminal_, bytes, sizeof bytes) : 0;
-            if (size <= 0) throw std::runtime_error{"bash says no more than: " + said_};
+            if (size <= 0) throw std::runtime_error{"no more output from bash after: " + said_};
             said_.append(bytes, static_cast<std::size_t>(size));
             at = said_.find(text);
         }
@@ -71,7 +71,7 @@ private:
     std::string said_;
 };
 
-TEST(TheCompletion, KnowsCommandsOptionsAndWhatTheEngineHas) {
+TEST(TheCompletion, CompletesCommandsOptionsAndNamesOfTheEngine) {
     Shell shell{shared_gateway().url()};
     struct Row {
         std::string typed;
@@ -101,11 +101,11 @@ TEST(TheCompletion, KnowsCommandsOptionsAndWhatTheEngineHas) {
              {"rois execute spee", "rois execute speech_recognition speech_synthesis "},
          })
         EXPECT_EQ(shell.completed(typed), completed);
-    EXPECT_EQ(shell.completed("rois set navigation time", "\t"), "rois set navigation time_limit=") << "no blank behind it";
+    EXPECT_EQ(shell.completed("rois set navigation time", "\t"), "rois set navigation time_limit=") << "no space at the end";
     EXPECT_EQ(shell.completed("rois watch person_d", "\t"), "rois watch person_detected ");
 }
 
-TEST(TheCompletion, AsksTheProgramAndTheEngineOfTheLine) {
+TEST(TheCompletion, UsesTheProgramAndTheEngineOfTheLine) {
     Shell shell{"http://127.0.0.1:1"};
     auto const url = shared_gateway().url();
     for (auto const& begin : {"rois --url " + url, "rois --url=" + url, "rois --http --url '" + url + "'",

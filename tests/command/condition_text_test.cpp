@@ -1,4 +1,4 @@
-// Conditions as people type them.
+// Conditions of the command line.
 #include "command/condition_text.hpp"
 
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ TEST(AConditionThatIsTyped, KnowsTypesByTheirNames) {
     EXPECT_NE(filter("type = Navigation"), Reference{"component_type"} == "Navigation") << "by its URN";
 }
 
-TEST(AConditionThatIsTyped, TakesQuotedValues) {
+TEST(AConditionThatIsTyped, AcceptsQuotedValues) {
     EXPECT_EQ(filter("text = \"Hello, (you)\""), Reference{"text"} == "Hello, (you)");
     EXPECT_EQ(filter("text='and'"), Reference{"text"} == "and");
 }
@@ -79,7 +79,7 @@ struct Wrong {
     std::string says;
 };
 
-TEST(AConditionThatIsTyped, SaysWhatIsWrongAndWhere) {
+TEST(AConditionThatIsTyped, ReportsTheErrorAndItsPlace) {
     for (auto const& [text, at, says] : std::vector<Wrong>{
              {"number", 6, "expected =, !=, <"},
              {"number >", 8, "expected a value, not the end"},
@@ -99,7 +99,7 @@ TEST(AConditionThatIsTyped, SaysWhatIsWrongAndWhere) {
          }) {
         try {
             read_condition(text);
-            ADD_FAILURE() << text << " was read";
+            ADD_FAILURE() << text << " was accepted";
         } catch (BadCondition const& bad) {
             EXPECT_EQ(bad.at(), at) << text;
             EXPECT_THAT(bad.what(), HasSubstr(says)) << text;

@@ -1,4 +1,4 @@
-// Whose life keeps a robot going that was set in motion by `rois`, and stop for everything.
+// Motion leases of robots that `rois` has set in motion, and stop for everything.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,10 +21,10 @@ using testing::IsEmpty;
 using testing::StartsWith;
 
 constexpr auto empty_hall = ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml";
-constexpr auto longer = 2500ms;  // than the lease of a second, and what a machine that is busy adds
+constexpr auto longer = 2500ms;  // than the lease of a second, with time for a busy machine
 constexpr auto way = "target_position=14000, 6000";
 
-// A shell that runs these lines, with `rois` among its commands, and then reads on from its standard input.
+// A shell with `rois` in its PATH that runs these lines, and then waits for its standard input.
 class Shell {
 public:
     Shell(std::string const& lines, std::string const& url) {
@@ -71,16 +71,16 @@ protected:
             is_open = event.has_value();
         }
     }
-    // Lines that bind navigation under this file, set out, and bind reaction then.
+    // Lines that bind navigation under this session file, start the robot, and then bind reaction.
     static std::string set_out(std::string const& file) {
         auto const here = " --session-file " + file;
         return "rois bind navigation" + here + " && rois start navigation '" + way + "' --no-wait" + here +
                " && rois bind reaction" + here;
     }
-    // Why the motion was held.
+    // Returns why the motion was held.
     std::string held() {
         history.await_notifications(1);
-        if (history.notifications().empty()) return "it was not";
+        if (history.notifications().empty()) return "it was not held";
         auto const error = std::get<ReceiveError>(history.notifications().front().second);
         return find(watcher(watcher.client().get_error_detail(error.error_id)).parameters, "text")->values.front();
     }
@@ -112,7 +112,7 @@ TEST_F(RoisAndMotion, ACommandThatIsStoppedLetsTheRobotBeHeldAndSaysSo) {
     EXPECT_THAT(held(), HasSubstr("its motion is held: nothing was heard from its application"));
     walk.signal(SIGCONT);
     EXPECT_THAT(walk.error_line(), testing::AllOf(StartsWith("rois: navigation: its motion is held: nothing was heard"),
-                                                  testing::EndsWith("; interrupt this command and give it anew")));
+                                                  testing::EndsWith("; interrupt this command and run it again")));
 }
 
 TEST_F(RoisAndMotion, AHeldSessionKeepsTheRobotGoingWhileTheShellLives) {
@@ -148,7 +148,7 @@ TEST_F(RoisAndMotion, AHeldSessionLetsTheRobotBeHeldWhenTheShellIsStopped) {
     run_rois({"release", "--session-file", file}, {}, at);
 }
 
-TEST_F(RoisAndMotion, SomebodyWhoOnlyWatchesDoesNotKeepTheRobotGoing) {
+TEST_F(RoisAndMotion, ACommandThatOnlyWatchesDoesNotKeepTheRobotGoing) {
     auto const file = file_named("watched");
     std::optional<Shell> shell{std::in_place, "rois bind navigation --session-file " + file, gateway.url()};
     await_busy("navigation");
@@ -185,14 +185,14 @@ TEST_F(RoisAndMotion, StopAllHaltsEverythingUntilClear) {
     EXPECT_EQ(run_rois({"health"}, {}, at).exit_code, 0);
 }
 
-TEST_F(RoisAndMotion, StopAllIsADocumentAsWell) {
+TEST_F(RoisAndMotion, StopAllWritesADocument) {
     auto const stopped = run_rois({"stop-all", "--json"}, {}, at);
     EXPECT_EQ(json::parse(stopped.out),
               (json{{"operation", "stop_all"}, {"url", gateway.url()}, {"stopped", true}, {"not_confirmed", json::array()}}));
     EXPECT_THAT(run_rois({"stop-all", "--xml"}, {}, at).out, StartsWith("<stop_all "));
 }
 
-TEST(RoisStopAll, NamesWhatHasNotConfirmed) {
+TEST(RoisStopAll, NamesComponentsThatHaveNotConfirmed) {
     GatewayProcess gateway{
         {"--scenario", ROIS_SOURCE_DIR "/tests/server/data/unstoppable.xml", "--sim-speed", "0", "--shutdown-timeout", "0.1"}};
     Variables const at{{"ROIS_URL", gateway.url()}};
@@ -219,7 +219,7 @@ TEST_F(RoisAndMotion, StopAllFindsTheGatewayOfASessionFileAndNeedsNoHolder) {
     EXPECT_EQ(run_rois({"clear"}, {}, {{"ROIS_URL", gateway.url()}, {"ROIS_SESSION_FILE", file}}).exit_code, 0);
 }
 
-TEST(RoisStopAll, SaysThatNobodyAnswers) {
+TEST(RoisStopAll, ReportsThatNoGatewayAnswers) {
     auto const ended = run_rois({"stop-all"}, {}, {{"ROIS_URL", "http://127.0.0.1:1"}});
     EXPECT_EQ(ended.exit_code, 8);
     EXPECT_THAT(ended.error, HasSubstr("Connection refused"));

@@ -11,7 +11,7 @@
 namespace rois::test {
 namespace {
 
-TEST_F(Rois, ReplaysWhatItRecorded) {
+TEST_F(Rois, ReplaysItsRecording) {
     auto const file = file_named("day.jsonl");
     std::vector<std::string> const watch{"watch", "person_detected", "--start", "person_detection", "--count", "1", "--json"};
     auto recorded = watch;
@@ -39,7 +39,7 @@ TEST_F(Rois, ReplaysWhatItRecorded) {
     EXPECT_EQ(engine.wait().exit_code, 0);
 }
 
-TEST_F(Rois, RefusesWhatIsNotServedThere) {
+TEST_F(Rois, RejectsUnknownPathsAndMethods) {
     RoisProcess between{{"record", file_named("refused.jsonl"), "--listen", "127.0.0.1:0", "--json"}, at()};
     auto const url = json::parse(between.line())["listening"].get<std::string>();
     auto const port = std::stoi(url.substr(url.rfind(':') + 1));
@@ -47,7 +47,7 @@ TEST_F(Rois, RefusesWhatIsNotServedThere) {
     EXPECT_EQ(http.get("/elsewhere").fault(), "not_found");
     EXPECT_EQ(http.get("/elsewhere").reason(), "only sessions are served here: /rois, /rois/notifications");
     EXPECT_EQ(http.get("/rois").fault(), "upgrade_required");
-    EXPECT_EQ(http.get("/readyz", {}, "PUT").reason(), "this method is not for /readyz");
+    EXPECT_EQ(http.get("/readyz", {}, "PUT").reason(), "/readyz does not allow this method");
     EXPECT_EQ(http.get("/rois/notifications?after=0&wait=0").fault(), "no_session");
     EXPECT_EQ(http.call("connect").return_code(), "OK");
     EXPECT_EQ(http.get("/rois/notifications?after=x&wait=0", {{"RoIS-Session", http.session}}).fault(), "not_well_formed");
@@ -57,7 +57,7 @@ TEST_F(Rois, RefusesWhatIsNotServedThere) {
         "Last-Event-ID must be a whole number");
 }
 
-TEST_F(Rois, RecordsWhatOthersSay) {
+TEST_F(Rois, RecordsOtherApplications) {
     auto const file = file_named("others.jsonl");
     RoisProcess between{{"record", file, "--listen", "127.0.0.1:0", "--json"}, at()};
     Variables const there{{"ROIS_URL", json::parse(between.line())["listening"]}};
@@ -70,11 +70,11 @@ TEST_F(Rois, RecordsWhatOthersSay) {
         << "roughly the same";
 }
 
-TEST_F(Rois, LeavesARecordingAloneUntilItHasAnother) {
+TEST_F(Rois, KeepsAnOldRecordingUntilThereIsANewOne) {
     std::string const before = "a recording\n";
     auto const file = file_with("kept.jsonl", before);
-    auto const nobody = run_rois({"record", file, "--timeout", "1"});
-    EXPECT_EQ(nobody.exit_code, 8) << "no engine";
+    auto const unanswered = run_rois({"record", file, "--timeout", "1"});
+    EXPECT_EQ(unanswered.exit_code, 8) << "no engine";
     expect(4, "no component has an event 'rain'", {"record", file, "rain"});
     expect(3, "unknown component 'elevator'", {"record", file, "--start", "elevator"});
     expect(3, "unknown component 'elevator'", {"watch", "person_detected", "--start", "elevator", "--record", file});
@@ -104,16 +104,17 @@ TEST_F(Rois, ReplaysARecordingWhoseLastLineIsCutOff) {
     EXPECT_EQ(run_rois({"search"}, {}, there).exit_code, 0);
 }
 
-TEST_F(Rois, RefusesWhatIsNoRecording) {
-    expect(2, ":1: this is no recording", {"replay", file_with("none.jsonl", "<xml/>\n")});
+TEST_F(Rois, RejectsInvalidRecordings) {
+    expect(2, ":1: this is not a recording", {"replay", file_with("none.jsonl", "<xml/>\n")});
     expect(2,
            ":2: ", {"replay", file_with("bad.jsonl", "{\"recording\":\"rois-recording-1\"}\n{\"at\":1,\"direction\":\"up\"}\n")});
-    expect(2, ":2: this is no JSON", {"replay", file_with("torn.jsonl", "{\"recording\":\"rois-recording-1\"}\n{\"at\"\n")});
+    expect(2, ":2: this line is not JSON",
+           {"replay", file_with("torn.jsonl", "{\"recording\":\"rois-recording-1\"}\n{\"at\"\n")});
     expect(2, "cannot be read", {"replay", "/no/such/file"});
     expect(2, "cannot be written", {"search", "--record", "/no/such/folder/file"});
 }
 
-TEST_F(Rois, ChecksWhereItListensAndWhomItAsksBeforeItServes) {
+TEST_F(Rois, ChecksItsAddressesBeforeItServes) {
     auto const file = file_named("listening.jsonl");
     ASSERT_EQ(run({"search", "--record", file}).exit_code, 0);
     for (std::string const address : {"*:0", ":0", "::1:0", "127.0.0.1"}) {

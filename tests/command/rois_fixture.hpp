@@ -1,4 +1,4 @@
-// What most tests of the `rois` program share.
+// The fixture of most tests of the `rois` program.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -14,14 +14,14 @@ namespace rois::test {
 
 using nlohmann::json;
 
-// Against the gateway that all tests of the program share.
+// Runs `rois` against the gateway that all tests share.
 struct Rois : testing::Test {
     Ended run(std::vector<std::string> const& arguments, std::string const& input = {}) {
         return run_rois(arguments, input, at());
     }
     Variables at() const { return {{"ROIS_URL", shared_gateway().url()}}; }
 
-    // Its objects, one a line.
+    // Returns the JSON objects that the command prints.
     std::vector<json> objects(std::vector<std::string> arguments) {
         arguments.push_back("--json");
         auto const ended = run(arguments);

@@ -57,7 +57,7 @@ bool read_some(int from, std::string& text) {
     return true;
 }
 
-// Until both have ended. Far longer than any call takes: then it is killed, and what it said until then tells why.
+// Reads until both have ended. Kills the process after a time that no test needs; the output so far helps to find the reason.
 void read_both(pid_t process, int out, std::string& out_text, int error, std::string& error_text) {
     constexpr auto patience = std::chrono::seconds{100};
     auto const end = std::chrono::steady_clock::now() + patience;
@@ -104,7 +104,7 @@ Ended run_rois(std::vector<std::string> const& arguments, std::string const& inp
     Pipe in, out, error;
     auto const process = start(arguments, variables, in.ends[0], out.ends[1], error.ends[1]);
     for (auto const end : {in.ends[0], out.ends[1], error.ends[1]}) close(end);
-    if (write(in.ends[1], input.data(), input.size()) < 0) ADD_FAILURE() << "nothing was read of the input";
+    if (write(in.ends[1], input.data(), input.size()) < 0) ADD_FAILURE() << "the input was not read";
     close(in.ends[1]);
     Ended ended;
     read_both(process, out.ends[0], ended.out, error.ends[0], ended.error);

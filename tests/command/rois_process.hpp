@@ -1,4 +1,4 @@
-// The `rois` program, run by a test.
+// Runs the `rois` program.
 #pragma once
 
 #include <sys/types.h>
@@ -10,30 +10,31 @@
 
 namespace rois::test {
 
-// Runs rois with these arguments and this standard input until it ends. Without other variables, ROIS_URL leads nowhere.
+// Runs rois with these arguments and this standard input until it ends. Unless `variables` sets ROIS_URL, no gateway answers
+// there.
 Ended run_rois(std::vector<std::string> const& arguments, std::string const& input = {}, Variables const& variables = {});
 
-// One that goes on until it is told to end.
+// A running `rois` process.
 class RoisProcess {
 public:
     explicit RoisProcess(std::vector<std::string> const& arguments, Variables const& variables = {});
-    ~RoisProcess();  // ends it when it still runs
+    ~RoisProcess();  // kills it if it still runs
     RoisProcess(RoisProcess const&) = delete;
     RoisProcess& operator=(RoisProcess const&) = delete;
 
-    // The next line of its standard output, without its line end. A failure when there is none.
+    // Returns the next line of its standard output, without its line end. Throws std::runtime_error if it has ended.
     std::string line();
-    // The next line that has this in it.
+    // Returns the next line with this text.
     std::string line_with(std::string const& text);
 
-    // The next line of its standard error, which `wait` leaves out then. Throws std::runtime_error when it has ended.
+    // Returns the next line of its standard error, which `wait` then leaves out. Throws std::runtime_error if it has ended.
     std::string error_line();
 
-    // As `| head` does: what it writes from now on cannot be written.
+    // Closes its standard output, as `| head` does.
     void stop_reading();
 
     void signal(int number);
-    // Waits for its end; `out` is what was not read as lines.
+    // Waits for its end; `out` is the output that was not read as lines.
     Ended wait();
 
 private:
@@ -44,7 +45,7 @@ private:
     std::string error_read_;
 };
 
-// A file in a folder of this test program that is removed at the end.
+// Files in a folder of this test program, which is removed at the end.
 std::string file_with(std::string const& name, std::string const& text);
 std::string file_named(std::string const& name);
 std::string text_of(std::string const& file);

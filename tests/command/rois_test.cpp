@@ -21,7 +21,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-TEST_F(Rois, SearchesWithAConditionThatIsTypedOrInAFile) {
+TEST_F(Rois, SearchesByConditionTextOrFile) {
     EXPECT_EQ(run({"search", "type", "=", "Navigation"}).out, "navigation  Navigation\n");
     EXPECT_EQ(objects({"search", "--where", "type = Navigation or type = Move"})[0]["component_ref_list"],
               (json{"move", "navigation"}));
@@ -47,7 +47,7 @@ TEST_F(Rois, ShowsProfiles) {
     expect(3, "unknown component 'elevator'; there are ", {"profile", "elevator"});
 }
 
-TEST_F(Rois, AsksInThreeForms) {
+TEST_F(Rois, QueriesInThreeForms) {
     EXPECT_THAT(run({"query", "robot_position"}).out, StartsWith("system_information\ntimestamp"));
     EXPECT_EQ(objects({"query", "component_status", "--of", "move"})[0]["results"], (json{{"status", "READY"}}));
     EXPECT_THAT(run({"query", "robot_position", "--xml"}).out, StartsWith("<query_response"));
@@ -62,7 +62,7 @@ TEST_F(Rois, SetsAndGetsParametersByTheirTypes) {
     EXPECT_EQ(run({"set", "navigation", "time_limit=7000", "target_position=desk", "target_position=start"}).out,
               "set_parameter navigation  OK\n");
     EXPECT_EQ(objects({"get", "navigation"})[0]["parameters"], (json{{"routing_policy", "time"}, {"time_limit", 0}}))
-        << "the defaults again: what is set lasts as long as its binding";
+        << "the defaults again: a parameter keeps its value only as long as the binding";
     expect(2, "time_limit: 'soon' is not of the type int", {"set", "navigation", "time_limit=soon"});
     expect(2, "has no argument 'speed'; it has target_position", {"set", "navigation", "speed=1"});
     expect(3, "no parameter 'speed'", {"get", "navigation", "speed"});
@@ -95,7 +95,7 @@ TEST_F(Rois, StartsStopsAndExecutes) {
     expect(2, "cannot be read", {"execute", "/no/such/file.xml"});
 }
 
-TEST_F(Rois, SaysThatAFolderIsNoFile) {
+TEST_F(Rois, RejectsAFolderInPlaceOfAFile) {
     auto const folder = std::filesystem::path{file_named("")}.parent_path().string();
     for (auto const& arguments : std::vector<std::vector<std::string>>{{"send", folder},
                                                                        {"execute", folder},
@@ -109,7 +109,7 @@ TEST_F(Rois, SaysThatAFolderIsNoFile) {
     }
 }
 
-TEST_F(Rois, WritesADocumentOfWhatItRefusesItself) {
+TEST_F(Rois, WritesADocumentForItsOwnErrors) {
     struct Refused {
         std::vector<std::string> arguments;
         int code;
@@ -130,7 +130,7 @@ TEST_F(Rois, WritesADocumentOfWhatItRefusesItself) {
             all.push_back(form);
             auto ended = run(all);
             EXPECT_EQ(ended.exit_code, code) << ended.out << ended.error;
-            EXPECT_EQ(ended.error, "") << "as with the engine's own refusals";
+            EXPECT_EQ(ended.error, "") << "as for errors of the engine";
             return ended.out;
         };
         auto const lines = lines_of(with("--json"));
@@ -148,7 +148,7 @@ TEST_F(Rois, WritesADocumentOfWhatItRefusesItself) {
     EXPECT_THAT(run({"--session", "nobody", "release", "reaction", "--xml"}).out, HasSubstr("code=\"no_session\""));
 }
 
-TEST_F(Rois, WritesNoDocumentWhereNothingWasAsked) {
+TEST_F(Rois, WritesNoDocumentWithoutARequest) {
     for (auto const& [arguments, code] : std::vector<std::pair<std::vector<std::string>, int>>{
              {{"search", "type", "=", "--json"}, 2},
              {{"send", "/no/such/file.xml", "--xml"}, 2},
@@ -165,7 +165,7 @@ TEST_F(Rois, StopsTheRobotWhenItIsInterrupted) {
     RoisProcess driving{{"start", "navigation", "target_position=exit", "time_limit=0"}, at()};
     RoisProcess watching{{"watch", "reached_target", "--where", "component_ref = navigation"}, at()};
     watching.line_with("open");
-    // It is bound as soon as the command runs.
+    // The component is bound as soon as the command runs.
     std::string bound;
     for (int i = 0; i < 500 && bound.empty(); ++i) bound = run({"search", "name = navigation and bound = true"}).out;
     ASSERT_THAT(bound, StartsWith("navigation"));
@@ -176,7 +176,7 @@ TEST_F(Rois, StopsTheRobotWhenItIsInterrupted) {
     EXPECT_EQ(watching.wait().exit_code, 0);
 }
 
-TEST_F(Rois, HoldsASessionThatOthersActIn) {
+TEST_F(Rois, HoldsASessionForOtherCommands) {
     RoisProcess holding{{"bind", "reaction", "speech_synthesis"}, at()};
     auto const id = holding.line_with("session ").substr(8);
     expect(5, "OUT_OF_RESOURCES", {"start", "reaction", "reaction_ref=9"});
@@ -190,7 +190,7 @@ TEST_F(Rois, HoldsASessionThatOthersActIn) {
     EXPECT_THAT(run({"--session", id, "watch", "--for", "1"}).out, HasSubstr("completed"));
     EXPECT_EQ(run({"--session", id, "release", "reaction"}).exit_code, 0);
     EXPECT_EQ(run({"start", "reaction", "reaction_ref=9"}).exit_code, 0);
-    expect(2, "which session?", {"release", "reaction"});
+    expect(2, "release needs a session", {"release", "reaction"});
     expect(2, "without --session", {"start", "reaction", "--no-wait"});
     expect(9, "no_session", {"--session", "nobody", "release", "reaction"});
     holding.signal(SIGINT);
@@ -211,7 +211,7 @@ TEST_F(Rois, ListsTheAlternativesToAnUnknownName) {
            {"query", "robot_position", "--where", "engine = robot7"});
 }
 
-TEST_F(Rois, SaysThatAResultIsEmpty) {
+TEST_F(Rois, RemarksOnAnEmptyResult) {
     for (std::string const form : {"--json", "--xml"}) {
         expect(0, "no component meets the condition; the engine has ", {"search", form, "name = elevator"});
         expect(0, "no event came in the time of --for", {"watch", form, "gesture_recognized", "--for", "0"});
@@ -221,7 +221,7 @@ TEST_F(Rois, SaysThatAResultIsEmpty) {
     expect(6, "only 0 of 3 events came in the time of --for", {"watch", "gesture_recognized", "--count", "3", "--for", "0"});
 }
 
-TEST_F(Rois, EndsItsSessionWhenTwoSignalsComeAtOnce) {
+TEST_F(Rois, EndsItsSessionWhenTwoSignalsArriveAtOnce) {
     RoisProcess holding{{"bind", "reaction"}, at()};
     holding.line_with("session ");
     holding.signal(SIGINT);
@@ -230,16 +230,16 @@ TEST_F(Rois, EndsItsSessionWhenTwoSignalsComeAtOnce) {
     EXPECT_EQ(objects({"search", "name = reaction and bound = false"})[0]["component_ref_list"], json{"reaction"});
 }
 
-TEST_F(Rois, BindsAnyThatIsMeantForSomeTime) {
+TEST_F(Rois, BindsAComponentByConditionForAGivenTime) {
     auto const ended = run({"bind", "--where", "type = Move", "--for", "0"});
     EXPECT_EQ(ended.exit_code, 0) << ended.error;
     EXPECT_THAT(ended.out, StartsWith("bound move\nsession "));
-    EXPECT_EQ(lines_of(ended.out).size(), 2u) << "that it connected is no news: " << ended.out;
-    expect(2, "which components?", {"bind"});
+    EXPECT_EQ(lines_of(ended.out).size(), 2u) << "no line for the connection: " << ended.out;
+    expect(2, "bind needs components", {"bind"});
     expect(3, "unknown component 'elevator'", {"bind", "elevator"});
 }
 
-TEST_F(Rois, ShowsEventsAsTheyCome) {
+TEST_F(Rois, ShowsEventsAtOnce) {
     auto const said = objects({"watch", "person_detected", "--start", "person_detection", "--count", "1"});
     EXPECT_EQ(said.back()["notification"], "receive_event");
     EXPECT_TRUE(said.back()["results"]["number"].is_number());
@@ -250,7 +250,7 @@ TEST_F(Rois, ShowsEventsAsTheyCome) {
     expect(4, "no component has an event 'rain'; there are ", {"watch", "rain"});
 }
 
-TEST_F(Rois, EndsQuietlyWhenNobodyReadsOn) {
+TEST_F(Rois, EndsQuietlyWhenItsReaderEnds) {
     RoisProcess watching{{"watch", "person_detected", "--start", "person_detection", "--for", "60"}, at()};
     watching.line_with("open");
     watching.stop_reading();
@@ -259,7 +259,7 @@ TEST_F(Rois, EndsQuietlyWhenNobodyReadsOn) {
     EXPECT_EQ(ended.error, "");
 }
 
-TEST(AGatewayThatComesAgain, IsWatchedAgain) {
+TEST(AGatewayThatRestarts, IsWatchedAgain) {
     auto gateway = std::make_unique<GatewayProcess>();
     Variables const there{{"ROIS_URL", gateway->url()}};
     RoisProcess watching{{"watch", "person_detected", "--start", "person_detection", "--for", "90", "--json"}, there};
@@ -291,7 +291,7 @@ TEST(AGatewayThatIsNotThereYet, IsWaitedForAndReported) {
     EXPECT_EQ(watching.wait().error, "") << "the reason is reported once";
 }
 
-TEST(AGatewayThatIsNotThere, IsWaitedForAsLongAsForSays) {
+TEST(AMissingGateway, IsWaitedForUntilTheEndOfFor) {
     auto const seconds_of = [](std::vector<std::string> const& arguments, int exit_code) {
         auto const begun = std::chrono::steady_clock::now();
         auto const ended = run_rois(arguments);
@@ -306,7 +306,7 @@ TEST(AGatewayThatIsNotThere, IsWaitedForAsLongAsForSays) {
     EXPECT_LT(seconds_of({"bind", "navigation", "--session-file", file_named("absent"), "--timeout", "0.5"}, 8), 8);
 }
 
-TEST_F(Rois, RefusesEmptyValues) {
+TEST_F(Rois, RejectsEmptyValues) {
     for (std::string const option : {"--url", "--ca-file", "--session", "--session-file", "--record", "--where"})
         expect(2, option + ": the value is empty", {"search", option, ""});
     expect(2, "--url: ", {"search", "--url="});
@@ -315,7 +315,7 @@ TEST_F(Rois, RefusesEmptyValues) {
     EXPECT_EQ(run_rois({"search", "--token", ""}, {}, {{"ROIS_URL", shared_gateway().url()}, {"ROIS_TOKEN", "t"}}).exit_code, 0);
 }
 
-TEST_F(Rois, SendsAnyDocumentAndUnderlinesItsMistake) {
+TEST_F(Rois, SendsAnyDocumentAndUnderlinesItsError) {
     auto const good = file_with("good.xml", "<search " + std::string{messages} + "/>");
     EXPECT_THAT(run({"send", good}).out, AllOf(StartsWith("<search_response"), HasSubstr("\n    <component_ref ")));
     EXPECT_THAT(run({"send", "-"}, "<search " + std::string{messages} + "/>").out, StartsWith("<search_response"));
@@ -332,7 +332,7 @@ TEST_F(Rois, SendsAnyDocumentAndUnderlinesItsMistake) {
     EXPECT_EQ(json::parse(unknown.out)["operation"], "bind");
 }
 
-TEST_F(Rois, SendsWhatNoWebSocketTakes) {
+TEST_F(Rois, SendsDocumentsThatAWebSocketCannotCarry) {
     auto const bind = "<bind " + std::string{messages} + ">\n";
     auto const latin = file_with("latin.xml", bind + "  <!-- gr\xf6\xdf --></bind>");
     expect(9, latin + ":2:10: not_well_formed: the document is not UTF-8\n2 |   <!-- gr", {"send", latin});
@@ -342,12 +342,12 @@ TEST_F(Rois, SendsWhatNoWebSocketTakes) {
     expect(9, long_one + ": too_large: the body may have 1048576 bytes", {"send", long_one});
 }
 
-TEST_F(Rois, KnowsWhetherTheEngineIsReady) {
+TEST_F(Rois, ReportsWhetherTheEngineIsReady) {
     EXPECT_EQ(run({"health"}).out, "healthy\n");
     EXPECT_EQ(objects({"health"})[0]["ready"], true);
-    auto const nobody = run_rois({"health"});
-    EXPECT_EQ(nobody.exit_code, 1);
-    EXPECT_THAT(nobody.error, HasSubstr("not healthy"));
+    auto const unanswered = run_rois({"health"});
+    EXPECT_EQ(unanswered.exit_code, 1);
+    EXPECT_THAT(unanswered.error, HasSubstr("not healthy"));
     auto const port = std::to_string(shared_gateway().port());
     EXPECT_EQ(run_rois({"health"}, {}, {{"ROIS_URL", ""}, {"ROIS_LISTEN", "0.0.0.0:" + port}}).exit_code, 0)
         << "beside a gateway";
@@ -367,15 +367,15 @@ TEST_F(Rois, RefusesOptionsOfSessionsWhereItNeedsNone) {
     EXPECT_EQ(run_rois({"clear"}, {}, of_others).exit_code, 0);
 }
 
-TEST_F(Rois, SaysWhatIsWrongWithItsCommandLine) {
-    expect(2, "which command?", {});
+TEST_F(Rois, ExplainsAWrongCommandLine) {
+    expect(2, "a command is missing", {});
     expect(2, "--colour", {"search", "--colour", "blue"});
-    expect(2, "REF is required; rois start --help tells more", {"start"});
-    expect(2, "no such command: bogus; rois --help tells more", {"bogus"});
-    expect(2, "no such command: serch; perhaps search; ", {"serch", "type", "=", "Move"});
-    expect(2, "no such command: subs; perhaps subscribe; ", {"--json", "subs"});
+    expect(2, "REF is required; see rois start --help", {"start"});
+    expect(2, "unknown command 'bogus'; see rois --help", {"bogus"});
+    expect(2, "unknown command 'serch' (did you mean 'search'?); see ", {"serch", "type", "=", "Move"});
+    expect(2, "unknown command 'subs' (did you mean 'subscribe'?); see ", {"--json", "subs"});
     expect(2, "--nothing", {"--nothing"});
-    expect(2, "there is no file 'navigation'; of a component, say which command", {"execute", "navigation"});
+    expect(2, "there is no file 'navigation'; if it is a component, add a command", {"execute", "navigation"});
     for (std::string const url : {"ftp://there", "http://127.0.0.1:99999", "http://127.0.0.1:0"})
         for (std::string const command : {"search", "health"})
             expect(2, "'" + url + "' is not a URL of a gateway", {command, "--url", url});
@@ -389,8 +389,7 @@ TEST_F(Rois, SaysWhatIsWrongWithItsCommandLine) {
         expect(2, "the file of trusted certificates '/none' cannot be read",
                {"search", "--url", url + "//a", "--ca-file", "/none"});
     for (std::string const command : {"search", "health"})
-        EXPECT_THAT(run({command, "--url", shared_gateway().url() + "/rois/"}).error,
-                    HasSubstr("; the URL ends where /rois begins: leave it out"));
+        EXPECT_THAT(run({command, "--url", shared_gateway().url() + "/rois/"}).error, HasSubstr("; leave /rois out of the URL"));
     EXPECT_EQ(run_rois({"search", "--timeout", "2"}).exit_code, 8);
     EXPECT_THAT(run({"--version"}).out, StartsWith("rois "));
     EXPECT_THAT(run({"search", "--colour", "always", "type = Move"}).out, HasSubstr("\x1b["));
@@ -414,11 +413,11 @@ TEST_F(Rois, KnowsTheVariablesOfTheGateway) {
     EXPECT_EQ(run_rois({"health"}, {}, variables).error, "");
 }
 
-TEST_F(Rois, SpeaksHttpToo) {
+TEST_F(Rois, WorksOverHttp) {
     EXPECT_EQ(run({"--http", "start", "speech_synthesis", "speech_text=Hi."}).out, "start speech_synthesis  OK\n");
 }
 
-// --- What is installed beside the program ---
+// --- Manual and completion ---
 
 TEST_F(Rois, HasItsCommandsAndOptionsInTheManualAndTheCompletion) {
     auto const help = run({"--help-all"}).out;

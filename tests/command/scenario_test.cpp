@@ -6,14 +6,14 @@ namespace {
 
 constexpr auto reception = ROIS_SOURCE_DIR "/client-cpp/scenarios/reception.xml";
 
-// What a scenario printed, without its transitions.
+// Returns the printed texts of a scenario, without its transitions.
 std::vector<std::string> said_in(std::string const& out) {
     auto lines = lines_of(out);
     std::erase_if(lines, [](std::string const& line) { return line.find(" -> ") != std::string::npos; });
     return lines;
 }
 
-// Its times are long against what a busy machine may take, so that they only pass for the visitor who is not known.
+// The times are long enough for a busy machine, so that they end only for the unknown visitor.
 TEST(TheReceptionAsAScenario, ReceivesThreeVisitorsAndIsReplayed) {
     std::string const data = ROIS_SOURCE_DIR "/tests/server/data/";
     GatewayProcess const gateway{{"--floor-plan", data + "watchful_hall.xml", "--scenario", data + "three_visitors.xml",
@@ -57,7 +57,7 @@ TEST_F(Rois, ReportsEachTransitionOfAScenario) {
     EXPECT_EQ(lines[1], "{\"print\":\"x is 1\"}");
 }
 
-TEST_F(Rois, SaysWhatIsWrongWithAScenario) {
+TEST_F(Rois, ExplainsAnInvalidScenario) {
     auto const end = std::string{"<end name='b'/>"};
     struct Wrong {
         std::string states;

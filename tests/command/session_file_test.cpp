@@ -48,7 +48,7 @@ TEST_F(RoisWithASessionFile, HoldsASessionInTheBackgroundUnderAFile) {
     expect(5, "OUT_OF_RESOURCES", {"start", "reaction", "reaction_ref=9"});
     EXPECT_EQ(run_rois({"start", "reaction", "reaction_ref=9", "--session-file", file}, {}, {{"ROIS_URL", ""}}).out,
               "start reaction  OK\n")
-        << "the file also says where the engine is";
+        << "the file names the gateway, too";
     EXPECT_EQ(run({"bind", "speech_synthesis", "--session-file", file}).out, "bound speech_synthesis\n") << "the same session";
     EXPECT_EQ(run({"release", "reaction", "--session-file", file}).exit_code, 0);
     EXPECT_EQ(run({"start", "reaction", "reaction_ref=9"}).exit_code, 0);
@@ -57,7 +57,7 @@ TEST_F(RoisWithASessionFile, HoldsASessionInTheBackgroundUnderAFile) {
     EXPECT_EQ(run({"start", "speech_synthesis", "speech_text=Hi."}).exit_code, 0) << "released when its holder has ended";
 }
 
-TEST_F(RoisWithASessionFile, SaysWhatIsWrongWithASessionFile) {
+TEST_F(RoisWithASessionFile, ExplainsAnInvalidSessionFile) {
     auto const none = file_named("none");
     expect(2, "no process holds a session under this file", {"start", "reaction", "--session-file", none});
     expect(2, "no process holds a session under this file", {"release", "--session-file", none});
@@ -141,7 +141,7 @@ TEST_F(RoisWithASessionFile, KeepsTheFileOfTheNextHolderAndEndsTheFirst) {
     ASSERT_EQ(run({"bind", "move", "--session-file", file}).exit_code, 0);
     bool ended = false;  // it looks once a second
     for (int i = 0; i < 500 && !ended; ++i) ended = is_free("reaction", shared_gateway().url());
-    EXPECT_TRUE(ended) << "nobody could find the first holder any more";
+    EXPECT_TRUE(ended) << "no command could find the first holder any more";
     EXPECT_EQ(run({"stop", "move", "--session-file", file}).exit_code, 0);
     EXPECT_EQ(run({"release", "--session-file", file}).exit_code, 0);
 }
@@ -156,7 +156,7 @@ TEST_F(RoisWithASessionFile, TrustsNoFileThatOthersCouldReadOrWrite) {
     };
     refused_with("this is a symbolic link; name the file itself", link);
     chmod(file.c_str(), 0640);
-    refused_with("others can read it", file);
+    refused_with("other users can read it", file);
     chmod(file.c_str(), 0600);
     if (geteuid() == 0) {
         EXPECT_EQ(chown(file.c_str(), 65'534, static_cast<gid_t>(-1)), 0);
@@ -165,7 +165,7 @@ TEST_F(RoisWithASessionFile, TrustsNoFileThatOthersCouldReadOrWrite) {
     }
     EXPECT_EQ(run({"release", "--session-file", file}).exit_code, 0);
     auto const empty = file_with("empty", "");
-    EXPECT_EQ(run({"bind", "reaction", "--session-file", empty}).exit_code, 0) << "it becomes readable to its owner alone";
+    EXPECT_EQ(run({"bind", "reaction", "--session-file", empty}).exit_code, 0) << "it becomes readable only to its owner";
     EXPECT_EQ(run({"release", "--session-file", empty}).exit_code, 0);
 }
 
@@ -194,7 +194,7 @@ TEST_F(RoisWithASessionFile, CountsTheEventsOfItsOwnSubscriptionFromNowOn) {
         return events.at(0)["event_id"];
     };
     auto const first = watched("person");
-    EXPECT_NE(watched("person"), first) << "what has come before does not count";
+    EXPECT_NE(watched("person"), first) << "earlier events do not count";
     watched("sound");
     RoisProcess subscribed{{"subscribe", "person_detected", "--count", "1", "--session-file", file}, at()};
     EXPECT_THAT(subscribed.line(), StartsWith("s-"));
@@ -236,7 +236,7 @@ TEST(ASessionFileWhoseGatewayHasRestarted, IsWithoutAHolder) {
     Variables const there{{"ROIS_URL", gateway->url()}, {"ROIS_SESSION_FILE", file}};
     ASSERT_EQ(run_rois({"bind", "navigation"}, {}, there).exit_code, 0);
     auto const holder = holder_of(file);
-    kill(holder, SIGSTOP);  // it notices nothing
+    kill(holder, SIGSTOP);  // it does not notice the end of its session
     gateway.reset();
     GatewayProcess const again{{"--listen", "127.0.0.1:" + port}};
     auto const refused = run_rois({"stop", "navigation"}, {}, there);

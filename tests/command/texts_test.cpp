@@ -1,4 +1,4 @@
-// What is shown, and how arguments are read.
+// The output of `rois`, and its arguments.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(ATable, AlignsWhatIsReadAndEndsWithNoBlanks) {
+TEST(ATable, AlignsColumnsWithoutTrailingSpaces) {
     Table table;
     table.add({{"a"}, {"x"}, {}});
     table.add({{"größer"}, {""}, {"z"}});
@@ -29,13 +29,13 @@ TEST(ATable, KnowsThatSomeCharactersTakeTwoColumnsOrNone) {
     EXPECT_EQ(table.text(false), "日本   x\ne\u0301      y\nlarge  z\n");
 }
 
-TEST(ATable, PaintsNothingButTexts) {
+TEST(ATable, PaintsOnlyTexts) {
     Table table;
     table.add({{"a", Colour::good}, {"b"}});
     EXPECT_EQ(table.text(true), "\x1b[32ma\x1b[0m  b\n");
 }
 
-TEST(WhatComesFromOutside, DoesNotSteerTheTerminal) {
+TEST(TextFromOutside, DoesNotSteerTheTerminal) {
     EXPECT_EQ(harmless("a\x1b[31m\x07\nb\x7f\xc2\x9b"), "a?[31m? b??");
     EXPECT_EQ(harmless("größer, 日本"), "größer, 日本");
     EXPECT_EQ(harmless("gr\xf6\xdf"), "gr??") << "no UTF-8";
@@ -89,7 +89,7 @@ TEST(Arguments, HaveTheTypesOfTheProfile) {
 void expect_refused(std::vector<std::string> const& given, std::string const& says) {
     try {
         read_arguments(profile(), "start", given);
-        ADD_FAILURE() << given.front() << " was taken";
+        ADD_FAILURE() << given.front() << " was accepted";
     } catch (Trouble const& trouble) {
         EXPECT_EQ(trouble.exit(), Exit::usage);
         EXPECT_THAT(trouble.what(), HasSubstr(says));
@@ -97,8 +97,8 @@ void expect_refused(std::vector<std::string> const& given, std::string const& sa
 }
 
 TEST(Arguments, AreRefusedWithTheReason) {
-    expect_refused({"volume"}, "'volume' is no NAME=VALUE");
-    expect_refused({"=3"}, "is no NAME=VALUE");
+    expect_refused({"volume"}, "'volume' is not NAME=VALUE");
+    expect_refused({"=3"}, "is not NAME=VALUE");
     expect_refused({"pitch=3"}, "thing has no argument 'pitch'; it has loud, places, levels, volume");
     expect_refused({"volume=loud"}, "volume: ");
     expect_refused({"volume=1", "volume=2"}, "volume: ");
@@ -115,7 +115,7 @@ struct AScenario : testing::Test {
     std::vector<std::string> printed;
 };
 
-TEST_F(AScenario, FillsInWhatVariablesHold) {
+TEST_F(AScenario, FillsInVariables) {
     take({AddValue{"list", "a"}, AddValue{"list", "b"}, Print{"{list} and {one}, not {"}});
     EXPECT_THAT(printed, ElementsAre("a, b and 1, not {"));
 }
@@ -150,7 +150,7 @@ TEST_F(AScenario, Compares) {
     EXPECT_THROW(take({When{"x", near, "here", 500}}), Trouble);
 }
 
-TEST_F(AScenario, CountsAndFindsThePlaceBeforeSomebody) {
+TEST_F(AScenario, CountsAndComputesAPlaceInFrontOfAPerson) {
     take({CountUp{"y"}, CountUp{"y"}, PlaceBefore{"x", "1000, 2000, 90", 500, 0}, Print{"{y}: {x}"}});
     EXPECT_THAT(printed, ElementsAre(HasSubstr("2: 1000, 2500, ")));
 }

@@ -1,4 +1,4 @@
-// The `rois` program over TLS, which a proxy ends; and a name that nobody can find in time.
+// The `rois` program over TLS, before a TLS proxy; and a slow host name lookup.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -20,7 +20,7 @@ struct RoisOverTls : testing::Test {
     Variables const trusting{{"ROIS_URL", url}, {"ROIS_CA_FILE", proxy.certificate()}};
 };
 
-TEST_F(RoisOverTls, KnowsWhetherTheEngineIsReady) {
+TEST_F(RoisOverTls, ReportsWhetherTheEngineIsReady) {
     EXPECT_EQ(run_rois({"health"}, {}, trusting).out, "healthy\n");
     auto const stranger = run_rois({"health"}, {}, {{"ROIS_URL", url}});
     EXPECT_EQ(stranger.exit_code, 1);
@@ -56,11 +56,11 @@ TEST_F(RoisOverTls, SharesASession) {
     EXPECT_EQ(holding.wait().exit_code, 0);
 }
 
-TEST(TheHealth, WaitsForNoNameThatIsStillLookedUp) {
+TEST(TheHealth, DoesNotWaitForAHostNameLookup) {
     SlowName name;
     try {
         command::http_get({"http://robot.slow"}, "/readyz", std::chrono::milliseconds{50});
-        ADD_FAILURE() << "somebody answers";
+        ADD_FAILURE() << "a gateway answers";
     } catch (command::Trouble const& trouble) {
         EXPECT_EQ(trouble.exit(), command::Exit::no_answer);
     }

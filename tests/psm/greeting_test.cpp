@@ -1,4 +1,4 @@
-// A program written from section 7.7 alone, against the real gateway.
+// The example that uses only section 7.7, against the real gateway.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>

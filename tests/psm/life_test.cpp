@@ -1,4 +1,4 @@
-// What moves goes on while a program of the C++ PSM lives, and is held when it hangs (docs/safety.md).
+// Motion leases (docs/safety.md): a robot moves on while a program of the C++ PSM lives, and is held when the program hangs.
 #include "alive.hpp"
 #include "psm/rig.hpp"
 
@@ -6,7 +6,7 @@ namespace rois::test::psm {
 namespace {
 
 constexpr auto empty_hall = ROIS_SOURCE_DIR "/tests/server/data/empty_hall.xml";
-constexpr auto longer = 2500ms;  // than the lease of a second, and what a machine that is busy adds
+constexpr auto longer = 2500ms;  // than the lease of a second, with time for a busy machine
 
 class CppPsmAndMotion : public testing::Test {
 protected:
@@ -46,7 +46,7 @@ TEST_F(CppPsmAndMotion, IsHeldWhileAFunctionOfTheApplicationHangs) {
     EXPECT_THAT(why_held(), HasSubstr("nothing was heard from its application"));
 }
 
-TEST_F(CppPsmAndMotion, GoesOnAndIsHeldAsTheProgramSays) {
+TEST_F(CppPsmAndMotion, GoesOnOnlyWhileTheProgramCallsAlive) {
     for (auto time = 0ms; time < longer; time += 200ms) {
         rois::psm::alive();
         std::this_thread::sleep_for(200ms);

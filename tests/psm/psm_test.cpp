@@ -47,10 +47,10 @@ TEST_F(CppPsm, ConnectIsAnErrorWithoutAGatewayOrWithABadUrl) {
         EXPECT_EQ(system.connect(), error) << url;
         EXPECT_THAT(reason(), StartsWith("connect: "));
     }
-    use("http://127.0.0.1:1");  // a port on which nobody listens
+    use("http://127.0.0.1:1");  // a port without a gateway
     EXPECT_EQ(system.connect(), error);
     EXPECT_EQ(system.disconnect(), error);
-    EXPECT_THAT(application.errors, IsEmpty()) << "the return code has said it";
+    EXPECT_THAT(application.errors, IsEmpty()) << "the return code is enough";
 }
 
 TEST_F(CppPsm, ConnectsAgainAfterADisconnect) {
@@ -65,7 +65,7 @@ TEST_F(CppPsm, ConnectsAgainAfterADisconnect) {
     EXPECT_EQ(other.call(rois::Bind{{.code = "move"}}).return_code, rois::ReturnCode::ok) << "disconnect releases";
 }
 
-// The head of the first request that a program sends to a server that never answers.
+// Returns the head of the first request of a program, from a server that never answers.
 std::string first_head(int listener) {
     auto const client = accept(listener, nullptr, nullptr);
     std::string head;
@@ -123,7 +123,7 @@ TEST_F(CppPsm, InvalidXmlIsABadParameter) {
     EXPECT_THAT(reason(), HasSubstr("colour"));
     EXPECT_THAT(list, ElementsAre("as it was"));
     EXPECT_EQ(id, "as it was");
-    EXPECT_EQ(command.search("", list), ok) << "the session is as good as before";
+    EXPECT_EQ(command.search("", list), ok) << "the session still works";
     EXPECT_EQ(reason(), "");
 }
 
@@ -271,7 +271,7 @@ TEST_F(CppPsm, TheBaseClassesAddressTheComponentThatWasBoundLast) {
     }
 }
 
-TEST_F(CppPsm, EveryComponentTakesItsParametersAndGivesThemBack) {
+TEST_F(CppPsm, EveryComponentStoresAndReturnsItsParameters) {
     ASSERT_EQ(system.connect(), ok);
     long a = 0;
     long b = 0;
@@ -331,7 +331,7 @@ TEST_F(CppPsm, EveryComponentTakesItsParametersAndGivesThemBack) {
     EXPECT_THAT(curve, IsEmpty());
 }
 
-TEST_F(CppPsm, TheSystemSaysWhereItsRobotsAreAndHowItIs) {
+TEST_F(CppPsm, TheSystemReportsRobotPositionsAndItsStatus) {
     ASSERT_EQ(system.connect(), ok);
     System_Information::Query information;
     std::string timestamp;

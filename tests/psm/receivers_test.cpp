@@ -1,4 +1,4 @@
-// What the C++ PSM reports on its own, while links break and receivers come and go.
+// Notifications of the C++ PSM, while links break and receivers are added and removed.
 #include <csignal>
 
 #include "psm/rig.hpp"
@@ -43,7 +43,7 @@ TEST_F(CppPsm, EventsArriveWithTheirResultsByDerivation) {
     EXPECT_EQ(system.disconnect(), ok);
 }
 
-TEST_F(CppPsm, WithTwoRobotsOnlyTheBoundComponentIsHeard) {
+TEST_F(CppPsm, WithTwoRobotsOnlyTheBoundComponentSendsEvents) {
     GatewayProcess const gateway{{"--floor-plan", ROIS_SOURCE_DIR "/components/simulation/data/two-robots.xml", "--scenario",
                                   ROIS_SOURCE_DIR "/tests/server/data/one_visitor.xml", "--sim-speed", "10"}};
     use(gateway.url());
@@ -53,7 +53,8 @@ TEST_F(CppPsm, WithTwoRobotsOnlyTheBoundComponentIsHeard) {
     ASSERT_EQ(command.bind("robot2.person_localization"), ok) << reason();
     Blocking other{rois::Settings{}};
     other(other.bind<rois::PersonLocalization>("person_localization").start());
-    ASSERT_TRUE(application.bell.await([&] { return application.events.size() > 1; })) << "a subscription hears both robots";
+    ASSERT_TRUE(application.bell.await([&] { return application.events.size() > 1; }))
+        << "a subscription receives events of both robots";
     people.bell.ring([&] { EXPECT_THAT(people.last.people, IsEmpty()) << "of the robot that is not bound"; });
     EXPECT_EQ(Person_Localization::Command{}.start(), ok) << reason();
     EXPECT_TRUE(people.bell.await([&] { return !people.last.people.empty(); }));
@@ -115,14 +116,14 @@ TEST_F(CppPsm, ALostConnectionIsAnError) {
     RoIS_HRI::RoIS_IdentifierList list;
     EXPECT_EQ(command.search("", list), error) << "within 10 s";
     EXPECT_THAT(reason(), Not(IsEmpty()));
-    EXPECT_EQ(system.disconnect(), error) << "nobody has heard it";
+    EXPECT_EQ(system.disconnect(), error) << "the gateway did not answer";
     use(shared_gateway().url());
     EXPECT_EQ(system.connect(), ok) << "but a new session may begin";
 }
 
 // --- Receivers ---
 
-// Counts what it hears; stays in its function for a moment.
+// Counts events; each function call takes a moment.
 class Slow : public Person_Localization::Event, public RoIS_Service::ServiceApplicationBase {
 public:
     explicit Slow(std::atomic<int>& heard) : heard_{&heard} {}
@@ -161,7 +162,7 @@ TEST_F(CppPsm, ReceiversMayGoWhileNotificationsArrive) {
     EXPECT_EQ(heard, until_now) << "nothing is reported after a disconnect";
 }
 
-// Stays in its function until it is let go.
+// Blocks in its function until it is released.
 class Stuck : public Person_Localization::Event {
 public:
     ~Stuck() override { end_notifications(); }

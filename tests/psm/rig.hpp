@@ -1,4 +1,4 @@
-// What the tests of the C++ PSM have in common: an application that remembers, and a session.
+// Tools for the tests of the C++ PSM: an application that records notifications, and a session.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -77,7 +77,7 @@ private:
     std::condition_variable news_;
 };
 
-// An application that remembers what it was told.
+// An application that records its notifications.
 class Application : public RoIS_Service::ServiceApplicationBase {
 public:
     ~Application() override { end_notifications(); }

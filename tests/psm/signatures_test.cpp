@@ -142,7 +142,7 @@ HAS(Video_Streaming::Query::get_parameter, Code(Text&, Text&));
 HAS(Video_Streaming::Query::get_stream_status, Code(Text, Stream_Status&));
 HAS(Video_Streaming::Event::notify_stream_status, void(Text, Text, Stream_Status));
 
-// Every component has its three classes, derived from those of RoIS_Common, and they can be made as they are.
+// Every component has its three classes, derived from those of RoIS_Common and not abstract.
 template <class Command, class Query, class Event>
 constexpr bool is_component = std::is_base_of_v<RoIS_Common::Command, Command>&& std::is_base_of_v<RoIS_Common::Query, Query>&&
     std::is_base_of_v<RoIS_Common::Event, Event>&& std::is_default_constructible_v<Command>&&
@@ -165,7 +165,7 @@ IS_COMPONENT(Move);
 IS_COMPONENT(Audio_Streaming);
 IS_COMPONENT(Video_Streaming);
 
-// The global names that the published RoIS_Common.hpp brings.
+// The global names of the published RoIS_Common.hpp.
 [[maybe_unused]] ::ReturnCode_t const code = ::BAD_PARAMETER;
 [[maybe_unused]] ::Completed_Status const aborted = ::ABORT;
 

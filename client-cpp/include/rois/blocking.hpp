@@ -1,4 +1,4 @@
-// For simple programs: every operation waits. `Blocking` is a client that is called where coroutines are awaited:
+// A blocking client, for programs without coroutines: each call returns when the operation is done.
 //
 //     rois::Blocking robot;
 //     auto navigation = robot.bind_any<rois::Navigation>();
@@ -13,18 +13,18 @@
 
 namespace rois {
 
-// Not to be called on the client's thread, in an observer for instance: there it throws std::logic_error.
+// Throws std::logic_error if it is called on the client's thread, for example in an observer.
 class Blocking {
 public:
     explicit Blocking(Settings settings = {}, Observers observers = {}) : client_{std::move(settings), std::move(observers)} {}
 
-    // Waits for any operation of a client, a component or a stream, and gives what it gives.
+    // Waits for any operation of a client, a component or a stream, and returns its result.
     template <class T>
     T operator()(Task<T> task) {
         return client_.wait(std::move(task));
     }
 
-    // Throws Error when there is no session within the settings' connect_deadline.
+    // Waits for the session. Throws Error if none is open within Settings::connect_deadline.
     void open();
 
     Component bind(std::string ref) { return client_.wait(client_.bind(std::move(ref))); }
@@ -46,7 +46,7 @@ public:
         return client_.wait(client_.events<E>(std::move(condition)));
     }
 
-    // An operation with its return code as a value.
+    // Runs an operation and returns its reply with the return code, as Connection::call does.
     template <class Op>
     typename Op::Reply call(Op operation) {
         return client_.wait(client_.call(std::move(operation)));

@@ -24,17 +24,17 @@
 
 namespace rois {
 
-// A connection with what applications do with one. What the engine refuses is thrown as Error; the operations themselves, with
-// their return codes as values, are Connection::call.
+// A connection with one function for each operation of an application. The functions throw Error if the engine refuses the
+// operation; Connection::call returns the return code instead.
 class Client : public Connection {
 public:
     using Connection::Connection;
 
-    // Binds the component that is named, or any free one that is meant.
+    // Binds the named component, or any free one that meets the condition.
     Task<Component> bind(std::string ref);
     Task<Component> bind_any(QueryExpression condition);
 
-    // The same, of this type: bind_any<Navigation>(), bind<Navigation>("sub1.navigation").
+    // The same with the type of the component: bind_any<Navigation>(), bind<Navigation>("sub1.navigation").
     template <class Facade>
     Task<Facade> bind(std::string ref) {
         auto component = co_await bind(std::move(ref));
@@ -48,19 +48,19 @@ public:
         co_return Facade{std::move(component)};
     }
 
-    // A component without binding it: for queries and events.
+    // Returns a component without binding it, for queries and events.
     Component component(std::string ref) const;
 
     Task<std::vector<Identifier>> search(QueryExpression condition = {});
     Task<GetProfile::Reply> get_profile(QueryExpression condition = {});
-    // The results name who answered.
+    // The reply names the component that answered.
     Task<Query::Reply> query(std::string query_type, QueryExpression condition = {});
     Task<Results> get_error_detail(ErrorId);
 
-    // Commands in sequence and in parallel; one Command for each, in document order. Ids that are empty are given here.
+    // Runs commands in sequence and in parallel. Returns one Command for each, in document order. Fills in empty command ids.
     Task<std::vector<Command>> execute(CommandUnitSequence);
 
-    // The events of all components that are meant; see Component::events for those of one.
+    // Subscribes to the events of all components that meet the condition. For one component, see Component::events.
     Task<EventStream> subscribe(std::string event_type, QueryExpression condition = {});
     template <class E>
     Task<Events<E>> events(QueryExpression condition = {}) {
@@ -69,7 +69,7 @@ public:
     }
 };
 
-// A unit of a sequence: one command.
+// Returns a unit of a sequence with one command.
 CommandUnit command(Component const&, std::string command_type, ParameterList arguments = {}, Milliseconds delay = {});
 
 }  // namespace rois

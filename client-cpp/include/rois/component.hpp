@@ -1,4 +1,4 @@
-// A component of an engine, whatever its type: what RoIS_Common gives to all of them (7.6, table 33), and the way to the rest.
+// A component of any type: the functions of RoIS_Common (7.6, table 33), and general commands, queries and events.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ class Watch;
 // How a command ended. Converts to its status: `completion == CompletedStatus::ok`.
 struct Completion {
     CompletedStatus status = CompletedStatus::ok;
-    std::string reason{};  // why the status is not OK, as the engine says it; may be empty
+    std::string reason{};  // why the status is not OK, in the engine's words; may be empty
 
     operator CompletedStatus() const { return status; }
 };
@@ -27,17 +27,17 @@ struct Completion {
 // "OK", or the status and the reason: "ERROR: no way leads to the target".
 std::string to_text(Completion const&);
 
-// A command that was accepted. It completes once, whatever happens: with ABORT when the session ends, or the connection closes. A
-// handle: copies are the same command.
+// A handle of an accepted command; copies refer to the same command. A command completes exactly once: with ABORT if the session
+// ends or the connection closes first.
 class Command {
 public:
     Command(std::shared_ptr<detail::Core>, std::shared_ptr<detail::Watch>);
 
     CommandId const& id() const;
-    // Waits as long as it takes: components have time limits of their own. If the command fails, asks the engine for the reason
+    // Waits without a timeout: components have time limits of their own. If the command fails, asks the engine for the reason
     // (get_command_result).
     Task<Completion> completed() const;
-    // What it resulted in (get_command_result); `status` is among it. Throws Error.
+    // Returns the results of the command, among them `status` (get_command_result). Throws Error.
     Task<Results> results() const;
 
 private:
@@ -45,8 +45,8 @@ private:
     std::shared_ptr<detail::Watch> watch_;
 };
 
-// Cheap to copy; it does not own the binding. Functions that await throw Error when the engine refuses; how a command ended is
-// its value. The references in it keep the connection's inside alive, not the connection.
+// A handle of a component; cheap to copy. It does not own the binding, and it does not keep the connection open. The functions
+// throw Error if the engine refuses the operation. Functions that run a command return how it ended.
 class Component {
 public:
     Component(std::shared_ptr<detail::Core>, Identifier ref);
@@ -58,20 +58,20 @@ public:
     Task<Completion> suspend() const { return run("suspend"); }
     Task<Completion> resume() const { return run("resume"); }
 
-    // One command: until it has completed, or only until it was accepted.
+    // Sends one command. `run` waits until it has completed, `begin` until the engine has accepted it.
     Task<Completion> run(std::string command_type, ParameterList arguments = {}) const;
     Task<Command> begin(std::string command_type, ParameterList arguments = {}) const;
 
-    // Stored at once, used by the next start (decision 8).
+    // The engine stores the parameters at once; the next `start` uses them (decision 8).
     Task<Completion> set_parameter(ParameterList parameters) const { return run("set_parameter", std::move(parameters)); }
     Task<ParameterList> get_parameter() const;
 
-    // Ours: BUSY means that another session has it bound.
+    // BUSY means that another session has bound the component.
     Task<ComponentStatus> component_status() const;
-    // A query of this type to this component.
+    // Sends a query of this type to this component.
     Task<Results> query(std::string query_type) const;
 
-    // Its events of this type; the condition may speak of their results. Needs no binding.
+    // Subscribes to events of this type; the condition may refer to their results. Needs no binding.
     Task<EventStream> subscribe(std::string event_type, QueryExpression condition = {}) const;
     template <class E>
     Task<Events<E>> events(QueryExpression condition = {}) const {

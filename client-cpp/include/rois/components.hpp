@@ -1,6 +1,6 @@
-// The 15 basic components (7.6, tables 34 to 46 and Move) and the two that stream (2.0), with the names of the specification and
-// with units in types; what they take is in parameters.hpp. An event is made of what the component told; what it left out is as
-// if it were zero or empty.
+// The 15 basic components (7.6, tables 34 to 46 and Move) and the two streaming components (version 2.0), with the names of the
+// specification and with units in types. Their parameters are in parameters.hpp. A result that is missing in an event is zero or
+// empty.
 #pragma once
 
 #include <chrono>
@@ -19,7 +19,7 @@ namespace rois {
 
 // --- System Information (table 34) ---
 
-// Somebody or something, and where it is.
+// A person or object, and its pose.
 struct Sighting {
     Identifier ref{};
     Pose pose{};
@@ -161,7 +161,7 @@ struct SpeechRecognized {
     static constexpr std::string_view name = "speech_recognized";
     static SpeechRecognized from(ReceiveEvent const&);
     Utc timestamp{};
-    std::vector<std::string> recognized_text{};  // the likeliest first
+    std::vector<std::string> recognized_text{};  // the most likely text first
 };
 
 struct SpeechInputStarted {
@@ -193,7 +193,7 @@ struct GestureRecognized {
     static constexpr std::string_view name = "gesture_recognized";
     static GestureRecognized from(ReceiveEvent const&);
     Utc timestamp{};
-    std::vector<Identifier> gestures{};  // the likeliest first
+    std::vector<Identifier> gestures{};  // the most likely gesture first
 };
 
 class GestureRecognition : public Component {
@@ -210,7 +210,7 @@ class SpeechSynthesis : public Component {
 public:
     static constexpr std::string_view component_type = "SpeechSynthesis";
     explicit SpeechSynthesis(Component component) : Component{std::move(component)} {}
-    // Until it was said.
+    // Returns when the text has been spoken.
     Task<Completion> say(std::string speech_text) const;
     Task<Completion> say(Speech) const;
     Task<Completion> set(Speech) const;
@@ -223,7 +223,7 @@ class Reaction : public Component {
 public:
     static constexpr std::string_view component_type = "Reaction";
     explicit Reaction(Component component) : Component{std::move(component)} {}
-    // Until it was performed. The code is one of `available_reactions` (annex D: "9" is a bow).
+    // Returns when the reaction has been performed. The code is one of `available_reactions` (annex D: "9" is a bow).
     Task<Completion> react(std::string reaction_ref) const;
     Task<std::vector<Identifier>> available_reactions() const;
 };
@@ -233,7 +233,7 @@ public:
 struct ReachedTarget {
     static constexpr std::string_view name = "reached_target";
     static ReachedTarget from(ReceiveEvent const&);
-    std::string target{};  // as it was given: a pose as text, or a place's name
+    std::string target{};  // as in target_position: a pose as text, or the name of a place
     bool is_final_target = false;
 };
 
@@ -241,7 +241,7 @@ class Navigation : public Component {
 public:
     static constexpr std::string_view component_type = "Navigation";
     explicit Navigation(Component component) : Component{std::move(component)} {}
-    // Until it is there; TIMEOUT when the limit passed before.
+    // Returns when the robot has reached the target; TIMEOUT if the time limit passed first.
     Task<Completion> go_to(Target, std::optional<Milliseconds> time_limit = {}) const;
     Task<Completion> go(NavigationParameters) const;
     auto reached_target(QueryExpression condition = {}) const { return events<ReachedTarget>(std::move(condition)); }
@@ -255,7 +255,8 @@ class Follow : public Component {
 public:
     static constexpr std::string_view component_type = "Follow";
     explicit Follow(Component component) : Component{std::move(component)} {}
-    // Until it is stopped (OK) or the limit has passed (TIMEOUT); `begin_following` only until it follows.
+    // `follow` returns when the robot is stopped (OK) or the time limit has passed (TIMEOUT); `begin_following` returns when the
+    // command is accepted.
     Task<Completion> follow(FollowParameters) const;
     Task<Command> begin_following(FollowParameters) const;
     Task<Completion> set(FollowParameters) const;
@@ -268,7 +269,7 @@ class Move : public Component {
 public:
     static constexpr std::string_view component_type = "Move";
     explicit Move(Component component) : Component{std::move(component)} {}
-    // Until it has moved.
+    // Returns when the motion has ended.
     Task<Completion> move(Line, std::optional<Milliseconds> time = {}) const;
     Task<Completion> move(Curve, std::optional<Milliseconds> time = {}) const;
     Task<Completion> set(MoveParameters) const;
@@ -294,12 +295,12 @@ struct StreamStatusNotified {
 class Streaming : public Component {
 public:
     explicit Streaming(Component component) : Component{std::move(component)} {}
-    // Throws Error when the command does not complete with OK.
+    // Throws Error if the command does not complete with OK.
     Task<StreamOffer> connect_stream() const;
     Task<Completion> disconnect_stream(std::string stream_id) const;
     Task<Completion> suspend_stream(std::string stream_id) const;
     Task<Completion> resume_stream(std::string stream_id) const;
-    Task<StreamStatus> get_stream_status() const;  // of the latest one
+    Task<StreamStatus> get_stream_status() const;  // of the latest stream
     auto notify_stream_status(QueryExpression condition = {}) const { return events<StreamStatusNotified>(std::move(condition)); }
     Task<Completion> set(StreamParameters) const;
     Task<StreamParameters> parameters() const;

@@ -1,4 +1,4 @@
-// Conditions built in code (docs/conditions.md says what they mean):
+// Conditions built in code (their meaning: docs/conditions.md):
 //
 //     type == "Navigation" && status == "READY"
 //     result("number") > 0
@@ -15,14 +15,14 @@
 
 namespace rois {
 
-// Along the axes of a frame: two opposite corners.
+// A rectangle along the axes of a frame, given by two opposite corners.
 struct Box {
     Box(millimetres west, millimetres south, millimetres east, millimetres north, std::string frame = {})
         : x1{west}, y1{south}, x2{east}, y2{north}, crs{std::move(frame)} {}
 
     millimetres x1, y1;
     millimetres x2, y2;
-    std::string crs;  // empty: the frame of whatever it is related to
+    std::string crs;  // the frame; empty: that of the value it is compared with
 };
 
 Expression literal(std::string_view);
@@ -35,7 +35,7 @@ inline Expression literal(char const* text) { return literal(std::string_view{te
 inline Expression literal(std::integral auto number) { return literal(std::string_view{std::to_string(number)}); }
 inline Expression literal(bool truth) { return literal(std::string_view{truth ? "true" : "false"}); }
 
-// What a condition speaks of: a value reference of docs/conditions.md.
+// A value that a condition compares: a value reference of docs/conditions.md.
 class Reference {
 public:
     explicit Reference(std::string path) : path_{std::move(path)} {}
@@ -70,7 +70,7 @@ public:
     Condition between(Value const& lower, Value const& upper) const {
         return between_expressions(literal(lower), literal(upper));
     }
-    Condition like(std::string_view pattern) const;  // * any text, ? one character, \ takes their meaning away
+    Condition like(std::string_view pattern) const;  // * matches any text, ? one character; \ escapes them
     Condition is_null() const;
 
     Condition within(Box const&) const;
@@ -91,14 +91,14 @@ private:
     std::string path_;
 };
 
-// A component's type: its URN, or for those of the specification the last part of it.
+// The type of a component: its URN or, for a type of the specification, the last part of it ("Navigation").
 class TypeReference {
 public:
     Condition operator==(std::string_view urn_or_name) const;
     Condition operator!=(std::string_view urn_or_name) const;
 };
 
-// What conditions speak of; `using namespace rois::conditions;` lets one write them as above.
+// The values that conditions compare. The examples above need `using namespace rois::conditions;`.
 namespace conditions {
 
 inline TypeReference const type;
@@ -107,10 +107,10 @@ inline Reference const engine{"engine"};
 inline Reference const status{"status"};
 inline Reference const bound{"bound"};
 inline Reference const location{"location"};       // of the component's robot
-inline Reference const position{"position_data"};  // of whom an event tells
+inline Reference const position{"position_data"};  // of the person or object of an event
 inline Reference const timestamp{"timestamp"};
 
-// A result of an event, of a command, of an answer; a parameter of a component.
+// A result of an event, a command or an answer, or a parameter of a component.
 inline Reference result(std::string_view name) { return Reference{"Result/" + std::string{name}}; }
 inline Reference parameter(std::string_view name) { return Reference{"Property/" + std::string{name}}; }
 
@@ -120,8 +120,8 @@ Condition operator&&(Condition, Condition);
 Condition operator||(Condition, Condition);
 Condition operator!(Condition);
 
-// In which order components are told, or taken by bind_any: ordered(type == "Navigation", nearest_to("desk")). The first counts
-// most.
+// Sets the order in which the engine lists components, or tries them for bind_any:
+// ordered(type == "Navigation", nearest_to("desk")). The first property counts most.
 template <std::same_as<SortProperty>... Order>
 QueryExpression ordered(QueryExpression condition, Order... order) {
     (condition.sort_by.push_back(std::move(order)), ...);
@@ -131,7 +131,7 @@ SortProperty nearest_to(std::string_view place);
 SortProperty ascending(Reference const&);
 SortProperty descending(Reference const&);
 
-// What meets both.
+// Returns the query with an additional condition: components must meet both.
 QueryExpression narrowed(QueryExpression, Condition);
 
 }  // namespace rois

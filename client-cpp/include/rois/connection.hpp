@@ -1,9 +1,9 @@
-// The connection to an engine: sends requests, hears notifications, and goes on where it was when the link breaks. The facades of
-// client.hpp stand on it.
+// The connection to an engine: sends requests, receives notifications, and resumes its session after the link broke. Client
+// (client.hpp) adds a function for each operation.
 //
-// Threads: each connection has one thread of its own, the client's thread. Its functions may be called from any thread;
-// coroutines go on on the client's thread after they awaited one of its operations, and observers are called there. Who blocks
-// there blocks the connection.
+// Threads: each connection has one thread of its own, the client's thread. Any thread may call the functions. Coroutines continue
+// on the client's thread after they awaited an operation, and observers are called there. Code that blocks there blocks the
+// connection.
 #pragma once
 
 #include <chrono>
@@ -31,106 +31,109 @@ namespace detail {
 class Core;  // NOLINT(cppcoreguidelines-virtual-class-destructor): it is final
 }
 
-// connecting: there was no session yet. open: a session was opened. lost: the link is broken, it is tried to go on; calls wait.
-// resumed: the same session goes on, nothing was missed that was not told as a gap. closed: for good.
-enum class State : std::uint8_t { connecting, open, lost, resumed, closed };
+enum class State : std::uint8_t {
+    connecting,  // no session yet
+    open,        // a session was opened
+    lost,        // the link is broken; the connection retries, and calls wait
+    resumed,     // the same session continues; missed notifications were reported as a gap
+    closed,      // for good
+};
 
 std::string_view to_text(State);
 
 struct StateChange {
     State state = State::connecting;
-    std::string reason;  // why it was lost or closed
+    std::string reason;  // why the link is lost or the connection closed
 };
 
 // Notifications were missed.
 struct Gap {
     enum class Why : std::uint8_t {
-        dropped,      // the engine dropped them, or keeps them no longer
-        new_session,  // the session ended with the link; subscriptions and bindings were made anew, commands have ended with
-                      // ABORT
+        dropped,      // the engine dropped them, or no longer keeps them
+        new_session,  // the session ended with the link; the connection opened another one, subscribed and bound again, and
+                      // ended the commands with ABORT
     };
     Why why = Why::dropped;
-    std::optional<std::uint64_t> count;  // nothing: not known
-    // In a new session: what could not be made anew, as "bind navigation: the reason".
+    std::optional<std::uint64_t> count;  // how many; empty: unknown
+    // In a new session: failed bindings and subscriptions, as "bind navigation: the reason".
     std::vector<std::string> not_restored{};
 };
 
-// An attempt to open a session, or to resume one, failed. The connection keeps trying.
+// A failed attempt to open or resume a session. The connection retries.
 struct FailedAttempt {
     unsigned count = 0;  // failed attempts in a row, this one included
     std::string reason;
     std::chrono::milliseconds retry_in{};  // pause before the next attempt
 };
 
-// In which direction a document goes, seen from the application.
+// The direction of a document, seen from the application.
 enum class Direction : std::uint8_t { out, in };
 
-// Called on the client's thread, in the order of what happens, and not after the connection is destroyed. They must not throw.
+// Called on the client's thread, in order, and never after the connection is destroyed. They must not throw.
 struct Observers {
     std::function<void(StateChange const&)> state{};
-    // Each failed attempt, at once. The last one, after which the connection closes, is reported as the state `closed` instead.
+    // Each failed attempt. The last one, after which the connection closes, is reported as the state `closed` instead.
     std::function<void(FailedAttempt const&)> attempt_failed{};
     std::function<void(Gap const&)> gap{};
-    // Each notification once. `lost` of the engine comes here, too, beside the gap.
+    // Each notification once. The engine's `lost` is reported here and as a gap.
     std::function<void(Notification const&, std::uint64_t sequence)> notification{};
-    // Each document as it stands, also those that the connection sends and hears on its own.
+    // Each document sent or received, byte for byte, also those that the connection itself needs.
     std::function<void(Direction, std::string_view document)> tap{};
 };
 
-// Owns a session and the link below it. Begins to connect when it is made.
+// Owns a session and its link. The constructor begins to connect.
 //
-// What is sent while the link breaks is sent again when the session goes on. An `execute` is never run twice: each command gets
-// an id here unless it has one, and the engine is asked for it before the sequence is sent again. A `bind_any` that may have been
-// answered is looked for among what is bound.
+// After a broken link, the connection resumes the session and repeats the requests that have no answer. An `execute` never runs
+// twice: each command has an id (given here if it is empty), and the engine accepts an id only once in a session. After a
+// `bind_any` without an answer, the connection looks for a component that the session has bound meanwhile.
 class Connection {
 public:
-    // Throws std::invalid_argument for a URL that is none.
+    // Throws std::invalid_argument if the URL is invalid.
     explicit Connection(Settings = {}, Observers = {});
-    // Ends the session when the link is there, and waits until its thread has ended; what is awaited ends with NoAnswer::closed.
-    // On the client's thread it does not wait.
+    // Ends the session if the link works, and waits until the client's thread has ended (not if it is called on that thread).
+    // Operations that are under way end with NoAnswer::closed.
     ~Connection();
     Connection(Connection const&) = delete;
     Connection& operator=(Connection const&) = delete;
 
-    State state() const;        // closed as soon as calls fail; observers hear that last
-    SessionId session() const;  // empty before the first one
+    State state() const;        // closed as soon as calls fail; observers are notified later, after all else
+    SessionId session() const;  // empty before the first session
 
-    // Waits until there is a session, as long as `within` (the settings' connect_deadline when left out). What happened else is
-    // the reason; nothing when it is open.
+    // Waits until a session is open, for `within` at most (default: Settings::connect_deadline). Returns nothing if it is open,
+    // else the reason.
     Task<std::optional<NoAnswer>> opened(std::optional<std::chrono::milliseconds> within = {});
 
-    // Sends an operation and awaits its answer. The request's own request_id is replaced on the way. `Resume` is refused: the
-    // connection resumes by itself. The deadline is the settings' when left out.
+    // Sends an operation and returns the answer. Replaces the request_id. Rejects `Resume`: the connection resumes by itself.
+    // Default deadline: Settings::deadline.
     Task<Answer> request(Request, std::optional<std::chrono::milliseconds> deadline = {});
 
-    // The same with the type of the operation: a fault and a missing answer become return codes (see Error::code), with the
-    // reason.
+    // Sends an operation and returns its reply. A fault or a missing answer becomes a return code (see Error::code) and a reason.
     template <class Op>
     Task<typename Op::Reply> call(Op operation, std::optional<std::chrono::milliseconds> deadline = {});
 
-    // Sends any document as it stands, once, and gives the document that answers it, whatever request_id it has.
+    // Sends any text once, unchanged, and returns the document that answers it, whatever its request_id.
     Task<std::variant<std::string, NoAnswer>> send(std::string document, std::optional<std::chrono::milliseconds> deadline = {});
 
-    // Goes on after this time, or at once when the connection closes.
+    // Waits for this time, or until the connection closes.
     Task<> sleep(std::chrono::milliseconds);
 
-    // The application is alive. A robot that this session has set in motion stops within the motion lease (docs/safety.md) when
-    // the application gives no more signs of life. A program that never calls `wait` lives on the client's thread and gives them
-    // while that thread is not blocked. With the first `wait` or `alive`, its own threads speak for it: one that waits gives
-    // signs as long as it waits, and each `wait` and `alive` is one. Threads that do something else for longer than half a lease
-    // while a robot moves call this meanwhile. From any thread; costs little, and sends nothing while nothing moves.
+    // Gives a sign of life. A robot that this session has set in motion stops if the application gives no sign of life for the
+    // motion lease (docs/safety.md). Until the first call of `wait` or `alive`, the client's thread gives the signs itself, while
+    // it is not blocked. From then on only `wait` and `alive` count: `wait` gives signs as long as it waits. A program that does
+    // something else for longer than half a lease while a robot moves must call `alive` meanwhile. From any thread; costs little,
+    // and sends nothing while nothing moves.
     void alive();
 
-    // How often `alive` is to be called at least: a fifth of the lease.
+    // The longest time between two calls of `alive`: a fifth of the lease.
     std::chrono::milliseconds between_signs_of_life() const;
 
-    // Ends the session, then the connection. What is awaited ends with NoAnswer::closed.
+    // Ends the session, then the connection. Operations that are under way end with NoAnswer::closed.
     void close();
 
-    // Runs a coroutine on the client's thread. What it throws ends the program, as in a std::thread.
+    // Runs a coroutine on the client's thread. An exception that leaves the coroutine ends the program, as in a std::thread.
     void spawn(Task<>);
 
-    // Runs a coroutine and waits for it: not on the client's thread, where it throws std::logic_error.
+    // Runs a coroutine on the client's thread, and waits for it. Throws std::logic_error if it is called on that thread.
     template <class T>
     T wait(Task<T>);
 
@@ -143,7 +146,7 @@ private:
     std::shared_ptr<detail::Core> core_;
 };
 
-// A reply of this operation, whatever the answer was.
+// Returns the answer as a reply of this operation: a fault or a missing answer becomes a return code and a reason.
 template <class Op>
 typename Op::Reply reply_of(Answer&& answer) {
     using R = typename Op::Reply;

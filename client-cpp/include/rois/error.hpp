@@ -1,4 +1,4 @@
-// What the comfortable layer throws: the engine refused, or did not answer.
+// Errors: the engine refused an operation, or did not answer.
 #pragma once
 
 #include <cstdint>
@@ -10,25 +10,24 @@
 
 namespace rois {
 
-// A call that has no answer of the engine. Whether the engine acted is not known with `deadline`, `session_lost` and
-// `link_lost`.
+// Why a call has no answer. With `deadline`, `session_lost` and `link_lost`, the engine may have run the operation or not.
 struct NoAnswer {
     enum class Why : std::uint8_t {
-        deadline,        // it passed
-        session_lost,    // the engine has ended the session in which it was sent
-        link_lost,       // the link broke; of documents sent as they stand, which are not sent again
+        deadline,        // the deadline has passed
+        session_lost,    // the engine has ended the session in which the request was sent
+        link_lost,       // the link broke (only for Connection::send, which sends a document only once)
         closed,          // the connection is closed
-        not_understood,  // the answer is no document of RoIS
+        not_understood,  // the answer is not a document of RoIS
     };
     Why why = Why::closed;
     std::string reason;
 };
 
-// What a request ends with: the operation's reply, whatever its return code; or the engine's refusal to look at it; or nothing.
+// The end of a request: the operation's reply with any return code, a fault of the engine, or no answer.
 using Answer = std::variant<Reply, Fault, NoAnswer>;
 
-// An operation that did not end with OK. `code` is the engine's; ERROR for a fault, TIMEOUT when the deadline passed, ERROR when
-// there was no answer otherwise. The text says which operation it was, and the reason.
+// An operation that did not end with OK. `code` is the engine's return code, TIMEOUT if the deadline passed, or ERROR for a fault
+// or any other missing answer. The text names the operation and the reason.
 class Error : public std::runtime_error {
 public:
     Error(ReturnCode code, std::string const& what) : std::runtime_error{what}, code_{code} {}

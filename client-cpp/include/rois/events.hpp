@@ -1,4 +1,4 @@
-// Events as streams: awaited one by one, or given to a function.
+// Streams of events: await them one by one, or pass each to a function.
 #pragma once
 
 #include <chrono>
@@ -16,24 +16,24 @@ namespace detail {
 class Stream;
 }
 
-// The events of one subscription, results inline, in the order in which they happened, each once. Several streams of one
-// connection may hear the same; the engine is subscribed to once for all with the same type and condition. A handle: copies are
-// the same stream. With its last handle the stream ends, and with the last stream the subscription. It may outlive its client.
+// The events of one subscription with their results, in order, each once. Streams of one connection with the same type and
+// condition share one subscription. An EventStream is a handle: copies refer to the same stream. The stream ends with its last
+// handle, and the subscription with its last stream. It may outlive its client.
 class EventStream {
 public:
     EventStream(std::shared_ptr<detail::Core>, std::shared_ptr<detail::Stream>);
 
-    // The next event; nothing when none came `within` this time, or the connection is closed. One at a time.
+    // Returns the next event, or nothing if none came `within` this time or the connection is closed. At most one call at a time.
     Task<std::optional<ReceiveEvent>> next_event(std::optional<std::chrono::milliseconds> within = {});
 
-    // From now on each event, those that wait first, is given to this function on the client's thread, as long as there is a
-    // handle; it may still run when the last handle goes. `next_event` is for others then. The function must not throw.
+    // Calls this function on the client's thread for each event, the waiting ones first, until the last handle is destroyed. It
+    // may still be running when the last handle is destroyed. It must not throw. `next_event` returns no more events then.
     void each_event(std::function<void(ReceiveEvent const&)>);
 
-    // Throws away what waits.
+    // Discards the waiting events.
     void skip();
 
-    // How many gaps lay before the event that was given last: what is told here is all, as long as the number stays.
+    // The number of gaps before the latest event. No event was missed as long as the number does not change.
     std::uint64_t gaps() const;
 
 private:
@@ -41,8 +41,8 @@ private:
     std::shared_ptr<detail::Stream> stream_;
 };
 
-// The same with the type of the event: see components.hpp for those of the specification. An E has its `name` and is made
-// `from(ReceiveEvent const&)`.
+// An EventStream with the type of the event. The types of the specification are in components.hpp. An E needs a static `name` and
+// a static function `from(ReceiveEvent const&)`.
 template <class E>
 class Events {
 public:
@@ -56,8 +56,8 @@ public:
         co_return made;
     }
 
-    void each(std::function<void(E const&)> told) {
-        stream_.each_event([told = std::move(told)](ReceiveEvent const& event) { told(E::from(event)); });
+    void each(std::function<void(E const&)> handler) {
+        stream_.each_event([handler = std::move(handler)](ReceiveEvent const& event) { handler(E::from(event)); });
     }
 
     void skip() { stream_.skip(); }

@@ -1,9 +1,9 @@
-// What components are set to, and what their commands take: the parameters of the 17 with the names of the specification and with
-// units in types. What is left out stays as it is. They are said one by one, also inside a co_await:
+// The parameters of the 17 components, with the names of the specification and with units in types. A parameter that is not set
+// keeps its value. Set them one by one, also inside a co_await:
 //
 //     co_await synthesis.say(Speech().with_speech_text("Welcome.").with_volume(50));
 //
-// None of them is an aggregate: g++ 12 destroys twice what is made in braces there, and without a word.
+// None of these classes is an aggregate: inside a co_await, g++ 12 silently destroys an aggregate made in braces twice.
 #pragma once
 
 #include <chrono>
@@ -20,7 +20,7 @@ namespace rois {
 
 using Milliseconds = std::chrono::milliseconds;
 
-// How far something must have moved to be told of again, and how long nothing is told after an event.
+// How far a person or object must have moved for a new event, and the shortest time between two events.
 //
 //     co_await localization.set(LocalizationParameters().with_detection_threshold(0.5_m).with_minimum_interval(1s));
 struct LocalizationParameters {
@@ -41,7 +41,7 @@ struct LocalizationParameters {
 //     co_await recognition.set(SpeechRecognitionParameters().with_language("en").with_language("ja"));
 struct SpeechRecognitionParameters {
     SpeechRecognitionParameters() = default;
-    SpeechRecognitionParameters with_language(std::string code) && {  // beside those that are there
+    SpeechRecognitionParameters with_language(std::string code) && {  // adds a language
         languages.push_back(std::move(code));
         return std::move(*this);
     }
@@ -97,19 +97,19 @@ struct Speech {
 
 enum class RoutingPolicy : std::uint8_t { time, distance };
 
-// Where to go: a pose, or a place that the engine knows by name.
+// A target of Navigation: a pose, or the name of a place that the engine knows.
 struct Target {
     Target(Pose const&);
     Target(std::string place) : text{std::move(place)} {}
     Target(char const* place) : text{place} {}
     std::string text{};
-    std::string crs{};  // of a pose; the first target's counts for all
+    std::string crs{};  // frame of a pose; the engine uses that of the first target for all
 };
 
 //     co_await navigation.go(NavigationParameters().with_target_position("lift").with_target_position(Pose(4_m, 7_m)));
 struct NavigationParameters {
     NavigationParameters() = default;
-    NavigationParameters with_target_position(Target target) && {  // after those that are there
+    NavigationParameters with_target_position(Target target) && {  // adds a target at the end
         target_position.push_back(std::move(target));
         return std::move(*this);
     }
@@ -148,7 +148,7 @@ struct FollowParameters {
     }
 
     std::optional<Identifier> target_object_ref{};
-    std::optional<millimetres> distance{};     // how near the robot comes
+    std::optional<millimetres> distance{};     // the robot waits while it is closer
     std::optional<Milliseconds> time_limit{};  // 0: none
 };
 

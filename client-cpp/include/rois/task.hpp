@@ -1,4 +1,4 @@
-// Task: what an operation of the client gives: a coroutine that runs when it is awaited.
+// Task: the coroutine that each operation of the client returns. It runs when it is awaited.
 #pragma once
 
 #include <concepts>
@@ -16,7 +16,7 @@ class Task;
 
 namespace detail {
 
-// Who awaits a task goes on when the task is over.
+// Resumes the awaiting coroutine when the task has ended.
 struct TaskPromiseBase {
     struct Final {
         bool await_ready() const noexcept { return false; }
@@ -63,11 +63,13 @@ struct TaskPromise<void> : TaskPromiseBase {
 
 }  // namespace detail
 
-// A coroutine that gives a T. It begins when it is awaited, once, and what it throws comes out there. Whoever awaits an operation
-// of a client goes on on the client's thread (connection.hpp). One that is never awaited does nothing.
+// A coroutine that returns a T. It starts when it is awaited, which is allowed once; the co_await rethrows its exception. A task
+// that is never awaited does nothing. After an operation of a client, the awaiting coroutine continues on the client's thread
+// (connection.hpp).
 //
-// g++ 12 destroys twice what is made in braces inside a co_await (`co_await f({.text = "a"})`, an aggregate), and copies what is
-// awaited in place: give such a value a name first. It also drops what follows a co_await in the condition of a loop or an if.
+// Errors of g++ 12: it destroys an aggregate made in braces inside a co_await twice (`co_await f({.text = "a"})`), and copies a
+// temporary that is awaited in place: give such a value a name first. It also drops the code after a co_await in the condition
+// of a loop or an if.
 template <class T = void>
 class [[nodiscard]] Task {
 public:

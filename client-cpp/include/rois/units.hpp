@@ -1,4 +1,4 @@
-// Units in types: what the wire carries as bare numbers, millimetre and degree (decision 27 of docs/conformance-decisions.md).
+// Types for millimetre and degree, which documents carry as bare numbers (decision 27 of docs/conformance-decisions.md).
 #pragma once
 
 #include <compare>
@@ -11,7 +11,7 @@ namespace rois {
 
 namespace detail {
 
-// A number of one unit. Adds and compares with its own kind only.
+// A number with a unit. Adds and compares only with the same unit.
 template <class Self>
 struct Quantity {
     double value = 0;
@@ -56,7 +56,7 @@ constexpr degrees operator""_deg(unsigned long long number) { return degrees{sta
 
 }  // namespace literals
 
-// Where somebody or something is, and where it looks to.
+// The position and heading of a person or object.
 struct Pose {
     Pose() = default;
     Pose(millimetres east, millimetres north, degrees towards = {}, std::string frame = {})
@@ -72,10 +72,11 @@ struct Pose {
 
 millimetres distance(Pose const&, Pose const&);
 
-// The place this far before somebody, looking at them; `turn`: not right before them, but so much to their left.
+// Returns the pose this far in front of a person, facing them. `turn` moves it around the person, to their left when positive.
 Pose before(Pose const&, millimetres away, degrees turn = {});
 
-// "x, y, th", as parameters and results have it; and back. Nothing when the text is no pose; without th, it is 0.
+// Converts a pose to "x, y, th", the form of parameters and results, and back. to_pose returns nothing if the text is not a pose;
+// a missing th is 0.
 std::string to_text(Pose const&);
 std::optional<Pose> to_pose(std::string_view text, std::string crs = {});
 

@@ -1,4 +1,4 @@
-// What somebody writes who has the specification and has installed the library: both ways to include its headers work.
+// A user's program with the installed C++ PSM: both ways to include its headers work.
 #include <RoIS_HRI.hpp>
 #include <iostream>
 #include <rois/psm/RoIS_Navigation.hpp>

@@ -1,7 +1,7 @@
 // Audio Streaming in the C++ PSM (version 2.0; docs/streaming.md).
 //
-// The published header does not compile: get_parameter ends with a comma, and Stream_Status has no declaration in reach. This is
-// what it evidently means, with Stream_Status of RoIS_Common.
+// The published header does not compile: get_parameter ends with a comma, and Stream_Status is not declared. This header has
+// neither error; Stream_Status is that of RoIS_Common.
 #pragma once
 
 #include <string>
@@ -14,12 +14,12 @@ class Command : public RoIS_Common::Command {
 public:
     Command() : RoIS_Common::Command("AudioStreaming") {}
 
-    // How the next stream is encoded and transported: the first of the given pairs that the component can do. Empty arguments
-    // leave their parameters as they are.
+    // Encodings and transports for the next stream: the component uses the first pair that it supports. Empty arguments leave
+    // their parameters unchanged.
     RoIS_HRI::ReturnCode_t set_parameter(std::string encoding_parameters, std::string transport_parameters);
 
-    // These wait until the command has completed, for at most 10 s. A command that fails: ERROR, OUT_OF_RESOURCES or TIMEOUT, as
-    // its Completed_Status says.
+    // These wait until the command has completed, for at most 10 s. If it fails, they return its Completed_Status: ERROR,
+    // OUT_OF_RESOURCES or TIMEOUT.
     RoIS_HRI::ReturnCode_t connect_stream(std::string& stream_id);
     RoIS_HRI::ReturnCode_t disconnect_stream(std::string stream_id);
     RoIS_HRI::ReturnCode_t suspend_stream(std::string stream_id);

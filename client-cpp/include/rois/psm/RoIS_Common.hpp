@@ -1,8 +1,8 @@
-// What all components have in common in the C++ PSM (section 7.7; tables 31 to 33).
+// The interfaces that all components share in the C++ PSM (section 7.7; tables 31 to 33).
 //
-// Which component do a Command and a Query of, say, the namespace Navigation address? The component of that type that this
-// session has bound last, by CommandIF or by a Command. If there is none, a Command binds any free one first and a Query asks any
-// one without binding it. disconnect() and CommandIF::release end such a binding, too.
+// A Command or Query of a component's namespace, for example Navigation, addresses the component of that type that this session
+// has bound last, by CommandIF or by a Command. If there is none, a Command first binds any free component of that type, and a
+// Query asks any component of that type without binding it. disconnect() and CommandIF::release end such a binding, too.
 #pragma once
 
 #include <string>
@@ -44,7 +44,7 @@ public:
     virtual RoIS_HRI::ReturnCode_t resume();
 
 protected:
-    // Ours. The last part of the type's URN, "Navigation".
+    // Not in the specification. The last part of the type's URN, "Navigation".
     explicit Command(std::string component_type) : component_type_(std::move(component_type)) {}
     std::string const& component_type() const { return component_type_; }
 
@@ -58,7 +58,7 @@ public:
     Query() = default;
     virtual ~Query() = default;
 
-    // BUSY: another session has the component.
+    // BUSY: another session has bound the component.
     virtual RoIS_HRI::ReturnCode_t component_status(Component_Status& status);
 
 protected:
@@ -81,7 +81,7 @@ public:
     Event& operator=(Event const&) { return *this; }
     virtual ~Event();
 
-    // Ours, called by the library.
+    // Not in the specification; called by the library.
     std::string const& component_type() const { return component_type_; }
     std::vector<std::string> const& event_types() const { return event_types_; }
     virtual void deliver(std::string const& event_type, rois::psm::EventResults const& results);
@@ -89,7 +89,7 @@ public:
 protected:
     Event(std::string component_type, std::vector<std::string> event_types);
 
-    // Ours: as in ServiceApplicationBase.
+    // Not in the specification: as in ServiceApplicationBase.
     void end_notifications();
 
 private:

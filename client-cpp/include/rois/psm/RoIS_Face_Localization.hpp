@@ -12,8 +12,8 @@ class Command : public RoIS_Common::Command {
 public:
     Command() : RoIS_Common::Command("FaceLocalization") {}
 
-    // detection_threshold: an event follows when somebody or something has moved by more than this (mm). minimum_interval: and
-    // not before this time has passed since the last one (ms). A negative value leaves the parameter as it is.
+    // detection_threshold: how far a face must have moved for a new event (mm). minimum_interval: the shortest time between two
+    // events (ms). A negative value leaves the parameter unchanged.
     RoIS_HRI::ReturnCode_t set_parameter(RoIS_HRI::Integer detection_threshold, RoIS_HRI::Integer minimum_interval);
 };
 
@@ -29,7 +29,7 @@ class Event : public RoIS_Common::Event {
 public:
     Event() : RoIS_Common::Event("FaceLocalization", {"face_localized"}) {}
 
-    // Which face is where: two lists in the same order.
+    // The faces and their positions: two lists in the same order.
     virtual void face_localized(RoIS_HRI::DateTime timestamp, RoIS_HRI::RoIS_IdentifierList face_ref,
                                 std::vector<RoLo::Architecture::Data> position_data);
 

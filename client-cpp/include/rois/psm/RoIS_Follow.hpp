@@ -12,8 +12,8 @@ class Command : public RoIS_Common::Command {
 public:
     Command() : RoIS_Common::Command("Follow") {}
 
-    // Whom the next start() follows. distance: mm, the robot waits while it is closer; time_limit: ms, 0 for none. An empty
-    // identifier and negative numbers leave their parameters as they are.
+    // The person or object that the next start() follows. distance: mm, the robot waits while it is closer; time_limit: ms, 0 for
+    // none. An empty identifier and negative numbers leave their parameters unchanged.
     RoIS_HRI::ReturnCode_t set_parameter(RoIS_HRI::RoIS_Identifier target_object_ref, RoIS_HRI::Integer distance,
                                          RoIS_HRI::Integer time_limit);
 };

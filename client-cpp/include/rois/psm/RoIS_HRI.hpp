@@ -6,10 +6,10 @@
 // Return codes. Every function blocks until the engine has answered, for at most 10 s, and throws nothing:
 //   OK                the operation succeeded; only then do out parameters change
 //   BAD_PARAMETER     an argument is invalid: unknown name, wrong type, XML that the schemas do not allow
-//   UNSUPPORTED       no component can ever do this
-//   OUT_OF_RESOURCES  another session has the component
+//   UNSUPPORTED       no component supports the operation
+//   OUT_OF_RESOURCES  another session has bound the component
 //   TIMEOUT           the engine did not answer in time, though the connection works
-//   ERROR             not connected, component not bound, any other failure; or connection lost, as when a gateway is silent
+//   ERROR             not connected, connection lost, component not bound, or any other failure
 // rois::psm::reason() (reason.hpp) says why the last call of the calling thread failed.
 //
 // Threads: any thread may call any function, also from inside a notification (RoIS_Service.hpp).
@@ -68,19 +68,19 @@ using ArgumentList = std::vector<Argument>;
 // Table 2.
 class SystemIF {
 public:
-    // Opens the session. Waits up to 5 s for the gateway; ERROR if there is none, if ROIS_URL is not a URL or if the token is
-    // refused. OK if the session is open already. After a lost link the session resumes by itself.
+    // Opens the session. Waits up to 5 s for the gateway. ERROR if there is no gateway, ROIS_URL is not a URL, or the token is
+    // rejected. OK if the session is open already. After a lost link the session resumes by itself.
     ReturnCode_t connect();
 
-    // Ends the session: the engine stops what the session has started and releases its components. No function of a
-    // notification receiver runs after disconnect() has returned, unless it was called from inside one. ERROR if the gateway
-    // does not answer within 2 s; the session is over on this side all the same.
+    // Ends the session: the engine stops its actions and releases its components. No function of a notification receiver runs
+    // after disconnect() has returned, unless disconnect() was called from inside one. ERROR if the gateway does not answer
+    // within 2 s; the session has ended on this side all the same.
     ReturnCode_t disconnect();
 
     // The profile of the engine, or of the sub engine that the condition names (`engine` equal to its name).
     ReturnCode_t get_profile(Condition_t condition, HRI_Engine_Profile& profile);
 
-    // What happened, for an error_id of notify_error.
+    // The details of an error, by an error_id of notify_error.
     ReturnCode_t get_error_detail(std::string error_id, Condition_t condition, ResultList& results);
 };
 
@@ -110,7 +110,7 @@ public:
 // Table 4.
 class QueryIF {
 public:
-    // Needs no binding. The condition chooses who answers.
+    // Needs no binding. The condition selects the component that answers.
     ReturnCode_t query(std::string query_type, Condition_t condition, ResultList& results);
 };
 

@@ -12,7 +12,7 @@ class Command : public RoIS_Common::Command {
 public:
     Command() : RoIS_Common::Command("Move") {}
 
-    // How the next start() moves the robot, in its own frame: one of the two, the other one empty.
+    // The next motion, in the robot's own frame: either a line or a curve; the other list is empty.
     // line: {distance mm, orientation degree}. The robot turns on the spot by the orientation, to the left when positive, then
     // drives the distance straight on, backwards when negative.
     // curve: {radius mm, direction degree}. The robot drives along a circle until its heading has changed by the direction, to

@@ -12,8 +12,8 @@ class Command : public RoIS_Common::Command {
 public:
     Command() : RoIS_Common::Command("Navigation") {}
 
-    // Where the next start() drives: points or names of places, in order. time_limit: ms for the whole way, 0 for none.
-    // routing_policy: "time" or "distance". Empty lists and texts and a negative limit leave their parameters as they are.
+    // The targets of the next start(): points or names of places, in order. time_limit: ms for the whole way, 0 for none.
+    // routing_policy: "time" or "distance". Empty lists and texts and a negative limit leave their parameters unchanged.
     RoIS_HRI::ReturnCode_t set_parameter(std::vector<RoLo::Architecture::Data> target_position, RoIS_HRI::Integer time_limit,
                                          std::string routing_policy);
 };

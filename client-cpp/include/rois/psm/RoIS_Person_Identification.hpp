@@ -22,7 +22,7 @@ class Event : public RoIS_Common::Event {
 public:
     Event() : RoIS_Common::Event("PersonIdentification", {"person_identified"}) {}
 
-    // Who is there: permanent ids.
+    // The permanent ids of the people in sight.
     virtual void person_identified(RoIS_HRI::DateTime timestamp, RoIS_HRI::RoIS_IdentifierList person_ref);
 
     void deliver(std::string const& event_type, rois::psm::EventResults const& results) override;

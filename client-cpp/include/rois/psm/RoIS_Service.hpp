@@ -1,4 +1,4 @@
-// The application's side in the C++ PSM (section 7.7): what the engine reports on its own (tables 6 to 8).
+// Notifications of the engine to the application in the C++ PSM (section 7.7; tables 6 to 8).
 #pragma once
 
 #include <string>
@@ -37,8 +37,8 @@ public:
     // notifications.
     virtual void notify_error(std::string error_id, ErrorType error_type);
 
-    // A command has ended. Comes once for every accepted command: with ABORT, too, when the session ended with the link. The
-    // library learns that when it has connected again; until then it only reports the lost link.
+    // A command has ended. Called once for every accepted command, with ABORT if the session ended with the link (after the
+    // library has connected again; until then it only reports the lost link).
     // Commands of a component's Command class have ids like "navigation.start.7": component, command, number.
     virtual void completed(std::string command_id, Completed_Status status);
 
@@ -46,8 +46,8 @@ public:
     virtual void notify_event(std::string event_id, std::string event_type, std::string subscribe_id, DateTime expire);
 
 protected:
-    // Ours: waits until no function of this object runs, and lets none run any more. On the notification thread it does not
-    // wait.
+    // Not in the specification. Prevents further calls of this object's functions, and waits until none runs; on the notification
+    // thread it does not wait.
     void end_notifications();
 };
 

@@ -13,7 +13,7 @@ public:
     Command() : RoIS_Common::Command("SpeechRecognition") {}
 
     // languages: ISO 639-1 codes. grammer (sic, the published name): the grammar; rule: its active rule. Empty arguments leave
-    // their parameters as they are.
+    // their parameters unchanged.
     RoIS_HRI::ReturnCode_t set_parameter(std::vector<std::string> languages, std::string grammer, std::string rule);
 };
 

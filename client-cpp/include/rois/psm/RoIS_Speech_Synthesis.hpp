@@ -12,8 +12,8 @@ class Command : public RoIS_Common::Command {
 public:
     Command() : RoIS_Common::Command("SpeechSynthesis") {}
 
-    // What the next start() says: plain text or SSML, one of the two. volume: 0 to 100; language: an ISO 639-1 code; character:
-    // one of synthesizable_characters. Empty texts and a negative volume leave their parameters as they are.
+    // The speech of the next start(): either plain text or SSML. volume: 0 to 100; language: an ISO 639-1 code; character: one of
+    // synthesizable_characters. Empty texts and a negative volume leave their parameters unchanged.
     RoIS_HRI::ReturnCode_t set_parameter(std::string speech_text, std::string SSML_text, RoIS_HRI::Integer volume,
                                          std::string language, RoIS_HRI::RoIS_Identifier character);
 };

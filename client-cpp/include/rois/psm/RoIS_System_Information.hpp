@@ -12,7 +12,7 @@ namespace System_Information {
 
 class Query {
 public:
-    // Where every robot of the engine is: robot_ref and position_data in the same order.
+    // The positions of all robots of the engine: robot_ref and position_data in the same order.
     RoIS_HRI::ReturnCode_t robot_position(RoIS_HRI::DateTime& timestamp, RoIS_HRI::RoIS_IdentifierList& robot_ref,
                                           std::vector<RoLo::Architecture::Data>& position_data);
 

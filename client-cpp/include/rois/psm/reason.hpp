@@ -1,11 +1,11 @@
-// Beside the published headers: why an operation of the C++ PSM failed.
+// An addition to the published headers: why an operation of the C++ PSM failed.
 #pragma once
 
 #include <string>
 
 namespace rois::psm {
 
-// The reason of the last operation of the C++ PSM that the calling thread has called; empty if that returned OK.
+// Returns why the last operation that the calling thread called has failed; empty if it returned OK.
 std::string reason();
 
 }  // namespace rois::psm
