@@ -1,4 +1,4 @@
-// How the run as a whole is, in one line, and why it failed.
+// The run in one line: its state, and why it failed.
 import { why } from '../forms/why';
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';

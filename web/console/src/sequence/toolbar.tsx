@@ -1,4 +1,4 @@
-// What can be done with the sequence and with the step that is chosen.
+// Buttons for the sequence and the selected step.
 import { useConsole } from '../shell/context';
 import { Button, IconButton, tried } from '../ui';
 import { move } from './keys';
@@ -20,7 +20,7 @@ export function Toolbar({ store, set_adding, open_library }: ToolbarProps) {
     const [problem] = store.problems.value;
     store.is_strict.value = problem !== undefined;
     if (problem) store.chosen.value = problem.step;
-    else void store.execute().catch(() => undefined); // the drawing shows it
+    else void store.execute().catch(() => undefined); // shown by the drawing
   };
   const stop = () => tried(console, 'sequence', store.stop());
   const add = () => set_adding({ lane: at?.lane.id ?? root.id, index: at ? at.slot.index + 1 : root.steps.length });

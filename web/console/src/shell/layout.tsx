@@ -1,4 +1,4 @@
-// Draws the panels: on a wide screen in up to three areas at once, on a narrower one behind one row of tabs.
+// Draws the panels: in up to three areas on a wide screen, behind one row of tabs on a narrow one.
 import type { ComponentType } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 

@@ -30,14 +30,14 @@ describe('components', () => {
       await page.getByText(/Type string\. Default en\./).waitFor();
       await page.getByLabel('speech_text', { exact: true }).fill('Good morning.');
       await page.getByLabel('volume', { exact: true }).fill('loud');
-      await page.getByText('This has to be a whole number.').waitFor();
+      await page.getByText('Enter a whole number.').waitFor();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
       await page.locator('input[aria-invalid="true"]:focus').waitFor();
       await page.getByLabel('volume', { exact: true }).fill('70');
       const request = page.getByRole('region', { name: 'Request: speech_synthesis start' });
       expect(await request.textContent()).toMatch(/<rois:value>Good morning\.<\/rois:value>[^]*<rois:value>70<\/rois:value>/);
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await is_told(page, 'It is done.');
+      await is_told(page, 'Done.');
       expect(await item(page, 'speech_synthesis').getByText('running').count()).toBe(0);
       expect(await page.getByRole('region', { name: 'Answer: speech_synthesis start' }).textContent()).toContain('execute_response');
       await picture(page, 'components-command');
@@ -54,14 +54,14 @@ describe('components', () => {
       await open(page, 'navigation');
       const target = page.getByLabel('target_position, item 1');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await page.getByText('This is needed.').waitFor();
+      await page.getByText('Required.').waitFor();
       await target.fill('nowhere');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
       await answer(page).getByText(/nowhere' is neither "x, y" nor .* one of the places/).first().waitFor();
       await expect.poll(() => is_in_view(answer(page).locator('p').first())).toBe(true);
       await target.fill('100000, 2000');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await is_told(page, 'The component could not do it.');
+      await is_told(page, 'The component failed.');
       expect(await violations(page)).toBe('');
       await target.fill('17500, 7000');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
@@ -75,19 +75,19 @@ describe('components', () => {
       await page.getByRole('button', { name: 'Add to target_position' }).click();
       await page.getByLabel('target_position, item 2').fill('desk');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await answer(page).getByText('It is running.').waitFor();
+      await answer(page).getByText('Running.').waitFor();
       await open(page, 'follow');
       await page.getByLabel('target_object_ref').fill('nobody');
       await page.getByLabel('distance').fill('500');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await answer(page).getByText('Something that it needs is in use.').waitFor();
+      await answer(page).getByText('A required resource is in use.').waitFor();
       await answer(page).getByText('Running on the same robot: navigation start.').waitFor();
       await picture(page, 'components-failed');
 
       // What was typed is still there.
       await open(page, 'navigation');
       expect(await page.getByLabel('target_position, item 2').inputValue()).toBe('desk');
-      await answer(page).getByText('It is running.').waitFor();
+      await answer(page).getByText('Running.').waitFor();
       await page.getByRole('button', { name: 'Release navigation' }).click();
       await item(page, 'navigation').getByText('bound by me').waitFor({ state: 'detached' });
     }, sizes.low));
@@ -99,15 +99,15 @@ describe('components', () => {
       await page.getByLabel('distance').fill('500');
       await page.getByLabel(/^Release the component when/).check();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await answer(page).getByText('It is running.').waitFor();
+      await answer(page).getByText('Running.').waitFor();
       await item(page, 'follow').getByText('running').waitFor();
       // It is seen from another form, too.
       await page.getByRole('button', { name: 'resume', exact: true }).click();
-      await page.locator('.panel-components').getByText('The answer will stand here.').waitFor();
+      await page.locator('.panel-components').getByText('The answer appears here.').waitFor();
       await page.getByRole('button', { name: 'Stop follow start' }).click();
       await page.getByRole('button', { name: 'Stop follow start' }).waitFor({ state: 'detached' });
       await page.getByRole('button', { name: 'start', exact: true }).click();
-      await is_told(page, 'It is done.');
+      await is_told(page, 'Done.');
       await item(page, 'follow').getByText('bound by me').waitFor({ state: 'detached' });
     }));
 
@@ -115,10 +115,10 @@ describe('components', () => {
     stage.page(async (page) => {
       await open(page, 'reaction');
       await page.getByRole('tab', { name: /^Parameters/ }).click();
-      const now = page.getByRole('region', { name: 'As they are now' });
+      const now = page.getByRole('region', { name: 'Current values' });
       await now.getByText('available_reactions').waitFor();
       await page.getByRole('button', { name: 'Set', exact: true }).click();
-      await page.getByText('Nothing has been typed yet.').waitFor();
+      await page.getByText('Nothing entered yet.').waitFor();
       expect(await page.getByLabel('reaction_ref', { exact: true }).evaluate((one: HTMLInputElement) => one.list?.options.length)).toBe(50);
       await page.getByLabel('reaction_ref', { exact: true }).fill('28');
       expect(await page.getByRole('region', { name: 'Request: reaction set_parameter' }).textContent()).toContain('rois:codebook_ref="urn:x-rois:def:codebook:simulation::reaction"');
@@ -153,14 +153,14 @@ describe('components', () => {
       await answer(page).getByText('OK', { exact: true }).waitFor();
       await page.getByRole('tab', { name: /^Commands/ }).click();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await is_told(page, 'It is done.');
+      await is_told(page, 'Done.');
       await page.getByRole('tab', { name: /^Events(?! and)/ }).click();
       await hall.pass_until(page, page.locator('.component-list').getByText('number: 0'), 200);
       await page.getByText('1 event', { exact: false }).first().waitFor();
       await picture(page, 'components-events');
       expect(await violations(page)).toBe('');
       await page.getByRole('button', { name: /^Unsubscribe / }).click();
-      await page.getByText('Subscriptions to it').waitFor({ state: 'detached' });
+      await page.getByText('Active subscriptions').waitFor({ state: 'detached' });
     }));
 
   test('a command of a profile of its own has its own form; a request is copied for a shell', () =>
@@ -168,10 +168,10 @@ describe('components', () => {
       await open(page, 'wheelchair_robot');
       expect(await page.getByRole('button', { name: 'brake', exact: true }).first().getAttribute('aria-pressed')).toBe('true');
       await page.getByRole('button', { name: 'brake', exact: true }).last().click();
-      await page.getByText('This is needed.').waitFor();
+      await page.getByText('Required.').waitFor();
       await page.getByLabel('status').selectOption('true');
       await page.getByRole('button', { name: 'brake', exact: true }).last().click();
-      await is_told(page, 'It is done.');
+      await is_told(page, 'Done.');
       await page.getByRole('button', { name: 'Copy as curl' }).click();
       await page.getByRole('button', { name: 'Copied' }).waitFor();
       expect(await page.evaluate(() => navigator.clipboard.readText())).toMatch(/^curl -s -H 'Content-Type: application\/xml' -H 'RoIS-Session: [^']+' -d '<execute [^]*http:\/\/127\.0\.0\.1:\d+\/rois$/);
@@ -198,7 +198,7 @@ describe('components', () => {
     await stage.page(async (page) => {
       await open(page, 'person_localization');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await is_told(page, 'It is done.');
+      await is_told(page, 'Done.');
       await open(page, 'follow');
       await hall.pass_until(page, page.locator('datalist option[value="person-1"]'));
       await page.getByLabel('target_object_ref').fill('person-1');
@@ -206,7 +206,7 @@ describe('components', () => {
       await page.getByLabel('distance').fill('800');
       await page.locator('.field', { has: page.getByLabel('distance') }).getByText('mm', { exact: true }).waitFor();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await answer(page).getByText('It is running.').waitFor();
+      await answer(page).getByText('Running.').waitFor();
     });
     await hall.leave('tanaka');
   });

@@ -28,7 +28,7 @@ describe('conditions', () => {
         expect(await panel(page).getByLabel('Event', { exact: true }).inputValue()).toBe('person_localized');
         await panel(page).getByRole('button', { name: 'position_data within a box' }).click();
         await panel(page).getByLabel('Corner 1, x').fill('abc');
-        await panel(page).getByText('This is no number').waitFor();
+        await panel(page).getByText('Not a number').waitFor();
         await panel(page).getByLabel('Corner 1, x').fill('');
         await count(page, '1 component can send it');
         await drag_area(page, { x: 500, y: 11_500 }, { x: 19_500, y: 500 });
@@ -65,7 +65,7 @@ describe('conditions', () => {
         const what = panel(page).getByLabel('What', { exact: true }).nth(1);
         await what.selectOption('status');
         await panel(page).getByLabel('Value', { exact: true }).nth(1).selectOption('READY');
-        await panel(page).getByLabel('Which of these must hold').nth(1).selectOption('none of');
+        await panel(page).getByLabel('Which of these must be true').nth(1).selectOption('none of');
         expect(await request(page, 'search').textContent()).toMatch(/<fes:And>[^]*<fes:Not>[^]*READY/);
         await count(page, /^0 of \d+ components$/);
         await panel(page).getByRole('button', { name: 'Remove the group' }).press('Enter');
@@ -115,9 +115,9 @@ describe('conditions', () => {
       async (page) => {
         await panel(page).getByRole('button', { name: 'Condition', exact: true }).click();
         await panel(page).getByText('One thing is missing').or(panel(page).getByText('2 things are missing')).waitFor();
-        await panel(page).getByText('Choose what it is about').first().waitFor();
+        await panel(page).getByText('Choose a property').first().waitFor();
         expect(await panel(page).getByRole('button', { name: 'Search', exact: true }).isDisabled()).toBe(true);
-        await panel(page).getByText('Something is still missing above.').waitFor();
+        await panel(page).getByText('Something is missing above.').waitFor();
         await panel(page).getByLabel('What', { exact: true }).selectOption('location');
         await panel(page).getByLabel('How', { exact: true }).selectOption('is within a place');
         await panel(page).getByLabel('Place', { exact: true }).fill('nowhere');
@@ -136,15 +136,15 @@ describe('conditions', () => {
         await panel(page).getByRole('button', { name: 'Paste XML' }).click();
         const area = panel(page).getByRole('textbox', { name: 'As XML' });
         await area.fill('<fes:Filter><nonsense');
-        await panel(page).getByRole('button', { name: 'Take over' }).click();
+        await panel(page).getByRole('button', { name: 'Import' }).click();
         await panel(page).getByText(/This cannot be read/).waitFor();
         await area.fill(`<subscribe xmlns="urn:x-rois:psm:xml:message:1" xmlns:fes="http://www.opengis.net/fes/2.0"><event_type>person_detected</event_type><condition>
           <fes:Filter><fes:PropertyIsGreaterThan><fes:ValueReference>number</fes:ValueReference><fes:Literal>1</fes:Literal></fes:PropertyIsGreaterThan></fes:Filter></condition></subscribe>`);
-        await panel(page).getByRole('button', { name: 'Take over' }).click();
+        await panel(page).getByRole('button', { name: 'Import' }).click();
         expect(await panel(page).getByLabel('Event', { exact: true }).inputValue()).toBe('person_detected');
         expect(await panel(page).getByLabel('What', { exact: true }).inputValue()).toBe('number');
         await panel(page).getByLabel('Value', { exact: true }).fill('many');
-        await panel(page).getByText('This is no number').waitFor();
+        await panel(page).getByText('Not a number').waitFor();
       },
       {},
       path,

@@ -62,7 +62,7 @@ describe('health', () => {
         expect(drawn).toBeGreaterThan(1);
         // Once more as a table, and by keys.
         await latency.getByText('As a table').click();
-        await expect.poll(() => table(page, 'How long answers take, ms: values').locator('tbody tr').first().innerText()).toMatch(/^[\d:]+\s+[\d.]+ ms\s+[\d.]+ ms/);
+        await expect.poll(() => table(page, 'Response time, ms: values').locator('tbody tr').first().innerText()).toMatch(/^[\d:]+\s+[\d.]+ ms\s+[\d.]+ ms/);
         const slider = latency.getByRole('slider');
         await slider.focus();
         await page.keyboard.press('ArrowLeft');
@@ -89,7 +89,7 @@ describe('health', () => {
           expect(refused.status).toBe(429);
           await row(page, 'Limits', /^Sessions33/).waitFor();
           await row(page, 'Limits', /^Sessions331 time 1 lately$/).waitFor();
-          await row(page, 'What went wrong since the gateway began', /too_many11$/).waitFor();
+          await row(page, 'Problems since the gateway started', /too_many11$/).waitFor();
           await third.close();
           await row(page, 'Limits', /^Sessions23/).waitFor();
           expect(await violations(page)).toBe('');
@@ -104,7 +104,7 @@ describe('health', () => {
       (page) =>
         with_other(async () => {
           await figure(page, 'Link').getByText('Connected').waitFor();
-          await page.getByText('This session was told of no error.').waitFor();
+          await page.getByText('No errors in this session.').waitFor();
           await page.evaluate(async () => {
             const { rois } = window as unknown as Page_;
             await rois.bindings.bind('move').catch(() => undefined);
@@ -127,7 +127,7 @@ describe('health', () => {
           await chosen.waitFor();
           // The same document once more, while the filter hides it.
           await page.getByLabel('Search in the text').fill('nothing has this text');
-          await page.getByText('Nothing passes the filter').waitFor();
+          await page.getByText('No document matches the filter').waitFor();
           await refused.getByRole('button', { name: 'Show in messages' }).click();
           await chosen.waitFor();
           expect(await page.getByLabel('Search in the text').inputValue()).toBe('');
@@ -142,14 +142,14 @@ describe('health', () => {
         await figure(page, 'Round trip').getByText(/ms$/).waitFor();
         stage.front.cut();
         await figure(page, 'Link').getByText('Connection lost').waitFor();
-        await page.getByText(/^The gateway's numbers are .* old/).waitFor();
+        await page.getByText(/^The gateway's metrics are .* old/).waitFor();
         await figure(page, 'Round trip').getByText('–').waitFor();
         expect(await violations(page)).toBe('');
         await picture(page, 'health-lost');
         stage.front.mend();
         await figure(page, 'Link').getByText('Connected again').waitFor();
         await log(page).filter({ hasText: 'Connection lost' }).waitFor();
-        await page.getByText(/^The gateway's numbers are .* old/).waitFor({ state: 'detached' });
+        await page.getByText(/^The gateway's metrics are .* old/).waitFor({ state: 'detached' });
       },
       { ...wide, may_complain: broken_link },
       '/#health',

@@ -55,7 +55,7 @@ describe('the link', () => {
       await page.locator('.exchange-came').getByText('OK', { exact: true }).waitFor();
       stage.front.cut();
       await mark(page, 'Connection lost').waitFor();
-      await said(page, /What you see is .* old/).waitFor();
+      await said(page, /The data is .* old/).waitFor();
       await is_told(page, 'lost');
 
       await other.bind('person_detection');
@@ -89,7 +89,7 @@ describe('the link', () => {
     stage = await Stage.set(...still_hall);
     stage.front.token = 'open sesame';
     await stage.page(async (page) => {
-      const dialog = page.getByRole('dialog', { name: 'This gateway wants a token' });
+      const dialog = page.getByRole('dialog', { name: 'This gateway requires a token' });
       await dialog.waitFor();
       await is_told(page, 'token');
       await page.getByRole('textbox', { name: 'Token' }).fill('sesame');
@@ -109,7 +109,7 @@ describe('the link', () => {
       await page.getByRole('treeitem', { name: /^navigation / }).click();
       await page.getByLabel('target_position, item 1').fill('exit');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await page.locator('.exchange-came').getByText('It is running.').waitFor();
+      await page.locator('.exchange-came').getByText('Running.').waitFor();
       stage.front.is_draining = true;
       const stopped = stage.gateway.stop();
       await mark(page, 'Starting or stopping').waitFor();

@@ -23,7 +23,7 @@ const ready = (page: Page) => row(page, 'robot1').getByText('Now').waitFor();
 
 async function observe(page: Page): Promise<void> {
   await page.getByRole('switch', { name: 'Observe' }).click();
-  await page.getByText('5 components look').waitFor();
+  await page.getByText('5 components work').waitFor();
   await page.locator('.map-switch[aria-busy="false"]').waitFor();
 }
 const pass_until = (page: Page, shown: Locator, step?: number) => hall.pass_until(page, shown, step);
@@ -82,7 +82,7 @@ describe('the map', () => {
     stage.page(async (page) => {
       await page.route('**/rois/map', (route) => route.fulfill({ status: 404, body: '' }));
       await page.reload();
-      await page.getByText('This engine has no map: a plain grid is shown').waitFor();
+      await page.getByText('This engine has no map; showing an empty grid').waitFor();
       await ready(page);
       expect(await scale(page)).toMatch(/m$/);
       await picture(page, 'map-none');
@@ -118,7 +118,7 @@ describe('the map', () => {
       await page.mouse.up();
       await page.locator('.map-pointer', { hasText: /x 9\.(49|5\d?) m, y 9\.(29|3\d?) m/ }).waitFor();
       expect(await page.getByText('Send robot1').count()).toBe(0);
-      await page.getByRole('button', { name: 'Show all of the floor' }).click();
+      await page.getByRole('button', { name: 'Show the whole floor' }).click();
       await page.waitForFunction((before) => document.querySelector('.map-scale')!.getAttribute('aria-label') === before, whole);
       await page.getByRole('button', { name: 'Larger' }).click({ clickCount: 4 });
       await page.waitForFunction((before) => document.querySelector('.map-scale')!.getAttribute('aria-label') !== before, whole);
@@ -139,7 +139,7 @@ describe('the map', () => {
         await touch('touchEnd');
         await page.waitForFunction((before) => document.querySelector('.map-scale')!.getAttribute('aria-label') !== before, whole);
         expect(await page.getByRole('heading', { name: 'Send robot1' }).count()).toBe(0);
-        await page.getByRole('button', { name: 'Show all of the floor' }).click();
+        await page.getByRole('button', { name: 'Show the whole floor' }).click();
         await touch('touchStart', 0);
         for (const moved of [20, 40, 60]) await touch('touchMove', moved);
         await touch('touchEnd');
@@ -219,7 +219,7 @@ describe('the robot', () => {
       await expect.poll(() => page.evaluate(() => (window as unknown as { rois: Console }).rois.commands.all.list().filter((one) => one.command_type === 'start').map((one) => `${one.component} ${one.state}`))).toEqual(['speech_synthesis OK']);
       await page.evaluate(() => (window as unknown as { rois: Console }).rois.bindings.release('speech_synthesis'));
       await page.getByText('0 bound').waitFor();
-      await card.getByText('All that it can do').click();
+      await card.getByText('All commands').click();
       await card.getByRole('button', { name: 'reaction', exact: true }).click();
       await page.getByRole('heading', { name: 'reaction', exact: true }).waitFor();
       expect(await violations(page)).toBe('');
@@ -334,15 +334,15 @@ describe('people', () => {
       await pass_until(page, row(page, /tanaka|person-/), 200);
       await page.getByRole('treeitem', { name: /^person_localization / }).click();
       await page.getByRole('tab', { name: /^Events(?! and)/ }).click();
-      await page.getByLabel('Bring the values along').uncheck();
+      await page.getByLabel('Include results').uncheck();
       await page.getByRole('button', { name: 'Subscribe', exact: true }).click();
       await page.locator('.exchange-came').getByText('OK', { exact: true }).waitFor();
       for (const x of [9, 8]) {
         await hall.walk('tanaka', `${x}000, 6000, 180`);
         await row(page, /tanaka|person-/).getByText(new RegExp(`x (${x}\\.[0-3]|${x - 1}\\.[6-9])\\d m`)).waitFor();
       }
-      await page.locator('.map').getByText(/5 components look, news 1 s ago/).waitFor();
-      expect(await page.locator('.map').getByText('their results do not arrive').count()).toBe(0);
+      await page.locator('.map').getByText(/5 components work, news 1 s ago/).waitFor();
+      expect(await page.locator('.map').getByText('results do not arrive').count()).toBe(0);
       await page.getByRole('switch', { name: 'Observe' }).click();
       await page.getByText('0 bound').waitFor();
     }));
@@ -377,9 +377,9 @@ describe('people', () => {
         await page.keyboard.press('n');
         const person = page.getByRole('region', { name: /^Person/ });
         await person.waitFor();
-        await page.getByLabel('How near it comes').fill('-1');
-        await page.getByText('A number above 0, please').waitFor();
-        await page.getByLabel('How near it comes').fill('1.5');
+        await page.getByLabel('Distance to keep').fill('-1');
+        await page.getByText('Enter a number above 0').waitFor();
+        await page.getByLabel('Distance to keep').fill('1.5');
         await person.getByRole('button', { name: 'Follow' }).click();
         await page.locator('.map-motion', { hasText: /robot1 follows/ }).waitFor();
         await person.waitFor({ state: 'detached' }); // it hides nothing any more
@@ -400,7 +400,7 @@ describe('people', () => {
       await ready(page);
       await observe(page);
       await page.reload();
-      await page.getByText('5 components look').waitFor();
+      await page.getByText('5 components work').waitFor();
       await page.locator('.map-switch[aria-busy="false"]').waitFor();
       await page.getByRole('switch', { name: 'Observe' }).click();
       await page.getByText('0 bound').waitFor();
@@ -433,7 +433,7 @@ describe('people', () => {
         expect(await page.locator('.map-bar').getByText(/components look/).count()).toBe(0);
         stage.front.mend();
         await ready(page);
-        await page.getByText('5 components look').waitFor();
+        await page.getByText('5 components work').waitFor();
         await page.getByRole('switch', { name: 'Observe' }).click();
         await anybody.getByText('Unknown').waitFor();
         expect(await page.getByText('Out of sight').count()).toBe(0);
@@ -448,8 +448,8 @@ describe('people', () => {
     await stage.page(async (page) => {
       await ready(page);
       await page.getByRole('switch', { name: 'Observe' }).click();
-      await page.getByText('4 of 5 components look').waitFor();
-      await page.getByText('Not everything can be observed').click();
+      await page.getByText('4 of 5 components work').waitFor();
+      await page.getByText('Some things cannot be observed').click();
       await page.getByText(/person_localization: .*Another application has it/).waitFor();
       expect(await violations(page)).toBe('');
     });

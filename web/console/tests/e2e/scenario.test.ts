@@ -61,7 +61,7 @@ describe('the reception of figure 1', () => {
     await stage.page(
       async (page) => {
         await page.getByText('Connected', { exact: true }).waitFor();
-        for (const [name, value] of Object.entries(wanted)) await page.getByLabel(`What ${name} begins with`).fill(value);
+        for (const [name, value] of Object.entries(wanted)) await page.getByLabel(`Initial value of ${name}`).fill(value);
         await start(page).click();
         await page.getByText('Running', { exact: true }).waitFor();
         await hall.pass_until(page, page.locator('.scenario-printed'), 500, an_hour);
@@ -90,7 +90,7 @@ describe('the reception of figure 1', () => {
         await in_diagram(page, 'wait').and(page.locator('[aria-current]')).waitFor();
         await page.getByText('1 bound').waitFor();
         await page.getByRole('tab', { name: 'Edit' }).click();
-        await page.getByText('It runs. Stop it to change it.').waitFor();
+        await page.getByText('Running. Stop it to edit.').waitFor();
         await page.getByRole('button', { name: 'Stop', exact: true }).click();
         await page.getByText('Stopped', { exact: true }).waitFor();
         await page.getByText('0 bound').waitFor();
@@ -136,7 +136,7 @@ describe('a scenario', () => {
 
         await page.reload(); // it is remembered
         await page.getByText('greeting.xml', { exact: true }).waitFor();
-        await page.getByRole('button', { name: 'Reception as shipped' }).click();
+        await page.getByRole('button', { name: 'Reception example' }).click();
         await in_diagram(page, 'all_received').waitFor();
       },
       {},
@@ -147,9 +147,9 @@ describe('a scenario', () => {
     stage.page(
       async (page) => {
         await open_file(page, 'odd.xml', greeting.replace('</state>', '<leaving><command component="speech_synthesis" type="sing"/></leaving></state>').replace('<after', '<event type="unheard_of" to="wait"/><after'));
-        await page.getByText('What this engine cannot do (2)').click();
+        await page.getByText('Not supported by this engine (2)').click();
         await page.getByText("speech_synthesis has no command 'sing'").waitFor();
-        await page.getByText("no component that is meant tells the event 'unheard_of'").waitFor();
+        await page.getByText("no matching component sends the event 'unheard_of'").waitFor();
       },
       {},
       '/#scenario',

@@ -134,7 +134,7 @@ describe('sequences', () => {
         await panel(page).getByRole('button', { name: 'Command', exact: true }).click();
         await component(page).selectOption('follow');
         await panel(page).getByRole('button', { name: 'Run', exact: true }).click();
-        await panel(page).getByText('This is needed.').first().waitFor();
+        await panel(page).getByText('Required.').first().waitFor();
         await box(page, 'follow').getByText('not complete').waitFor();
         await box(page, 'follow').press('Delete');
         await panel(page).getByRole('button', { name: 'Run', exact: true }).click();
@@ -146,7 +146,7 @@ describe('sequences', () => {
         await hall.pass_until(page, box(page, 'speech_synthesis').getByText('OK'), 200);
         await panel(page).getByText('navigation start ended with ERROR.').waitFor();
         await panel(page).getByRole('button', { name: 'Show the step' }).click();
-        await panel(page).getByText('The component could not do it.').waitFor();
+        await panel(page).getByText('The component failed.').waitFor();
         await picture(page, 'sequence-failed');
         expect(await violations(page)).toBe('');
       },
@@ -203,9 +203,9 @@ describe('sequences', () => {
         await panel(page).getByRole('button', { name: 'Forget Greeting' }).click();
         await panel(page).getByRole('button', { name: 'New', exact: true }).click();
         await open_library(page);
-        await panel(page).getByLabel('Or its text').fill('<a/>');
-        await panel(page).getByRole('button', { name: 'Take over' }).click();
-        await panel(page).getByText('There is no CommandUnitSequence with commands in it').waitFor();
+        await panel(page).getByLabel('Or XML text').fill('<a/>');
+        await panel(page).getByRole('button', { name: 'Import' }).click();
+        await panel(page).getByText('It has no CommandUnitSequence with commands').waitFor();
         await panel(page).getByLabel('An XML file').setInputFiles({ name: 'Other.xml', mimeType: 'text/xml', buffer: await import('node:fs/promises').then(({ readFile }) => readFile(file)) });
         await box(page, 'speech_synthesis').getByText('This way, please.').waitFor();
         await panel(page).getByText('Other', { exact: true }).waitFor();

@@ -127,7 +127,7 @@ describe('the page', () => {
         await page.getByText('Connected', { exact: true }).waitFor();
         stage.front.cut();
         await page.getByText('Connection lost', { exact: true }).waitFor();
-        await page.getByText(/What you see is .* old/).waitFor();
+        await page.getByText(/The data is .* old/).waitFor();
         await page.getByText('Not live', { exact: true }).waitFor();
         expect(await violations(page)).toBe('');
         await picture(page, 'shell-lost');
@@ -195,7 +195,7 @@ describe('the page', () => {
       }
       await picture(page, 'shell-focus');
       expect(walked[0]).toBe('Skip to the panels');
-      for (const name of ['Colours', 'Language', 'Place to go to', 'Larger', 'Stop time', 'Stretch of time', 'navigation', 'Release navigation|Bind navigation', 'Commands', 'start', 'target_position, item 1', 'Copy as curl', 'Request: navigation start'])
+      for (const name of ['Colours', 'Language', 'Place to go to', 'Larger', 'Stop time', 'Time range', 'navigation', 'Release navigation|Bind navigation', 'Commands', 'start', 'target_position, item 1', 'Copy as curl', 'Request: navigation start'])
         expect(walked.some((one) => new RegExp(`^(${name})`).test(one)), `${name} in ${walked.join(' | ')}`).toBe(true);
       expect(walked.filter((one) => one.startsWith('!'))).toEqual([]);
 

@@ -94,7 +94,7 @@ describe('the time line', () => {
         await rows(page, /Command startspeech_synthesiswaiting/).waitFor();
         await page.getByRole('button', { name: 'Stop time' }).click();
         await rows(page, /Command startnavigationERROR/).getByRole('button').click();
-        await details(page).getByText('The component could not do it.').waitFor();
+        await details(page).getByText('The component failed.').waitFor();
         await other.close();
       },
       wide,
@@ -124,9 +124,9 @@ describe('the time line', () => {
     stage.page(
       async (page) => {
         await day(page);
-        await page.getByLabel('Stretch of time').selectOption('10 s');
+        await page.getByLabel('Time range').selectOption('10 s');
         await expect.poll(() => span(page)).toBe(10_000);
-        await page.getByLabel('Stretch of time').selectOption('1 min');
+        await page.getByLabel('Time range').selectOption('1 min');
         await stop_time(page);
         await zoom(page, (await sent_at(page, -2)) - 1500, (await ended_at(page, -1)) + 100); // the time was stopped later than that
         const walk = await point(page, 'navigation', await middle_of(page, -2));
@@ -139,7 +139,7 @@ describe('the time line', () => {
         await page.mouse.move(failed.x, failed.y);
         await tip.getByText(/100000, 4 is outside of the map/).waitFor();
         await page.mouse.click(failed.x, failed.y);
-        await details(page).getByText('The component could not do it.').waitFor();
+        await details(page).getByText('The component failed.').waitFor();
         await details(page).getByRole('region', { name: 'Arguments' }).getByText('100000, 4').waitFor();
         await details(page).getByText('The request').click();
         expect(await details(page).getByRole('region', { name: 'The request' }).textContent()).toContain('100000, 4');
@@ -167,7 +167,7 @@ describe('the time line', () => {
         await told.getByText(/^Command, start, navigation, ERROR, Sent .* Ran /).waitFor({ state: 'attached' });
         await page.locator('.timeline-tip').getByText('ERROR').waitFor();
         await page.keyboard.press('Enter');
-        await details(page).getByText('The component could not do it.').waitFor();
+        await details(page).getByText('The component failed.').waitFor();
         await page.keyboard.press('Escape');
         await details(page).waitFor({ state: 'detached' });
         expect(await chart.evaluate((one) => one === document.activeElement)).toBe(true);
@@ -199,7 +199,7 @@ describe('the time line', () => {
         await page.mouse.wheel(0, 200);
         await expect.poll(() => span(page)).toBeGreaterThan(chosen * 1.2);
         expect(Math.abs((await under()) - middle.x)).toBeLessThan(2); // what was under the pointer is still there
-        await page.getByRole('button', { name: 'Back to the stretch before' }).click();
+        await page.getByRole('button', { name: 'Previous range' }).click();
         await expect.poll(() => span(page)).toBe(60_000);
         await page.getByRole('button', { name: 'Earlier' }).click();
         await page.getByText('Stopped', { exact: true }).waitFor();
@@ -208,7 +208,7 @@ describe('the time line', () => {
         const still = await page.locator('.timeline-canvas').getAttribute('data-to');
         await hall.run(page, 'speech_synthesis', 'start', { speech_text: 'Good bye.' });
         expect(await page.locator('.timeline-canvas').getAttribute('data-to')).toBe(still);
-        await page.getByRole('button', { name: 'Go on live' }).click();
+        await page.getByRole('button', { name: 'Go live' }).click();
         await page.getByLabel('As a table').check();
         await expect.poll(() => rows(page, /Command startspeech_synthesisOK/).count()).toBe(2);
       },

@@ -39,7 +39,7 @@ describe('a new user', () => {
       async (page) => {
         // To a visitor: who is there is seen when somebody looks.
         await row(page, /robot1/).getByText('Now').waitFor();
-        await page.getByLabel('Stretch of time').selectOption('30 s');
+        await page.getByLabel('Time range').selectOption('30 s');
         await page.getByRole('switch', { name: 'Observe' }).click();
         await hall.pass_until(page, row(page, /tanaka|person-/).getByText(/x 12/), 200);
         await click_map(page, { x: 12_500, y: 5500 });
@@ -55,7 +55,7 @@ describe('a new user', () => {
         await page.getByRole('treeitem', { name: /^speech_synthesis / }).click();
         await page.getByLabel('speech_text', { exact: true }).fill('Good morning. How can I help you?');
         await page.getByRole('button', { name: 'start', exact: true }).last().click();
-        await hall.pass_until(page, page.locator('.exchange-came').getByText('It is done.'), 200);
+        await hall.pass_until(page, page.locator('.exchange-came').getByText('Done.'), 200);
 
         // Persons within a box, and one who walks in.
         await tab(page, 'Conditions');
@@ -94,7 +94,7 @@ describe('a new user', () => {
         await page.getByRole('treeitem', { name: /^navigation / }).click();
         await page.getByLabel('target_position, item 1').fill('17500, 7000');
         await page.getByRole('button', { name: 'start', exact: true }).last().click();
-        await hall.pass_until(page, page.locator('.exchange-came').getByText('The component could not do it.'), 200);
+        await hall.pass_until(page, page.locator('.exchange-came').getByText('The component failed.'), 200);
         await page.locator('.exchange-came').getByText(/is outside of the hall, in a wall or in furniture/).first().scrollIntoViewIfNeeded();
         await shown(page, 'failed');
 

@@ -20,7 +20,7 @@ const row = (page: Page, ref: string) => page.locator('.visitors-one', { hasText
 
 async function let_in(page: Page, name: string, known = false): Promise<void> {
   await page.getByLabel('Name', { exact: true }).fill(name);
-  if (known) await page.getByLabel('Identification knows them').check();
+  if (known) await page.getByLabel('Known to identification').check();
   await page.getByRole('button', { name: 'Let in' }).click();
 }
 
@@ -48,7 +48,7 @@ test('who is there is not known before the engine has said it, and has its age w
       stage.front.mend();
       await page.getByText('Nobody is in the hall').waitFor();
       await page.getByText('Disconnect', { exact: true }).click();
-      await page.getByText('Who is in the hall is not known yet').waitFor();
+      await page.getByText('The people in the hall are not known yet').waitFor();
     },
     { may_complain: broken_link },
     '/#visitors',
@@ -58,7 +58,7 @@ describe('in a world that stands still', () => {
   test('somebody comes in, is dragged, says and waves, and time is let pass', () =>
     stage.page(
       async (page) => {
-        await page.getByText('The world stands still.').waitFor();
+        await page.getByText('Time is stopped.').waitFor();
         await let_in(page, 'anna', true);
         await page.getByRole('listitem').filter({ hasText: 'anna' }).getByText('comes in when the entrance is free').waitFor();
         await page.getByRole('button', { name: 'Let 1 second pass' }).click();
@@ -91,7 +91,7 @@ describe('in a world that stands still', () => {
         await row(page, 'anna').getByText(/^(8\.9|9\.[01]) m, 4\.[3-6] m$/).waitFor();
         await page.getByLabel('Walk to').selectOption('desk');
         await page.getByRole('button', { name: 'Go', exact: true }).click();
-        await page.getByRole('button', { name: 'Let it flow' }).click();
+        await page.getByRole('button', { name: 'Let time run' }).click();
         await row(page, 'anna').getByText(/, 5\.\d m$/).waitFor();
         await page.getByRole('button', { name: 'Halt' }).click();
         await leaves(page, 'anna');
@@ -113,7 +113,7 @@ describe('in a world that stands still', () => {
         await pass_until(page, row(page, 'anna'));
 
         // The floor sends whoever is chosen.
-        await page.getByText('Drag anna, or click where to go').waitFor();
+        await page.getByText('Drag anna, or click the target').waitFor();
         await page.locator('.visitors-floor .floor-ground').click({ position: { x: 40, y: 40 } });
         await row(page, 'anna').getByText('walking').waitFor();
 
@@ -124,7 +124,7 @@ describe('in a world that stands still', () => {
         await pass_until(page, row(page, 'anna').getByText(/^9\.[78] m, 2\.[678] m$/));
 
         await page.getByLabel('Name', { exact: true }).fill('ben');
-        await page.getByText('Somebody has this name already.').waitFor();
+        await page.getByText('This name is already used.').waitFor();
         expect(await page.getByRole('button', { name: 'Let in' }).isDisabled()).toBe(true);
         await page.getByLabel('Name', { exact: true }).fill('');
         await visitor(page, 'anna').focus();
@@ -182,7 +182,7 @@ test('an engine without a simulated hall says how one comes by visitors', async 
   try {
     await unsteered.page(
       async (page) => {
-        await page.getByText('This engine has no visitors to steer').waitFor();
+        await page.getByText('This engine has no visitors to control').waitFor();
         await page.getByText('--steering on').waitFor();
         expect(await violations(page)).toBe('');
         await picture(page, 'visitors-none');

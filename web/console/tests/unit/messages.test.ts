@@ -147,14 +147,14 @@ describe('recordings', () => {
   });
 
   test.each([
-    ['', 'nothing is recorded'],
-    ['hello', 'line 1: this is no JSON object'],
-    ['{"recording":"rois-recording-1"}\n{"at":0,', 'nothing is recorded'],
-    ['{"recording":"rois-recording-1"}\n{"at":0,\n', 'line 2: this is no JSON object'],
-    ['{"recording":"other"}', 'line 1: this is no recording of the format rois-recording-1'],
-    ['{"recording":"rois-recording-1"}\n', 'nothing is recorded'],
-    ['{"recording":"rois-recording-1"}\n{"at":0,"direction":"up","document":""}', 'line 2: the direction has to be "in" or "out"'],
-    ['{"recording":"rois-recording-1"}\n{"at":"0","direction":"in","document":""}', "line 2: 'at' and 'document' are needed"],
-    ['{"recording":"rois-recording-1"}\n7', 'line 2: this is no JSON object'],
+    ['', 'the recording is empty'],
+    ['hello', 'line 1: not a JSON object'],
+    ['{"recording":"rois-recording-1"}\n{"at":0,', 'the recording is empty'],
+    ['{"recording":"rois-recording-1"}\n{"at":0,\n', 'line 2: not a JSON object'],
+    ['{"recording":"other"}', 'line 1: expected a recording of the format rois-recording-1'],
+    ['{"recording":"rois-recording-1"}\n', 'the recording is empty'],
+    ['{"recording":"rois-recording-1"}\n{"at":0,"direction":"up","document":""}', 'line 2: \'direction\' must be "in" or "out"'],
+    ['{"recording":"rois-recording-1"}\n{"at":"0","direction":"in","document":""}', "line 2: 'at' (a number) or 'document' (a text) is missing"],
+    ['{"recording":"rois-recording-1"}\n7', 'line 2: not a JSON object'],
   ])('that are none are refused: %j', (file, why) => expect(() => read_recording(file)).toThrow(why));
 });

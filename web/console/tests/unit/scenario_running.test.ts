@@ -169,7 +169,7 @@ describe('a run', () => {
     await world.tries_again();
     await world.opens();
     await goes_on();
-    expect(trouble()).toBe('The session has ended, and what the robot did for it.');
+    expect(trouble()).toBe('The session has ended; its commands were stopped.');
     await runs(`<state name="a"><after seconds="100" to="z"/></state>${end}`);
     await console.close();
     await goes_on();
@@ -221,7 +221,7 @@ describe('a state', () => {
     await runs(`<state name="a">${command}<completed status="OK" to="z"/></state>${end}`);
     await completes('ERROR');
     await goes_on();
-    expect(trouble()).toBe("The commands of 'a' ended with ERROR, and no trigger is for that.");
+    expect(trouble()).toBe("The commands of 'a' ended with ERROR, and no trigger handles that.");
     await runs(`<state name="a">${command}<completed status="OK" to="z"/><after seconds="5" to="z"/></state>${end}`);
     await completes('ERROR');
     await goes_on();
@@ -260,7 +260,7 @@ describe('a trigger', () => {
 
   test('needs a number of seconds', async () => {
     await runs(`<state name="a"><after seconds="{x}" to="z"/></state>${end}`);
-    expect(trouble()).toBe("a: '' is no number of seconds");
+    expect(trouble()).toBe("a: '' is not a number of seconds");
   });
 
   test('takes events of the component that it names, and of the subscriptions of its own alone', async () => {
@@ -328,7 +328,7 @@ describe('steps', () => {
     await runs(seen('<place variable="x" before="{y}" distance="1"/>'));
     await tells('person_localized', people);
     await goes_on();
-    expect(trouble()).toBe('\'7\' is no place "x, y, th"');
+    expect(trouble()).toBe('\'7\' is not a place "x, y, th"');
   });
 
   test('arguments are checked before they are sent', async () => {

@@ -45,7 +45,7 @@ describe('a command that failed', () => {
 
   test('was sent to where nobody can go', async () => {
     const entry = await ended('navigation', 'ERROR', '', ['desk', '100, 200, 90', '20000, 5', '1200, 1200']);
-    expect(why(console, entry)).toEqual(['20000, 5 is outside of the map, which goes from x 0 … 16000 and from y 0 … 12000 (mm).', '1200, 1200 is where furniture stands.']);
+    expect(why(console, entry)).toEqual(['20000, 5 is outside the map: x 0 … 16000, y 0 … 12000 (mm).', '1200, 1200 is inside furniture.']);
   });
 
   test('wants what another component of its robot uses', async () => {
@@ -61,7 +61,7 @@ describe('a command that failed', () => {
     const { command_ids } = await console.run('navigation', 'start');
     await world.notifies('receive_error', '<error_id>e-1</error_id><error_type>COMPONENT_INTERNAL_ERROR</error_type><component_ref rois:code="navigation"/>');
     await world.notifies('completed', `<command_id>${command_ids[0]}</command_id><status>ERROR</status>`);
-    expect(why(console, console.commands.find(command_ids[0]!)!)).toEqual(['The engine told of an error meanwhile: COMPONENT_INTERNAL_ERROR. description: the motor is hot']);
+    expect(why(console, console.commands.find(command_ids[0]!)!)).toEqual(['The engine reported an error meanwhile: COMPONENT_INTERNAL_ERROR. description: the motor is hot']);
   });
 });
 
