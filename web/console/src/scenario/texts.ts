@@ -111,12 +111,12 @@ export const wrong_value = text_of((name: string, value: string, type: string) =
 ]);
 export const no_text_here = text_of((name: string) => [`'${name}' must not have text`, `'${name}' は文字列を持てません`]);
 export const not_a_scenario = text_of((name: string) => [
-  `not a robot scenario: expected the element robot_scenario, not '${name}'`,
+  `this is not a robot scenario: expected the element robot_scenario, not '${name}'`,
   `ロボットシナリオではありません: 要素 '${name}' ではなく robot_scenario が必要です`,
 ]);
-export const ref_or_type = text_of(() => ["a component needs either 'ref' or 'type'", "コンポーネントには 'ref' か 'type' の一方だけを書きます"]);
+export const ref_or_type = text_of(() => ["a component has one of 'ref' and 'type'", "コンポーネントには 'ref' か 'type' の一方だけを書きます"]);
 export const second = text_of((what: string, name: string) => [`a second ${what} '${name}'`, `${kinds_ja[what] ?? what} '${name}' が重複しています`]);
-export const no_way_out = text_of(() => ['this state cannot be left: expected a trigger, or the element end', 'この状態から出られません: トリガーか、要素 end が必要です']);
+export const no_way_out = text_of(() => ['nothing leads out of this state: expected a trigger, or the element end', 'この状態から出られません: トリガーか、要素 end が必要です']);
 export const no_commands = text_of(() => ['this state waits for the end of its commands, and has none', 'この状態はコマンドの終了を待ちますが、コマンドがありません']);
 export const no_query = text_of(() => ['this state waits for an answer, and has no query', 'この状態は応答を待ちますが、query がありません']);
 export const nothing_to_take = text_of(() => ['only events and answers have results to take', '結果を取り出せるのはイベントと応答だけです']);
@@ -129,19 +129,19 @@ export const no_such = text_of((what: string, name: string, known: string[]) => 
 
 // Endings
 export const stopped = text('stopped', '停止しました');
-export const session_ended = text('The session has ended; its commands were stopped.', 'セッションが終わり、ロボットの動作も終わりました。');
+export const session_ended = text('The session has ended, and its commands with it.', 'セッションが終わり、ロボットの動作も終わりました。');
 export const connection_closed = text('The connection has closed.', '接続が閉じられました。');
-export const no_place = text_of((text: string) => [`'${text}' is not a place "x, y, th"`, `'${text}' は位置 "x, y, th" ではありません`]);
+export const no_place = text_of((text: string) => [`'${text}' is not a place: expected "x, y, th"`, `'${text}' は位置 "x, y, th" ではありません`]);
 export const no_seconds = text_of((state: string, text: string) => [`${state}: '${text}' is not a number of seconds`, `${state}: '${text}' は秒数ではありません`]);
 export const unexpected_end = text_of((state: string, status: string) => [
-  `The commands of '${state}' ended with ${status}, and no trigger handles that.`,
+  `The commands of '${state}' ended with ${status}, and no trigger is for that.`,
   `'${state}' のコマンドが ${status} で終わり、それに対するトリガーがありません。`,
 ]);
 export const no_component = text_of((ref: string) => [`the engine has no component '${ref}'`, `エンジンにコンポーネント '${ref}' がありません`]);
 export const none_of_type = text_of((type: string) => [`the engine has no component of the type ${type}`, `エンジンに型 ${type} のコンポーネントがありません`]);
 export const no_command = text_of((ref: string, type: string) => [`${ref} has no command '${type}'`, `${ref} にコマンド '${type}' はありません`]);
 export const no_argument = text_of((ref: string, name: string, known: string[]) => [
-  `${ref} has no argument '${name}'${known.length > 0 ? `; it has ${known.join(', ')}` : '; it has none'}`,
+  `${ref} has no argument '${name}'${known.length > 0 ? `; it has ${known.join(', ')}` : '; it has no arguments'}`,
   `${ref} に引数 '${name}' はありません${known.length > 0 ? `。あるもの: ${known.join(', ')}` : ''}`,
 ]);
 export const not_of_type = text_of((name: string, value: string, type: string) => [

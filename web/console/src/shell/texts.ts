@@ -35,7 +35,7 @@ export const seen = text('Seen', '確認');
 export const try_now = text('Try now', '今すぐ試す');
 export const disconnect_title = text('Disconnect?', '切断しますか?');
 export const disconnect_hint = text_of((bound: number, commands: number) => [
-  `This ends the session, releases ${count_text(bound)} bound ${bound === 1 ? 'component' : 'components'}${commands === 0 ? '' : ` and stops ${count_text(commands)} ${commands === 1 ? 'command' : 'commands'}`}.`,
+  `This ends the session${commands === 0 ? ' and' : ','} releases ${count_text(bound)} bound ${bound === 1 ? 'component' : 'components'}${commands === 0 ? '' : ` and stops ${count_text(commands)} ${commands === 1 ? 'command' : 'commands'}`}.`,
   `セッションを終了します。バインドした ${count_text(bound)} 個のコンポーネントを解放${commands === 0 ? 'します' : `し、終わっていないコマンド ${count_text(commands)} 件を止めます`}。`,
 ]);
 export const cancel = text('Cancel', '取り消し');

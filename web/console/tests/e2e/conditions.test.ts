@@ -1,4 +1,4 @@
-// The conditions panel: filters that are built, what they match now, and what is done with them.
+// The Conditions panel: building filters, their present matches, and their use.
 import type { Page } from 'playwright-core';
 import { describe, expect, test } from 'vitest';
 
@@ -21,7 +21,7 @@ const request = (page: Page, operation: string) => panel(page).getByRole('region
 const count = (page: Page, text: string | RegExp) => panel(page).locator('.conditions-count').filter({ hasText: text }).waitFor();
 
 describe('conditions', () => {
-  test('subscribes to persons within a box that is picked on the map', () =>
+  test('subscribes to persons in a box picked on the map', () =>
     stage.page(
       async (page) => {
         await panel(page).getByRole('radio', { name: 'Subscribe' }).click();
@@ -35,7 +35,7 @@ describe('conditions', () => {
         expect(Number(await panel(page).getByLabel('Corner 1, x').inputValue())).toBeLessThan(1000);
         expect(await request(page, 'subscribe').textContent()).toMatch(/<fes:Within>[^]*position_data[^]*<gml:lowerCorner>/);
         await panel(page).getByRole('button', { name: 'Subscribe', exact: true }).click();
-        await panel(page).getByText('Nothing has come yet.').waitFor();
+        await panel(page).getByText('No events yet.').waitFor();
         await panel(page).getByRole('button', { name: 'Start person_localization' }).click();
         await hall.pass_until(page, panel(page).locator('.conditions-subscription').getByText(/^[1-9]\d* events?$/), 200);
         await picture(page, 'conditions-box');
@@ -50,7 +50,7 @@ describe('conditions', () => {
       path,
     ));
 
-  test('says how many components it matches now, with the keyboard alone', () =>
+  test('shows the number of matching components, by keyboard alone', () =>
     stage.page(
       async (page) => {
         await count(page, /^(\d+) of \1 components$/);
@@ -71,7 +71,7 @@ describe('conditions', () => {
         await panel(page).getByRole('button', { name: 'Remove the group' }).press('Enter');
         await count(page, /^1 of \d+ components$/);
 
-        // It outlives the panel, and the page.
+        // It is kept across panels and visits.
         await page.getByRole('tab', { name: 'Sequences' }).click();
         await page.getByRole('tab', { name: 'Conditions' }).click();
         await page.reload();
@@ -82,7 +82,7 @@ describe('conditions', () => {
       path,
     ));
 
-  test('binds any, the nearest first, and asks', () =>
+  test('binds any, the nearest first, and queries', () =>
     stage.page(
       async (page) => {
         await panel(page).getByRole('radio', { name: 'Bind any' }).click();
@@ -110,11 +110,11 @@ describe('conditions', () => {
       path,
     ));
 
-  test('says what is missing, and what the engine refuses', () =>
+  test("shows missing values, and the engine's refusal", () =>
     stage.page(
       async (page) => {
         await panel(page).getByRole('button', { name: 'Condition', exact: true }).click();
-        await panel(page).getByText('One thing is missing').or(panel(page).getByText('2 things are missing')).waitFor();
+        await panel(page).getByText('One condition is incomplete').or(panel(page).getByText('2 conditions are incomplete')).waitFor();
         await panel(page).getByText('Choose a property').first().waitFor();
         expect(await panel(page).getByRole('button', { name: 'Search', exact: true }).isDisabled()).toBe(true);
         await panel(page).getByText('Something is missing above.').waitFor();
@@ -130,7 +130,7 @@ describe('conditions', () => {
       path,
     ));
 
-  test('takes over a condition that is pasted', () =>
+  test('imports a pasted condition', () =>
     stage.page(
       async (page) => {
         await panel(page).getByRole('button', { name: 'Paste XML' }).click();

@@ -1,4 +1,4 @@
-// The health panel: numbers, plots, sessions, limits, the log, and how it looks.
+// The Health panel: numbers, plots, sessions, limits, error log, and accessibility.
 import type { Page } from 'playwright-core';
 import { connect, type Client } from 'rois-client';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
@@ -25,7 +25,7 @@ const table = (page: Page, name: string) => page.getByRole('region', { name, exa
 const row = (page: Page, name: string, text: RegExp) => table(page, name).locator('tbody tr').filter({ hasText: text });
 const log = (page: Page) => page.locator('.health-log li');
 
-/** Another application, which has bound something. */
+/** Another application with a binding. */
 async function with_other(act: (other: Client) => Promise<void>): Promise<void> {
   const other = await connect(stage.gateway.url);
   try {
@@ -38,7 +38,7 @@ async function with_other(act: (other: Client) => Promise<void>): Promise<void> 
 }
 
 describe('health', () => {
-  test('tells how the link and the gateway are, in numbers and plots', () =>
+  test('shows the state of link and gateway, in numbers and plots', () =>
     stage.page(
       async (page) => {
         await figure(page, 'Link').getByText('Connected').waitFor();
@@ -49,7 +49,7 @@ describe('health', () => {
         await page.getByText(/^Slowest in the last minute: \w+/).waitFor();
         await plot(page, /^The gateway/).locator('.health-legend li').filter({ hasText: /Requests\s*[1-9][\d.]* \/s/ }).waitFor();
         await plot(page, /^This console/).locator('.health-legend li').filter({ hasText: /Received\s*[1-9][\d.]* \/s/ }).waitFor();
-        // The lines are drawn once a second: with the clock, not with each answer.
+        // The lines are drawn once a second, not with each answer.
         const drawn = await page.locator('.health-plot canvas').first().evaluate(async (canvas: HTMLCanvasElement) => {
           const pen = canvas.getContext('2d')!;
           let n = 0;
@@ -60,7 +60,7 @@ describe('health', () => {
         });
         expect(drawn).toBeLessThanOrEqual(5);
         expect(drawn).toBeGreaterThan(1);
-        // Once more as a table, and by keys.
+        // Also as a table and by keys.
         await latency.getByText('As a table').click();
         await expect.poll(() => table(page, 'Response time, ms: values').locator('tbody tr').first().innerText()).toMatch(/^[\d:]+\s+[\d.]+ ms\s+[\d.]+ ms/);
         const slider = latency.getByRole('slider');
@@ -75,7 +75,7 @@ describe('health', () => {
       '/#health',
     ));
 
-  test('tells who has bound what, and which limit is reached', () =>
+  test('shows bindings and reached limits', () =>
     stage.page(
       (page) =>
         with_other(async () => {
@@ -99,7 +99,7 @@ describe('health', () => {
       '/#health',
     ));
 
-  test('has a log of errors with their details, and of what was refused', () =>
+  test('has a log of errors with details and of refusals', () =>
     stage.page(
       (page) =>
         with_other(async () => {
@@ -125,7 +125,7 @@ describe('health', () => {
           await refused.getByRole('button', { name: 'Show in messages' }).click();
           const chosen = page.locator('.panel-messages').getByRole('option', { selected: true }).getByText('bind').first();
           await chosen.waitFor();
-          // The same document once more, while the filter hides it.
+          // The same document again, while the filter hides it.
           await page.getByLabel('Search in the text').fill('nothing has this text');
           await page.getByText('No document matches the filter').waitFor();
           await refused.getByRole('button', { name: 'Show in messages' }).click();
@@ -136,7 +136,7 @@ describe('health', () => {
       '/#health',
     ));
 
-  test('says that the link is lost, when it was, and what it can no longer tell', () =>
+  test('shows that and when the link was lost, and which values are unknown', () =>
     stage.page(
       async (page) => {
         await figure(page, 'Round trip').getByText(/ms$/).waitFor();

@@ -1,4 +1,4 @@
-// The states of the link, each provoked with the real gateway, as the user is told of them.
+// The states of the link as shown to the user, each provoked with the real gateway.
 import { rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { resolve } from 'node:path';
@@ -13,7 +13,7 @@ import { replayed } from './replay';
 
 const expected = { may_complain: broken_link };
 
-let browser: Stage; // stands all the time, so that one browser serves all
+let browser: Stage; // exists all the time, so that one browser serves all tests
 let stage: Stage;
 beforeAll(async () => {
   browser = await Stage.set(...still_hall);
@@ -85,7 +85,7 @@ describe('the link', () => {
     }, expected);
   });
 
-  test('a token is asked for, and asked for again when it is wrong', async () => {
+  test('a token is requested, and requested again if it is wrong', async () => {
     stage = await Stage.set(...still_hall);
     stage.front.token = 'open sesame';
     await stage.page(async (page) => {
@@ -103,7 +103,7 @@ describe('the link', () => {
     }, expected);
   });
 
-  test('draining: the gateway shuts down with a command that runs', async () => {
+  test('draining: the gateway shuts down during a command', async () => {
     stage = await Stage.set(...still_hall);
     await stage.page(async (page) => {
       await page.getByRole('treeitem', { name: /^navigation / }).click();
@@ -117,7 +117,7 @@ describe('the link', () => {
       await page.locator('.exchange-came').getByText(/^It was stopped/).waitFor();
       await stopped;
       await is_told(page, 'draining');
-      // As soon as nobody is there, it is lost; what is shown does not look alive, and nobody has to wait for the next try.
+      // When the gateway is gone, the link is lost; old data does not look live, and the user need not wait for the next retry.
       stage.front.is_draining = false;
       await page.getByRole('button', { name: 'Try now' }).click();
       await mark(page, 'Connection lost').waitFor();

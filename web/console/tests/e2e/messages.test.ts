@@ -1,4 +1,4 @@
-// Events and messages: every document, filtered and read; details; gaps; recordings that `rois replay` serves.
+// Events and messages: listing, filtering, reading, details, gaps, and recordings for `rois replay`.
 import { writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { resolve } from 'node:path';
@@ -31,7 +31,7 @@ async function command(page: Page, ref: string, world = hall): Promise<void> {
   await world.pass_until(page, page.locator('.exchange-came').getByText('Done.'), 200);
 }
 
-// Subscribes to person_detected without its values, and makes it come.
+// Subscribes to person_detected without results, and causes an event.
 async function event_comes(page: Page, world = hall): Promise<void> {
   await page.getByRole('treeitem', { name: /^person_detection / }).click();
   await page.getByRole('tab', { name: /^Events(?! and)/ }).click();
@@ -59,7 +59,7 @@ describe('events and messages', () => {
       await row(page, /execute(?!_)/).click();
       const reader = page.getByRole('region', { name: 'Document: execute', exact: true });
       expect(await reader.textContent()).toContain('person_detection');
-      expect(await reader.locator('.xml-name').count()).toBeGreaterThan(3); // highlighted
+      expect(await reader.locator('.xml-name').count()).toBeGreaterThan(3); // coloured
       await page.getByRole('button', { name: 'Show answer' }).click();
       await page.getByRole('heading', { name: 'execute_response' }).waitFor();
       await page.getByRole('button', { name: 'Show request' }).click();
@@ -79,14 +79,14 @@ describe('events and messages', () => {
       await row(page, 'completed').waitFor();
       await page.getByLabel('Search in the text').fill('');
 
-      // With the keyboard.
+      // By keyboard.
       await page.getByRole('listbox').focus();
       await page.keyboard.press('End');
       await page.keyboard.press('ArrowUp');
       await page.locator('.messages .virtual-list-row[aria-selected=true]').waitFor();
     }));
 
-  test('"Why" of a drive that failed shows its end, though the filter hides it', () =>
+  test('"Why" of a failed drive shows its end, even if the filter hides it', () =>
     stage.page(async (page) => {
       await page.getByLabel('Search in the text').fill('nothing has this text');
       await page.getByText('No document matches the filter').waitFor();
@@ -103,7 +103,7 @@ describe('events and messages', () => {
       expect(await page.getByLabel('Search in the text').inputValue()).toBe('');
     }));
 
-  test('an event without its values has its details fetched', () =>
+  test('an event without results has its details fetched', () =>
     stage.page(async (page) => {
       await event_comes(page);
       await event_row(page).first().click();
@@ -113,7 +113,7 @@ describe('events and messages', () => {
       expect(await violations(page)).toBe('');
     }));
 
-  test('an event that has expired is marked, its details are gone, and it says so', async () => {
+  test('an expired event is marked, and its details are no longer available', async () => {
     const forgetful = await Stage.set(...still_hall, '--event-details', '0.1');
     const world = await Hall.of(forgetful);
     await forgetful.page(
@@ -134,7 +134,7 @@ describe('events and messages', () => {
     await forgetful.strike();
   });
 
-  test('its list may go while it is scrolled', () =>
+  test('its list may be removed while scrolling', () =>
     stage.page(
       async (page) => {
         await page.getByLabel("Show the console's own requests").check();
@@ -151,7 +151,7 @@ describe('events and messages', () => {
       sizes.tablet,
     ));
 
-  test('time stands still on demand', () =>
+  test('the list can be paused', () =>
     stage.page(async (page) => {
       await page.getByText("Only the console's own requests so far").waitFor();
       await page.getByRole('button', { name: 'Pause', exact: true }).click();
@@ -161,14 +161,14 @@ describe('events and messages', () => {
       await row(page, 'completed').waitFor();
     }));
 
-  test('a gap is shown where it is', () =>
+  test('a gap is shown at its place', () =>
     stage.page(
       async (page) => {
         await command(page, 'person_detection');
         stage.front.cut(); // for longer than the session is kept
         await page.getByText('Connection lost', { exact: true }).waitFor();
         stage.front.mend();
-        await page.getByText('The session was lost and another one began.', { exact: false }).waitFor();
+        await page.getByText('The session was lost and a new one began.', { exact: false }).waitFor();
         await page.getByText('The old session was lost', { exact: false }).waitFor();
         await picture(page, 'messages-gap');
         expect(await violations(page)).toBe('');
@@ -214,7 +214,7 @@ describe('events and messages', () => {
     stage.page(
       async (page) => {
         await page.locator('.messages input[type=checkbox]').first().check();
-        await page.locator('.messages input[type=search]').fill('get_profile'); // however much came since
+        await page.locator('.messages input[type=search]').fill('get_profile'); // however many documents have arrived
         await row(page, 'get_profile').first().click();
         await page.getByRole('heading', { name: /get_profile/ }).waitFor();
         expect(await violations(page)).toBe('');
@@ -225,7 +225,7 @@ describe('events and messages', () => {
   );
 });
 
-// The file as an engine: what was commanded is answered as it was, and completes.
+// The file as an engine: recorded commands are answered and completed as before.
 function answers_as_recorded(file: string): Promise<void> {
   return replayed(file, async (url) => {
     const client = await connect(url);

@@ -1,4 +1,4 @@
-// A recording served as an engine, by the real command.
+// A recording served as an engine by the real command.
 import { spawn } from 'node:child_process';
 import { resolve } from 'node:path';
 
@@ -6,7 +6,7 @@ import { root } from './harness';
 
 const program = resolve(process.env['ROIS_BINARY_DIR'] ?? `${root}/build/release`, 'bin/rois');
 
-/** `act` gets the URL on which `rois replay` serves the file. */
+/** Calls `act` with the URL on which `rois replay` serves the file. */
 export async function replayed(file: string, act: (url: string) => Promise<void>): Promise<void> {
   const replay = spawn(program, ['replay', file, '--listen', '127.0.0.1:0', '--speed', '0'], { stdio: ['ignore', 'pipe', 'pipe'] });
   const ended = new Promise((resolve) => replay.once('exit', resolve));
