@@ -7,14 +7,14 @@ import type { LoggedDocument } from './documents';
 /** The owner of a component: this console, another session by its number, or none. */
 export type Holder = { who: 'me' } | { who: 'other'; session: string } | { who: 'nobody' };
 
-/** Returns borrowed components. Those bound only for the borrower are released. */
+/** Returns borrowed components and releases the ones that were bound only for the borrower. */
 export type GiveBack = () => Promise<void>;
 
 export class Bindings {
   readonly mine = signal<ReadonlySet<string>>(new Set());
   private readonly borrowed = new Map<string, number>(); // bound only for borrowers, with their number
   private readonly kept = new Set<string>();
-  private readonly left = new Map<string, unknown>(); // released, with what was known of other owners then: the metrics may still name this console
+  private readonly left = new Map<string, unknown>(); // released, with the other owners known then: the metrics may still name this console
 
   constructor(
     private readonly client: () => Client,
@@ -107,7 +107,7 @@ export class Bindings {
   }
 
   /** Updates from an answer, whether the user or the console sent the request. */
-  heard({ name, return_code, text, request }: LoggedDocument): void {
+  on_answer({ name, return_code, text, request }: LoggedDocument): void {
     if (return_code !== 'OK' || request === undefined) return;
     if (name === 'bind_response' && request.component !== undefined) this.add(request.component);
     if (name === 'bind_any_response') {

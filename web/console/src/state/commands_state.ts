@@ -83,7 +83,7 @@ export class CommandsState {
   }
 
   /** Updates from an answer, whether the user or the console sent the request. */
-  heard({ name, return_code, text, request }: LoggedDocument): void {
+  on_answer({ name, return_code, text, request }: LoggedDocument): void {
     if (return_code !== 'OK' || request === undefined) return;
     if (name === 'release_response') this.working.delete(request.component ?? '');
     if (name === 'execute_response') this.accepted(units_of(parse_xml(text)), request);
@@ -110,7 +110,7 @@ export class CommandsState {
     this.working.clear();
   }
 
-  /** Adds the commands of this page before its reload. Those that had not ended are `unknown`. */
+  /** Adds the commands of this page before its reload. Unfinished commands become `unknown`. */
   recall(entries: readonly CommandEntry[]): void {
     for (const entry of entries) {
       const sequence: SequenceEntry = { number: this.next_sequence++, units: [], commands: [], sent_at: entry.sent_at, document: -1 };

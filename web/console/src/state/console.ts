@@ -138,7 +138,7 @@ export class Console {
     this.now.value = environment.now();
     environment.every(1000, () => (this.now.value = environment.now()));
     this.documents.is_own_subscription = (id) => this.subscriptions.is_own(id);
-    this.documents.listen((document) => this.heard(document));
+    this.documents.listen((document) => this.on_document(document));
   }
 
   /** ms since 1970, at most `now`'s second behind. A component that reads it while rendering is rendered again each second. */
@@ -185,7 +185,7 @@ export class Console {
   async close(): Promise<void> {
     const client = this.speaker;
     await client?.close({ deadline: 1000 });
-    this.link.turn('closed', '');
+    this.link.set_phase('closed', '');
   }
 
   private leave(): void {
@@ -239,11 +239,11 @@ export class Console {
 
   // --- What comes ---
 
-  private heard(document: LoggedDocument): void {
+  private on_document(document: LoggedDocument): void {
     if (document.kind !== 'answer') return;
-    this.bindings.heard(document);
-    this.commands.heard(document);
-    this.subscriptions.heard(document);
+    this.bindings.on_answer(document);
+    this.commands.on_answer(document);
+    this.subscriptions.on_answer(document);
   }
 
   private notified(notification: Notification): void {

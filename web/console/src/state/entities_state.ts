@@ -3,7 +3,7 @@ import type { ReceiveEvent, Subscription } from 'rois-client';
 
 import type { Environment, Stop } from './environment';
 import { Pulse } from './pulse';
-import { type Entity, kind_told_by, located_in, placed } from './things';
+import { type Entity, kind_of_event, located_in, placed } from './things';
 
 const most_entities = 500;
 const forgotten_after = 30_000; // ms since the last event
@@ -66,13 +66,13 @@ export class EntitiesState {
 
   /** Updates from an event of any subscription. */
   event(event: ReceiveEvent): void {
-    const kind = kind_told_by(event);
+    const kind = kind_of_event(event);
     const has_results = event.results.parameters.length > 0 || event.results.located.length > 0;
     if (has_results && entity_events.includes(event.event_type)) this.told_at = this.environment.now();
-    if (kind && !has_results) this.not_told(kind, event.component_ref.code);
+    if (kind && !has_results) this.without_results(kind, event.component_ref.code);
     else if (kind) this.localized(kind, event);
     else if (event.event_type === 'person_identified') this.identified(event);
-    else if (event.event_type === 'person_detected' && event.results.number('number') === 0) this.nobody_there(event);
+    else if (event.event_type === 'person_detected' && event.results.number('number') === 0) this.none_detected(event);
   }
 
   /** Whether positions are unknown: an event type has no subscription, or its events have no results. */
@@ -88,7 +88,7 @@ export class EntitiesState {
   }
 
   // An event without results: something moved, came or left, but which is unknown. The same event may arrive again with results.
-  private not_told(kind: Entity['kind'], component: string): void {
+  private without_results(kind: Entity['kind'], component: string): void {
     const now = this.environment.now();
     for (const entity of this.all.values()) if (entity.component === component && entity.kind === kind && now - entity.at > same_event) entity.unknown_since ??= now;
     this.pulse.touch();
@@ -117,7 +117,7 @@ export class EntitiesState {
   }
 
   // Localization does not report that the last person has left; detection does.
-  private nobody_there(event: ReceiveEvent): void {
+  private none_detected(event: ReceiveEvent): void {
     const engine = this.engine_of(event.component_ref.code);
     for (const entity of this.all.values())
       if (entity.kind !== 'sound' && this.engine_of(entity.component) === engine) entity.is_seen = false;

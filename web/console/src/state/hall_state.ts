@@ -27,7 +27,7 @@ export interface Outcome {
   reason: string;
 }
 
-/** Gestures that visitors can be told to make. */
+/** Gestures of visitors. */
 export const gestures = ['wave', 'nod', 'shake_head', 'bow', 'point', 'raise_hand', 'clap', 'thumbs_up'] as const;
 export type Gesture = (typeof gestures)[number];
 

@@ -42,7 +42,7 @@ export class LinkState {
   heard_at = 0;
 
   constructor(private readonly environment: Environment) {
-    this.turn('connecting', '');
+    this.set_phase('connecting', '');
   }
 
   get is_open(): boolean {
@@ -52,7 +52,7 @@ export class LinkState {
 
   /** Follows a client. Calls `wants_token` if the gateway refuses its token. */
   follow(client: Client, token: string | undefined, wants_token: () => void): () => void {
-    this.turn('connecting', '');
+    this.set_phase('connecting', '');
     let asked = 0;
     let gave_up = false;
     const changed = ({ state, reason }: StateChange) => {
@@ -63,14 +63,14 @@ export class LinkState {
         if (client.session !== this.session.value) this.session_since = this.environment.now();
         this.session.value = client.session;
         if (state === 'connecting' || state === 'lost') this.trouble(state, reason);
-        else this.turn(state, reason);
+        else this.set_phase(state, reason);
       });
       if (state !== 'connecting' && state !== 'lost') return;
       void this.outlook(token).then((outlook) => {
         if (question !== asked) return;
-        if (outlook === 'unreachable' && this.view.value.phase !== state) this.turn(state, reason);
+        if (outlook === 'unreachable' && this.view.value.phase !== state) this.set_phase(state, reason);
         if (typeof outlook === 'string') return;
-        this.turn(outlook.phase, outlook.reason);
+        this.set_phase(outlook.phase, outlook.reason);
         if (outlook.phase !== 'token') return;
         gave_up = true; // repeating would have the same result
         wants_token();
@@ -94,7 +94,7 @@ export class LinkState {
     this.missed.value = undefined;
   }
 
-  turn(phase: Phase, reason: string): void {
+  set_phase(phase: Phase, reason: string): void {
     const before = this.view.value;
     if (before.phase === phase && before.reason === reason && before.since !== 0) return;
     const since = before.phase === phase && before.since !== 0 ? before.since : this.environment.now();
@@ -106,7 +106,7 @@ export class LinkState {
     const phase = troubled(before, state, reason);
     // The first reason is kept: that of a failed retry says no more.
     const was_said = phase === before.phase && phase !== state && !refusals.test(reason) && !going_away.test(reason);
-    this.turn(phase, was_said ? before.reason : reason);
+    this.set_phase(phase, was_said ? before.reason : reason);
   }
 
   private note_gap(gap: Gap): void {

@@ -61,7 +61,7 @@ export class SubscriptionsState {
   }
 
   /** Updates from an answer, whether the user or the console sent the request. */
-  heard({ name, return_code, text, request: asked, at }: LoggedDocument): void {
+  on_answer({ name, return_code, text, request: asked, at }: LoggedDocument): void {
     if (return_code !== 'OK' || asked === undefined) return;
     if (name === 'subscribe_response') {
       const id = parse_xml(text).text_of('subscribe_id');

@@ -82,7 +82,7 @@ export function located_in(results: Results, refs: string, positions = 'position
 }
 
 /** By the event types of the specification. */
-export function kind_told_by(event: ReceiveEvent): EntityKind | undefined {
+export function kind_of_event(event: ReceiveEvent): EntityKind | undefined {
   const kind = /^(person|face|sound)_localized$/.exec(event.event_type)?.[1];
   return kind as EntityKind | undefined;
 }

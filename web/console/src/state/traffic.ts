@@ -35,7 +35,7 @@ export class Traffic {
     may_ask: () => boolean,
     private readonly period = 1000, // ms
   ) {
-    documents.listen((document) => this.heard(document));
+    documents.listen((document) => this.on_document(document));
     this.ping = new Poll(environment, period, () => this.ask(), may_ask);
   }
 
@@ -44,7 +44,7 @@ export class Traffic {
     for (const one of refused) this.refused.push(one);
   }
 
-  private heard(document: LoggedDocument): void {
+  private on_document(document: LoggedDocument): void {
     const second = this.second_of(document.at);
     if (document.direction === 'out') {
       second.sent += 1;

@@ -55,7 +55,7 @@ export class Hall {
     for (let passed = 0; passed < most; passed += step) {
       if ((await shown.count()) > 0) return;
       await this.pass(step);
-      await page.evaluate(heard);
+      await page.evaluate(all_drawn);
     }
     await shown.first().waitFor({ state: 'attached', timeout: 1 });
   }
@@ -116,7 +116,7 @@ export class Hall {
 }
 
 // Runs in the page: notifications arrive in order, so after an answer all earlier ones have arrived and been drawn.
-async function heard(): Promise<void> {
+async function all_drawn(): Promise<void> {
   const { rois } = window as unknown as { rois: Console };
   await rois.documents.as_own(() => rois.search());
   await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));

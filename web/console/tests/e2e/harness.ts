@@ -70,7 +70,7 @@ export class Front {
     return `http://127.0.0.1:${(this.server.address() as { port: number }).port}`;
   }
 
-  /** Breaks every WebSocket, and lets no new one come about until `mend`. */
+  /** Breaks every WebSocket and refuses new ones until `mend`. */
   cut(): void {
     this.is_cut = true;
     for (const end of this.tunnels) end();

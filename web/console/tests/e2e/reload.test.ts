@@ -44,7 +44,7 @@ describe('the trail of the robot', () => {
     }));
 });
 
-describe('a page that is loaded again', () => {
+describe('a reloaded page', () => {
   test('asks before leaving while the robot drives, and keeps its time line', () =>
     stage.page(async (page) => {
       await ready(page);

@@ -14,13 +14,13 @@ export async function replayed(file: string, act: (url: string) => Promise<void>
     await act(
       await new Promise<string>((listens, failed) => {
         let said = '';
-        const heard = (text: Buffer) => {
+        const on_output = (text: Buffer) => {
           said += String(text);
           const found = /http:\/\/127\.0\.0\.1:\d+/.exec(said);
           if (found) listens(found[0]);
         };
-        replay.stdout.on('data', heard);
-        replay.stderr.on('data', heard);
+        replay.stdout.on('data', on_output);
+        replay.stderr.on('data', on_output);
         void ended.then(() => failed(new Error(`rois replay ended: ${said}`)));
       }),
     );

@@ -53,7 +53,7 @@ test('visitors are unknown until the engine has answered, and have their age whi
     '/#visitors',
   ));
 
-describe('in a world that stands still', () => {
+describe('with stopped time', () => {
   test('a visitor comes in, is dragged, speaks and waves, and time passes on request', () =>
     stage.page(
       async (page) => {

@@ -161,7 +161,7 @@ test('edits do not change the old tree', () => {
   expect(shape(root)).toEqual(['a', ['b']]);
 });
 
-describe('what matches now', () => {
+describe('the present matches', () => {
   test('for an event, only the part that is known before is searched', async () => {
     const { store } = await connected();
     const inside = () => new_predicate({ reference: 'position_data', operator: 'Within', area: area.place });

@@ -304,7 +304,7 @@ describe('people', () => {
   });
 
   // The engine identifies subscriptions by type and condition, and the last inline_results counts (decision 20).
-  describe('while the user subscribes to the same', () => {
+  describe('while the user has the same subscription', () => {
     const asked_with = (name: string) => world.requests.filter((one) => one.name === name).map((one) => [one.attribute('inline_results'), one.children.some(({ name }) => name === 'condition')]);
 
     beforeEach(async () => {

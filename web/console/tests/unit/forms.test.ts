@@ -113,7 +113,7 @@ describe('descriptions', () => {
   });
 });
 
-describe('what is typed', () => {
+describe('input', () => {
   const speech: Asked[] = [
     asked('speech_text', 'string', { need: { kind: 'either', other: 'SSML_text' } }),
     asked('SSML_text', 'string', { need: { kind: 'either', other: 'speech_text' } }),
@@ -160,7 +160,7 @@ describe('what is typed', () => {
   });
 });
 
-describe('what can be chosen', () => {
+describe('the list of choices', () => {
   const at = { codebook: 'urn:track', component: 'c', crs: '', x: 0, y: 0, z: 0, at: 0 } as const;
   const person = { ...at, ref: 'person-1', kind: 'person', is_seen: true, identity: { ref: 'tanaka', codebook: 'urn:visitor', at: 0 } };
   const things = {

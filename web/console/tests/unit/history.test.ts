@@ -64,7 +64,7 @@ describe('history', () => {
     world.breaks();
     await world.passes(40);
     const why = console.link.view.value.reason;
-    console.link.turn('lost', 'the WebSocket could not be opened');
+    console.link.set_phase('lost', 'the WebSocket could not be opened');
     await world.passes(1960);
     expect(told(console.history, 'link')).toEqual(['open 0-2000', 'lost 2000-4000']);
     expect(console.history.present.get('link ')!.note).toBe(why);

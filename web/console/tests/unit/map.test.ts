@@ -107,7 +107,7 @@ describe('the floor', () => {
   ])('at %i, %i a robot of 250 mm has this obstacle: %s', (x, y, what) => expect(obstacle_at(map, { x, y }, 250)).toBe(what));
 });
 
-describe('what the user does', () => {
+describe('input', () => {
   const things = [{ key: 'robot robot1', x: 1000, y: 1000 }, { key: 'person person-1', x: 9000, y: 3000 }];
   let hit: Hit = { what: 'floor' };
   const around: Surroundings = { size, whole: view, hit: () => hit, arrival: () => 90, things };
@@ -202,7 +202,7 @@ describe('what the user does', () => {
   });
 });
 
-describe('what is on the floor', () => {
+describe('the scene', () => {
   const now = 100_000;
   const thing = { codebook: '', component: 'localization', crs: 'urn:hall', x: 1000, y: 2000, z: 0, at: now - 100 };
   const person = (ref: string, more: Partial<Entity> = {}): Entity => ({ ...thing, ref, kind: 'person', is_seen: true, trail: new Ring(9), ...more });

@@ -116,7 +116,7 @@ test('a covariance becomes an ellipse', () => {
   expect(ellipse_of({})).toBeUndefined();
 });
 
-describe('XML as it is shown', () => {
+describe('displayed XML', () => {
   const text = '<a x="1"><!-- c --><b>t &amp; u</b><c y=\'>\'/></a>';
   test('is complete and coloured', () => {
     expect(pieces_of(text).map((one) => one.text).join('')).toBe(text);

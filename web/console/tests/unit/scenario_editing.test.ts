@@ -32,7 +32,7 @@ beforeEach(() => {
 });
 const first = (name: string, within = root) => [...nodes_in(within)].find((one) => one.name === name)!;
 
-describe('what is new', () => {
+describe('a new element', () => {
   test.each([...triggers.filter((one) => one !== 'answered'), ...actions, 'command', 'query'])('a new %s goes to a valid place and is valid', (name) => {
     const changed = with_new(text, first('state'), name, root, 'a');
     expect(read_scenario(changed).problems).toEqual([]);

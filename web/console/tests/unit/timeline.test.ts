@@ -67,7 +67,7 @@ describe('lanes', () => {
   });
 });
 
-describe('what lasts', () => {
+describe('a span', () => {
   test('has its position in time', () => {
     const past = ring(span('status', 'follow', 'READY', 10_000, 30_000), span('status', 'follow', 'ERROR', 50_000, 60_000));
     const present = [span('status', 'follow', 'READY', 60_000, 99_500)];
@@ -126,7 +126,7 @@ describe('events', () => {
   });
 });
 
-describe('what went wrong', () => {
+describe('a failure', () => {
   const failed = command('navigation', 50_000, 50_000, 50_020, 'ERROR');
   const answer = { number: 7, at: 70_000, direction: 'in', kind: 'answer', name: 'execute_response', text: '<a><reason>too loud</reason></a>', return_code: 'BAD_PARAMETER', is_own: false } as const;
   const refused = { ...answer, request: { ...answer, name: 'execute', component: 'speech_synthesis' } };
@@ -186,7 +186,7 @@ describe('pointer and keys', () => {
   });
 });
 
-describe('the stretch of time', () => {
+describe('the shown range', () => {
   test('grows and shrinks around a time, and to the left if live', () => {
     expect(zoomed({ span: 1000, end: 5000 }, 0.5, 4500)).toEqual({ span: 500, end: 4750 });
     expect(zoomed({ span: 1000 }, 2, 4500)).toEqual({ span: 2000 });

@@ -65,7 +65,7 @@ describe('a command that failed', () => {
   });
 });
 
-describe('what is sent', () => {
+describe('a request', () => {
   test('is found with its answer, even if a component is bound first', async () => {
     const outcome = await watched(console, 'execute', () => console.run('navigation', 'start'));
     expect(world.names().filter((name) => name === 'bind' || name === 'execute')).toEqual(['bind', 'execute']);
