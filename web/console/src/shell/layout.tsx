@@ -38,7 +38,7 @@ function Group({ id, label }: { id: Area | 'all'; label: string }) {
   );
 }
 
-// The code of panels that have been shown.
+// Loaded panels.
 const loaded = new Map<Panel, ComponentType>();
 
 // An error while loading is shown by the Boundary, whose button tries again.
