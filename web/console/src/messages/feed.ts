@@ -63,7 +63,7 @@ export class Feed {
     const { end } = documents;
     for (this.next_document = Math.max(this.next_document, documents.first); this.next_document < end; ++this.next_document) {
       const document = documents.numbered(this.next_document);
-      if (!document) continue; // its ring is shorter than another
+      if (!document) continue; // its ring has dropped it already
       changed = (this.passes(document) && this.rows.push(document) > 0) || changed;
     }
     const gaps_end = gaps.first + gaps.size;

@@ -55,7 +55,7 @@ function step_end(step: Step, turn: End, entries: ReadonlyMap<number, CommandEnt
   }
 }
 
-// The start is reported late, or not at all for short commands: then it is the end of the step before.
+// The start is reported late, and not at all for short commands: then the end of the step before counts as the start.
 function state_of_entry(entry: CommandEntry, turn: End): StepState {
   const { state, ended_at } = entry;
   const started_at = entry.started_at ?? (typeof turn === 'number' ? turn : undefined);

@@ -43,7 +43,7 @@ export class SequenceStore {
   readonly problems = computed(() => problems_in_sequence(this.root.value, this.profiles));
   readonly can_undo = signal(false);
   private readonly past: Lane[] = [];
-  private in_vain: CommandEntry[] = []; // delayed commands that were waiting when their run was stopped
+  private left_queued: CommandEntry[] = []; // delayed commands that were waiting when their run was stopped
 
   constructor(private readonly console: Console) {
     this.root.value = draft_of(console.environment.recall('sequence')) ?? new_lane();
@@ -151,9 +151,9 @@ export class SequenceStore {
    * Components with a queued command of a stopped run. The engine checks the binding when the command's turn comes, so it would run if
    * the component were bound again before.
    */
-  get waiting_in_vain(): string[] {
+  get still_queued(): string[] {
     void this.console.commands.pulse.beat.value;
-    const refs = new Set(this.in_vain.filter((one) => !has_ended(one)).map((one) => one.component));
+    const refs = new Set(this.left_queued.filter((one) => !has_ended(one)).map((one) => one.component));
     return [...new Set(commands_in(this.root.value).map((one) => one.component))].filter((ref) => refs.has(ref));
   }
 
@@ -193,7 +193,7 @@ export class SequenceStore {
   async stop(): Promise<void> {
     const open = () => [...new Set(this.open_entries().map((one) => one.component))];
     await Promise.all(open().map(async (ref) => (await this.console.run(ref, 'stop')).ends.catch(() => undefined)));
-    this.in_vain = [...this.in_vain, ...this.open_entries()].filter((one) => !has_ended(one));
+    this.left_queued = [...this.left_queued, ...this.open_entries()].filter((one) => !has_ended(one));
     const waiting = open();
     // If no command waits, borrowed components are released by themselves.
     const done_with = waiting.length === 0 ? [] : [...new Set([...waiting, ...(this.run.value?.borrowed ?? [])])];

@@ -60,7 +60,7 @@ export const keys = text_of(() =>
 );
 export const running = text('running', '実行中');
 export const stopped = text('stopped', '停止');
-export const in_vain = text_of((refs: string) => [
+export const left_queued = text_of((refs: string) => [
   `Released: ${refs}. Waiting commands there are aborted at their turn, but run if you bind the component again before. To end them at once, disconnect.`,
   `解放済み: ${refs}。待っているものは順番が来ると中断されますが、先にバインドすると実行されます。すぐに終えるには切断してください。`,
 ]);

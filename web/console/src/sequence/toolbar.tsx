@@ -30,7 +30,7 @@ export function Toolbar({ store, set_adding, open_library }: ToolbarProps) {
   );
   return (
     <div class="sequence-toolbar" role="group" aria-label={t.tools()}>
-      <Button look="primary" icon="play" disabled={store.is_empty || store.is_running || store.waiting_in_vain.length > 0 || !console.link.is_open} onClick={run}>
+      <Button look="primary" icon="play" disabled={store.is_empty || store.is_running || store.still_queued.length > 0 || !console.link.is_open} onClick={run}>
         {t.run()}
       </Button>
       <Button look="danger" icon="stop" disabled={!store.is_running} onClick={stop}>

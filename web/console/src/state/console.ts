@@ -141,7 +141,7 @@ export class Console {
     this.documents.listen((document) => this.on_document(document));
   }
 
-  /** ms since 1970, at most `now`'s second behind. A component that reads it while rendering is rendered again each second. */
+  /** ms since 1970. Unlike `now`, not up to a second old. A component that reads it while rendering is rendered again each second. */
   time(): number {
     return Math.max(this.now.value, this.environment.now());
   }

@@ -276,9 +276,9 @@ describe('the store', () => {
     // Its delayed command is aborted at its turn. Until then it must not be bound again.
     expect(world.requests.filter((one) => one.name === 'release').map((one) => one.child('component_ref')?.attributes[0]?.value)).toEqual(['speech']);
     expect(console.bindings.mine.value).toEqual(new Set(['navigation']));
-    expect([store.is_running, store.waiting_in_vain]).toEqual([false, ['speech']]);
+    expect([store.is_running, store.still_queued]).toEqual([false, ['speech']]);
     await world.notifies('completed', `<command_id>${second}</command_id><status>ABORT</status>`);
-    expect(store.waiting_in_vain).toEqual([]);
+    expect(store.still_queued).toEqual([]);
   });
 
   test('undoes, stores, exports and imports', async () => {
