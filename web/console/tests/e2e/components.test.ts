@@ -147,7 +147,7 @@ describe('components', () => {
       await open(page, 'person_detection');
       await page.getByRole('tab', { name: /^Events(?! and)/ }).click();
       await page.getByLabel(/^Further condition/).fill('<fes:PropertyIs');
-      await page.getByText(/This is no XML/).waitFor();
+      await page.getByText(/Invalid XML/).waitFor();
       await page.getByLabel(/^Further condition/).fill('<fes:PropertyIsLessThan><fes:ValueReference>number</fes:ValueReference><fes:Literal>100</fes:Literal></fes:PropertyIsLessThan>');
       await page.getByRole('button', { name: 'Subscribe', exact: true }).click();
       await answer(page).getByText('OK', { exact: true }).waitFor();
@@ -184,7 +184,7 @@ describe('components', () => {
       await open(page, 'reaction');
       await item(page, 'reaction').getByText(/bound by (another )?session/).waitFor();
       await page.getByRole('button', { name: 'Bind reaction' }).click();
-      await page.getByRole('alert').getByText(/Another application has it/).waitFor();
+      await page.getByRole('alert').getByText(/Another application has bound it/).waitFor();
       await other.release('reaction');
       await item(page, 'reaction').getByText(/bound by/).waitFor({ state: 'detached' });
       await page.getByRole('button', { name: 'Bind reaction' }).click();

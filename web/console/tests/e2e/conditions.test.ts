@@ -137,7 +137,7 @@ describe('conditions', () => {
         const area = panel(page).getByRole('textbox', { name: 'As XML' });
         await area.fill('<fes:Filter><nonsense');
         await panel(page).getByRole('button', { name: 'Import' }).click();
-        await panel(page).getByText(/This cannot be read/).waitFor();
+        await panel(page).getByText(/Invalid: /).waitFor();
         await area.fill(`<subscribe xmlns="urn:x-rois:psm:xml:message:1" xmlns:fes="http://www.opengis.net/fes/2.0"><event_type>person_detected</event_type><condition>
           <fes:Filter><fes:PropertyIsGreaterThan><fes:ValueReference>number</fes:ValueReference><fes:Literal>1</fes:Literal></fes:PropertyIsGreaterThan></fes:Filter></condition></subscribe>`);
         await panel(page).getByRole('button', { name: 'Import' }).click();

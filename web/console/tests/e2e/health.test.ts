@@ -44,7 +44,7 @@ describe('health', () => {
         await figure(page, 'Link').getByText('Connected').waitFor();
         for (const [name, text] of [['Round trip', /\d ms/], ['Requests', /\d \/s/], ['Sessions', /^1$/], ['Components', /^16$/], ['Memory', /MiB/], ['Processor', /\d %/], ['Open files', /\d/]] as const)
           await figure(page, name).locator('dd').getByText(text).waitFor();
-        const latency = plot(page, /^How long answers take/);
+        const latency = plot(page, /^Response time/);
         await latency.locator('.health-legend li').filter({ hasText: /In the gateway\s*[\d.]+ ms/ }).waitFor();
         await page.getByText(/^Slowest in the last minute: \w+/).waitFor();
         await plot(page, /^The gateway/).locator('.health-legend li').filter({ hasText: /Requests\s*[1-9][\d.]* \/s/ }).waitFor();

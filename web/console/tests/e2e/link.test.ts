@@ -64,7 +64,7 @@ describe('the link', () => {
       stage.front.mend();
       await mark(page, 'Connected again').waitFor();
       await said(page, /\d notifications were missed while the connection was away\./).waitFor();
-      await page.getByText(/dropped by the engine/).first().waitFor();
+      await page.getByText(/The engine dropped/).first().waitFor();
       await is_told(page, 'gap');
       await page.getByRole('button', { name: 'Seen' }).click();
       await said(page, /were missed/).waitFor({ state: 'detached' });
@@ -78,7 +78,7 @@ describe('the link', () => {
     const other = await connect(stage.gateway.url);
     await stage.page(async (page) => {
       await mark(page, 'Refused').waitFor();
-      await said(page, /does not let this console in/).waitFor();
+      await said(page, /refuses this console/).waitFor();
       await is_told(page, 'refused');
       await other.close();
       await mark(page, 'Connected').waitFor();
@@ -114,7 +114,7 @@ describe('the link', () => {
       const stopped = stage.gateway.stop();
       await mark(page, 'Starting or stopping').waitFor();
       await said(page, 'The gateway is starting or shutting down.').waitFor();
-      await page.locator('.exchange-came').getByText(/^It was stopped/).waitFor();
+      await page.locator('.exchange-came').getByText(/^Aborted: /).waitFor();
       await stopped;
       await is_told(page, 'draining');
       // When the gateway is gone, the link is lost; old data does not look live, and the user need not wait for the next retry.

@@ -430,7 +430,7 @@ describe('people', () => {
         stage.front.cut();
         await anybody.getByText('Unknown').waitFor();
         await page.locator('.map-bar').getByText('not connected', { exact: true }).waitFor();
-        expect(await page.locator('.map-bar').getByText(/components look/).count()).toBe(0);
+        expect(await page.locator('.map-bar').getByText(/components work/).count()).toBe(0);
         stage.front.mend();
         await ready(page);
         await page.getByText('5 components work').waitFor();
@@ -450,7 +450,7 @@ describe('people', () => {
       await page.getByRole('switch', { name: 'Observe' }).click();
       await page.getByText('4 of 5 components work').waitFor();
       await page.getByText('Some things cannot be observed').click();
-      await page.getByText(/person_localization: .*Another application has it/).waitFor();
+      await page.getByText(/person_localization: .*Another application has bound it/).waitFor();
       expect(await violations(page)).toBe('');
     });
     await other.close();

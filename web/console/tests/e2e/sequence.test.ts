@@ -55,7 +55,7 @@ describe('sequences', () => {
         await box(page, 'navigation').getByText('running').waitFor();
         await box(page, 'branches at once').getByText('running').waitFor();
         await picture(page, 'sequence-running');
-        await hall.pass_until(page, panel(page).getByText(/^All is done, after/));
+        await hall.pass_until(page, panel(page).getByText(/^Completed after/));
         await box(page, 'reaction').getByText('OK').waitFor();
         await page.getByText('0 bound').waitFor();
         expect(await violations(page)).toBe('');
@@ -119,7 +119,7 @@ describe('sequences', () => {
         await page.keyboard.press('Enter');
         await page.waitForFunction(() => document.activeElement?.tagName === 'SELECT');
         await panel(page).getByRole('button', { name: 'Run', exact: true }).press('Enter');
-        await hall.pass_until(page, panel(page).getByText(/^All is done, after/));
+        await hall.pass_until(page, panel(page).getByText(/^Completed after/));
         expect(await violations(page)).toBe('');
       },
       {},

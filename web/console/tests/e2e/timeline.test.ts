@@ -137,7 +137,7 @@ describe('the time line', () => {
         await zoom(page, (await sent_at(page, -1)) - 100, (await ended_at(page, -1)) + 50); // it failed at once
         const failed = await point(page, 'navigation', await middle_of(page, -1));
         await page.mouse.move(failed.x, failed.y);
-        await tip.getByText(/100000, 4 is outside of the map/).waitFor();
+        await tip.getByText(/100000, 4 is outside the map/).waitFor();
         await page.mouse.click(failed.x, failed.y);
         await details(page).getByText('The component failed.').waitFor();
         await details(page).getByRole('region', { name: 'Arguments' }).getByText('100000, 4').waitFor();

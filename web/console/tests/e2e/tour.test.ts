@@ -87,7 +87,7 @@ describe('a new user', () => {
         await sequences.getByRole('button', { name: 'Run', exact: true }).click();
         await hall.pass_until(page, sequences.locator('.sequence-box', { hasText: 'speech_synthesis' }).getByText('OK'), 200);
         await shown(page, 'sequence');
-        await hall.pass_until(page, sequences.getByText(/^All is done, after/));
+        await hall.pass_until(page, sequences.getByText(/^Completed after/));
 
         // Why a command failed.
         await tab(page, 'Floor map');
