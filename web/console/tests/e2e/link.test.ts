@@ -63,7 +63,7 @@ describe('the link', () => {
         for (const type of ['start', 'stop']) await hall.pass_while((await other.execute([command('person_detection', type)])).status(), 100);
       stage.front.mend();
       await mark(page, 'Connected again').waitFor();
-      await said(page, /\d notifications were missed while the connection was away\./).waitFor();
+      await said(page, /\d notifications were missed while disconnected\./).waitFor();
       await page.getByText(/The engine dropped/).first().waitFor();
       await is_told(page, 'gap');
       await page.getByRole('button', { name: 'Seen' }).click();
