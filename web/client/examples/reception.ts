@@ -1,6 +1,6 @@
-// The reception scenario of the specification (figure 1): wait for a person, go there, find out who it is, tell the message that is
-// there for this visitor or ask, bow, say goodbye, return to the start. The history goes to standard output, one line a visitor.
-//   reception [VISITORS]     how many to receive before it ends, 1 when left out; ROIS_URL says where the gateway is
+// The reception scenario of the specification (figure 1): wait for a visitor, go there, identify them, give the visitor's message or ask,
+// bow, say goodbye, return to the start. Prints one line for each visitor.
+//   reception [VISITORS]     visitors to receive before it ends [1]; ROIS_URL: the gateway
 import { type Client, connect, Navigation, PersonDetection, PersonIdentification, PersonLocalization, type Pose } from 'rois-client';
 import { property, Reaction, SpeechRecognition, SpeechSynthesis, SystemInformation } from 'rois-client';
 
@@ -25,8 +25,8 @@ async function receive(client: Client, visitors: number): Promise<void> {
   const identified = await identification.subscribe('person_identified');
   const recognized = await recognition.subscribe('speech_recognized');
   const start = (await new SystemInformation(client, 'system_information').robot_position())[0]!;
-  const met = new Set<string>(); // the temporary names of those who were received, and their permanent ids
-  // Looks around once: who is where.
+  const met = new Set<string>(); // temporary names and permanent ids of received visitors
+  // Looks around once. Returns the persons with their positions.
   async function look(): Promise<Map<string, Pose>> {
     localized.clear();
     await localization.start();
@@ -35,7 +35,7 @@ async function receive(client: Client, visitors: number): Promise<void> {
     const poses = results?.poses('position_data') ?? [];
     return new Map(results?.texts('person_ref').map((person, i) => [person, poses[i]!]));
   }
-  // Goes to a metre before somebody, beside that when there is no way.
+  // Goes to a point one metre in front of a person, or beside that if there is no way.
   async function go_before({ x, y, th }: Pose): Promise<boolean> {
     for (const side of [0, 60, -60, 120, -120].map((turn) => th + turn)) {
       const [ahead, aside] = [1000 * Math.cos((side * Math.PI) / 180), 1000 * Math.sin((side * Math.PI) / 180)];
@@ -44,7 +44,7 @@ async function receive(client: Client, visitors: number): Promise<void> {
     }
     return false;
   }
-  // Goes before the first one who stands and was not received: two looks a second apart find them at one place, and so does a third.
+  // Goes to the first standing person who was not received. Standing: three looks find the person at one place.
   async function approach(): Promise<string | undefined> {
     const before = await look();
     await new Promise((resolve) => setTimeout(resolve, 1000));
@@ -53,7 +53,7 @@ async function receive(client: Client, visitors: number): Promise<void> {
         return (await go_before(pose)) && near(pose, (await look()).get(person), 600) ? person : undefined;
     return undefined;
   }
-  // Says it, and gives what somebody answers.
+  // Asks a question and returns the visitor's answer.
   async function ask(question: string): Promise<string | undefined> {
     await recognition.listen();
     await synthesis.say(question);
@@ -64,7 +64,7 @@ async function receive(client: Client, visitors: number): Promise<void> {
     return heard;
   }
   for (let received = 0; received < visitors; ) {
-    await navigation.go_to(start); // from where the hall is seen
+    await navigation.go_to(start); // where the robot sees the hall
     await detection.start();
     await detected.next(30_000);
     await detection.stop();

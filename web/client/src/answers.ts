@@ -1,4 +1,4 @@
-// Answers and notifications as objects: what an engine says.
+// Reads the engine's answers and notifications into objects.
 import { type CompletedStatus, type ErrorType, type Fault, type ReturnCode, RoisError } from './errors.js';
 import type { Notification, StopState } from './messages.js';
 import type { ComponentProfile, EngineProfile, MessageProfile, ParameterProfile, Profile } from './profiles.js';
@@ -9,7 +9,7 @@ import type { XmlElement } from './xml.js';
 const { rois, gml, xsi } = namespaces;
 
 function broken(what: string): RoisError {
-  return new RoisError('protocol', `the engine's document is not as it should be: ${what}`);
+  return new RoisError('protocol', `invalid document from the engine: ${what}`);
 }
 
 function needed(from: XmlElement, name: string): XmlElement {
@@ -24,12 +24,12 @@ function raise(what: string): never {
   throw broken(what);
 }
 
-// A copy without what is undefined.
+// A copy without the undefined properties.
 function present<T extends object>(all: { [Key in keyof T]: T[Key] | undefined }): T {
   return Object.fromEntries(Object.entries(all).filter(([, one]) => one !== undefined)) as T;
 }
 
-/** What a failed answer says; undefined when it is OK. */
+/** The error in a failed answer; undefined if it is OK. */
 export function trouble_of(answer: XmlElement): RoisError | undefined {
   if (answer.name === 'fault') {
     const fault = fault_of(answer);
@@ -72,7 +72,7 @@ export function parameter_of(from: XmlElement): Parameter {
   };
 }
 
-/** The results inside an answer or an event; none when there are none. */
+/** The results in an answer or an event; empty if it has none. */
 export function results_of(answer: XmlElement): Results {
   const results = answer.child('results');
   if (results === undefined) return new Results();
@@ -102,7 +102,7 @@ export function is_notification(document: XmlElement): boolean {
   return notification_names.includes(document.name);
 }
 
-/** Throws RoisError `protocol` for what is none. */
+/** Throws RoisError `protocol` if the document is not a notification. */
 export function notification_of(document: XmlElement): Notification {
   const sequence = Number(needed_attribute(document, 'sequence'));
   const text = (name: string) => needed(document, name).text;
@@ -130,7 +130,7 @@ export function notification_of(document: XmlElement): Notification {
     case 'profile_changed':
       return { name: 'profile_changed', sequence };
     default:
-      throw broken(`'${document.name}' is no notification`);
+      throw broken(`'${document.name}' is not a notification`);
   }
 }
 

@@ -1,4 +1,4 @@
-// A service application's side of the RoIS interfaces (tables 2 to 6).
+// Client: the RoIS interfaces (tables 2 to 6) for a service application.
 import { component_ref_of, identifier_of, parameter_of, profile_of, results_of, trouble_of } from './answers.js';
 import { type CommandUnit, commands_of, named } from './commands.js';
 import { all_of, component_type, property } from './conditions.js';
@@ -16,64 +16,58 @@ import { for_timer } from './times.js';
 import { type Arguments, code_of, type Identifier, parameters_of, type Ref, Results } from './values.js';
 import { element, text_element, type XmlElement } from './xml.js';
 
-/** How a client behaves; all of it may be left out. */
+/** Options of a client. All are optional; defaults in brackets. */
 export interface ClientOptions {
-  /** Sent as the second subprotocol, since a page cannot set headers. */
+  /** Bearer token. Sent as the second subprotocol, because a page cannot set headers. */
   token?: string;
-  /** ms that a call takes at most, unless it says otherwise: 10,000. */
+  /** Timeout of a call in ms [10,000], unless the call sets its own. */
   deadline?: number;
-  /** ms of silence after which the gateway is asked whether it lives: 10,000. The link is given up after as many again. */
+  /** Silence in ms before a ping [10,000]. The link is dropped after the same time again without an answer. */
   heartbeat?: number;
-  /**
-   * ms that a robot that this session has set in motion goes on without a sign of life: from 1000 to what the gateway has, which is 2000 unless
-   * it was told otherwise.
-   */
+  /** Motion lease in ms, 1000 to the gateway's own [2000]: a robot that this session moves is held after this time without a sign of life. */
   motion_lease?: number;
-  /** ms before the first new try after a loss: 100. Doubled with each further one, and cut at random by up to a half. */
+  /** Delay in ms before the first retry [100]. Each further retry doubles it; each delay is shortened by up to half at random. */
   first_delay?: number;
-  /** ms between two tries at most: 5,000. */
+  /** Longest delay between two retries in ms [5,000]. */
   most_delay?: number;
-  /** Whether a new session binds again what the lost one had bound: true. */
+  /** Bind the components of a lost session again [true]. */
   rebind?: boolean;
-  /** How many notifications wait in a stream that nobody reads: 10,000. Then the oldest go, and the gap is told. */
+  /** Capacity of each stream of notifications [10,000]. A full stream drops the oldest one and reports a gap. */
   buffer?: number;
-  /**
-   * Called as a listener of `on('state')`, from the first try on: each try that fails is reported at once, as `connecting` or `lost` with the
-   * reason, while `connect` keeps trying.
-   */
+  /** A listener of `on('state')` from the first attempt on: each failed attempt is reported as `connecting` or `lost` while `connect` retries. */
   on_state?: (change: StateChange) => void;
-  /** 0 to 1, for the delays. */
+  /** Random number from 0 to 1, used to shorten the delays [Math.random]. */
   random?: () => number;
 }
 
-/** What a call may say. */
+/** Options of one call. */
 export interface CallOptions {
   deadline?: number; // ms
 }
 
-// Of one request: `of` is the deadline of the whole call, when that takes several.
+// Options of one request. `of`: the timeout of the whole call, when it takes several requests.
 type RequestOptions = CallOptions & { of?: number };
 
 export interface SubscribeOptions extends CallOptions {
   condition?: Writable;
-  /** Whether events bring their results along: true. */
+  /** Whether events carry their results [true]. */
   inline_results?: boolean;
 }
 
-/** How the link has turned, and why: empty when it is open. */
+/** The new state of the link. `reason` is empty when the link is open. */
 export interface StateChange {
   state: State;
   reason: string;
 }
 
-/** What a client tells those who listen with `on`. */
+/** The kinds of news for `on`, with what a listener receives. */
 export interface ClientNews {
   state: StateChange;
   gap: Gap;
   notification: Notification;
-  /** A new session could not bind this one again: another session has it, or it is gone. */
+  /** A new session could not bind this component again: another session has it, or it no longer exists. */
   unbound: { component_ref: string; error: RoisError };
-  /** Every document, as it goes in and out. */
+  /** Every document sent or received. */
   document: { direction: 'in' | 'out'; text: string };
 }
 
@@ -89,10 +83,10 @@ export class Client {
   private readonly subscriptions = new Subscriptions();
   private readonly streams = new Set<Stream<Notification>>();
   private readonly bound = new Set<string>();
-  private readonly prefix = Math.random().toString(36).slice(2, 8); // of command ids: several clients may share a session
+  private readonly prefix = Math.random().toString(36).slice(2, 8); // of command ids, which must be unique among the clients of a session
   private next_command = 1;
 
-  /** Does not connect; `connect` of the package does both. */
+  /** Does not connect; the package's `connect` constructs and connects. */
   constructor(url: string, options: ClientOptions, open_socket: OpenSocket) {
     this.buffer = options.buffer ?? 10_000;
     this.deadline = options.deadline ?? 10_000;
@@ -110,16 +104,16 @@ export class Client {
     if (options.motion_lease !== undefined) settings.motion_lease = options.motion_lease;
     if (options.on_state) this.on('state', options.on_state);
     this.link = new Link(settings, {
-      state_changed: (state, reason) => this.listeners.tell('state', { state, reason }),
+      state_changed: (state, reason) => this.listeners.notify('state', { state, reason }),
       session_began: () => this.restore(),
       session_ended: (error) => this.ended(error),
       notified: (notification) => this.notified(notification),
-      missed: (gap) => this.listeners.tell('gap', gap),
-      document: (direction, text) => this.listeners.tell('document', { direction, text }),
+      missed: (gap) => this.listeners.notify('gap', gap),
+      document: (direction, text) => this.listeners.notify('document', { direction, text }),
     });
   }
 
-  /** Begins to connect, and waits for the session. Rejects with `unreachable`, and is closed then. */
+  /** Connects and waits for the session. Rejects with `unreachable` after `deadline` ms; the client is then closed. */
   start(deadline = 10_000): Promise<void> {
     return new Promise((resolve, reject) => {
       let reason = 'no answer';
@@ -142,7 +136,7 @@ export class Client {
     return this.link.current_state;
   }
 
-  /** Tries at once, when the link is away and the next try would come later. */
+  /** Retries at once if the link is lost. Otherwise does nothing. */
   retry(): void {
     this.link.retry();
   }
@@ -152,29 +146,29 @@ export class Client {
     return this.link.session_id;
   }
 
-  /** Tells of each piece of news; gives the function that ends it. */
+  /** Adds a listener. Returns a function that removes it. */
   on<Kind extends keyof ClientNews>(kind: Kind, listener: (news: ClientNews[Kind]) => void): () => void {
     return this.listeners.add(kind, listener);
   }
 
-  /** All notifications from now on, until the client is closed or the stream is ended. */
+  /** Returns a stream of all notifications from now on. It ends when the client is closed or the stream is ended. */
   notifications(): Stream<Notification> {
     const stream = new Stream<Notification>(this.buffer, (count) => this.dropped(count));
     this.streams.add(stream);
     return stream;
   }
 
-  /** `disconnect`: ends the session, and the client with it. A link that is lost is waited for, 3 s unless the options say otherwise. */
+  /** Ends the session (`disconnect`) and closes the client. If the link is lost, waits for it up to `deadline` [3 s]. */
   close(options: CallOptions = {}): Promise<void> {
     return this.link.close(options.deadline ?? close_within);
   }
 
   /**
-   * Sends any document and gives the answer, whatever it says: a response or a fault. It is not repeated when the link breaks. A
-   * `disconnect` closes the client; `resume` is the client's own business and refused.
+   * Sends any document and returns the answer, a response or a fault. Not repeated when the link breaks. A `disconnect` closes the
+   * client; `resume` is rejected as `invalid`, because the client resumes its session itself.
    */
   async send(text: string, options: CallOptions = {}): Promise<XmlElement> {
-    if (/<(?:[^\s<>/:]+:)?resume[\s/>]/.test(text)) throw new RoisError('invalid', 'a client resumes its session by itself');
+    if (/<(?:[^\s<>/:]+:)?resume[\s/>]/.test(text)) throw new RoisError('invalid', "'resume' cannot be sent: the client resumes its session itself");
     return this.link.send(text, options.deadline);
   }
 
@@ -200,7 +194,7 @@ export class Client {
     return this.ask('bind', () => component_ref_xml(component_ref), options, () => void this.bound.add(code_of(component_ref)));
   }
 
-  /** Binds any component that meets the condition, or any of the type that is named. One that this session has already may be the answer. */
+  /** Binds a component that matches the condition, or one of the named type. May return a component that this session has already bound. */
   async bind_any(condition?: Writable | string, options: CallOptions = {}): Promise<Identifier> {
     const meant = typeof condition === 'string' ? component_type(condition) : condition;
     const deadline = this.deadline_of(options);
@@ -217,7 +211,7 @@ export class Client {
 
   release(component_ref: Ref, options: CallOptions = {}): Promise<void> {
     const forget = () => void this.bound.delete(code_of(component_ref));
-    forget(); // a session that is lost before the answer is no reason to bind it again
+    forget(); // so that a session lost before the answer does not bind it again
     return this.ask('release', () => component_ref_xml(component_ref), options, forget);
   }
 
@@ -234,8 +228,8 @@ export class Client {
   }
 
   /**
-   * Sends commands. Those without a name get one, by which the client finds out after a broken link whether they were accepted: they are
-   * executed once, or not at all.
+   * Executes commands. The client names each unnamed command. If the link breaks before the answer, it looks the names up, so that
+   * commands are executed once or not at all.
    */
   async execute(units: readonly CommandUnit[], options: CallOptions = {}): Promise<Execution> {
     const sequence = named(units, () => `${this.prefix}-${this.next_command++}`);
@@ -258,7 +252,7 @@ export class Client {
 
   // --- Query interface (table 4) ---
 
-  /** Asks the engine, or a component that meets the condition. The results name it. */
+  /** Queries the engine, or a component that matches the condition. The result names the component. */
   query(query_type: string, condition?: Writable, options: CallOptions = {}): Promise<{ component_ref: Identifier; results: Results }> {
     return this.ask('query', () => text_element('query_type', query_type) + condition_xml(condition), options, (answer) => ({
       component_ref: component_ref_of(answer),
@@ -309,12 +303,12 @@ export class Client {
     const reason_of = (id: string) =>
       this.get_command_result(id).then(
         (results) => results.text('reason') ?? '',
-        () => '', // the status is known, and matters more
+        () => '', // without the reason, the status is still useful
       );
     return new Execution(ids, ends, reason_of);
   }
 
-  // What is left of the time of a call that takes several requests.
+  // Returns the time left of a call that takes several requests.
   private deadline_of({ deadline = this.deadline }: CallOptions): () => RequestOptions {
     const end = performance.now() + deadline;
     return () => ({ deadline: Math.max(0, end - performance.now()), of: deadline });
@@ -344,7 +338,7 @@ export class Client {
     );
   }
 
-  // What a bind_any whose answer was lost has bound: meets the condition, is this session's, and we do not know of it.
+  // The component that a bind_any bound although its answer was lost: it matches, belongs to this session and is not in `bound`.
   private async bound_unawares(condition: Writable | undefined, options: RequestOptions): Promise<Identifier | undefined> {
     const is_mine = all_of(property('bound').equals('true'), property('status').differs_from('BUSY'));
     const [meant, mine] = await Promise.all([this.search(condition, options), this.search(is_mine, options)]);
@@ -361,7 +355,7 @@ export class Client {
     const content = () => text_element('event_type', event_type) + condition_xml(condition);
     return this.asked('subscribe', { inline_results }, content, options, (answer) => {
       this.subscriptions.add(subscription, answer.text_of('subscribe_id'));
-      if (subscription.ended) this.leave(subscription).catch(() => undefined); // closed while it was made again
+      if (subscription.ended) this.leave(subscription).catch(() => undefined); // closed during the request
       return subscription;
     }, true);
   }
@@ -374,7 +368,7 @@ export class Client {
     });
   }
 
-  // In a new session: all bindings and subscriptions, each once. When this session is lost, too, the next one restores them.
+  // Binds and subscribes again in a new session, each once. If that session is lost too, the next one repeats it.
   private restore(): void {
     const again = (asked: Promise<unknown>, refused: (error: RoisError) => void) =>
       asked.catch((error: RoisError) => {
@@ -382,7 +376,7 @@ export class Client {
       });
     for (const code of this.bound)
       again(this.ask('bind', () => component_ref_xml(code), { deadline: Infinity }, () => undefined), (error) => {
-        if (this.bound.delete(code)) this.listeners.tell('unbound', { component_ref: code, error });
+        if (this.bound.delete(code)) this.listeners.notify('unbound', { component_ref: code, error });
       });
     for (const subscription of this.subscriptions.list())
       again(this.ask_to_subscribe(subscription, { deadline: Infinity }), (error) => {
@@ -402,16 +396,16 @@ export class Client {
 
   private notified(notification: Notification): void {
     if (notification.name === 'completed') this.commands.completed(notification);
-    if (notification.name === 'receive_event') this.subscriptions.tell(notification);
+    if (notification.name === 'receive_event') this.subscriptions.notify(notification);
     for (const stream of this.streams) {
       if (stream.ended) this.streams.delete(stream);
       else stream.push(notification);
     }
-    this.listeners.tell('notification', notification);
+    this.listeners.notify('notification', notification);
   }
 
   private dropped(count: number): void {
-    this.listeners.tell('gap', { reason: 'buffer', count });
+    this.listeners.notify('gap', { reason: 'buffer', count });
   }
 }
 

@@ -1,24 +1,24 @@
-// What `execute` sends (7.4.3.1, tables 10 to 15): commands in sequence and in parallel.
+// The commands of `execute` (7.4.3.1, tables 10 to 15), in sequence and in parallel.
 import { type Arguments, type Parameter, parameters_of, type Ref } from './values.js';
 
 /** One command (table 12). */
 export interface CommandMessage {
   kind: 'command';
   component_ref: Ref;
-  command_type: string; // start, stop, suspend, resume, set_parameter, or one of the component's profile
-  command_id: string; // empty: the client gives one
+  command_type: string; // start, stop, suspend, resume, set_parameter, or a command of the component's profile
+  command_id: string; // empty: the client assigns one
   arguments: Parameter[];
-  delay_time?: number; // ms from when its turn comes
+  delay_time?: number; // ms to wait before the command starts
 }
 
-/** Branches that run at once; the commands of each run one after the other. */
+/** Branches that run in parallel; the commands of a branch run one after the other. */
 export interface ConcurrentCommands {
   kind: 'concurrent';
   branches: CommandMessage[][];
   delay_time?: number;
 }
 
-/** Units of the first specification, which nest freely. */
+/** Units of RoIS 1.0, which nest freely. */
 export interface SequentialCommandUnit {
   kind: 'sequential';
   units: CommandUnit[];
@@ -30,7 +30,7 @@ export interface ParallelCommandUnit {
   delay_time?: number;
 }
 
-/** Waits, and does nothing else. */
+/** Waits. */
 export interface DelayOnly {
   kind: 'delay';
   delay_time: number;
@@ -80,7 +80,7 @@ export function commands_of(units: readonly CommandUnit[]): CommandMessage[] {
   });
 }
 
-/** The same units with a name for each command that has none. */
+/** A copy of the units in which each unnamed command has a name. */
 export function named<Unit extends CommandUnit>(units: readonly Unit[], next_id: () => string): Unit[] {
   return units.map((unit) => {
     if (unit.kind === 'command') return unit.command_id === '' ? { ...unit, command_id: next_id() } : unit;

@@ -1,5 +1,5 @@
-// The basic components (7.6) and those of 2.0 that stream, with their commands, queries and events as methods. Lengths are mm,
-// angles degrees counter-clockwise, times ms, unless something else is said.
+// The basic components (7.6) and the streaming components of RoIS 2.0, with methods for their commands, queries and events. Unless
+// noted, lengths are mm, angles degrees counter-clockwise and times ms.
 import type { Client } from './client.js';
 import { command } from './commands.js';
 import { component_ref, component_type, type Condition } from './conditions.js';
@@ -8,39 +8,39 @@ import type { Completion } from './execution.js';
 import type { Subscription } from './subscriptions.js';
 import { type Arguments, code_of, type Pose, pose_text, type Ref, type Results, type Value, value } from './values.js';
 
-/** A kind of component: the class and the name of its type. */
+/** A component class with the name of its type. */
 export interface ComponentClass<Kind extends Component> {
   new (client: Client, component_ref: Ref): Kind;
   readonly type: string;
 }
 
-/** How long an action may take. */
+/** Options of an action. */
 export interface ActionOptions {
-  deadline?: number; // ms until its end is waited for no longer; it goes on
+  deadline?: number; // ms to wait for its end; the action itself continues
 }
 
-// An int that may be left out; numbers of other kinds are rounded.
+// An optional int; other numbers are rounded.
 function int(n: number | undefined): Value | undefined {
   return n === undefined ? undefined : value.int(n);
 }
 
-/** Any component, by name; what all have (RoIS_Common). */
+/** A component of any type: the common messages (RoIS_Common). */
 export class Component {
   static readonly type: string = '';
 
-  /** One that is bound already, or needs no binding. */
+  /** For a component that is already bound, or needs no binding. */
   constructor(
     readonly client: Client,
     readonly component_ref: Ref,
   ) {}
 
-  /** Binds this one. */
+  /** Binds this component. */
   static async bind<Kind extends Component>(this: ComponentClass<Kind>, client: Client, component_ref: Ref): Promise<Kind> {
     await client.bind(component_ref);
     return new this(client, component_ref);
   }
 
-  /** Binds any of this type that meets the condition. */
+  /** Binds a component of this type that matches the condition. */
   static async bind_any<Kind extends Component>(this: ComponentClass<Kind>, client: Client, condition?: Condition): Promise<Kind> {
     const of_type = component_type(this.type);
     return new this(client, await client.bind_any(condition?.and(of_type) ?? of_type));
@@ -50,7 +50,7 @@ export class Component {
     return this.client.release(this.component_ref);
   }
 
-  /** Executes one command and waits for its end. A command that fails fulfils the promise, too: see `ok` and `reason`. */
+  /** Executes one command and waits for its end. Resolves for a failed command too: see `ok` and `reason`. */
   async run(command_type: string, named: Arguments = {}, options: ActionOptions = {}): Promise<Completion> {
     const execution = await this.client.execute([command(this.component_ref, command_type, named)]);
     return execution.completion(options.deadline);
@@ -76,7 +76,7 @@ export class Component {
     return this.client.get_parameter(this.component_ref);
   }
 
-  /** Asks this component; needs no binding. */
+  /** Queries this component. Needs no binding. */
   async query(query_type: string): Promise<Results> {
     return (await this.client.query(query_type, component_ref(code_of(this.component_ref)))).results;
   }
@@ -85,7 +85,7 @@ export class Component {
     return (await this.query('component_status')).text('status') as ComponentStatus;
   }
 
-  /** This component's events of a type, those that meet the condition. */
+  /** Subscribes to this component's events of a type that match the condition. */
   subscribe(event_type: string, condition?: Condition): Promise<Subscription> {
     const mine = component_ref(code_of(this.component_ref));
     return this.client.subscribe(event_type, { condition: condition?.and(mine) ?? mine });
@@ -96,7 +96,7 @@ export class Component {
 export class SystemInformation extends Component {
   static override readonly type = 'SystemInformation';
 
-  /** Where the robots are. */
+  /** Returns the positions of the robots. */
   async robot_position(): Promise<Pose[]> {
     return (await this.query('robot_position')).poses('position_data');
   }
@@ -142,13 +142,13 @@ export class GestureRecognition extends Component {
 export class SpeechRecognition extends Component {
   static override readonly type = 'SpeechRecognition';
 
-  /** Begins to listen; ends with `stop`. Languages are of ISO 639-1. */
+  /** Listens until `stop`. Languages are ISO 639-1 codes. */
   listen(to: { languages?: string[]; grammar?: string; rule?: string } = {}): Promise<Completion> {
     return this.start(to);
   }
 }
 
-/** How something is said: the volume is 0 to 100, the language of ISO 639-1. */
+/** Voice: volume 0 to 100, language as ISO 639-1 code. */
 export interface VoiceOptions extends ActionOptions {
   volume?: number;
   language?: string;
@@ -163,7 +163,7 @@ function voice({ volume, language, character }: VoiceOptions): Arguments {
 export class SpeechSynthesis extends Component {
   static override readonly type = 'SpeechSynthesis';
 
-  /** Says a text; done when it is said. */
+  /** Speaks a text. Resolves when it is spoken. */
   say(text: string, how: VoiceOptions = {}): Promise<Completion> {
     return this.start({ speech_text: text, ...voice(how) }, how);
   }
@@ -176,7 +176,7 @@ export class SpeechSynthesis extends Component {
 export class Reaction extends Component {
   static override readonly type = 'Reaction';
 
-  /** Shows a reaction of annex D: its number or its name. */
+  /** Shows a reaction of annex D, given by number or name. */
   react(reaction_ref: Ref | number, options: ActionOptions = {}): Promise<Completion> {
     const ref = typeof reaction_ref === 'number' ? String(reaction_ref) : reaction_ref;
     return this.start({ reaction_ref: value.identifier(ref) }, options);
@@ -187,7 +187,7 @@ export class Reaction extends Component {
 export class Navigation extends Component {
   static override readonly type = 'Navigation';
 
-  /** Goes to a pose, to a named place, or to several one after the other; done on arrival. */
+  /** Goes to a pose or named place, or to several in order. Resolves on arrival. */
   go_to(
     where: Pose | string | (Pose | string)[],
     how: { time_limit?: number; routing_policy?: 'time' | 'distance' } & ActionOptions = {},
@@ -202,7 +202,7 @@ export class Navigation extends Component {
 export class Follow extends Component {
   static override readonly type = 'Follow';
 
-  /** Follows somebody or something at this distance, until `stop` or until the time is over. */
+  /** Follows a person or object at this distance, until `stop` or the time limit. */
   follow(target_object_ref: Ref, distance: number, how: { time_limit?: number } & ActionOptions = {}): Promise<Completion> {
     return this.start({ target_object_ref: value.identifier(target_object_ref), distance: value.int(distance), time_limit: int(how.time_limit) }, how);
   }
@@ -212,23 +212,20 @@ export class Follow extends Component {
 export class Move extends Component {
   static override readonly type = 'Move';
 
-  /** Turns on the spot by `turn` degrees (to the left when positive), then drives `distance` mm straight on, backwards when negative. */
+  /** Turns on the spot by `turn` degrees (positive: left), then drives `distance` mm straight (negative: backwards). */
   line(distance: number, turn: number, how: { time?: number } & ActionOptions = {}): Promise<Completion> {
     return this.start({ line: value.ints([distance, turn]), time: int(how.time) }, how);
   }
 
-  /**
-   * Drives along a circle of `radius` mm until the heading has changed by `turn` degrees (to the left when positive). A negative
-   * radius drives backwards; 0 turns on the spot.
-   */
+  /** Drives on a circle of `radius` mm (negative: backwards; 0: on the spot) until the heading has turned by `turn` degrees (positive: left). */
   curve(radius: number, turn: number, how: { time?: number } & ActionOptions = {}): Promise<Completion> {
     return this.start({ curve: value.ints([radius, turn]), time: int(how.time) }, how);
   }
 }
 
-/** Of RoIS 2.0: events `notify_stream_status` with `stream_id`, `status`. */
+/** RoIS 2.0: events `notify_stream_status` with `stream_id`, `status`. */
 export class Streaming extends Component {
-  /** Makes a stream: its name, its encoding, and where it is fetched or sent. */
+  /** Creates a stream. The results are its name, its encoding and its address. */
   async connect_stream(options: ActionOptions = {}): Promise<Results> {
     const execution = await this.client.execute([command(this.component_ref, 'connect_stream')]);
     await execution.status(options.deadline);

@@ -1,42 +1,42 @@
-// Conditions (QueryExpression of ISO 19143) built in code; docs/conditions.md of the gateway says what they mean.
+// Builds conditions (QueryExpression of ISO 19143). The gateway's docs/conditions.md defines their meaning.
 import { element, text_element } from './xml.js';
 
-/** What is meant, and perhaps in which order. */
+/** A predicate with an optional order. */
 export class Condition {
   constructor(
-    /** A predicate as XML, with the prefixes `fes` and `gml`; empty: all. */
+    /** A predicate as XML, with the prefixes `fes` and `gml`; empty: matches all. */
     readonly predicate: string,
     /** SortProperty elements as XML. */
     readonly order: string = '',
   ) {}
 
-  /** The same, in this order; a second call says what counts among equals. */
+  /** A copy sorted by this key, after the keys of earlier calls. */
   sorted_by(by: Expression | string, order: 'ASC' | 'DESC' = 'ASC'): Condition {
     const key = element('fes:SortProperty', {}, typeof by === 'string' ? property(by).xml : by.xml, text_element('fes:SortOrder', order));
     return new Condition(this.predicate, this.order + key);
   }
 
-  /** The same restricted to what meets another one, too. */
+  /** A copy that also requires `other`. */
   and(other: Condition): Condition {
     return new Condition(all_of(this, other).predicate, this.order);
   }
 
-  /** What stands inside a message's `condition`. */
+  /** The content of a message's `condition`. */
   get xml(): string {
     const filter = this.predicate === '' ? '' : element('fes:Filter', {}, this.predicate);
     return filter + (this.order === '' ? '' : element('fes:SortBy', {}, this.order));
   }
 }
 
-/** A condition as XML that was made elsewhere: what stands inside `condition`, with the prefixes `fes`, `gml`, `unr` and `rois`. */
+/** A condition given as XML: the content of `condition`, with the prefixes `fes`, `gml`, `unr` and `rois`. */
 export class WrittenCondition {
   constructor(readonly xml: string) {}
 }
 
-/** No restriction; for `everything.sorted_by(...)`. */
+/** Matches all, for `everything.sorted_by(...)`. */
 export const everything = new Condition('');
 
-/** What a comparison can be about. */
+/** An operand of a comparison. */
 export class Expression {
   constructor(readonly xml: string) {}
 }
@@ -44,12 +44,12 @@ export class Expression {
 /** A point or a box. */
 export class Geometry extends Expression {}
 
-/** A point: mm, in the frame `crs`, that of whatever it is compared with when left out. */
+/** A point in mm. Without `crs`, it is in the frame of the value that it is compared with. */
 export function point(x: number, y: number, crs?: string): Geometry {
   return new Geometry(element('gml:Point', { srsName: crs }, text_element('gml:pos', `${x} ${y}`)));
 }
 
-/** A box along the axes: mm. */
+/** A box parallel to the axes, in mm. */
 export function box(low: { x: number; y: number }, high: { x: number; y: number }, crs?: string): Geometry {
   return new Geometry(
     element(
@@ -61,13 +61,13 @@ export function box(low: { x: number; y: number }, high: { x: number; y: number 
   );
 }
 
-/** The distance of two positions or named places, in mm. */
+/** The distance between two positions or named places, in mm. */
 export function distance(from: Expression | string, to: Operand): Expression {
   const argument = (of: Operand) => (of instanceof Geometry ? element('fes:Literal', {}, of.xml) : operand(of));
   return new Expression(element('fes:Function', { name: 'distance' }, argument(typeof from === 'string' ? property(from) : from), argument(to)));
 }
 
-/** A literal, a time, or an expression. A text is a literal; the name of a place is one, too. */
+/** A literal (also the name of a place), a time, or an expression. */
 export type Operand = string | number | boolean | Date | Expression;
 
 function operand(of: Operand): string {
@@ -79,7 +79,7 @@ function instant(time: Date): string {
   return element('gml:TimeInstant', {}, text_element('gml:timePosition', time.toISOString()));
 }
 
-/** How many of several values must meet a comparison, and whether the case of letters counts. */
+/** How a comparison treats several values, and whether it is case-sensitive. */
 export interface Matching {
   match_action?: 'Any' | 'All' | 'One';
   match_case?: boolean;
@@ -110,7 +110,7 @@ export class Property extends Expression {
     return this.compared('GreaterThanOrEqualTo', other, how);
   }
 
-  /** Both boundaries belong to it. */
+  /** Including both boundaries. */
   between(lower: Operand, upper: Operand): Condition {
     return new Condition(
       element(
@@ -123,18 +123,18 @@ export class Property extends Expression {
     );
   }
 
-  /** `*` stands for any text, `?` for one character, `\` takes their meaning away. */
+  /** `*` matches any text, `?` one character; `\` escapes them. */
   like(pattern: string, how: { match_case?: boolean } = {}): Condition {
     const marks = { wildCard: '*', singleChar: '?', escapeChar: '\\', matchCase: how.match_case };
     return new Condition(element('fes:PropertyIsLike', marks, this.xml, text_element('fes:Literal', pattern)));
   }
 
-  /** Has no value. */
+  /** True if the property has no value. */
   is_null(): Condition {
     return new Condition(element('fes:PropertyIsNull', {}, this.xml));
   }
 
-  /** Lies in a box or a named place. */
+  /** True inside a box or a named place. */
   within(area: Operand): Condition {
     return this.related('Within', area);
   }
@@ -145,7 +145,7 @@ export class Property extends Expression {
     return this.related('Disjoint', area);
   }
 
-  /** No farther than so many mm from a point, box or named place. */
+  /** True up to this distance from a point, box or named place. */
   no_farther_than(millimetres: number, from: Operand): Condition {
     return this.related('DWithin', from, element('fes:Distance', { uom: 'mm' }, String(millimetres)));
   }
@@ -160,7 +160,7 @@ export class Property extends Expression {
     return new Condition(element('fes:Before', {}, this.xml, instant(time)));
   }
 
-  /** Without the ends of the period. */
+  /** Excluding the ends of the period. */
   during(begin: Date, end: Date): Condition {
     const period = element(
       'gml:TimePeriod',
@@ -185,22 +185,22 @@ export function property(path: string): Property {
   return new Property(path);
 }
 
-/** Components of this type: `Navigation`, or a whole URN. */
+/** Components of this type: a name such as `Navigation`, or a URN. */
 export function component_type(type: string): Condition {
   return property('component_type').equals(type_urn(type));
 }
 
-/** The URN of a component type, which may be given by its name alone when the specification has it. */
+/** The URN of a component type. A name without colon is a type of the specification. */
 export function type_urn(type: string): string {
   return type.includes(':') ? type : `urn:x-rois:def:component:OMG::${type}`;
 }
 
-/** This component alone. */
+/** Only this component. */
 export function component_ref(code: string): Condition {
   return property('component_ref').equals(code);
 }
 
-/** Their orders are passed over. */
+/** Ignores the orders of the conditions, as do `any_of` and `not`. */
 export function all_of(...conditions: Condition[]): Condition {
   return joined('And', conditions);
 }

@@ -1,28 +1,28 @@
-// What can go wrong with a call.
+// Errors of calls.
 
-/** What an operation answers (RoIS, table 1). */
+/** Return code of an operation (RoIS, table 1). */
 export type ReturnCode = 'OK' | 'ERROR' | 'BAD_PARAMETER' | 'UNSUPPORTED' | 'OUT_OF_RESOURCES' | 'TIMEOUT';
 
 /** How a command ended (table 8). */
 export type CompletedStatus = 'OK' | 'ERROR' | 'ABORT' | 'OUT_OF_RESOURCES' | 'TIMEOUT';
 
-/** What kind of error a `receive_error` tells of (table 7). */
+/** Type of a `receive_error` (table 7). */
 export type ErrorType = 'ENGINE_INTERNAL_ERROR' | 'COMPONENT_INTERNAL_ERROR' | 'COMPONENT_NOT_RESPONDING' | 'USER_DEFINED_ERROR';
 
-/** How a component is (table 33). BUSY: another session has it bound. */
+/** Status of a component (table 33). BUSY: bound by another session. */
 export type ComponentStatus = 'UNINITIALIZED' | 'READY' | 'BUSY' | 'WARNING' | 'ERROR';
 
 /**
  * Why a call failed:
- * - `refused`: the engine answered with another return code than OK, see `return_code`;
- * - `fault`: the gateway could not read the message or did not allow it, see `fault`; no operation ran;
- * - `deadline`: no answer within the time that the caller gave; whether the operation ran is not known;
- * - `link_lost`: the link broke before the answer came, and what was sent must not be repeated unasked (`send`);
+ * - `refused`: the engine answered with a return code other than OK, see `return_code`;
+ * - `fault`: the gateway could not read or did not allow the message, see `fault`; no operation ran;
+ * - `deadline`: no answer within the timeout; the operation may or may not have run;
+ * - `link_lost`: the link broke before the answer, and the message may not be repeated (`send`);
  * - `session_lost`: the session ended, with its bindings, commands and subscriptions;
- * - `unreachable`: no session could be had in the first place;
- * - `closed`: the client was closed;
- * - `invalid`: what was to be sent cannot be said in XML;
- * - `protocol`: the other side does not speak as an engine does.
+ * - `unreachable`: no session could be opened;
+ * - `closed`: the client is closed;
+ * - `invalid`: the arguments are invalid or cannot be written as XML;
+ * - `protocol`: the answer violates the protocol.
  */
 export type Failure =
   | 'refused'
@@ -35,7 +35,7 @@ export type Failure =
   | 'invalid'
   | 'protocol';
 
-/** A fault's code, and the place in the document that it was about: line and column count from 1. */
+/** A fault with its place in the document; line and column count from 1. */
 export interface Fault {
   code: string;
   reason: string;
@@ -43,7 +43,7 @@ export interface Fault {
   column?: number;
 }
 
-/** Every call that fails rejects with one of these. */
+/** The error of every failed call. */
 export class RoisError extends Error {
   override readonly name = 'RoisError';
   /** Set when `failure` is `refused`. */

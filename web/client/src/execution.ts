@@ -1,13 +1,13 @@
-// Commands on their way, and how they ended.
+// Running commands and how they end.
 import { type CompletedStatus, RoisError } from './errors.js';
 import type { Completed } from './messages.js';
 import { for_timer } from './times.js';
 
-/** How a command ended. */
+/** The end of a command. */
 export class Completion {
   constructor(
     readonly status: CompletedStatus,
-    /** Why the status is not OK, as the engine says it; may be empty. */
+    /** The engine's reason for a status other than OK; may be empty. */
     readonly reason = '',
   ) {}
 
@@ -21,7 +21,7 @@ export class Completion {
   }
 }
 
-/** Commands that the engine has accepted. */
+/** Accepted commands. */
 export class Execution {
   constructor(
     /** In document order. */
@@ -31,8 +31,8 @@ export class Execution {
   ) {}
 
   /**
-   * How each command ended, in the order of `command_ids`. Rejects with `session_lost` when the session was lost before, and with
-   * `deadline` when one has not ended within so many ms; it can be asked again then.
+   * Resolves with the statuses in the order of `command_ids`. Rejects with `session_lost` if the session is lost first, and with
+   * `deadline` after `deadline` ms; it may then be called again.
    */
   async statuses(deadline?: number): Promise<CompletedStatus[]> {
     const all = Promise.all(this.ends);
@@ -44,12 +44,12 @@ export class Execution {
     return Promise.race([all, late]).finally(() => clearTimeout(timer));
   }
 
-  /** OK when all of them ended so, else how the first that did not. */
+  /** Resolves with OK, or with the first status that is not OK. Rejects as `statuses`. */
   async status(deadline?: number): Promise<CompletedStatus> {
     return (await this.statuses(deadline)).find((status) => status !== 'OK') ?? 'OK';
   }
 
-  /** The same with the reason, for which the engine is asked when a command failed. */
+  /** As `status`, with the reason of the failed command, which it fetches from the engine. */
   async completion(deadline?: number): Promise<Completion> {
     const statuses = await this.statuses(deadline);
     const failed = statuses.findIndex((status) => status !== 'OK');
@@ -63,31 +63,31 @@ interface Waiting {
   reject(error: unknown): void;
 }
 
-const most_used = 2000; // ids that are remembered; an engine keeps 1,000 of a session
+const most_used = 2000; // command ids remembered; an engine keeps 1,000 for a session
 
-/** The commands of a session that have not ended. */
+/** The running commands of a session. */
 export class Commands {
   private readonly waiting = new Map<string, Waiting>();
   private readonly used = new Set<string>();
 
-  /** How this command will end. Before it is sent: its end may come before the answer. */
+  /** Returns the promise of this command's end. Call it before sending: the end may arrive before the answer. */
   expect(id: string): Promise<CompletedStatus> {
     const known = this.waiting.get(id);
     if (known) return known.end;
     let resolve!: (status: CompletedStatus) => void;
     let reject!: (error: unknown) => void;
     const end = new Promise<CompletedStatus>((...both) => ([resolve, reject] = both));
-    end.catch(() => undefined); // nobody has to wait for it
+    end.catch(() => undefined); // the caller may ignore it
     this.waiting.set(id, { end, resolve, reject });
     return end;
   }
 
-  /** They were not accepted. */
+  /** The engine rejected these commands. */
   forget(ids: string[]): void {
     for (const id of ids) this.waiting.delete(id);
   }
 
-  /** They were accepted: their names are used up for this session. */
+  /** The engine accepted these commands: their ids cannot be used again in this session. */
   use(ids: string[]): void {
     for (const id of ids) this.used.add(id);
     for (const id of this.used) {
@@ -105,7 +105,7 @@ export class Commands {
     this.waiting.delete(command_id);
   }
 
-  /** The session is gone, and their ends with it. */
+  /** The session is lost: rejects all. */
   fail(error: RoisError): void {
     for (const one of this.waiting.values()) one.reject(error);
     this.waiting.clear();

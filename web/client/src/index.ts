@@ -1,4 +1,4 @@
-// All that is the same in a browser and in Node.
+// The API that browser.ts and node.ts share.
 export { component_profile_of, engine_profile_of, fault_of, identifier_of, is_notification, notification_of, parameter_of, results_of } from './answers.js';
 export * from './client.js';
 export * from './commands.js';

@@ -1,5 +1,5 @@
-// The link to the gateway: a session over one WebSocket after another. It connects, finds out that a link is dead, opens a new one,
-// resumes the session, sends again what was not answered and may be repeated, and hands on each notification once.
+// The link to the gateway: one session over successive WebSockets. It detects a dead link, reconnects, resumes the session, repeats
+// unanswered calls where that is safe, and passes on each notification once.
 import { is_notification, notification_of, trouble_of } from './answers.js';
 import { RoisError } from './errors.js';
 import type { Gap, Notification } from './messages.js';
@@ -9,46 +9,46 @@ import { for_timer } from './times.js';
 import { parse_xml, type XmlElement, XmlError } from './xml.js';
 
 /**
- * How the link is:
- * - `connecting`: for the first time; calls wait;
- * - `open`: with a new session;
- * - `lost`: the link broke; a new one is tried for, calls wait;
- * - `resumed`: open again with the session as it was; what was missed is told;
- * - `closed`: for good.
+ * State of the link:
+ * - `connecting`: first connection; calls wait;
+ * - `open`: connected with a new session;
+ * - `lost`: the link broke and is being reopened; calls wait;
+ * - `resumed`: connected again with the same session; missed notifications follow;
+ * - `closed`: closed for good.
  */
 export type State = 'connecting' | 'open' | 'lost' | 'resumed' | 'closed';
 
 export interface LinkSettings {
   url: string; // ws: or wss:
   token?: string;
-  deadline: number; // ms that a call takes at most, unless it says otherwise
-  heartbeat: number; // ms of silence after which the gateway is asked whether it lives; the link is given up after as many again
-  first_delay: number; // ms before the first new try after a loss; doubled with each further one
+  deadline: number; // ms, timeout of a call that sets none
+  heartbeat: number; // ms of silence before a ping; the link is dropped after the same time again
+  first_delay: number; // ms before the first retry; each further retry doubles it
   most_delay: number; // ms
-  random: () => number; // 0 to 1: each delay is cut by up to a half, so that many clients do not come at once
-  motion_lease?: number; // ms that a robot goes on without a sign of life: less than the gateway's
+  random: () => number; // 0 to 1: shortens each delay by up to half, so that many clients do not reconnect at once
+  motion_lease?: number; // ms without a sign of life until a robot is held; at most the gateway's
   open_socket: OpenSocket;
 }
 
 export interface LinkListener {
   state_changed(state: State, reason: string): void;
-  /** A new session is there; what the application wants of every session may be asked for first. */
+  /** A new session has begun. Calls made here are sent before those that wait. */
   session_began(): void;
-  /** The session is lost with all that it had; every call that waited has failed. */
+  /** The session is lost. All waiting calls have failed. */
   session_ended(error: RoisError): void;
   notified(notification: Notification): void;
   missed(gap: Gap): void;
   document(direction: 'in' | 'out', text: string): void;
 }
 
-/** How a call is made. */
-export interface Asking<T> {
+/** Options of a call. */
+export interface AskOptions<T> {
   deadline?: number | undefined; // ms
-  /** What the caller is told in the end that there was no answer within: `deadline`, unless that is the rest of a longer one. */
+  /** The timeout to name in the error, if `deadline` is only the rest of it. */
   of?: number | undefined; // ms
-  /** Sent again on a new link when the old one broke before the answer; else it fails with `link_lost`. */
+  /** Send again if the link breaks before the answer. Otherwise the call fails with `link_lost`. */
   repeatable: boolean;
-  /** Makes the result of an answer, before anything that came after it is looked at. */
+  /** Converts the answer to the result, before any later document is processed. */
   read(answer: XmlElement): T;
 }
 
@@ -57,13 +57,13 @@ interface Call {
   request_id: string | undefined;
   repeatable: boolean;
   sent_at: number;
-  settled: boolean; // nobody waits for the answer any more
+  settled: boolean; // the caller has its result
   answered(answer: XmlElement): void;
   failed(error: RoisError): void;
 }
 
-const usual_lease = 2000; // ms, of a gateway that was not told otherwise
-const open_within = 10_000; // ms for a link to be opened and greeted
+const usual_lease = 2000; // ms, the gateway's default
+const open_within = 10_000; // ms to open a WebSocket and begin or resume a session
 
 export class Link {
   private state: State = 'connecting';
@@ -72,17 +72,17 @@ export class Link {
   private last_sequence = 0; // of the session
   private socket: Socket | undefined;
   private ready = false; // the session is there and calls may be sent
-  private queue: Call[] = []; // to be sent
-  private in_flight: Call[] = []; // sent, in order, without their answers
-  private heard_at = 0;
-  private said_at = 0;
-  private may_move = false; // something was bound in this session, or executed
-  private proving = false; // a sign of life is on its way
-  private tries = 0; // that have failed since a link had a session
+  private queue: Call[] = []; // not yet sent
+  private in_flight: Call[] = []; // sent and unanswered, in order
+  private last_received_at = 0;
+  private last_sent_at = 0;
+  private may_move = false; // this session has sent `bind` or `execute`
+  private proving = false; // a ping is unanswered
+  private tries = 0; // failed attempts since the last session
   private next_id = 1;
   private closing: Promise<void> | undefined;
-  private patience: ReturnType<typeof setTimeout> | undefined; // until the next try, or until one has failed
-  private heart: ReturnType<typeof setInterval> | undefined;
+  private attempt_timer: ReturnType<typeof setTimeout> | undefined; // for the next attempt, or for the end of this one
+  private heartbeat_timer: ReturnType<typeof setInterval> | undefined;
 
   constructor(
     private readonly settings: LinkSettings,
@@ -96,32 +96,32 @@ export class Link {
     return this.session;
   }
 
-  /** Begins to connect. Once. */
+  /** Begins to connect. Call once. */
   start(): void {
     this.open();
   }
 
-  /** Makes a request and sends it as soon as there is a link. */
-  ask<T>(operation: Operation, attributes: Record<string, string | number | boolean | undefined>, content: () => string, how: Asking<T>): Promise<T> {
+  /** Makes a request and sends it as soon as the link is open. */
+  ask<T>(operation: Operation, attributes: Record<string, string | number | boolean | undefined>, content: () => string, how: AskOptions<T>): Promise<T> {
     const request_id = `r${this.next_id++}`;
     return this.call(() => request(operation, { ...attributes, request_id }, content()), request_id, how);
   }
 
-  /** While it waits before the next try to open a link: tries at once. */
+  /** Retries at once if a retry is scheduled. */
   retry(): void {
-    if (this.socket || !this.patience || this.state === 'closed') return;
-    clearTimeout(this.patience);
+    if (this.socket || !this.attempt_timer || this.state === 'closed') return;
+    clearTimeout(this.attempt_timer);
     this.open();
   }
 
-  /** Sends a document as it is; gives the answer, whatever it says. */
+  /** Sends a document unchanged and returns the answer. */
   send(text: string, deadline?: number): Promise<XmlElement> {
     return this.call(() => text, undefined, { deadline, repeatable: false, read: (answer) => answer });
   }
 
   /**
-   * Ends the session and the link. When the link is lost just now it is waited for, so that the engine stops what runs; after `deadline` ms
-   * the session is left to its end.
+   * Ends the session and the link. If the link is lost, waits up to `deadline` ms for it, so that the engine stops what runs; then
+   * leaves the session to expire.
    */
   close(deadline: number): Promise<void> {
     this.closing ??= this.disconnect(deadline);
@@ -136,21 +136,21 @@ export class Link {
     this.finish(error);
   }
 
-  /** Ends the link at once, for this reason. */
+  /** Ends the link at once with this error. */
   finish(error: RoisError): void {
     if (this.state === 'closed') return;
-    this.quieten();
+    this.stop_timers();
     this.socket?.close();
     this.socket = undefined;
     this.session = '';
     this.fail_all(error);
-    this.turn('closed', error.message);
+    this.set_state('closed', error.message);
     this.listener.session_ended(error);
   }
 
   // --- Calls ---
 
-  private call<T>(make: () => string, request_id: string | undefined, how: Asking<T>): Promise<T> {
+  private call<T>(make: () => string, request_id: string | undefined, how: AskOptions<T>): Promise<T> {
     return new Promise<T>((resolve, reject) => {
       if (this.state === 'closed') throw new RoisError('closed', 'the client was closed');
       const deadline = how.deadline ?? this.settings.deadline;
@@ -186,7 +186,7 @@ export class Link {
     });
   }
 
-  // A call of the link's own, sent at once; what goes wrong with it goes wrong with the link.
+  // Sends a request of the link itself, at once. If it fails, the link fails.
   private greet(operation: Operation, attributes: Record<string, string | number | undefined>, answered: (answer: XmlElement) => void): void {
     const request_id = `r${this.next_id++}`;
     const text = request(operation, { ...attributes, request_id });
@@ -194,7 +194,7 @@ export class Link {
   }
 
   private transmit(call: Call): void {
-    call.sent_at = this.said_at = performance.now();
+    call.sent_at = this.last_sent_at = performance.now();
     if (/[<:](bind|execute)/.test(call.text)) this.may_move = true;
     this.in_flight.push(call);
     this.listener.document('out', call.text);
@@ -213,7 +213,7 @@ export class Link {
 
   private open(): void {
     const { url, token, open_socket } = this.settings;
-    this.patience = setTimeout(() => this.drop(`no session within ${open_within} ms`), open_within);
+    this.attempt_timer = setTimeout(() => this.drop(`no session within ${open_within} ms`), open_within);
     try {
       this.socket = open_socket(url, subprotocols_with(token), {
         opened: () => this.opened(),
@@ -230,7 +230,7 @@ export class Link {
     else this.resume_session();
   }
 
-  // A browser answers pings by itself, also while the page hangs: only requests are proof that the page lives.
+  // A browser answers pings even while the page hangs: only requests prove that the page is alive.
   private connect(answered: (answer: XmlElement) => void): void {
     const { motion_lease, open_socket } = this.settings;
     this.greet('connect', { motion_lease, motion_proof: open_socket.answers_pings_alone ? 'request' : undefined }, answered);
@@ -266,20 +266,20 @@ export class Link {
   }
 
   private live(state: State, first: () => void): void {
-    clearTimeout(this.patience);
-    clearInterval(this.heart);
+    clearTimeout(this.attempt_timer);
+    clearInterval(this.heartbeat_timer);
     const { heartbeat, motion_lease = usual_lease, open_socket } = this.settings;
     const often = open_socket.answers_pings_alone ? motion_lease / 4 : heartbeat / 2;
-    this.heart = setInterval(() => this.beat(often / 2), for_timer(Math.min(often, heartbeat / 2)));
+    this.heartbeat_timer = setInterval(() => this.beat(often / 2), for_timer(Math.min(often, heartbeat / 2)));
     this.proving = false;
     this.ready = true;
     this.tries = 0;
     first();
     this.flush();
-    this.turn(state, '');
+    this.set_state(state, '');
   }
 
-  // What comes then does not, when whoever hears of the loss closes the client.
+  // Calls `then` unless a listener closed the client because of the loss.
   private lose_session(reason: string, then: () => void): void {
     const error = new RoisError('session_lost', `the session was lost: ${reason}`);
     this.session = '';
@@ -290,17 +290,17 @@ export class Link {
     if (!this.closing) then();
   }
 
-  // What is due: a sign of life when nothing was said for as long as this, or a look whether the gateway lives.
+  // Pings when a ping is due: as a sign of life after `quiet` ms without a request, or to check a silent gateway.
   private beat(quiet: number): void {
     const now = performance.now();
     const oldest = this.in_flight[0];
-    if (oldest && now - Math.max(this.heard_at, oldest.sent_at) >= this.settings.heartbeat)
+    if (oldest && now - Math.max(this.last_received_at, oldest.sent_at) >= this.settings.heartbeat)
       this.drop(`the gateway has not answered for ${this.settings.heartbeat} ms`);
-    else if (!oldest && now - this.heard_at >= this.settings.heartbeat) this.ping();
-    else if (this.settings.open_socket.answers_pings_alone && this.may_move && !this.proving && now - this.said_at >= quiet) this.ping();
+    else if (!oldest && now - this.last_received_at >= this.settings.heartbeat) this.ping();
+    else if (this.settings.open_socket.answers_pings_alone && this.may_move && !this.proving && now - this.last_sent_at >= quiet) this.ping();
   }
 
-  // `connect` changes nothing in a session that lives (decision 1 of the gateway).
+  // In a live session, `connect` changes nothing (decision 1 of the gateway).
   private ping(): void {
     this.proving = true;
     this.connect((answer) => {
@@ -308,7 +308,7 @@ export class Link {
       const trouble = trouble_of(answer);
       if (trouble) return this.drop(trouble.message);
       const session = answer.text_of('session');
-      if (session !== this.session) this.lose_session('the engine had ended it', () => this.begun(session));
+      if (session !== this.session) this.lose_session('the engine has ended it', () => this.begun(session));
     });
   }
 
@@ -318,15 +318,15 @@ export class Link {
   }
 
   private ended({ reason, final, code }: SocketEnd): void {
-    this.quieten();
+    this.stop_timers();
     this.socket = undefined;
-    // What the gateway would not read, it would not read again. Of what is no UTF-8 nothing is known but that it was the next one.
+    // 1009: the gateway would reject the message again. 1007: only the first unanswered message can be the one.
     const most = code === 1009 && largest(this.in_flight);
-    if (most) most.failed(unread('too_large', `${reason}; this has ${bytes(most)} bytes`));
-    if (code === 1007) this.in_flight[0]?.failed(unread('not_well_formed', reason));
+    if (most) most.failed(rejected_by_gateway('too_large', `${reason}; this has ${bytes(most)} bytes`));
+    if (code === 1007) this.in_flight[0]?.failed(rejected_by_gateway('not_well_formed', reason));
     for (const call of this.in_flight.splice(0)) {
       if (call.settled) continue;
-      if (call.repeatable) this.queue.push(call); // where nothing is while such calls are in flight
+      if (call.repeatable) this.queue.push(call); // empty while calls are in flight
       else call.failed(new RoisError('link_lost', `the link broke before the answer: ${reason}`));
     }
     if (final && this.state === 'connecting') {
@@ -334,17 +334,17 @@ export class Link {
       return;
     }
     const delay = Math.min(this.settings.most_delay, this.settings.first_delay * 2 ** Math.min(this.tries++, 30));
-    this.patience = setTimeout(() => this.open(), for_timer(delay * (1 - this.settings.random() / 2)));
-    this.turn(this.state === 'connecting' ? 'connecting' : 'lost', reason);
+    this.attempt_timer = setTimeout(() => this.open(), for_timer(delay * (1 - this.settings.random() / 2)));
+    this.set_state(this.state === 'connecting' ? 'connecting' : 'lost', reason);
   }
 
-  private quieten(): void {
-    clearTimeout(this.patience);
-    clearInterval(this.heart);
+  private stop_timers(): void {
+    clearTimeout(this.attempt_timer);
+    clearInterval(this.heartbeat_timer);
     this.ready = false;
   }
 
-  private turn(state: State, reason: string): void {
+  private set_state(state: State, reason: string): void {
     this.state = state;
     this.reason = reason;
     this.listener.state_changed(state, reason);
@@ -353,9 +353,9 @@ export class Link {
   // --- What comes ---
 
   private received(text: string): void {
-    this.heard_at = performance.now();
+    this.last_received_at = performance.now();
     this.listener.document('in', text);
-    if (this.state === 'closed') return; // by whoever has heard it
+    if (this.state === 'closed') return; // by the document listener
     try {
       const document = parse_xml(text);
       if (is_notification(document)) this.notify(notification_of(document));
@@ -369,7 +369,7 @@ export class Link {
   private notify(notification: Notification): void {
     const { sequence } = notification;
     const first = this.last_sequence + 1;
-    if (sequence < first) return; // told already
+    if (sequence < first) return; // already reported
     this.last_sequence = sequence;
     const count = notification.name === 'lost' ? notification.count : sequence - first;
     if (count > 0) this.listener.missed({ reason: 'lost', count, first, last: notification.name === 'lost' ? sequence : sequence - 1 });
@@ -380,11 +380,11 @@ export class Link {
     const [call] = this.in_flight;
     const echoed = document.attribute('request_id');
     if (call === undefined || (echoed !== undefined && call.request_id !== undefined && echoed !== call.request_id))
-      throw new RoisError('protocol', `the gateway says what nobody asked for: ${document.name} ${document.text_of('reason')}`);
+      throw new RoisError('protocol', `the gateway sent an answer without a request: ${document.name} ${document.text_of('reason')}`);
     const no_session = document.name === 'fault' && document.attribute('code') === 'no_session';
     if (no_session && this.ready && !this.closing) {
-      this.lose_session('the engine had ended it', () => {
-        this.in_flight.shift(); // has failed with the others
+      this.lose_session('the engine has ended it', () => {
+        this.in_flight.shift(); // lose_session has failed it
         this.begin_session();
       });
       return;
@@ -403,7 +403,7 @@ function largest(calls: Call[]): Call | undefined {
   return calls.reduce<Call | undefined>((most, one) => (most && bytes(most) >= bytes(one) ? most : one), undefined);
 }
 
-function unread(code: string, reason: string): RoisError {
+function rejected_by_gateway(code: string, reason: string): RoisError {
   return new RoisError('fault', `${code}: ${reason}`, { fault: { code, reason } });
 }
 

@@ -1,19 +1,19 @@
-// Who wants to be told of what.
+// Listeners by kind of news.
 
-/** For each kind of news by its name, those who listen. */
+/** A set of listeners for each kind of news. */
 export class Listeners<News> {
   private readonly all = new Map<keyof News, Set<(news: never) => void>>();
 
-  /** Gives the function that ends the listening. */
+  /** Returns a function that removes the listener. */
   add<Kind extends keyof News>(kind: Kind, listener: (news: News[Kind]) => void): () => void {
-    const those = this.all.get(kind) ?? new Set();
-    this.all.set(kind, those);
-    those.add(listener);
-    return () => those.delete(listener);
+    const listeners = this.all.get(kind) ?? new Set();
+    this.all.set(kind, listeners);
+    listeners.add(listener);
+    return () => listeners.delete(listener);
   }
 
-  /** What a listener throws is reported as any error that nobody catches, and hinders nobody else. */
-  tell<Kind extends keyof News>(kind: Kind, news: News[Kind]): void {
+  /** Calls the listeners. An exception of one is reported as uncaught and does not keep it from the others. */
+  notify<Kind extends keyof News>(kind: Kind, news: News[Kind]): void {
     for (const listener of this.all.get(kind) ?? []) {
       try {
         (listener as (news: News[Kind]) => void)(news);

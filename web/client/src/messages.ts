@@ -1,20 +1,20 @@
-// What the engine tells on its own (table 6), the gaps in it, and the state of the stop for everything.
+// Notifications of the engine (table 6), gaps in them, and the state of the stop for everything.
 import type { CompletedStatus, ErrorType } from './errors.js';
 import type { Identifier, Results } from './values.js';
 
-/** An event that was subscribed to. */
+/** An event of a subscription. */
 export interface ReceiveEvent {
   name: 'receive_event';
   sequence: number;
   event_id: string;
   event_type: string;
   subscribe_id: string;
-  expire: Date; // until then `get_event_detail` knows it
+  expire: Date; // end of `get_event_detail` for this event
   component_ref: Identifier;
-  results: Results; // empty when the subscription does not ask for them inline
+  results: Results; // empty unless the subscription has inline results
 }
 
-/** An error of the engine, or of a component that is bound or subscribed to. */
+/** An error of the engine, or of a component that the session has bound or subscribed to. */
 export interface ReceiveError {
   name: 'receive_error';
   sequence: number;
@@ -31,14 +31,14 @@ export interface Completed {
   status: CompletedStatus;
 }
 
-/** So many notifications were dropped by the engine; the last of them had this sequence. */
+/** The engine dropped `count` notifications, the last with this sequence number. */
 export interface Lost {
   name: 'lost';
   sequence: number;
   count: number;
 }
 
-/** Components have come or gone. */
+/** Components were added or removed. */
 export interface ProfileChanged {
   name: 'profile_changed';
   sequence: number;
@@ -46,19 +46,19 @@ export interface ProfileChanged {
 
 export type Notification = ReceiveEvent | ReceiveError | Completed | Lost | ProfileChanged;
 
-/** What /rois/stop and /rois/clear answer with. */
+/** The answer of /rois/stop and /rois/clear. */
 export interface StopState {
-  /** Nothing starts until it is cleared. */
+  /** Whether commands are blocked until `clear_everything`. */
   stopped: boolean;
-  /** The refs of the components that have not confirmed yet that they stand still. */
+  /** Refs of components that have not confirmed their halt. */
   not_halted: string[];
 }
 
 /**
- * Something was missed:
- * - `lost`: the engine dropped notifications `first` to `last` of the session, since too many waited; `count` of them are missing;
- * - `session`: the session was lost. What happened until the new one is not known, nor how much it was;
- * - `buffer`: whoever reads a stream of this client was too slow; its oldest `count` entries were dropped.
+ * Notifications are missing:
+ * - `lost`: the engine's queue was full; it dropped notifications `first` to `last` of the session, `count` in all;
+ * - `session`: the session was lost; how many notifications are missing is unknown;
+ * - `buffer`: a stream of this client was not read fast enough; its oldest `count` entries were dropped.
  */
 export type Gap =
   | { reason: 'lost'; count: number; first: number; last: number }

@@ -1,9 +1,9 @@
-// The package in Node.
+// Package entry for Node.
 import { Client, type ClientOptions } from './client.js';
 import { open_node_socket } from './node_socket.js';
 
 export * from './index.js';
-/** What a `Client` of one's own making is opened with; `connect` does it by itself. */
+/** Opens the socket of a `Client` that the application constructs itself; `connect` passes it for you. */
 export { open_node_socket as open_socket } from './node_socket.js';
 
 /** Connects to the gateway at this URL. Rejects with RoisError `unreachable`. */

@@ -1,4 +1,4 @@
-// The frames of WebSocket (RFC 6455) as a client sees them: bytes to messages and back. Knows no socket.
+// WebSocket frames (RFC 6455) of the client side: bytes to messages and back. Does no I/O.
 import { randomBytes } from 'node:crypto';
 
 export const most_bytes = 64 * 1024 * 1024; // of a message
@@ -12,7 +12,7 @@ export const enum Opcode {
   pong = 10,
 }
 
-/** What breaks the protocol; the link must end with this code. */
+/** A protocol violation. The link must be closed with this code. */
 export class FrameError extends Error {
   constructor(
     what: string,
@@ -22,7 +22,7 @@ export class FrameError extends Error {
   }
 }
 
-/** One frame, masked as a client's must be. */
+/** Encodes one frame, masked as RFC 6455 requires of a client. */
 export function frame(opcode: Opcode, payload: Uint8Array): Buffer {
   const size = payload.length;
   const head = size < 126 ? 2 : size < 65536 ? 4 : 10;
@@ -49,26 +49,26 @@ export interface FrameListener {
   close(code: number | undefined, reason: string): void;
 }
 
-/** Puts messages together from the bytes that come, however they are cut. */
+/** Assembles messages from received bytes. Chunks may end anywhere. */
 export class FrameReader {
-  private chunks: Buffer[] = []; // what came and was not read
-  private size = 0; // of all of them
-  private needed = 2; // bytes for the next step
-  private fragments: Buffer[] = []; // of the message that has begun
+  private chunks: Buffer[] = []; // received and not parsed
+  private size = 0; // bytes in chunks
+  private needed = 2; // bytes needed for the next step
+  private fragments: Buffer[] = []; // of the unfinished message
   private fragments_size = 0;
   private in_message = false;
   private ended = false;
 
   constructor(private readonly listener: FrameListener) {}
 
-  /** Tells the listener of all that is complete. Throws FrameError for what no server may send. */
+  /** Passes each complete message to the listener. Throws FrameError if the server violates the protocol. */
   feed(bytes: Buffer): void {
     this.chunks.push(bytes);
     this.size += bytes.length;
     while (!this.ended && this.size >= this.needed && this.step());
   }
 
-  // Reads a frame when all of it is there.
+  // Parses one frame if it is complete.
   private step(): boolean {
     const all = this.chunks.length === 1 ? this.chunks[0]! : Buffer.concat(this.chunks, this.size);
     this.chunks = [all];
@@ -93,21 +93,21 @@ export class FrameReader {
 
   private check(first: number, second: number, size: bigint): void {
     const opcode = first & 15;
-    if ((first & 0x70) !== 0) throw new FrameError('a reserved bit is set', 1002);
-    if ((second & 0x80) !== 0) throw new FrameError('a frame of a server is masked', 1002);
-    if (opcode >= 8 && ((first & 0x80) === 0 || size > 125n)) throw new FrameError('a control frame is in pieces or too long', 1002);
-    if (opcode < 8 && BigInt(this.fragments_size) + size > BigInt(most_bytes)) throw new FrameError('a message is too long', 1009);
+    if ((first & 0x70) !== 0) throw new FrameError('a reserved bit is set in a frame', 1002);
+    if ((second & 0x80) !== 0) throw new FrameError("a server's frame is masked", 1002);
+    if (opcode >= 8 && ((first & 0x80) === 0 || size > 125n)) throw new FrameError('a control frame is fragmented or longer than 125 bytes', 1002);
+    if (opcode < 8 && BigInt(this.fragments_size) + size > BigInt(most_bytes)) throw new FrameError(`a message has more than ${most_bytes} bytes`, 1009);
   }
 
   private take(opcode: number, final: boolean, payload: Buffer): void {
     switch (opcode) {
       case Opcode.continuation:
       case Opcode.text:
-        if ((opcode === Opcode.continuation) !== this.in_message) throw new FrameError('a message begins within another', 1002);
+        if ((opcode === Opcode.continuation) !== this.in_message) throw new FrameError('a continuation frame is missing or unexpected', 1002);
         this.piece(final, payload);
         return;
       case Opcode.binary:
-        throw new FrameError('a binary message', 1003);
+        throw new FrameError('a binary message; only text is expected', 1003);
       case Opcode.close:
         this.ended = true;
         if (payload.length === 1) throw new FrameError('a close frame of one byte', 1002);
@@ -119,7 +119,7 @@ export class FrameReader {
       case Opcode.pong:
         return;
       default:
-        throw new FrameError(`a frame of the unknown kind ${opcode}`, 1002);
+        throw new FrameError(`unknown opcode ${opcode}`, 1002);
     }
   }
 
@@ -135,7 +135,7 @@ export class FrameReader {
     try {
       text = utf8.decode(message);
     } catch {
-      throw new FrameError('a text that is not UTF-8', 1007);
+      throw new FrameError('a text message is not UTF-8', 1007);
     }
     this.listener.text(text);
   }

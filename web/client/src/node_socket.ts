@@ -1,4 +1,4 @@
-// A WebSocket over Node's own HTTP: Node 18 brings none.
+// A WebSocket over Node's HTTP module, because Node 18 has none.
 import { createHash, randomBytes } from 'node:crypto';
 import { type ClientRequest, type IncomingMessage, request as http_request } from 'node:http';
 import { request as https_request } from 'node:https';
@@ -8,14 +8,14 @@ import type { TLSSocket } from 'node:tls';
 import { frame, FrameError, FrameReader, Opcode } from './node_frames.js';
 import { type OpenSocket, type Socket, type SocketEnd, type SocketListener, subprotocol } from './socket.js';
 
-const most_refusal = 64 * 1024; // bytes of a refusal that are read
-const close_within = 2000; // ms for the other side to end a link that we have ended
+const most_refusal = 64 * 1024; // bytes read of a refusal's body
+const close_within = 2000; // ms for the gateway to close the connection after our close frame
 
 class NodeSocket implements Socket {
   private readonly request: ClientRequest;
   private readonly key = randomBytes(16).toString('base64');
   private stream: Duplex | undefined;
-  private told = true;
+  private listening = true;
 
   constructor(
     url: string,
@@ -33,7 +33,7 @@ class NodeSocket implements Socket {
         'Sec-WebSocket-Protocol': subprotocols.join(', '),
       },
     });
-    this.request.on('upgrade', (answer, stream, head) => this.shaken(answer, stream, head));
+    this.request.on('upgrade', (answer, stream, head) => this.upgraded(answer, stream, head));
     this.request.on('response', (answer) => this.refused(answer));
     this.request.on('error', (error) => this.failed(error));
     this.request.end();
@@ -44,32 +44,32 @@ class NodeSocket implements Socket {
   }
 
   close(): void {
-    this.told = false;
+    this.listening = false;
     const stream = this.stream;
     if (stream === undefined) {
       this.request.destroy();
       return;
     }
     stream.end(frame(Opcode.close, Buffer.from([0x03, 0xe8])));
-    const patience = setTimeout(() => stream.destroy(), close_within);
-    stream.once('close', () => clearTimeout(patience));
+    const timer = setTimeout(() => stream.destroy(), close_within);
+    stream.once('close', () => clearTimeout(timer));
   }
 
-  private shaken(answer: IncomingMessage, stream: Duplex, head: Buffer): void {
+  private upgraded(answer: IncomingMessage, stream: Duplex, head: Buffer): void {
     stream.on('error', (error) => this.end({ reason: error.message, final: false }));
-    if (!this.told) {
+    if (!this.listening) {
       stream.destroy();
       return;
     }
     const accept = createHash('sha1').update(`${this.key}258EAFA5-E914-47DA-95CA-C5AB0DC85B11`).digest('base64');
     if (answer.headers['sec-websocket-accept'] !== accept || answer.headers['sec-websocket-protocol'] !== subprotocol) {
       stream.destroy();
-      this.end({ reason: `this is no gateway that speaks ${subprotocol}`, final: true });
+      this.end({ reason: `the server does not speak ${subprotocol}`, final: true });
       return;
     }
     this.stream = stream;
     const reader = new FrameReader({
-      text: (message) => this.told && this.listener.received(message),
+      text: (message) => this.listening && this.listener.received(message),
       ping: (payload) => stream.write(frame(Opcode.pong, payload)),
       close: (code, reason) => {
         stream.end(frame(Opcode.close, Buffer.alloc(0)));
@@ -85,7 +85,7 @@ class NodeSocket implements Socket {
         stream.end(frame(Opcode.close, Buffer.from([error.code >> 8, error.code & 255])));
         stream.removeListener('data', feed);
         stream.resume();
-        this.end({ reason: `the gateway breaks the WebSocket protocol: ${error.message}`, final: false });
+        this.end({ reason: `the gateway violates the WebSocket protocol: ${error.message}`, final: false });
       }
     };
     stream.on('close', () => this.end({ reason: 'the link broke', final: false }));
@@ -95,15 +95,15 @@ class NodeSocket implements Socket {
     stream.on('data', feed);
   }
 
-  // There is no answer. What TLS does not agree to now, it does not agree to later either.
+  // The connection failed. A failure of TLS is final.
   private failed(error: NodeJS.ErrnoException): void {
     const socket = this.request.socket as Partial<TLSSocket> | null;
-    if (socket?.authorizationError) this.end({ reason: `the gateway's certificate is refused: ${error.message}`, final: true });
-    else if (error.code === 'EPROTO') this.end({ reason: `TLS cannot be spoken there: ${error.message.trim()}`, final: true });
+    if (socket?.authorizationError) this.end({ reason: `the gateway's certificate is rejected: ${error.message}`, final: true });
+    else if (error.code === 'EPROTO') this.end({ reason: `the TLS handshake failed: ${error.message.trim()}`, final: true });
     else this.end({ reason: error.message, final: false });
   }
 
-  // An answer without an upgrade: its status and the fault in it say why.
+  // The server answered without upgrading. Status and body say why.
   private refused(answer: IncomingMessage): void {
     let text = '';
     answer.setEncoding('utf8');
@@ -118,8 +118,8 @@ class NodeSocket implements Socket {
   }
 
   private end(end: SocketEnd): void {
-    if (this.told) this.listener.ended(end);
-    this.told = false;
+    if (this.listening) this.listener.ended(end);
+    this.listening = false;
   }
 }
 

@@ -1,4 +1,4 @@
-// Profiles (7.5, tables 24 to 30): what an engine and its components can do.
+// Profiles (7.5, tables 24 to 30): the capabilities of an engine and its components.
 import type { Identifier } from './values.js';
 
 /** ParameterProfile: a parameter, argument or result. */
@@ -15,7 +15,7 @@ export interface MessageProfile {
   name: string;
   results: ParameterProfile[];
   arguments: ParameterProfile[]; // of a command
-  timeout?: number; // of a command: ms within which the component must have started
+  timeout?: number; // of a command: ms within which the component must start
 }
 
 /** HRIComponentProfile. */
@@ -24,7 +24,7 @@ export interface ComponentProfile {
   identifier: string; // URN of the component type
   name: string;
   description: string;
-  sub_profiles: string[]; // URNs of the profiles that it includes
+  sub_profiles: string[]; // URNs of included profiles
   messages: MessageProfile[];
   parameters: ParameterProfile[];
 }
@@ -43,10 +43,10 @@ export interface EngineProfile {
 export interface ComponentEntry {
   ref: string;
   type: string; // URN of its profile
-  engine: string; // the engine or sub engine that has it
+  engine: string; // its engine or sub engine
 }
 
-/** What `get_profile` answers. */
+/** The result of `get_profile`. */
 export interface Profile {
   engine: EngineProfile;
   components: ComponentEntry[];

@@ -1,4 +1,4 @@
-// Requests as documents: what a service application says.
+// Writes requests as XML documents.
 import type { CommandMessage, CommandUnit } from './commands.js';
 import type { Parameter, Ref } from './values.js';
 import { element, text_element } from './xml.js';
@@ -32,12 +32,12 @@ export type Operation =
   | 'unsubscribe'
   | 'get_event_detail';
 
-/** A condition: of `conditions.ts`, or anything else that can be written. */
+/** A condition: of `conditions.ts`, or any object with XML. */
 export interface Writable {
   readonly xml: string;
 }
 
-/** A request document; prefixes that its content uses are declared. */
+/** A request document. Declares the prefixes that `content` uses. */
 export function request(operation: Operation, attributes: Record<string, string | number | boolean | undefined>, content = ''): string {
   const declared: Record<string, string> = { xmlns: namespaces.message };
   for (const prefix of ['rois', 'fes', 'gml', 'unr', 'xsi'] as const)

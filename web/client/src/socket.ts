@@ -1,16 +1,16 @@
-// What a link needs of a WebSocket: the browser's own or that of node_socket.ts.
+// The WebSocket interface that a link needs.
 import { RoisError } from './errors.js';
 
-/** Why a socket could not be opened, or ended. */
+/** Why a socket failed to open, or ended. */
 export interface SocketEnd {
   reason: string;
-  /** The other side has said that it will not have us, and says so again when asked again. */
+  /** A retry would fail in the same way. */
   final: boolean;
-  /** With which the other side has closed it (RFC 6455, 7.4.1). */
+  /** Close code of the other side (RFC 6455, 7.4.1). */
   code?: number;
 }
 
-/** What a socket tells, in this order: `opened` once, `received` for each text, `ended` once; only `ended` when it does not open. */
+/** Called in this order: `opened` once, `received` for each text, `ended` once. If the socket does not open, only `ended`. */
 export interface SocketListener {
   opened(): void;
   received(text: string): void;
@@ -19,20 +19,20 @@ export interface SocketListener {
 
 export interface Socket {
   send(text: string): void;
-  /** Ends it; nothing is told any more. */
+  /** Closes the socket. The listener is not called again. */
   close(): void;
 }
 
-/** Begins to open a socket; never throws, and tells nothing before it has returned. */
+/** Starts to open a socket. Does not throw, and calls the listener only after it has returned. */
 export interface OpenSocket {
   (url: string, subprotocols: string[], listener: SocketListener): Socket;
-  /** Pings are answered elsewhere than on the application's thread, and so also while that hangs. */
+  /** Pings are answered outside the application's thread, so also while it hangs. */
   answers_pings_alone?: boolean;
 }
 
 export const subprotocol = 'rois.xml.v1';
 
-/** What is asked for; a token is the second one, since a page cannot set headers. */
+/** The subprotocols to offer. A token is the second one, because a page cannot set headers. */
 export function subprotocols_with(token: string | undefined): string[] {
   return token === undefined ? [subprotocol] : [subprotocol, `rois.bearer.${base64url(token)}`];
 }
@@ -42,15 +42,15 @@ function base64url(text: string): string {
   return btoa(bytes).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '');
 }
 
-/** http(s)://host[/path] or ws(s)://...: the WebSocket's address below it. */
+/** The WebSocket URL for http(s)://host[/path] or ws(s)://... Throws RoisError `invalid`. */
 export function socket_url(url: string): string {
   let at: URL;
   try {
     at = new URL(url);
   } catch {
-    throw new RoisError('invalid', `'${url}' is no URL`);
+    throw new RoisError('invalid', `'${url}' is not a URL: expected http://HOST:PORT, or https, ws or wss`);
   }
-  if (!/^(https?|wss?):$/.test(at.protocol)) throw new RoisError('invalid', `a gateway is not reached by ${at.protocol}`);
+  if (!/^(https?|wss?):$/.test(at.protocol)) throw new RoisError('invalid', `'${url}': unknown scheme, expected http, https, ws or wss`);
   const path = at.pathname.replace(/\/+$/, '');
   return `${at.protocol.replace('http', 'ws')}//${at.host}${path.endsWith('/rois') ? path : `${path}/rois`}`;
 }

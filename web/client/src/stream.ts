@@ -1,7 +1,7 @@
-// Things that come by and by, awaited one after the other.
+// An async queue.
 import { for_timer } from './times.js';
 
-/** Bounded: when nobody takes them, the oldest go. One reader at a time sees each of them; several share them. */
+/** A bounded queue that drops the oldest item when full. Each item goes to one reader. */
 export class Stream<T> implements AsyncIterable<T> {
   private readonly waiting: T[] = [];
   private readonly takers: { resolve(taken: T | undefined): void; reject(error: unknown): void }[] = [];
@@ -25,7 +25,7 @@ export class Stream<T> implements AsyncIterable<T> {
     this.dropped(1);
   }
 
-  /** No more will come; what waits can still be taken. With an error, readers get it in the end. */
+  /** Ends the stream. Queued items can still be read; after them, readers get the error if there is one. */
   end(error?: unknown): void {
     if (this.over) return;
     this.over = error === undefined ? {} : { error };
@@ -39,12 +39,12 @@ export class Stream<T> implements AsyncIterable<T> {
     return this.over !== undefined;
   }
 
-  /** Forgets what waits. */
+  /** Drops the queued items. */
   clear(): void {
     this.waiting.length = 0;
   }
 
-  /** The next one; undefined when none comes within so many milliseconds, or none will come any more. */
+  /** Returns the next item; undefined after this timeout, or if the stream has ended. Rejects with the error of `end`. */
   next(milliseconds?: number): Promise<T | undefined> {
     if (this.waiting.length > 0) return Promise.resolve(this.waiting.shift());
     if (this.over) return 'error' in this.over ? Promise.reject(this.over.error) : Promise.resolve(undefined);

@@ -1,9 +1,9 @@
-// What a client has subscribed to, and who reads it.
+// Subscriptions of a client.
 import type { ReceiveEvent } from './messages.js';
 import type { Writable } from './requests.js';
 import { Stream } from './stream.js';
 
-/** What is subscribed to. */
+/** The arguments of a subscription. */
 export interface Wanted {
   event_type: string;
   condition: Writable | undefined;
@@ -11,11 +11,11 @@ export interface Wanted {
 }
 
 /**
- * The events of one subscription, as an async iterable: `for await (const event of subscription)`. It outlives links and sessions, until it
- * is closed; then the iteration ends. When a new session refuses it, the iteration fails with this error.
+ * The events of one subscription, an async iterable: `for await (const event of subscription)`. Survives new links and sessions. The
+ * iteration ends when it is closed, and throws if a new session refuses it.
  */
 export class Subscription extends Stream<ReceiveEvent> {
-  /** The engine's name for it; another one after a new session. */
+  /** The engine's id; changes with a new session. */
   subscribe_id = '';
 
   constructor(
@@ -27,44 +27,44 @@ export class Subscription extends Stream<ReceiveEvent> {
     super(capacity, dropped);
   }
 
-  /** Unsubscribes. What has come already can still be read. */
+  /** Unsubscribes. Events that have arrived can still be read. */
   async close(): Promise<void> {
     this.end();
     await this.leave(this);
   }
 }
 
-/** All of a client, by the engine's names for them. */
+/** All subscriptions of a client, by the engine's ids. */
 export class Subscriptions {
   private readonly by_id = new Map<string, Set<Subscription>>();
   private readonly all = new Set<Subscription>();
 
-  /** One that is new, or has no name since the names were forgotten. */
+  /** Adds a subscription that is new or has lost its id. */
   add(subscription: Subscription, subscribe_id: string): void {
     subscription.subscribe_id = subscribe_id;
     this.all.add(subscription);
     this.by_id.set(subscribe_id, (this.by_id.get(subscribe_id) ?? new Set()).add(subscription));
   }
 
-  /** Whether it was the last of its id. */
+  /** Returns whether it was the last with its id. */
   remove(subscription: Subscription): boolean {
-    const those = this.by_id.get(subscription.subscribe_id);
+    const same_id = this.by_id.get(subscription.subscribe_id);
     this.all.delete(subscription);
-    if (!those?.delete(subscription) || those.size > 0) return false;
+    if (!same_id?.delete(subscription) || same_id.size > 0) return false;
     return this.by_id.delete(subscription.subscribe_id);
   }
 
-  /** The session that gave the names is gone. */
+  /** The session that issued the ids is lost. */
   forget_ids(): void {
     this.by_id.clear();
   }
 
-  /** A copy: it may be changed meanwhile. */
+  /** Returns a copy: the set may change while the caller iterates. */
   list(): Subscription[] {
     return [...this.all];
   }
 
-  tell(event: ReceiveEvent): void {
+  notify(event: ReceiveEvent): void {
     for (const subscription of this.by_id.get(event.subscribe_id) ?? []) subscription.push(event);
   }
 }

@@ -1,6 +1,6 @@
-// Times as timers take them.
+// Timer limits.
 
-/** As many ms, but no more than a timer takes, which are those of 24 days: what is longer would be over at once. */
+/** Limits a delay to a timer's range of 24 days; a longer delay would fire at once. */
 export function for_timer(milliseconds: number): number {
   return Math.min(milliseconds, 2 ** 31 - 1);
 }

@@ -1,4 +1,4 @@
-// The values that messages carry: identifiers, parameters, results, places (tables 9, 16 to 19; RLS data).
+// Values in messages: identifiers, parameters, results, places (tables 9, 16 to 19; RLS data).
 
 /** RoIS_Identifier (table 9): a code, unique within its codebook. */
 export interface Identifier {
@@ -15,10 +15,10 @@ export function code_of(ref: Ref): string {
   return typeof ref === 'string' ? ref : ref.code;
 }
 
-/** A value with its type as a component's profile declares it: `int`, `string[]`, `RoISIdentifier`, ... */
+/** A value with its type from the component's profile: `int`, `string[]`, `RoISIdentifier`, ... */
 export interface Value {
   data_type_ref: Identifier;
-  /** One text; for lists of other things than numbers and bools one text for each item. */
+  /** One text. Lists have one text for each item, except lists of numbers and bools. */
   values: string[];
 }
 
@@ -27,7 +27,7 @@ export interface Parameter extends Value {
   name: string;
 }
 
-/** Makers of values of each type. Where whole numbers are wanted, others are rounded. */
+/** Makes values of each type. `int` and `ints` round. */
 export const value = {
   int: (n: number): Value => made('int', int_text(n)),
   double: (n: number): Value => made('double', double_text(n)),
@@ -58,12 +58,12 @@ function double_text(n: number): string {
 }
 
 /**
- * What may stand for a value where its type can be told: a text is a `string`, a whole number an `int`, another one a `double`, a Date
- * a `DateTime`, a list of texts `string[]`. For all else, and for a `double` that happens to be whole, there is `value`.
+ * A value or its plain form: a text is a `string`, a whole number an `int`, another number a `double`, a Date a `DateTime`, a list of
+ * texts a `string[]`. Other types, and a `double` that may be whole, need `value`.
  */
 export type Argument = Value | string | number | boolean | Date | string[];
 
-/** Arguments by their names; those that are undefined are left out. */
+/** Arguments by name; undefined ones are omitted. */
 export type Arguments = Record<string, Argument | undefined>;
 
 export function parameters_of(named: Arguments): Parameter[] {
@@ -81,10 +81,10 @@ function value_of(argument: Argument): Value {
   return Array.isArray(argument) ? value.strings(argument) : argument;
 }
 
-/** Where an entity is: millimetres and degrees counter-clockwise, in the frame `crs`. */
+/** The location of an entity: mm, degrees counter-clockwise, in the frame `crs`. */
 export interface Located {
-  of: string; // the result that it completes
-  ref: string; // code of the entity
+  of: string; // name of the result that it belongs to
+  ref: string; // the entity's code
   crs: string;
   position: [x: number, y: number, z: number];
   orientation?: [roll: number, pitch: number, yaw: number];
@@ -92,14 +92,14 @@ export interface Located {
   covariance?: number[]; // row by row, mm and degrees, position before orientation
 }
 
-/** A place on the floor: millimetres, and degrees counter-clockwise. */
+/** A pose on the floor: mm, degrees counter-clockwise. */
 export interface Pose {
   x: number;
   y: number;
   th: number;
 }
 
-/** Reads `x, y, th` or `x, y`; undefined when it is none. */
+/** Parses `x, y, th` or `x, y`; undefined if invalid. */
 export function pose_of(text: string): Pose | undefined {
   const [x, y, th = 0, ...more] = text.split(',').map((part) => (part.trim() === '' ? NaN : Number(part)));
   if (x === undefined || y === undefined || more.length > 0 || ![x, y, th].every(Number.isFinite)) return undefined;
@@ -110,14 +110,14 @@ export function pose_text({ x, y, th }: Pose): string {
   return `${x}, ${y}, ${th}`;
 }
 
-/** The named values of an answer or an event. What is not there, or is not of the kind asked for, is undefined. */
+/** The named values of an answer or an event. Getters return undefined (lists: empty) if a value is missing or has another type. */
 export class Results {
   constructor(
     readonly parameters: Parameter[] = [],
     readonly located: Located[] = [],
   ) {}
 
-  /** Names have no case. */
+  /** Names are case-insensitive. */
   get(name: string): Parameter | undefined {
     return this.parameters.find((one) => one.name.toLowerCase() === name.toLowerCase());
   }
@@ -127,7 +127,7 @@ export class Results {
     return this.get(name)?.values[0];
   }
 
-  /** All items: of a list of texts as they are, of one of numbers or bools its parts. None when it is not there. */
+  /** All items, splitting lists of numbers and bools. */
   texts(name: string): string[] {
     const found = this.get(name);
     if (found === undefined) return [];
@@ -139,7 +139,7 @@ export class Results {
     return this.numbers(name)[0];
   }
 
-  /** Those items that are numbers. */
+  /** The items that are numbers. */
   numbers(name: string): number[] {
     return this.texts(name).map(number_of).filter((n): n is number => n !== undefined);
   }
@@ -154,7 +154,7 @@ export class Results {
     return Number.isNaN(time.getTime()) ? undefined : time;
   }
 
-  /** The places among the items. */
+  /** The items that are poses. */
   poses(name: string): Pose[] {
     return this.texts(name).map(pose_of).filter((pose): pose is Pose => pose !== undefined);
   }

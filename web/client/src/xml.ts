@@ -1,7 +1,7 @@
-// Reading and writing XML: as much of XML 1.0 with namespaces as an engine sends, and strictly. Document types, processing
-// instructions and entities other than the five predefined ones are no part of it. Knows no RoIS.
+// Strict XML 1.0 with namespaces, as an engine sends it: no document types, no processing instructions, only the five predefined
+// entities. Independent of RoIS.
 
-/** What is wrong with a text that should be an XML document, and where: `offset` counts UTF-16 units from 0. */
+/** A document is not well-formed. `offset` counts UTF-16 units from 0. */
 export class XmlError extends Error {
   override readonly name = 'XmlError';
   constructor(
@@ -22,7 +22,7 @@ export interface XmlAttribute {
 export class XmlElement {
   readonly attributes: XmlAttribute[] = [];
   readonly children: XmlElement[] = [];
-  /** The text directly inside, without that of children. */
+  /** Own text, without that of children. */
   text = '';
 
   constructor(
@@ -31,22 +31,22 @@ export class XmlElement {
     readonly namespace: string,
   ) {}
 
-  /** The value of an attribute; undefined when it is not there. */
+  /** The value of an attribute; undefined if missing. */
   attribute(name: string, namespace = ''): string | undefined {
     return this.attributes.find((one) => one.name === name && one.namespace === namespace)?.value;
   }
 
-  /** The first child of this name, in any namespace. */
+  /** The first child with this name, in any namespace. */
   child(name: string): XmlElement | undefined {
     return this.children.find((one) => one.name === name);
   }
 
-  /** All children of this name, in any namespace. */
+  /** All children with this name, in any namespace. */
   all(name: string): XmlElement[] {
     return this.children.filter((one) => one.name === name);
   }
 
-  /** The text of the first child of this name; empty when there is none. */
+  /** The text of the first child with this name; empty if there is none. */
   text_of(name: string): string {
     return this.child(name)?.text ?? '';
   }
@@ -54,7 +54,7 @@ export class XmlElement {
 
 // --- Writing ---
 
-// What XML 1.0 can hold (production 2, Char).
+// Everything outside XML 1.0's Char (production 2).
 const forbidden = /[^\t\n\r\u0020-\uD7FF\uE000-\uFFFD\u{10000}-\u{10FFFF}]/u;
 
 const escapes: Record<string, string> = {
@@ -69,21 +69,21 @@ const escapes: Record<string, string> = {
 
 function checked(text: string): string {
   const at = forbidden.exec(text);
-  if (at) throw new XmlError(`U+${at[0].codePointAt(0)!.toString(16).toUpperCase().padStart(4, '0')} cannot stand in XML`, at.index);
+  if (at) throw new XmlError(`U+${at[0].codePointAt(0)!.toString(16).toUpperCase().padStart(4, '0')} is not allowed in XML`, at.index);
   return text;
 }
 
-/** A text as content of an element. Throws XmlError for characters that XML cannot hold. */
+/** Escapes element content. Throws XmlError for characters that XML does not allow. */
 export function escape_text(text: string): string {
   return checked(text).replace(/[&<>\r]/g, (one) => escapes[one]!);
 }
 
-/** A text as the value of an attribute in double quotes. Throws as `escape_text` does. */
+/** Escapes an attribute value for double quotes. Throws as `escape_text`. */
 export function escape_attribute(text: string): string {
   return checked(text).replace(/[&<>"\t\n\r]/g, (one) => escapes[one]!);
 }
 
-/** An element as text; `content` is XML already. Attributes that are undefined are left out. */
+/** Writes an element; `content` is XML. Omits undefined attributes. */
 export function element(name: string, attributes: Record<string, string | number | boolean | undefined>, ...content: string[]): string {
   let start = `<${name}`;
   for (const [key, value] of Object.entries(attributes))
@@ -92,7 +92,7 @@ export function element(name: string, attributes: Record<string, string | number
   return inside === '' ? `${start}/>` : `${start}>${inside}</${name}>`;
 }
 
-/** An element that holds a text alone. */
+/** Writes an element that contains only text. */
 export function text_element(name: string, text: string): string {
   return element(name, {}, escape_text(text));
 }
@@ -130,10 +130,10 @@ class Reader {
   document(): XmlElement {
     this.match(declaration);
     this.misc();
-    if (!this.follows('<')) this.fail('an element is expected');
+    if (!this.follows('<')) this.fail('expected an element');
     const root = this.root();
     this.misc();
-    if (this.at < this.text.length) this.fail('nothing may follow the document element');
+    if (this.at < this.text.length) this.fail('unexpected content after the document element');
     return root;
   }
 
@@ -162,7 +162,7 @@ class Reader {
     return this.match(space)![0] !== '';
   }
 
-  // What may stand around the document element: white space and comments.
+  // Skips white space and comments around the document element.
   private misc(): void {
     for (;;) {
       this.skip_space();
@@ -173,7 +173,7 @@ class Reader {
 
   private comment(): void {
     const end = this.text.indexOf('--', this.at);
-    if (end < 0 || this.text[end + 2] !== '>') this.fail('a comment does not end well', end < 0 ? this.at : end);
+    if (end < 0 || this.text[end + 2] !== '>') this.fail("a comment does not end with '-->'", end < 0 ? this.at : end);
     this.at = end + 3;
   }
 
@@ -191,7 +191,7 @@ class Reader {
       if (this.take('/')) this.end_tag(open);
       else if (this.take('!--')) this.comment();
       else if (this.take('![CDATA[')) this.cdata(root);
-      else if (this.follows('!') || this.follows('?')) this.fail('document types and processing instructions are not read', this.at - 1);
+      else if (this.follows('!') || this.follows('?')) this.fail('document types and processing instructions are not supported', this.at - 1);
       else root.children.push(this.start_tag(open, open[open.length - 1]!.scope));
     }
     return first;
@@ -204,14 +204,14 @@ class Reader {
     this.at = end + 3;
   }
 
-  // Text until `end` with its references replaced.
+  // Text until `end` with references resolved.
   private content(end: number, of_attribute: boolean): string {
     let text = '';
     while (this.at < end) {
       const reference = this.text.indexOf('&', this.at);
       const until = reference < 0 || reference > end ? end : reference;
       const plain = this.text.slice(this.at, until);
-      if (!of_attribute && plain.includes(']]>')) this.fail("']]>' stands in a text");
+      if (!of_attribute && plain.includes(']]>')) this.fail("']]>' is not allowed in text");
       text += of_attribute ? plain.replace(/[\t\n]/g, ' ') : plain;
       this.at = until;
       if (until < end) text += this.reference();
@@ -222,21 +222,21 @@ class Reader {
   private reference(): string {
     const begin = this.at;
     const found = this.match(a_reference);
-    if (!found) this.fail('an unknown reference');
+    if (!found) this.fail('unknown entity or character reference');
     if (found[3] !== undefined) return predefined[found[3]]!;
     const code = found[1] !== undefined ? parseInt(found[1], 16) : parseInt(found[2]!, 10);
     if (code > 0x10ffff || (code >= 0xd800 && code < 0xe000) || forbidden.test(String.fromCodePoint(code)))
-      this.fail('a reference to a character that cannot stand in XML', begin);
+      this.fail('a reference to a character that is not allowed in XML', begin);
     return String.fromCodePoint(code);
   }
 
   private name(): string {
-    return this.match(a_name)?.[0] ?? this.fail('a name is expected');
+    return this.match(a_name)?.[0] ?? this.fail('expected a name');
   }
 
   private start_tag(open: Open[], around: Scope): XmlElement {
     const begin = this.at;
-    if (open.length >= most_depth) this.fail(`more than ${most_depth} elements inside one another`);
+    if (open.length >= most_depth) this.fail(`elements nested deeper than ${most_depth}`);
     const written = this.name();
     const attributes = this.attributes();
     let scope = around;
@@ -244,7 +244,7 @@ class Reader {
       if (name !== 'xmlns' && !name.startsWith('xmlns:')) continue;
       if (scope === around) scope = new Map(around);
       const prefix = name.slice(6);
-      if (prefix === 'xml' || prefix === 'xmlns' || (prefix !== '' && value === '')) this.fail(`'${name}' cannot be declared so`, at);
+      if (prefix === 'xml' || prefix === 'xmlns' || (prefix !== '' && value === '')) this.fail(`'${name}' is not a valid namespace declaration`, at);
       scope.set(prefix, value);
     }
     const [name, namespace] = this.resolved(written, scope, begin, true);
@@ -252,11 +252,11 @@ class Reader {
     for (const [written_name, value, at] of attributes) {
       if (written_name === 'xmlns' || written_name.startsWith('xmlns:')) continue;
       const [own, its_namespace] = this.resolved(written_name, scope, at, false);
-      if (made.attribute(own, its_namespace) !== undefined) this.fail(`'${written_name}' stands there twice`, at);
+      if (made.attribute(own, its_namespace) !== undefined) this.fail(`'${written_name}' is a duplicate attribute`, at);
       made.attributes.push({ name: own, namespace: its_namespace, value });
     }
     if (this.take('/>')) return made;
-    if (!this.take('>')) this.fail("'>' is expected");
+    if (!this.take('>')) this.fail("expected '>'");
     open.push({ element: made, written, scope });
     return made;
   }
@@ -266,16 +266,16 @@ class Reader {
     while (this.skip_space() && !this.follows('>') && !this.follows('/')) {
       const at = this.at;
       const name = this.name();
-      if (found.some(([other]) => other === name)) this.fail(`'${name}' stands there twice`, at);
+      if (found.some(([other]) => other === name)) this.fail(`'${name}' is a duplicate attribute`, at);
       this.skip_space();
-      if (!this.take('=')) this.fail("'=' is expected");
+      if (!this.take('=')) this.fail("expected '='");
       this.skip_space();
       const quote = this.text[this.at];
-      if (quote !== '"' && quote !== "'") this.fail('a quote is expected');
+      if (quote !== '"' && quote !== "'") this.fail('expected a quote');
       const end = this.text.indexOf(quote, this.at + 1);
-      if (end < 0) this.fail('a value is not closed');
+      if (end < 0) this.fail('an attribute value is not closed');
       this.at += 1;
-      if (this.text.slice(this.at, end).includes('<')) this.fail("'<' stands in a value");
+      if (this.text.slice(this.at, end).includes('<')) this.fail("'<' is not allowed in an attribute value");
       const value = this.content(end, true);
       this.at += 1;
       found.push([name, value, at]);
@@ -283,13 +283,13 @@ class Reader {
     return found;
   }
 
-  // The name without its prefix, and the namespace.
+  // The local name and the namespace.
   private resolved(written: string, scope: Scope, at: number, is_element: boolean): [string, string] {
     const colon = written.indexOf(':');
     if (colon < 0) return [written, is_element ? scope.get('')! : ''];
     const name = written.slice(colon + 1);
     const namespace = scope.get(written.slice(0, colon));
-    if (colon === 0 || name === '' || /^[-.0-9\u00B7]/.test(name) || name.includes(':')) this.fail(`'${written}' is no name`, at);
+    if (colon === 0 || name === '' || /^[-.0-9\u00B7]/.test(name) || name.includes(':')) this.fail(`'${written}' is not a valid name`, at);
     return [name, namespace ?? this.fail(`the prefix of '${written}' is not declared`, at)];
   }
 
@@ -297,16 +297,16 @@ class Reader {
     const at = this.at;
     const written = this.name();
     const expected = open.pop()!.written;
-    if (written !== expected) this.fail(`</${expected}> is expected, not </${written}>`, at);
+    if (written !== expected) this.fail(`expected </${expected}>, not </${written}>`, at);
     this.skip_space();
-    if (!this.take('>')) this.fail("'>' is expected");
+    if (!this.take('>')) this.fail("expected '>'");
   }
 }
 
-/** Reads a document and gives its root. Throws XmlError when it is not well-formed, or what stands above is in it. */
+/** Parses a document and returns its root. Throws XmlError if it is not well-formed or uses unsupported features (see above). */
 export function parse_xml(text: string): XmlElement {
   const lines = text.startsWith('\uFEFF') ? text.slice(1) : text;
   const at = forbidden.exec(lines);
-  if (at) throw new XmlError('a character that cannot stand in XML', at.index);
+  if (at) throw new XmlError('a character that is not allowed in XML', at.index);
   return new Reader(lines.includes('\r') ? lines.replace(/\r\n?/g, '\n') : lines).document();
 }

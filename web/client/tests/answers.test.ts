@@ -1,4 +1,4 @@
-// What the samples of the messages say, as objects.
+// Reading the sample messages into objects.
 import assert from 'node:assert/strict';
 import { readdirSync, readFileSync } from 'node:fs';
 import { test } from 'node:test';
@@ -12,13 +12,13 @@ import { root } from './gateway.js';
 const folder = `${root}/schemas/samples/valid`;
 const sample = (name: string) => parse_xml(readFileSync(`${folder}/${name}.xml`, 'utf8'));
 
-test('a fault says where, if it knows', () => {
+test('a fault gives its place if it has one', () => {
   const reason = 'There is no element "component" here; expected: component_ref.';
   assert.deepEqual(fault_of(sample('fault')), { code: 'invalid', reason, line: 2, column: 3 });
   assert.deepEqual(fault_of(sample('fault_without_place')), { code: 'no_session', reason: 'There is no such session.' });
 });
 
-test('an answer that is not OK is a trouble, and says what was asked', () => {
+test('a refused answer becomes an error that names the operation', () => {
   const trouble = trouble_of(sample('bind_response_failed'))!;
   assert.deepEqual([trouble.failure, trouble.return_code, trouble.message], ['refused', 'OUT_OF_RESOURCES', 'bind: OUT_OF_RESOURCES: Another session has "navigation" bound.']);
   assert.equal(trouble_of(sample('fault_without_place'))!.message, 'no_session: There is no such session.');
@@ -27,7 +27,7 @@ test('an answer that is not OK is a trouble, and says what was asked', () => {
   assert.throws(() => trouble_of(parse_xml('<bind_response/>')), { failure: 'protocol', message: /'bind_response' has no attribute 'return_code'/ });
 });
 
-test('notifications of all kinds are read', () => {
+test('notifications of all kinds are parsed', () => {
   const all = sample('notifications').children;
   assert.ok(all.every(is_notification));
   const [event, error, ...rest] = all.map(notification_of);
@@ -55,7 +55,7 @@ test('notifications of all kinds are read', () => {
   assert.throws(() => notification_of(parse_xml('<completed sequence="1"/>')), { failure: 'protocol', message: /'completed' has no 'command_id'/ });
 });
 
-test('the state of the stop for everything is read', () => {
+test('a stop_state is parsed', () => {
   const state = (name: string) => read_stop_state(readFileSync(`${folder}/${name}.xml`, 'utf8'));
   assert.deepEqual(state('stop_state'), { stopped: true, not_halted: [] });
   assert.deepEqual(state('stop_state_not_halted'), { stopped: true, not_halted: ['navigation', 'robot2.move'] });
@@ -65,7 +65,7 @@ test('the state of the stop for everything is read', () => {
   assert.throws(() => read_stop_state('stopped'), { failure: 'protocol', message: /the answer is not a stop_state document/ });
 });
 
-test('results are read with where things are', () => {
+test('results include the positions of entities', () => {
   const results = results_of(sample('query_response'));
   assert.deepEqual(results.texts('robot_ref'), ['robot1', 'robot2', 'robot3']);
   assert.deepEqual(results.poses('position_data')[0], { x: 1200.5, y: -350, th: 92.5 });
@@ -77,7 +77,7 @@ test('results are read with where things are', () => {
   assert.deepEqual(third, { of: 'position_data', ref: 'robot3', crs: '', position: [1, 2, 3] });
 });
 
-test('an identifier is read with all that it says', () => {
+test('an identifier is parsed with all its attributes', () => {
   const all = { code: 'a', authority: 'b', codebook_ref: 'c', version: 'd' };
   const attributes = Object.entries(all).map(([name, text]) => `r:${name}="${text}"`);
   assert.deepEqual(identifier_of(parse_xml(`<i xmlns:r="http://www.omg.org/spec/RoIS/20240801" ${attributes.join(' ')}/>`)), all);
@@ -85,7 +85,7 @@ test('an identifier is read with all that it says', () => {
 
 const int = { code: 'int' };
 
-test('a profile of a component is read', () => {
+test('a component profile is parsed', () => {
   assert.deepEqual(component_profile_of(sample('component_profile')), {
     id: 'component_profile',
     identifier: 'urn:x-rois:def:component:example::PersonMonitor',
@@ -113,7 +113,7 @@ test('a profile of a component is read', () => {
   assert.throws(() => component_profile_of(parse_xml('<p g:id="p" xmlns:g="http://www.opengis.net/gml/3.2"><MessageProfile/></p>')), { failure: 'protocol', message: /has no type/ });
 });
 
-test('a profile of an engine is read with its engines', () => {
+test('an engine profile is parsed with its sub engines', () => {
   const robot = (name: string, given: string, sub_engines: object[], ...components: string[]) =>
     ({ id: `engine.${name}`, identifier: `urn:x-rois:def:HRIEngine:example::${name}`, name: given, sub_engines, components, parameters: [] });
   const navigation = 'urn:x-rois:def:HRIComponent:example::navigation';
@@ -127,7 +127,7 @@ test('a profile of an engine is read with its engines', () => {
   assert.deepEqual(house.parameters, [{ name: 'max_number', data_type_ref, default_value: '10', description: 'How many people are counted.' }]);
 });
 
-test('get_profile tells all of it', () => {
+test('get_profile returns the engine, the components and their profiles', () => {
   const { engine, components, component_profiles } = profile_of(sample('get_profile_response'));
   assert.equal(engine.id, 'engine.reception');
   assert.deepEqual(components[1], { ref: 'move', type: 'urn:x-rois:def:component:OMG::Move', engine: 'reception' });

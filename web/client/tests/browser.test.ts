@@ -1,4 +1,4 @@
-// What is different in a browser. That it misses nothing there either: endurance.test.ts.
+// Differences in a browser. For missed notifications in a browser see endurance.test.ts.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
@@ -7,7 +7,7 @@ import { bring_client, in_chromium } from './page.js';
 
 const flags = ['--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '100'];
 
-test('a page speaks to the gateway that serves it, without a URL', (t) =>
+test('without a URL, a page connects to the gateway that serves it', (t) =>
   in_chromium(async (page) => {
     const gateway = await Gateway.start(...flags);
     t.after(() => gateway.stop());
@@ -40,16 +40,16 @@ test('a page speaks to the gateway that serves it, without a URL', (t) =>
     });
   }));
 
-test('a page is told nothing of origins when its own server does not answer', () =>
+test("the error does not mention origins when the page's own server does not answer", () =>
   in_chromium(async (page) => {
     const told = await page.evaluate(async () => {
       const { connect } = await import('rois-client');
-      return connect(undefined, { deadline: 500 }).then(String, String); // the page's server speaks no WebSocket
+      return connect(undefined, { deadline: 500 }).then(String, String); // the page's server does not speak WebSocket
     });
     assert.match(told, /^RoisError: no session within 500 ms: the WebSocket to ws:\/\/\S+ could not be opened; the browser's console may say why$/);
   }));
 
-test('a page of another server needs the consent of the gateway', (t) =>
+test("a page of another origin needs the gateway's permission", (t) =>
   in_chromium(async (page) => {
     const try_it = (url: string, deadline: number) =>
       page.evaluate(async ([to, within]) => {

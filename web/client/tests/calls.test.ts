@@ -1,4 +1,4 @@
-// What a client makes of answers that are late, lost or strange: step by step, before a gateway that the test plays.
+// Late, lost and unexpected answers, step by step, with a scripted gateway.
 import assert from 'node:assert/strict';
 
 import { type Client, command, namespaces, type Subscription, type XmlElement } from 'rois-client';
@@ -13,20 +13,20 @@ const refs = (...codes: string[]) => {
 
 const go = (command_id?: string) => [command('navigation', 'start', {}, command_id === undefined ? {} : { command_id })];
 
-// The link breaks, and there is a new one.
+// Breaks the link and opens a new one.
 async function relinked(gateway: Scripted, clock: Clock): Promise<void> {
   await gateway.socket.end('cut');
   for (const tries = gateway.sockets.length; gateway.sockets.length === tries;) await clock.pass(100);
   await gateway.socket.open();
 }
 
-// The link breaks, and the session is resumed.
+// Breaks the link and resumes the session.
 async function again(gateway: Scripted, clock: Clock): Promise<void> {
   await relinked(gateway, clock);
   await gateway.socket.answer();
 }
 
-// The session is lost, and there is a new one.
+// Loses the session and begins a new one.
 async function anew(gateway: Scripted, clock: Clock, session = 'two'): Promise<void> {
   await relinked(gateway, clock);
   await gateway.socket.fault('no_session');
@@ -41,7 +41,7 @@ async function subscribed(client: Client, gateway: Scripted, event_type: string,
 
 // --- Commands ---
 
-scripted('a command that was not accepted before the link broke is sent again, and its end is told', {}, async (client, gateway, clock) => {
+scripted('a command that was not accepted before the link broke is repeated, and its end is reported', {}, async (client, gateway, clock) => {
   const executing = client.execute(go());
   const sent = gateway.socket.came[1]!;
   await again(gateway, clock);
@@ -55,8 +55,8 @@ scripted('a command that was not accepted before the link broke is sent again, a
   assert.equal(await execution.status(), 'ABORT');
 });
 
-// The first one reached the engine only after we had asked.
-scripted('a command that is refused when it is sent again may have been accepted at first', {}, async (client, gateway, clock) => {
+// The first execute reached the engine only after the client had looked it up.
+scripted('a repeated command that is refused may have been accepted the first time', {}, async (client, gateway, clock) => {
   const executing = client.execute(go());
   await again(gateway, clock);
   await gateway.socket.answer('', 'BAD_PARAMETER');
@@ -66,7 +66,7 @@ scripted('a command that is refused when it is sent again may have been accepted
   assert.equal((await executing).command_ids.length, 1);
 });
 
-scripted('a command that is refused twice is refused', {}, async (client, gateway, clock) => {
+scripted('a command that is refused twice is reported as refused', {}, async (client, gateway, clock) => {
   const outcome = assert.rejects(client.execute(go()), { failure: 'refused', return_code: 'OUT_OF_RESOURCES' });
   await again(gateway, clock);
   await gateway.socket.answer('', 'BAD_PARAMETER');
@@ -76,14 +76,14 @@ scripted('a command that is refused twice is refused', {}, async (client, gatewa
   assert.deepEqual(gateway.socket.names.slice(1), ['get_command_result', 'execute', 'get_command_result']);
 });
 
-scripted('a command that is refused at first is not asked about', {}, async (client, gateway) => {
+scripted('a command that is refused at first is not looked up', {}, async (client, gateway) => {
   const outcome = assert.rejects(client.execute(go()), { failure: 'refused' });
   await gateway.socket.answer('', 'ERROR');
   await outcome;
   assert.deepEqual(gateway.socket.names, ['connect', 'execute']);
 });
 
-scripted('the deadline of a call is for all of its requests', {}, async (client, gateway, clock) => {
+scripted('the deadline of a call covers all of its requests', {}, async (client, gateway, clock) => {
   const outcome = assert.rejects(client.execute(go(), { deadline: 1000 }), { failure: 'deadline' });
   await clock.pass(600);
   await again(gateway, clock);
@@ -92,14 +92,14 @@ scripted('the deadline of a call is for all of its requests', {}, async (client,
   await clock.pass(1);
   await outcome;
   await gateway.socket.answer('', 'BAD_PARAMETER');
-  assert.deepEqual(gateway.socket.names, ['resume', 'get_command_result'], 'nobody waits for it any more');
+  assert.deepEqual(gateway.socket.names, ['resume', 'get_command_result'], 'the call has ended');
 });
 
 for (const [what, call] of [
   ['execute', (client: Client) => client.execute(go())],
   ['bind_any', (client: Client) => client.bind_any('Navigation')],
 ] as const)
-  scripted(`${what} without a deadline of its own has the usual one for all of its requests`, { deadline: 1000 }, async (client, gateway, clock) => {
+  scripted(`${what} without a deadline uses the default for all of its requests`, { deadline: 1000 }, async (client, gateway, clock) => {
     const outcome = assert.rejects(call(client), { failure: 'deadline', message: 'no answer within 1000 ms' });
     await clock.pass(600);
     await again(gateway, clock);
@@ -107,7 +107,7 @@ for (const [what, call] of [
     await outcome;
   });
 
-scripted('a name that runs keeps its end when it is used again', {}, async (client, gateway) => {
+scripted('a running command keeps its end when its id is used again', {}, async (client, gateway) => {
   const executing = client.execute(go('mine'));
   await gateway.socket.answer();
   const execution = await executing;
@@ -118,7 +118,7 @@ scripted('a name that runs keeps its end when it is used again', {}, async (clie
   assert.equal(await execution.status(), 'OK');
 });
 
-scripted('a new session knows no names', {}, async (client, gateway, clock) => {
+scripted('a new session has no used ids', {}, async (client, gateway, clock) => {
   const executing = client.execute(go('mine'));
   await gateway.socket.answer();
   const before = await executing;
@@ -126,14 +126,14 @@ scripted('a new session knows no names', {}, async (client, gateway, clock) => {
   await assert.rejects(before.status(), { failure: 'session_lost' });
   const next = client.execute(go('mine'));
   await again(gateway, clock);
-  assert.deepEqual(gateway.socket.names, ['resume', 'get_command_result'], 'it is as good as a fresh one');
+  assert.deepEqual(gateway.socket.names, ['resume', 'get_command_result'], 'the id counts as new');
   await gateway.socket.answer();
   const after = await next;
   await gateway.socket.completed(1, 'mine');
   assert.equal(await after.status(), 'OK');
 });
 
-scripted('an execution ends as the first of its commands that was not well', {}, async (client, gateway, clock) => {
+scripted('the status of an execution is that of its first command that is not OK', {}, async (client, gateway, clock) => {
   const executing = client.execute(['a', 'b', 'c'].flatMap(go));
   await gateway.socket.answer();
   const execution = await executing;
@@ -144,7 +144,7 @@ scripted('an execution ends as the first of its commands that was not well', {},
   assert.equal(await execution.status(), 'TIMEOUT');
 });
 
-scripted('set_parameter has an end as well', {}, async (client, gateway) => {
+scripted('set_parameter reports its end', {}, async (client, gateway) => {
   const setting = client.set_parameter('speech_synthesis', { volume: 'loud' });
   await gateway.socket.answer('<command_id>c-1</command_id>');
   const execution = await setting;
@@ -155,7 +155,7 @@ scripted('set_parameter has an end as well', {}, async (client, gateway) => {
 
 // --- bind_any ---
 
-// A bind_any whose answer is lost; then these components meet the condition, and those are this session's. Gives what was asked after that.
+// Loses the answer of a bind_any; then `meant` match the condition and `mine` belong to this session. Returns the next request.
 async function bind_any_when(client: Client, gateway: Scripted, clock: Clock, meant: string[], mine: string[]): Promise<string | undefined> {
   const binding = client.bind_any('Navigation');
   await again(gateway, clock);
@@ -168,15 +168,15 @@ async function bind_any_when(client: Client, gateway: Scripted, clock: Clock, me
   return next;
 }
 
-scripted('bind_any whose answer was lost finds what it has bound', {}, async (client, gateway, clock) => {
+scripted('bind_any finds the component that it bound when the answer was lost', {}, async (client, gateway, clock) => {
   assert.equal(await bind_any_when(client, gateway, clock, ['a', 'b', 'c'], ['x', 'b']), undefined);
 });
 
-scripted('bind_any that has bound nothing is asked for again', {}, async (client, gateway, clock) => {
+scripted('bind_any is repeated when it has bound nothing', {}, async (client, gateway, clock) => {
   assert.equal(await bind_any_when(client, gateway, clock, ['a', 'b', 'c'], ['x', 'y']), 'bind_any');
 });
 
-scripted('bind_any has not bound what was bound before', {}, async (client, gateway, clock) => {
+scripted('bind_any does not return a component that was bound before', {}, async (client, gateway, clock) => {
   for (const [binding, answer] of [[client.bind('a'), ''], [client.bind_any('Navigation'), refs('b')]] as const) {
     await gateway.socket.answer(answer);
     await binding;
@@ -184,7 +184,7 @@ scripted('bind_any has not bound what was bound before', {}, async (client, gate
   assert.equal(await bind_any_when(client, gateway, clock, ['a', 'b', 'c'], ['a', 'b']), 'bind_any');
 });
 
-scripted('bind_any may have bound what was released', {}, async (client, gateway, clock) => {
+scripted('bind_any may return a released component', {}, async (client, gateway, clock) => {
   for (const call of [client.bind('a'), client.release('a')]) {
     await gateway.socket.answer();
     await call;
@@ -204,7 +204,7 @@ async function bound(client: Client, gateway: Scripted, ...refs: string[]): Prom
 
 const refs_of = (came: XmlElement[]) => came.map((one) => one.child('component_ref')?.attribute('code', namespaces.rois));
 
-scripted('what was bound comes before all else in a new session', {}, async (client, gateway, clock) => {
+scripted('a new session binds again before all other calls', {}, async (client, gateway, clock) => {
   await bound(client, gateway, 'a', 'b');
   const subscription = await subscribed(client, gateway, 'a', 's-1');
   await gateway.socket.end('cut');
@@ -220,7 +220,7 @@ scripted('what was bound comes before all else in a new session', {}, async (cli
   assert.equal(subscription.ended, false);
 });
 
-scripted('when the new session is lost, too, the next one binds, each once', {}, async (client, gateway, clock) => {
+scripted('when the new session is lost too, the next one binds each component once', {}, async (client, gateway, clock) => {
   await bound(client, gateway, 'a');
   await anew(gateway, clock);
   await anew(gateway, clock, 'three');
@@ -231,7 +231,7 @@ scripted('when the new session is lost, too, the next one binds, each once', {},
   assert.deepEqual(gateway.socket.names, ['resume', 'connect', 'bind']);
 });
 
-scripted('what a new session cannot bind is told, and not bound in the next one', {}, async (client, gateway, clock) => {
+scripted('a component that a new session cannot bind is reported, and not bound in the next one', {}, async (client, gateway, clock) => {
   const unbound: string[] = [];
   client.on('unbound', ({ component_ref, error }) => unbound.push(`${component_ref} ${error.failure}`));
   await bound(client, gateway, 'a', 'b', 'c');
@@ -244,20 +244,20 @@ scripted('what a new session cannot bind is told, and not bound in the next one'
   assert.deepEqual(refs_of(gateway.socket.came.slice(2)), ['c']);
 });
 
-scripted('what is released is not bound again', {}, async (client, gateway, clock) => {
+scripted('a released component is not bound again', {}, async (client, gateway, clock) => {
   await bound(client, gateway, 'a', 'b');
   const releasing = assert.rejects(client.release('a'), { failure: 'session_lost' });
   await anew(gateway, clock);
   await releasing;
   assert.deepEqual(refs_of(gateway.socket.came.slice(2)), ['b']);
-  const released = client.release('b'); // while it is being bound
+  const released = client.release('b'); // during the bind
   for (const _ of [1, 2]) await gateway.socket.answer();
   await released;
   await anew(gateway, clock, 'three');
   assert.deepEqual(gateway.socket.names, ['resume', 'connect']);
 });
 
-scripted('bind_any has not bound what a new session has bound again', {}, async (client, gateway, clock) => {
+scripted('bind_any does not return a component that the new session bound again', {}, async (client, gateway, clock) => {
   await bound(client, gateway, 'a', 'b');
   await anew(gateway, clock);
   await gateway.socket.answer();
@@ -265,7 +265,7 @@ scripted('bind_any has not bound what a new session has bound again', {}, async 
   assert.equal(await bind_any_when(client, gateway, clock, ['a', 'c'], ['a', 'x']), 'bind_any');
 });
 
-scripted('nothing is bound in a new session when the application does that', { rebind: false }, async (client, gateway, clock) => {
+scripted('with rebind false, a new session binds nothing', { rebind: false }, async (client, gateway, clock) => {
   await bound(client, gateway, 'a');
   await anew(gateway, clock);
   assert.equal(await bind_any_when(client, gateway, clock, ['a', 'b'], ['a', 'x']), undefined);
@@ -273,7 +273,7 @@ scripted('nothing is bound in a new session when the application does that', { r
 
 // --- Subscriptions ---
 
-scripted('a new session may give the names of the old one to others', {}, async (client, gateway, clock) => {
+scripted('a new session may reuse the subscription ids of the old one', {}, async (client, gateway, clock) => {
   const [one, two] = [await subscribed(client, gateway, 'a', 's-1'), await subscribed(client, gateway, 'b', 's-2')];
   await anew(gateway, clock);
   assert.deepEqual(gateway.socket.came.slice(2).map((each) => each.text_of('event_type')), ['a', 'b']);
@@ -287,7 +287,7 @@ scripted('a new session may give the names of the old one to others', {}, async 
   assert.deepEqual(await Promise.all(more), [undefined, undefined]);
 });
 
-scripted('subscriptions are made again however long that takes', {}, async (client, gateway, clock) => {
+scripted('subscribing again has no deadline', {}, async (client, gateway, clock) => {
   const subscription = await subscribed(client, gateway, 'a', 's-1');
   await anew(gateway, clock);
   await gateway.socket.end('cut');
@@ -301,7 +301,7 @@ scripted('subscriptions are made again however long that takes', {}, async (clie
   assert.equal((await subscription.next())!.sequence, 1);
 });
 
-scripted('when the new session is lost, too, the next one has the subscriptions, each once', {}, async (client, gateway, clock) => {
+scripted('when the new session is lost too, the next one subscribes each once', {}, async (client, gateway, clock) => {
   const subscription = await subscribed(client, gateway, 'a', 's-1');
   await anew(gateway, clock);
   await anew(gateway, clock, 'three');
@@ -311,7 +311,7 @@ scripted('when the new session is lost, too, the next one has the subscriptions,
   assert.equal((await subscription.next())!.sequence, 1);
 });
 
-scripted('what a new session refuses is not asked for in the next one', {}, async (client, gateway, clock) => {
+scripted('a subscription that a new session refuses is not repeated in the next one', {}, async (client, gateway, clock) => {
   const [one, two] = [await subscribed(client, gateway, 'a', 's-1'), await subscribed(client, gateway, 'b', 's-2')];
   await anew(gateway, clock);
   await gateway.socket.answer('', 'UNSUPPORTED');
@@ -322,7 +322,7 @@ scripted('what a new session refuses is not asked for in the next one', {}, asyn
   assert.equal(two.ended, false);
 });
 
-scripted('what is unsubscribed when the session is lost needs no more', {}, async (client, gateway, clock) => {
+scripted('an unsubscribe during the loss of a session sends nothing more', {}, async (client, gateway, clock) => {
   const [one, two] = [await subscribed(client, gateway, 'a', 's-1'), await subscribed(client, gateway, 'b', 's-2')];
   const leaving = one.close();
   await anew(gateway, clock);
@@ -331,7 +331,7 @@ scripted('what is unsubscribed when the session is lost needs no more', {}, asyn
   assert.equal(two.ended, false);
 });
 
-scripted('what is closed while a new session makes it again is unsubscribed there', {}, async (client, gateway, clock) => {
+scripted('a subscription that is closed while a new session repeats it is unsubscribed there', {}, async (client, gateway, clock) => {
   const one = await subscribed(client, gateway, 'a', 's-1');
   await anew(gateway, clock);
   await one.close();
@@ -339,19 +339,19 @@ scripted('what is closed while a new session makes it again is unsubscribed ther
   await gateway.socket.answer('<subscribe_id>s-7</subscribe_id>');
   const last = gateway.socket.came.at(-1)!;
   assert.deepEqual([last.name, last.text_of('subscribe_id')], ['unsubscribe', 's-7']);
-  await gateway.socket.answer('', 'ERROR'); // which nobody hears
+  await gateway.socket.answer('', 'ERROR'); // which is ignored
   await anew(gateway, clock, 'three');
   assert.deepEqual(gateway.socket.names, ['resume', 'connect']);
 });
 
-scripted('an unsubscribe that is refused is told', {}, async (client, gateway) => {
+scripted('a refused unsubscribe rejects', {}, async (client, gateway) => {
   const one = await subscribed(client, gateway, 'a', 's-1');
   const outcome = assert.rejects(one.close(), { failure: 'refused' });
   await gateway.socket.answer('', 'ERROR');
   await outcome;
 });
 
-scripted('whoever waits for notifications is told that no more will come', {}, async (client, gateway) => {
+scripted('notification streams end when the client is closed', {}, async (client, gateway) => {
   const [stream, other] = [client.notifications(), client.notifications()];
   await gateway.socket.completed(1);
   assert.equal((await stream.next())!.sequence, 1);

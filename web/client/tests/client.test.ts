@@ -1,4 +1,4 @@
-// Every operation, against the real gateway.
+// Every operation, with the real gateway.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 
@@ -47,7 +47,7 @@ before(async () => {
 });
 after(() => gateway.stop());
 
-// Each with a session of its own.
+// Runs each test in a session of its own.
 function spoken(name: string, dialogue: () => Promise<void>): void {
   test(name, async () => {
     client = await connect(gateway.url);
@@ -69,7 +69,7 @@ spoken('a session begins and ends', async () => {
   await assert.rejects(client.search(), { failure: 'closed' });
 });
 
-spoken('the profile is told whole', async () => {
+spoken('get_profile returns the whole profile', async () => {
   const profile = await client.get_profile();
   assert.equal(profile.engine.name, 'reception');
   assert.deepEqual(
@@ -90,7 +90,7 @@ spoken('the profile is told whole', async () => {
   assert.deepEqual(few.components, [{ ref: 'navigation', type: 'urn:x-rois:def:component:OMG::Navigation', engine: 'robot1' }]);
 });
 
-spoken('components are searched, bound and released', async () => {
+spoken('components are found, bound and released', async () => {
   const found = await client.search(component_type('Navigation'));
   assert.deepEqual(found.map((one) => one.code), ['navigation']);
   assert.equal(found[0]!.codebook_ref, 'urn:x-rois:def:component:OMG::Navigation');
@@ -115,7 +115,7 @@ spoken('parameters are set and read', async () => {
   await assert.rejects(speech.set({ volume: 'loud' }), refused('BAD_PARAMETER'));
 });
 
-spoken('commands run in sequence and at once, and each ends once', async () => {
+spoken('commands run in sequence and in parallel, and each ends once', async () => {
   await client.bind('speech_synthesis');
   await client.bind('reaction');
   const ends: string[] = [];
@@ -137,7 +137,7 @@ spoken('commands run in sequence and at once, and each ends once', async () => {
   await assert.rejects(client.execute([command('navigation', 'start')]), refused('ERROR'));
 });
 
-spoken('an execution can be waited for until a deadline', async () => {
+spoken('waiting for an execution ends with the deadline', async () => {
   const follow = await Follow.bind_any(client);
   const execution = await client.execute([command('follow', 'start', { target_object_ref: value.identifier('nobody'), distance: 500 })]);
   await assert.rejects(execution.status(10), { failure: 'deadline' });
@@ -145,7 +145,7 @@ spoken('an execution can be waited for until a deadline', async () => {
   assert.equal(await execution.status(), 'OK');
 });
 
-spoken('the facades say what their components do', async () => {
+spoken('the component classes send the right commands', async () => {
   const [navigation, speech, reaction] = [await Navigation.bind_any(client), await SpeechSynthesis.bind_any(client), await Reaction.bind(client, 'reaction')];
   const [move, listening] = [await Move.bind_any(client), await SpeechRecognition.bind_any(client)];
   const system = new SystemInformation(client, 'system_information');
@@ -164,7 +164,7 @@ spoken('the facades say what their components do', async () => {
   assert.equal(String(await listening.listen({ languages: ['en'] })), 'OK');
   assert.equal(String(await listening.stop()), 'OK');
   const idle = await navigation.suspend();
-  assert.equal(idle.status, 'ERROR', 'nothing runs');
+  assert.equal(idle.status, 'ERROR', 'nothing is running');
   assert.notEqual(idle.reason, '');
   const unreachable = await navigation.go_to({ x: -5000, y: -5000, th: 0 });
   assert.equal(unreachable.status, 'ERROR');
@@ -174,7 +174,7 @@ spoken('the facades say what their components do', async () => {
   await assert.rejects(navigation.stop(), refused('ERROR'));
 });
 
-spoken('whole numbers are rounded where RoIS wants them', async () => {
+spoken('numbers are rounded where RoIS expects whole ones', async () => {
   const [navigation, speech, move] = [await Navigation.bind_any(client), await SpeechSynthesis.bind_any(client), await Move.bind_any(client)];
   const follow = await Follow.bind_any(client);
   assert.equal(String(await navigation.go_to('6000.5, 6000', { time_limit: 90_000.5 })), 'OK');
@@ -190,7 +190,7 @@ spoken('whole numbers are rounded where RoIS wants them', async () => {
   assert.equal(await (await client.execute(timed)).status(), 'OK');
 });
 
-spoken('a stream is connected, and said where to fetch', async () => {
+spoken('connect_stream returns the address of the stream', async () => {
   const audio = await AudioStreaming.bind_any(client);
   const changes = await audio.subscribe('notify_stream_status');
   const stream = await audio.connect_stream();
@@ -202,13 +202,13 @@ spoken('a stream is connected, and said where to fetch', async () => {
   assert.equal(String(await audio.disconnect_stream(id)), 'OK');
 });
 
-spoken('a free component is chosen in an order', async () => {
+spoken('bind_any chooses the first free component of the order', async () => {
   const navigation = await Navigation.bind_any(client, property('status').equals('READY').sorted_by(distance('location', 'desk')));
   assert.equal(navigation.component_ref instanceof Object && navigation.component_ref.code, 'navigation');
   await assert.rejects(Move.bind_any(client, property('name').equals('nobody')), refused('UNSUPPORTED'));
 });
 
-spoken('events come to whoever subscribed, and their details can be fetched', async () => {
+spoken('events reach their subscribers, and their details can be fetched', async () => {
   const detection = await PersonDetection.bind_any(client);
   const inline = await detection.subscribe('person_detected', property('number').at_least(0));
   const bare = await client.subscribe('person_detected', { inline_results: false });
@@ -231,7 +231,7 @@ spoken('events come to whoever subscribed, and their details can be fetched', as
   for (let one = await inline.next(100); one; one = await inline.next(100)) assert.fail('an event after unsubscribe');
 });
 
-spoken('two that subscribe to the same share its name, and the last one ends it', async () => {
+spoken('equal subscriptions share an id, and only the last unsubscribes', async () => {
   const out: string[] = [];
   client.on('document', ({ direction, text }) => direction === 'out' && out.push(text));
   const [one, two] = await Promise.all([client.subscribe('person_detected'), client.subscribe('person_detected')]);
@@ -249,7 +249,7 @@ spoken('two that subscribe to the same share its name, and the last one ends it'
   assert.equal(out.filter((text) => text.includes('<unsubscribe')).length, 1);
 });
 
-spoken('a query names who answered', async () => {
+spoken('a query names the component that answered', async () => {
   const { component_ref: who, results } = await client.query('robot_position');
   assert.equal(who.code, 'system_information');
   assert.equal(results.poses('position_data').length, 1);
@@ -259,11 +259,11 @@ spoken('a query names who answered', async () => {
   await assert.rejects(client.query('fortune'), refused('UNSUPPORTED'));
 });
 
-spoken('errors are asked about', async () => {
+spoken('error details can be fetched', async () => {
   await assert.rejects(client.get_error_detail('e-none'), refused('BAD_PARAMETER'));
 });
 
-// Each is understood by the engine: another answer is BAD_PARAMETER with its reason.
+// The engine accepts each of them: otherwise it answers BAD_PARAMETER with a reason.
 const now = new Date();
 const conditions: Record<string, Condition> = {
   component_type: component_type('navigation'),
@@ -288,7 +288,7 @@ const conditions: Record<string, Condition> = {
   all_of_one: all_of(component_ref('move'), everything),
   escaped: property('name').equals('<&>"'),
 };
-spoken('conditions of all kinds are understood', async () => {
+spoken('conditions of all kinds are accepted', async () => {
   const found: Record<string, number> = {};
   for (const [name, condition] of Object.entries(conditions)) found[name] = (await client.search(condition)).length;
   const all = (await client.search()).length;
@@ -305,7 +305,7 @@ spoken('conditions of all kinds are understood', async () => {
     await (await client.subscribe('person_detected', { condition })).close();
 });
 
-spoken('any document can be sent, and the answer is as it came', async () => {
+spoken('send takes any document and returns the answer unchanged', async () => {
   const seen: string[] = [];
   client.on('document', ({ direction, text }) => seen.push(`${direction} ${text}`));
   const mine = '<search  xmlns="urn:x-rois:psm:xml:message:1" request_id="mine"/>';
@@ -321,13 +321,13 @@ spoken('any document can be sent, and the answer is as it came', async () => {
   assert.equal(client.state, 'closed');
 });
 
-spoken('what XML cannot hold is not sent', async () => {
+spoken('characters that XML does not allow are not sent', async () => {
   await assert.rejects(client.bind('\u0001'), { failure: 'invalid' });
   await assert.rejects(client.execute([command('move', 'start', { line: '\uD800' })]), (error: Error) => error.message.includes('U+D800'));
   assert.equal((await client.search()).length, 17);
 });
 
-spoken('whoever waits is told when the client is closed', async () => {
+spoken('waiting callers are rejected when the client is closed', async () => {
   const subscription = await client.subscribe('person_detected');
   const stream = client.notifications();
   const listener: string[] = [];
@@ -338,19 +338,19 @@ spoken('whoever waits is told when the client is closed', async () => {
   await client.close();
   assert.equal(await waiting[0], undefined);
   assert.equal((await waiting[1])?.name, 'completed');
-  assert.equal(await execution.status(), 'ABORT', 'the end of the session stops it, and is heard');
+  assert.equal(await execution.status(), 'ABORT', 'the end of the session aborts it, and the client receives that');
   for await (const _ of subscription) assert.fail();
   assert.deepEqual(listener, ['closed']);
 });
 
-test('what cannot be reached is told', async () => {
+test('an unreachable gateway is reported', async () => {
   await assert.rejects(connect('http://127.0.0.1:1', { deadline: 1000, first_delay: 10 }), { failure: 'unreachable', message: /no session within 1000 ms: .*ECONNREFUSED/ });
   await assert.rejects(connect(`${gateway.url}/elsewhere`), { failure: 'unreachable', message: /404/ });
   await assert.rejects(connect('ftp://robot'), { failure: 'invalid' });
   await assert.rejects(connect('robot'), { failure: 'invalid' });
 });
 
-test('a token travels with the handshake', async () => {
+test('a token is sent with the handshake', async () => {
   const mine = await connect(`${gateway.url.replace('http', 'ws')}/rois`, { token: 'ö/+ secret?' });
   await mine.close();
 });

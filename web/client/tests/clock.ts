@@ -1,4 +1,4 @@
-// Time that a test holds: what waits for it happens when the test lets it pass.
+// A fake clock: timers fire when the test advances the time.
 
 interface Waiting {
   at: number; // ms
@@ -6,7 +6,7 @@ interface Waiting {
   happen(): void;
 }
 
-/** What has come in the meantime is done, and promises are kept. */
+/** Resolves when pending callbacks and promises have run. */
 export const settled = () => new Promise((resolve) => setImmediate(resolve));
 
 export class Clock {
@@ -14,9 +14,9 @@ export class Clock {
   private readonly waiting = new Set<Waiting>();
   private time = 0; // ms
 
-  /** Stands in for the program's own, until `remove`. */
+  /** Replaces the global timers until `remove`. */
   constructor() {
-    // What is longer than a timer takes is over at once, as with the real ones.
+    // As with real timers, a delay above the limit fires at once.
     const taken = (milliseconds: number) => (milliseconds < 2 ** 31 ? milliseconds : 1);
     const wait = (happen: () => void, milliseconds: number, every?: number) => {
       const one = { at: this.time + taken(milliseconds), every: every && taken(every), happen };
@@ -35,10 +35,10 @@ export class Clock {
 
   remove(): void {
     Object.assign(globalThis, this.real);
-    delete (performance as { now?: unknown }).now; // the own one is above that of its class
+    delete (performance as { now?: unknown }).now; // removes the own property, which hides that of the class
   }
 
-  /** How many things wait. */
+  /** Number of pending timers. */
   get waits(): number {
     return this.waiting.size;
   }

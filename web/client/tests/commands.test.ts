@@ -1,4 +1,4 @@
-// The commands of a session, which a client keeps no longer than needed.
+// A session's commands, which the client keeps no longer than needed.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
@@ -6,7 +6,7 @@ import { RoisError } from 'rois-client';
 
 import { Commands } from '#dist/execution.js';
 
-test('a name is waited for once, until it has ended or was not accepted', async () => {
+test('a command waits until it has ended or was rejected', async () => {
   const commands = new Commands();
   const [a, b] = [commands.expect('a'), commands.expect('b')];
   assert.equal(commands.expect('a'), a);
@@ -17,7 +17,7 @@ test('a name is waited for once, until it has ended or was not accepted', async 
   assert.notEqual(commands.expect('b'), b);
 });
 
-test('the last 2,000 names are known to be used', () => {
+test('the last 2,000 ids count as used', () => {
   const commands = new Commands();
   const names = Array.from({ length: 2003 }, (_, i) => `${i}`);
   for (let i = 0; i < 2000; ++i) commands.use([names[i]!]);
@@ -26,7 +26,7 @@ test('the last 2,000 names are known to be used', () => {
   assert.deepEqual(names.filter((name) => !commands.is_used(name)), ['0', '1', '2']);
 });
 
-test('nothing is left of a session that is gone', async () => {
+test('nothing remains of a lost session', async () => {
   const commands = new Commands();
   const a = commands.expect('a');
   commands.use(['a']);

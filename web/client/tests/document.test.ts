@@ -1,4 +1,4 @@
-// docs/clients.md shows a real dialogue: it is played again, byte by byte, and the answers are those that are shown.
+// Replays the dialogue of docs/clients.md byte by byte and compares the answers.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { connect, type Socket } from 'node:net';
@@ -11,13 +11,13 @@ import { Gateway, root } from './gateway.js';
 const page = readFileSync(`${root}/docs/clients.md`, 'utf8');
 const blocks = [...page.matchAll(/^```(http|text)\n([^]*?)^```$/gm)].map(([, kind, text]) => ({ kind: kind!, text: text! }));
 
-// As it is on the wire: the head's lines end in CR LF, a body in nothing.
+// The bytes on the wire: header lines end in CR LF, a body has no line end.
 function bytes(block: string): string {
   const end = block.indexOf('\n\n');
   return `${block.slice(0, end).replaceAll('\n', '\r\n')}\r\n\r\n${block.slice(end + 2).replace(/\n$/, '')}`;
 }
 
-// Reads from a socket until the text that has come is as the function says.
+// Reads from a socket until `enough` accepts the text.
 async function until(socket: Socket, enough: (text: string) => boolean): Promise<string> {
   let text = '';
   while (!enough(text)) {
@@ -29,13 +29,13 @@ async function until(socket: Socket, enough: (text: string) => boolean): Promise
   return text;
 }
 
-// Whether an answer of so many bytes has come.
+// Whether `length` bytes have arrived.
 const whole = (length: number) => (text: string) => Buffer.byteLength(text) >= length;
 
-// Without what differs each time.
+// Replaces the parts that differ each time.
 const steady = (text: string) => text.replace(/^Date: .*$/m, 'Date: N').replace(/<expire>[^<]*/, '<expire>N');
 
-test('the dialogue is as it is shown', async () => {
+test('the documented dialogue is what the gateway answers', async () => {
   const gateway = await Gateway.start('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '50');
   const shown_session = /<session>(.*)<\/session>/.exec(page)![1]!;
   let session = shown_session;
@@ -63,7 +63,7 @@ test('the dialogue is as it is shown', async () => {
     played += 1;
   };
 
-  // Until there is nothing more to come.
+  // Until all commands have completed.
   const completed = async (): Promise<void> => {
     for (let news = ''; !news.includes('<completed'); )
       news = await (await fetch(`${gateway.url}/rois/notifications?after=1&wait=30`, { headers: { 'RoIS-Session': session } })).text();
@@ -99,7 +99,7 @@ test('the dialogue is as it is shown', async () => {
   }
 });
 
-test('the frame is as it is shown', () => {
+test('the documented frame is correct', () => {
   const [, mask, begin] = /with the mask `([0-9a-f ]+)`, the `connect` above begins with `([0-9a-f ]+)`/.exec(page)!;
   const body = '<connect xmlns="urn:x-rois:psm:xml:message:1"/>';
   assert.ok(page.includes(`\n${body}\n`));

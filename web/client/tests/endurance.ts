@@ -1,17 +1,17 @@
-// 500 commands, each with 20 events, while somebody else cuts the link: the same in Node and in a browser.
+// 500 commands with 20 events each while the link is cut; the same in Node and in a browser.
 import { type Client, type ClientOptions, command } from 'rois-client';
 
 export const commands = 500;
 export const events_each = 20;
 
-/** What came of it. */
+/** The outcome. */
 export interface Endured {
-  statuses: Record<string, number>; // how commands ended, and how many did so
-  events: number; // that were told
-  out_of_order: number[]; // numbers of events that were not the next, so told twice or missed
+  statuses: Record<string, number>; // number of commands by status
+  events: number; // received
+  out_of_order: number[]; // numbers of events that did not follow the one before: repeated or missed
   completed: number; // notifications
   completed_twice: string[];
-  missed: number; // what gaps were told to hold
+  missed: number; // sum of the reported gaps
   other_gaps: number;
   resumed: number;
 }
@@ -36,7 +36,7 @@ export async function endure(connect: (url: string, options: ClientOptions) => P
   await client.bind('navigation');
   const targets = await client.subscribe('reached_target');
   for (let sent = 0; sent < commands; ++sent) {
-    // Where the robot is already, each written in another way.
+    // The robot's present position, written differently each time.
     const places = Array.from({ length: events_each }, (_, i) => `4000, 5000, ${sent * events_each + i}e-9`);
     const going = client.execute([command('navigation', 'start', { target_position: places })]);
     const [execution] = await Promise.all([going, sent % 10 === 0 ? client.query('robot_position') : undefined]);

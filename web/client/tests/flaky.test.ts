@@ -1,5 +1,5 @@
-// A link that breaks again and again under a steady stream of events: nothing is lost, with the clients' own delays. A session keeps
-// 1,024 notifications, so delays that grow would lose some.
+// A link that breaks again and again under a steady stream of events loses nothing, with the clients' default delays. A session keeps
+// 1,024 notifications, so growing delays would lose some.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
@@ -11,7 +11,7 @@ import { Proxy } from './proxy.js';
 
 const [rounds, each] = [120, 25];
 
-/** Plays the listener behind a proxy that cuts every 100 kB, while another session causes 250 events a second, without the proxy. */
+/** Runs the listener behind a proxy that cuts every 100 kB, while another session causes 250 events a second without the proxy. */
 async function behind_a_flaky_link<T>(listen: (proxy: Proxy, begin: () => void) => Promise<T>): Promise<T> {
   const gateway = await Gateway.start('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '100');
   const proxy = await Proxy.before(gateway.port);
@@ -19,7 +19,7 @@ async function behind_a_flaky_link<T>(listen: (proxy: Proxy, begin: () => void) 
   proxy.cut_after_next();
   const driver = await connect(gateway.url);
   await driver.bind('navigation');
-  const targets = Array.from({ length: each }, () => '4000, 5000'); // where the robot is already
+  const targets = Array.from({ length: each }, () => '4000, 5000'); // the robot's present position
   const drive = async () => {
     for (let [round, next] = [0, performance.now()]; round < rounds; ++round, next += 100) {
       assert.equal(await (await driver.execute([command('navigation', 'start', { target_position: targets })])).status(), 'OK');
@@ -39,7 +39,7 @@ async function behind_a_flaky_link<T>(listen: (proxy: Proxy, begin: () => void) 
   }
 }
 
-test('TypeScript hears all of them, each once', () =>
+test('TypeScript receives all events, each once', () =>
   behind_a_flaky_link(async (proxy, begin) => {
     const client = await connect(proxy.url);
     try {
@@ -54,7 +54,7 @@ test('TypeScript hears all of them, each once', () =>
     }
   }));
 
-test('Python hears all of them', () =>
+test('Python receives all events, each once', () =>
   behind_a_flaky_link(async (proxy, begin) => {
     const program = `import os, sys; sys.path.insert(0, sys.argv[1]); from rois import Engine
 with Engine(os.environ["ROIS_URL"]) as engine:

@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import { frame, FrameError, FrameReader, most_bytes, Opcode } from '#dist/node_frames.js';
 import { open_node_socket } from '#dist/node_socket.js';
 
-// A frame of a server: not masked.
+// A server's frame: not masked.
 function sent(opcode: number, payload: Buffer | string, final = true): Buffer {
   const bytes = Buffer.from(payload);
   const head = Buffer.alloc(bytes.length < 126 ? 2 : bytes.length < 65536 ? 4 : 10);
@@ -28,7 +28,7 @@ function read(...pieces: Buffer[]): string[] {
   return told;
 }
 
-test('messages are put together however their bytes are cut', () => {
+test('messages are assembled from any chunks', () => {
   const all = Buffer.concat([
     sent(Opcode.text, 'one'),
     sent(Opcode.text, 'お'),
@@ -41,7 +41,7 @@ test('messages are put together however their bytes are cut', () => {
     sent(Opcode.text, ''),
     sent(Opcode.pong, ''),
     sent(Opcode.close, Buffer.from([0x03, 0xe9, 0x6f, 0x6b])),
-    sent(Opcode.text, 'nobody hears this'),
+    sent(Opcode.text, 'ignored after close'),
   ]);
   const expected = ['one', 'お', '125', '126', '70000', 'ping a', 'two parts', '', 'close 1001 ok'];
   assert.deepEqual(read(all), expected);
@@ -49,12 +49,12 @@ test('messages are put together however their bytes are cut', () => {
   for (let at = 1; at < 400; ++at) assert.deepEqual(read(all.subarray(0, at), all.subarray(at)), expected);
 });
 
-test('what no server may send is told by its code', () => {
+test('each protocol violation has its close code', () => {
   const bad: [Buffer, number][] = [
-    [Buffer.from([0xc1, 0]), 1002], // a reserved bit
+    [Buffer.from([0xc1, 0]), 1002], // reserved bit
     [Buffer.from([0x81, 0x80, 0, 0, 0, 0]), 1002], // masked
-    [Buffer.from([0x83, 0]), 1002], // an unknown kind
-    [Buffer.from([0x09, 0]), 1002], // a ping in pieces
+    [Buffer.from([0x83, 0]), 1002], // unknown opcode
+    [Buffer.from([0x09, 0]), 1002], // fragmented ping
     [sent(Opcode.ping, 'x'.repeat(126)), 1002],
     [sent(Opcode.close, 'x'), 1002],
     [sent(Opcode.continuation, 'x'), 1002],
@@ -67,7 +67,7 @@ test('what no server may send is told by its code', () => {
   for (const [bytes, code] of bad) assert.throws(() => read(bytes), (error) => error instanceof FrameError && error.code === code, bytes.toString('hex'));
 });
 
-test('a frame of ours is masked and says its length', () => {
+test("a client's frame is masked and has the right length", () => {
   for (const size of [0, 125, 126, 65535, 65536]) {
     const bytes = frame(Opcode.text, Buffer.alloc(size, 'x'));
     const head = size < 126 ? 2 : size < 65536 ? 4 : 10;
@@ -78,7 +78,7 @@ test('a frame of ours is masked and says its length', () => {
   }
 });
 
-// A server that answers the handshake as `answer` says, and then speaks as `speak` does.
+// Starts a server with this handshake and these bytes. Returns the calls of the listener.
 async function told_by(answer: (accept: string) => string | Buffer, speak: (socket: Socket) => void = () => undefined): Promise<string[]> {
   const sockets = new Set<Socket>();
   const server = createServer((socket) => {
@@ -110,7 +110,7 @@ async function told_by(answer: (accept: string) => string | Buffer, speak: (sock
 const welcome = (accept: string, protocol = 'rois.xml.v1') =>
   `HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Accept: ${accept}\r\nSec-WebSocket-Protocol: ${protocol}\r\n\r\n`;
 
-test('a socket tells what comes, also with the handshake itself, and its end', async () => {
+test('a socket reports messages, also those sent with the handshake, and its end', async () => {
   const told = await told_by(
     (accept) => Buffer.concat([Buffer.from(welcome(accept)), sent(Opcode.text, 'at once')]),
     (socket) => socket.write(Buffer.concat([sent(Opcode.text, 'later'), sent(Opcode.close, Buffer.from([0x03, 0xe9]))])),
@@ -118,11 +118,11 @@ test('a socket tells what comes, also with the handshake itself, and its end', a
   assert.deepEqual(told, ['opened', 'at once', 'later', 'the gateway closed the link with 1001']);
 });
 
-test('a socket that is cut off says so', async () => {
+test('a socket reports a broken connection', async () => {
   assert.deepEqual(await told_by(welcome, (socket) => socket.end()), ['opened', 'the link broke']);
 });
 
-test('a socket answers pings, and closes on what is not allowed', async () => {
+test('a socket answers pings, and closes on a protocol violation', async () => {
   let heard = Buffer.alloc(0);
   const told = await told_by(welcome, (socket) => {
     socket.write(sent(Opcode.ping, 'abc'));
@@ -132,16 +132,16 @@ test('a socket answers pings, and closes on what is not allowed', async () => {
       if (first) socket.write(sent(Opcode.binary, 'x'));
     });
   });
-  assert.deepEqual(told, ['opened', 'the gateway breaks the WebSocket protocol: a binary message']);
+  assert.deepEqual(told, ['opened', 'the gateway violates the WebSocket protocol: a binary message; only text is expected']);
   assert.deepEqual([heard[0], heard[1]], [0x8a, 0x83]);
   assert.equal(heard[6]! ^ heard[2]!, 'a'.charCodeAt(0));
 });
 
-test('a handshake that is not right is final', async () => {
-  const wrong = ['final: this is no gateway that speaks rois.xml.v1'];
+test('an invalid handshake is final', async () => {
+  const wrong = ['final: the server does not speak rois.xml.v1'];
   assert.deepEqual(await told_by(() => welcome('bm90IHJpZ2h0')), wrong);
   assert.deepEqual(await told_by((accept) => welcome(accept, 'rois.xml.v2')), wrong);
   const refusal = (status: string) => () => `HTTP/1.1 ${status}\r\nContent-Length: 2\r\nConnection: close\r\n\r\nno`;
   assert.deepEqual(await told_by(refusal('401 Unauthorized')), ['final: the gateway answered 401: no']);
-  assert.deepEqual(await told_by(refusal('503 Service Unavailable')), ['the gateway answered 503: no'], 'perhaps later');
+  assert.deepEqual(await told_by(refusal('503 Service Unavailable')), ['the gateway answered 503: no'], 'a retry may succeed');
 });

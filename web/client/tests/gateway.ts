@@ -1,10 +1,10 @@
-// The real program, run by a test.
+// The real gateway as a child process.
 import { type ChildProcess, spawn } from 'node:child_process';
 import { existsSync } from 'node:fs';
 import { dirname, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
-/** The project's root, wherever this file was compiled to. */
+/** The project's root. */
 export const root = root_above(dirname(fileURLToPath(import.meta.url)));
 
 function root_above(folder: string): string {
@@ -19,7 +19,7 @@ export class Gateway {
     readonly url: string,
   ) {}
 
-  /** Waits until it listens, on a free port of the loopback. */
+  /** Starts on a free loopback port and waits until it listens. */
   static async start(...flags: string[]): Promise<Gateway> {
     const child = spawn(program, ['--listen', '127.0.0.1:0', ...flags], { stdio: ['ignore', 'ignore', 'pipe'] });
     let log = '';
@@ -39,7 +39,7 @@ export class Gateway {
     return Number(new URL(this.url).port);
   }
 
-  /** Ends it as an operator does; with SIGKILL, as a fault of the machine does. */
+  /** Stops as an operator does, or with SIGKILL as a crash. */
   async stop(signal: 'SIGTERM' | 'SIGKILL' = 'SIGTERM'): Promise<void> {
     if (this.process.exitCode !== null || this.process.signalCode !== null) return;
     const ended = new Promise((resolve) => this.process.once('exit', resolve));

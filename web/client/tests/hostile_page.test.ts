@@ -1,4 +1,4 @@
-// Pages of another site, in a real browser on the operator's machine: none of them reaches the engine.
+// Pages of another site in a real browser on the operator's machine cannot reach the engine.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
@@ -8,13 +8,13 @@ import { Gateway, root } from './gateway.js';
 import { in_chromium } from './page.js';
 
 const flags = ['--scenario', `${root}/tests/server/data/empty_hall.xml`];
-/** The site of others: its name leads to this machine. */
+/** The name of the other site resolves to this machine. */
 const rebound = '--host-resolver-rules=MAP evil.example 127.0.0.1';
-/** Not every browser asks before pages reach the local network; the gateway must not need that. */
+/** Not every browser asks before a page reaches the local network; the gateway must not depend on that. */
 const unguarded = '--disable-features=LocalNetworkAccessChecks,PrivateNetworkAccessSendPreflights,BlockInsecurePrivateNetworkRequests';
 const message = 'urn:x-rois:psm:xml:message:1';
 
-/** What a page can do about a server: each way, and what came of it. */
+/** Tries each way in which a page can reach a server. Returns the results. */
 async function attack(page: Page, gateway: string): Promise<Record<string, string>> {
   return page.evaluate(
     async ([server, namespace]) => {
@@ -42,7 +42,7 @@ async function attack(page: Page, gateway: string): Promise<Record<string, strin
           frame.name = `frame${document.querySelectorAll('iframe').length}`;
           prepare(frame);
           const form = document.forms.namedItem(frame.name);
-          let is_empty = form !== null; // until the form's answer comes
+          let is_empty = form !== null; // until the form's answer arrives
           frame.onload = () => {
             if (is_empty) form?.submit();
             else done(frame.contentDocument === null ? 'not readable' : 'readable');
@@ -89,7 +89,7 @@ async function attack(page: Page, gateway: string): Promise<Record<string, strin
   );
 }
 
-/** How many operations ran, how many sessions and WebSockets are open, and how much was refused. */
+/** Counts the operations, open sessions, open WebSockets and refusals. */
 async function seen_by(gateway: Gateway): Promise<Record<string, number>> {
   const metrics = await (await fetch(`${gateway.url}/metrics`)).text();
   const number = (name: string) => Number(new RegExp(`^${name} (\\d+)`, 'm').exec(metrics)?.[1]);
@@ -101,11 +101,11 @@ async function seen_by(gateway: Gateway): Promise<Record<string, number>> {
   };
 }
 
-test('a page of another site whose name points to this machine reaches nothing', (t) =>
+test('a page of another site whose name resolves to this machine reaches nothing', (t) =>
   in_chromium(async (page) => {
     const gateway = await Gateway.start(...flags);
     t.after(() => gateway.stop());
-    const origin = `http://evil.example:${gateway.port}`; // as its script is after a rebinding: the gateway is of its own origin
+    const origin = `http://evil.example:${gateway.port}`; // after DNS rebinding: the page and the gateway have the same origin
     await page.route(`${origin}/attack`, (route) => route.fulfill({ contentType: 'text/html', body: '<!doctype html><title>mine</title>' }));
     await page.goto(`${origin}/attack`);
     const came = await attack(page, origin);
@@ -119,7 +119,7 @@ test('a page of another site whose name points to this machine reaches nothing',
     assert.ok(refused! >= 9, `${refused} of 9`);
   }, rebound, unguarded));
 
-test('a page of another site reaches nothing across sites', (t) =>
+test('a cross-site page reaches nothing', (t) =>
   in_chromium(async (page) => {
     const gateway = await Gateway.start(...flags);
     t.after(() => gateway.stop());
@@ -136,7 +136,7 @@ test('a page of another site reaches nothing across sites', (t) =>
     assert.ok(refused! >= 12, `${refused} of 12`);
   }, rebound, unguarded));
 
-test('the console and its own requests go on under every name of this machine', (t) =>
+test('the console works under every name of this machine', (t) =>
   in_chromium(async (page) => {
     const gateway = await Gateway.start(...flags, '--hosts', 'gateway.example');
     t.after(() => gateway.stop());

@@ -1,4 +1,4 @@
-// What moves goes on while the application's own thread lives, and is held when that hangs (docs/safety.md); stop for everything.
+// A robot moves while the application's own thread is alive, and is held when that hangs (docs/safety.md).
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
@@ -11,7 +11,7 @@ import { Gateway, root } from './gateway.js';
 import { bring_client, in_chromium } from './page.js';
 
 const lease = 1000; // ms
-const longer = 2500; // ms, than the lease, and what a machine that is busy adds
+const longer = 2500; // ms, longer than the lease plus the delays of a busy machine
 const way = ['14000, 6000', '1000, 6000', '14000, 6000', '1000, 6000'];
 
 async function hall(t: TestContext, ...flags: string[]): Promise<Gateway> {
@@ -20,7 +20,7 @@ async function hall(t: TestContext, ...flags: string[]): Promise<Gateway> {
   return gateway;
 }
 
-/** Somebody else, who is told of the errors of navigation: why it was held, in the order in which it was. */
+/** A second session that records why navigation was held, in order. */
 async function watcher(t: TestContext, gateway: Gateway): Promise<{ holds: string[]; client: Client; is_busy(): Promise<void> }> {
   const client = await connect(gateway.url);
   t.after(() => client.close());
@@ -44,7 +44,7 @@ async function set_out(client: Client): Promise<void> {
 
 const held = /^its motion is held: nothing was heard from its application/;
 
-test('in Node, what moves goes on while the event loop runs', async (t) => {
+test('in Node, a robot moves on while the event loop runs', async (t) => {
   const gateway = await hall(t);
   const { holds } = await watcher(t, gateway);
   const client = await connect(gateway.url, { motion_lease: lease });
@@ -54,7 +54,7 @@ test('in Node, what moves goes on while the event loop runs', async (t) => {
   assert.deepEqual(holds, []);
 });
 
-test('in Node, what moves is held when the event loop is blocked, and goes on with resume', async (t) => {
+test('in Node, a robot is held when the event loop is blocked, and resume continues', async (t) => {
   const gateway = await hall(t);
   const { holds } = await watcher(t, gateway);
   const client = await connect(gateway.url, { motion_lease: lease });
@@ -71,7 +71,7 @@ test('in Node, what moves is held when the event loop is blocked, and goes on wi
   assert.equal(holds.length, 1);
 });
 
-// A page that has set out, with timers that come once a second at most when `throttled`, as in a hidden tab.
+// A page that has started a robot. `throttled` timers fire at most once a second, as in a hidden tab.
 async function page_sets_out(t: TestContext, options: { motion_lease?: number }, throttled: boolean, act: (page: import('playwright-core').Page, holds: string[]) => Promise<void>) {
   const gateway = await hall(t);
   const { holds, is_busy } = await watcher(t, gateway);
@@ -93,19 +93,19 @@ async function page_sets_out(t: TestContext, options: { motion_lease?: number },
   });
 }
 
-test('in a browser, what moves goes on while the page lives', (t) =>
+test('in a browser, a robot moves on while the page is alive', (t) =>
   page_sets_out(t, { motion_lease: lease }, false, async (_, holds) => {
     await pause(longer);
     assert.deepEqual(holds, []);
   }));
 
-test('in a browser, what moves goes on with the timers of a hidden page', (t) =>
+test('in a browser, a robot moves on with the timers of a hidden page', (t) =>
   page_sets_out(t, {}, true, async (_, holds) => {
     await pause(4500);
     assert.deepEqual(holds, []);
   }));
 
-test('in a browser, what moves is held when the page hangs, although the browser answers pings', (t) =>
+test('in a browser, a robot is held when the page hangs, although the browser answers pings', (t) =>
   page_sets_out(t, { motion_lease: lease }, false, async (page, holds) => {
     await page.evaluate((ms) => {
       const end = performance.now() + ms;
@@ -114,7 +114,7 @@ test('in a browser, what moves is held when the page hangs, although the browser
     assert.match(holds[0] ?? '', held);
   }));
 
-test('a lease that is longer than the gateway has is refused at once', async (t) => {
+test("a lease above the gateway's is refused at once", async (t) => {
   const gateway = await hall(t);
   await assert.rejects(connect(gateway.url, { motion_lease: 3000 }), /unreachable|motion_lease must be 1000 to 2000 milliseconds, not 3000/);
 });
@@ -129,7 +129,7 @@ with Engine(sys.argv[1], motion_lease=${lease / 1000}) as engine:
     engine.run("navigation", target_position=("string[]", ${way.map((one) => JSON.stringify(one)).join(', ')}))
 `;
 
-test('in Python, what moves goes on while the program waits, and is held when it is stopped', async (t) => {
+test('in Python, a robot moves on while the program waits, and is held when the program is stopped', async (t) => {
   const gateway = await hall(t);
   const { holds, is_busy } = await watcher(t, gateway);
   const program = spawn('python3', ['-c', python, gateway.url], { stdio: ['ignore', 'inherit', 'inherit'], env: { ...process.env, PYTHONDONTWRITEBYTECODE: '1' } });

@@ -1,4 +1,4 @@
-// What a client does when the network does not do its part.
+// The client on a failing network.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
@@ -8,7 +8,7 @@ import { Gateway, root } from './gateway.js';
 import { Proxy } from './proxy.js';
 import { behind_a_proxy, flags, gateway, go, number_of, quick, said_over_http } from './stage.js';
 
-behind_a_proxy('a session that lost its link is resumed with all it had', {}, async (client, proxy, seen) => {
+behind_a_proxy('a session is resumed with bindings, commands and subscriptions after its link broke', {}, async (client, proxy, seen) => {
   const session = client.session;
   const navigation = await Navigation.bind_any(client);
   const targets = await navigation.subscribe('reached_target');
@@ -27,7 +27,7 @@ behind_a_proxy('a session that lost its link is resumed with all it had', {}, as
   assert.equal(seen.out.filter((name) => name === 'subscribe').length, 1);
 });
 
-behind_a_proxy('what happened while the link was lost is told afterwards, in order', {}, async (client, proxy, seen) => {
+behind_a_proxy('notifications missed during a broken link are received afterwards, in order', {}, async (client, proxy, seen) => {
   await client.bind('navigation');
   const targets = await client.subscribe('reached_target');
   const execution = await go(client, 0, 20);
@@ -45,17 +45,17 @@ async function until_ended_elsewhere(client: Client, command_id: string): Promis
   while (/RUNNING|WAITING/.test(await said_over_http(client, 'get_command_result', `<command_id>${command_id}</command_id>`)));
 }
 
-behind_a_proxy('a gap is told with its size when the gateway has forgotten what was missed', {}, async (client, proxy, seen) => {
+behind_a_proxy('a gap is reported with its size when the gateway has dropped notifications', {}, async (client, proxy, seen) => {
   await client.bind('navigation');
   const targets = await client.subscribe('reached_target');
-  proxy.half_open(); // the gateway goes on sending for a while, to nobody
+  proxy.half_open(); // the gateway goes on sending into the void for a while
   proxy.refuses = true;
   const places = Array.from({ length: 80 }, (_, i) => `<rois:value>4000, 5000, ${i}e-9</rois:value>`).join('');
   const argument = `<rois:parameter rois:name="target_position"><rois:data_type_ref rois:code="string[]"/>${places}</rois:parameter>`;
   const far = `<rois:command_unit_list xsi:type="rois:CommandMessageType" rois:command_type="start" rois:command_id="far"><rois:component_ref rois:code="navigation"/><rois:arguments>${argument}</rois:arguments></rois:command_unit_list>`;
   assert.match(await said_over_http(client, 'execute', `<rois:CommandUnitSequence>${far}</rois:CommandUnitSequence>`), /return_code="OK"/);
   await until_ended_elsewhere(client, 'far');
-  // Reading them marks them as sent; thirty of these are kept.
+  // Reading marks them as sent; thirty of these are kept.
   await fetch(`${gateway.url}/rois/notifications`, { headers: { 'RoIS-Session': client.session } });
   proxy.refuses = false;
   proxy.cut();
@@ -74,19 +74,19 @@ behind_a_proxy('a gap is told with its size when the gateway has forgotten what 
   assert.equal(await targets.next(20), undefined);
 });
 
-behind_a_proxy('a link that is dead without saying so is given up', { heartbeat: 500 }, async (client, proxy, seen) => {
+behind_a_proxy('a silently dead link is dropped', { heartbeat: 500 }, async (client, proxy, seen) => {
   const resumed = seen.until('resumed');
   proxy.half_open();
   await resumed;
   assert.deepEqual(seen.states, ['lost', 'resumed']);
-  // The same while a call waits.
+  // The same during a call.
   const again = seen.until('resumed');
   proxy.half_open();
   assert.equal((await client.search()).length, 15);
   await again;
 });
 
-behind_a_proxy('a gateway that is silent but there is left alone', { heartbeat: 500 }, async (client, _, seen) => {
+behind_a_proxy('a silent gateway that answers pings keeps its link', { heartbeat: 500 }, async (client, _, seen) => {
   while (seen.out.filter((name) => name === 'connect').length < 3) await client.notifications().next(10);
   assert.deepEqual(seen.states, []);
 });
@@ -100,10 +100,10 @@ behind_a_proxy('every call ends with its deadline', { deadline: 1000 }, async (c
   await assert.rejects(client.execute([command('move', 'start')], { deadline: 20 }), { failure: 'deadline' });
   proxy.refuses = false;
   await seen.until('resumed');
-  assert.deepEqual(seen.out.filter((name) => name !== 'resume'), [], 'what nobody waits for is not sent');
+  assert.deepEqual(seen.out.filter((name) => name !== 'resume'), [], 'expired calls are not sent');
 });
 
-behind_a_proxy('a call may take for ever', { deadline: Infinity }, async (client, proxy) => {
+behind_a_proxy('a call may have no deadline', { deadline: Infinity }, async (client, proxy) => {
   proxy.lateness = 40;
   await client.bind('navigation');
   const targets = await client.subscribe('reached_target');
@@ -113,7 +113,7 @@ behind_a_proxy('a call may take for ever', { deadline: Infinity }, async (client
   assert.equal((await event)?.event_type, 'reached_target');
 });
 
-behind_a_proxy('a call whose deadline has passed is not sent again', {}, async (client, proxy, seen) => {
+behind_a_proxy('a call whose deadline has passed is not repeated', {}, async (client, proxy, seen) => {
   proxy.half_open();
   await assert.rejects(client.search(undefined, { deadline: 10 }), { failure: 'deadline' });
   const resumed = seen.until('resumed');
@@ -123,8 +123,8 @@ behind_a_proxy('a call whose deadline has passed is not sent again', {}, async (
   assert.deepEqual(seen.out, ['search', 'resume', 'get_profile']);
 });
 
-// The link never lasts for as long as it takes to send this.
-behind_a_proxy('a call ends with its deadline while one link after another breaks', { deadline: 300 }, async (client, proxy) => {
+// No link lasts long enough to send this.
+behind_a_proxy('a call ends with its deadline while link after link breaks', { deadline: 300 }, async (client, proxy) => {
   const long = 'x'.repeat(100_000);
   const speech = await SpeechSynthesis.bind_any(client);
   proxy.next_cut = () => 10_000;
@@ -136,8 +136,8 @@ behind_a_proxy('a call ends with its deadline while one link after another break
   proxy.cut_after_next();
 });
 
-// RoIS Gateway takes 1 MiB.
-behind_a_proxy('a request that is too large fails, and says so', {}, async (client, _, seen) => {
+// RoIS Gateway accepts 1 MiB.
+behind_a_proxy('a request that is too large fails with too_large', {}, async (client, _, seen) => {
   const speech = await SpeechSynthesis.bind_any(client);
   const long = 'x'.repeat(2_000_000);
   const too_large = { failure: 'fault', message: /^too_large: the gateway closed the link with 1009, the message is too large; this has 2000\d{3} bytes$/ };
@@ -150,7 +150,7 @@ behind_a_proxy('a request that is too large fails, and says so', {}, async (clie
   assert.deepEqual(seen.out.filter((name) => name === 'execute'), ['execute', 'execute']);
 });
 
-behind_a_proxy('a name that was used before does not make a lost command an accepted one', {}, async (client, proxy) => {
+behind_a_proxy('an id that was used before does not make a lost command an accepted one', {}, async (client, proxy) => {
   await client.bind('navigation');
   const mine = [command('navigation', 'start', { target_position: ['4000, 5000'] }, { command_id: 'mine' })];
   assert.equal(await (await client.execute(mine)).status(5000), 'OK');
@@ -158,14 +158,14 @@ behind_a_proxy('a name that was used before does not make a lost command an acce
   await Promise.all([assert.rejects(client.execute(mine), { failure: 'link_lost' }), proxy.cut()]);
 });
 
-behind_a_proxy('an answer after the deadline is nobody else\'s', {}, async (client, proxy) => {
+behind_a_proxy('an answer after the deadline does not go to another call', {}, async (client, proxy) => {
   proxy.lateness = 40;
   await assert.rejects(client.query('robot_position', undefined, { deadline: 10 }), { failure: 'deadline' });
   proxy.lateness = 0;
   assert.equal((await client.search()).length, 15);
 });
 
-behind_a_proxy('documents that come byte by byte are the same', { heartbeat: 60_000 }, async (client, proxy, seen) => {
+behind_a_proxy('documents that arrive byte by byte are read', { heartbeat: 60_000 }, async (client, proxy, seen) => {
   proxy.drip = 1;
   const detection = await PersonDetection.bind_any(client);
   const detected = await detection.subscribe('person_detected');
@@ -174,7 +174,7 @@ behind_a_proxy('documents that come byte by byte are the same', { heartbeat: 60_
   assert.deepEqual(seen.states, []);
 });
 
-behind_a_proxy('what must not be repeated unasked fails when the link breaks', {}, async (client, proxy, seen) => {
+behind_a_proxy('a document that may not be repeated fails when the link breaks', {}, async (client, proxy, seen) => {
   proxy.half_open();
   const sent = client.send('<search xmlns="urn:x-rois:psm:xml:message:1"/>');
   proxy.cut();
@@ -183,7 +183,7 @@ behind_a_proxy('what must not be repeated unasked fails when the link breaks', {
   assert.equal((await client.send('<search xmlns="urn:x-rois:psm:xml:message:1"/>')).name, 'search_response');
 });
 
-// The link is cut at every byte of an execute and its answer: it runs once.
+// Cuts the link at every byte of an execute and its answer: it runs once.
 behind_a_proxy('a command is executed once wherever the link is cut', {}, async (client, proxy, seen) => {
   await client.bind('navigation');
   const targets = await client.subscribe('reached_target');
@@ -200,7 +200,7 @@ behind_a_proxy('a command is executed once wherever the link is cut', {}, async 
   assert.equal(await targets.next(20), undefined);
 });
 
-// The same for bind_any: a second one would take another component of the type. Two robots are there.
+// The same for bind_any: a second one would take another component. There are two robots.
 async function bind_any_while_cut(dialogue: (client: Client, other: Client, bind_any: () => Promise<string>, bytes: number) => Promise<void>): Promise<void> {
   const two = await Gateway.start('--floor-plan', `${root}/components/simulation/data/two-robots.xml`, ...flags);
   const proxy = await Proxy.before(two.port);
@@ -211,7 +211,7 @@ async function bind_any_while_cut(dialogue: (client: Client, other: Client, bind
       proxy.next_cut = () => (left-- > 0 ? bytes : Infinity);
       proxy.cut_after_next();
       const { code } = await client.bind_any('Navigation');
-      assert.ok((await client.search()).length > 15); // beyond the cut
+      assert.ok((await client.search()).length > 15); // after the cut
       return code;
     };
     await dialogue(client, other, bind_any, bytes);
@@ -222,16 +222,16 @@ async function bind_any_while_cut(dialogue: (client: Client, other: Client, bind
   await two.stop();
 }
 
-test('bind_any binds one wherever the link is cut', () =>
+test('bind_any binds one component wherever the link is cut', () =>
   bind_any_while_cut(async (client, other, bind_any, bytes) => {
     const bound = await bind_any();
     const second = await other.bind_any('Navigation');
-    assert.notEqual(second.code, bound, `${bytes}: the second one is free`);
+    assert.notEqual(second.code, bound, `${bytes}: the second component is free`);
     await other.release(second);
     await client.release(bound);
   }));
 
-test('bind_any binds what nobody else has wherever the link is cut', () =>
+test('bind_any binds a free component wherever the link is cut', () =>
   bind_any_while_cut(async (client, other, bind_any, bytes) => {
     const first = await other.bind_any('Navigation');
     const bound = await bind_any();

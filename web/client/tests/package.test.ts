@@ -1,4 +1,4 @@
-// The package as others get it.
+// The package as it is installed.
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -9,7 +9,7 @@ import { Gateway, root } from './gateway.js';
 import { output_of } from './program.js';
 
 const source = `${root}/web/client`;
-let outside: string; // a project that has installed it
+let outside: string; // a project with the package installed
 let files: string[];
 
 before(() => {
@@ -22,7 +22,7 @@ before(() => {
 });
 after(() => rmSync(outside, { recursive: true, force: true }));
 
-test('holds what is needed and nothing else', () => {
+test('the package holds the needed files and no others', () => {
   const manifest = JSON.parse(readFileSync(`${outside}/node_modules/rois-client/package.json`, 'utf8'));
   assert.equal(manifest.name, 'rois-client');
   for (const kind of ['dependencies', 'optionalDependencies', 'peerDependencies', 'bundleDependencies']) assert.equal(manifest[kind], undefined, kind);
@@ -34,7 +34,7 @@ test('holds what is needed and nothing else', () => {
   assert.equal(readFileSync(`${source}/LICENSE`, 'utf8'), readFileSync(`${root}/LICENSE`, 'utf8'));
 });
 
-test('a browser gets nothing of Node', () => {
+test('a browser loads no module for Node', () => {
   const reached = new Set<string>();
   const read = (file: string): void => {
     if (reached.has(file)) return;
@@ -48,8 +48,8 @@ test('a browser gets nothing of Node', () => {
   assert.ok(reached.size > 10);
 });
 
-// The README's program, compiled for both and run in Node.
-test('an outside project finds its types, and the README is true', async () => {
+// Compiles the README's program for Node and browsers and runs it in Node.
+test("an outside project finds the types, and the README's program runs", async () => {
   const [, program] = /```ts\n([^]*?)```/.exec(readFileSync(`${outside}/node_modules/rois-client/README.md`, 'utf8'))!;
   writeFileSync(`${outside}/package.json`, '{"type": "module"}');
   writeFileSync(`${outside}/readme.ts`, program!.replace("'http://127.0.0.1:8080'", "(globalThis as any).process.env.ROIS_URL"));

@@ -1,9 +1,7 @@
-// A program that plays an application, run by a test.
+// An application as a child process.
 import { spawn } from 'node:child_process';
 
-/**
- * What it writes on standard output; rejects with its standard error when it fails. `logged` is called with each piece of its standard error.
- */
+/** Returns its standard output; rejects with its standard error if it fails. Passes standard error to `logged` as it arrives. */
 export function output_of(
   [program, ...args]: string[],
   url: string,

@@ -1,7 +1,7 @@
-// Stands between a client and a gateway, and does what networks do.
+// A proxy between client and gateway that simulates network faults.
 import { connect, createServer, type Server, type Socket } from 'node:net';
 
-/** Numbers from 0 to 1, the same for the same seed (mulberry32). */
+/** Random numbers from 0 to 1 from a seed (mulberry32). */
 export function random_from(seed: number): () => number {
   let state = seed >>> 0;
   return () => {
@@ -15,21 +15,21 @@ export function random_from(seed: number): () => number {
 interface Pair {
   near: Socket; // to the client
   far: Socket; // to the gateway
-  half_open: boolean; // forwards nothing any more
+  half_open: boolean; // forwards no more
 }
 
 export class Proxy {
-  /** Connections that were made so far. */
+  /** Accepted connections. */
   made = 0;
-  /** Connections that were cut so far. */
+  /** Cut connections. */
   cuts = 0;
-  /** Bytes that are forwarded at once; what is over them waits for a turn of the loop. */
+  /** Bytes to forward in one turn of the event loop. */
   drip = Infinity;
-  /** ms that every piece is late. */
+  /** Delay of each chunk in ms. */
   lateness = 0;
-  /** Refuses new connections. */
+  /** Refuse new connections. */
   refuses = false;
-  /** How many bytes, both ways together, are forwarded until the next cut; asked anew after each. */
+  /** Returns the bytes, in both directions, until the next cut. Called after each cut. */
   next_cut: (() => number) | undefined;
 
   private readonly pairs = new Set<Pair>();
@@ -37,7 +37,7 @@ export class Proxy {
 
   private constructor(
     private readonly server: Server,
-    /** The gateway's port; another one is for new connections. */
+    /** The gateway's port; a change applies to new connections. */
     public target: number,
   ) {
     server.on('connection', (near) => this.accept(near));
@@ -56,7 +56,7 @@ export class Proxy {
     return `http://127.0.0.1:${this.port}`;
   }
 
-  /** Cuts after random amounts of bytes, so many times. */
+  /** Cuts `times` times after random numbers of bytes. */
   cut_at_random(times: number, mean_bytes: number, random: () => number): void {
     const last = this.cuts + times;
     this.next_cut = () => (this.cuts < last ? Math.ceil(random() * 2 * mean_bytes) : Infinity);
@@ -72,12 +72,12 @@ export class Proxy {
     this.cuts += 1;
   }
 
-  /** Cuts as `next_cut` says from now on. */
+  /** Applies `next_cut` from now on. */
   cut_after_next(): void {
     this.until_cut = this.next_cut?.() ?? Infinity;
   }
 
-  /** The connections that are there stay open and forward nothing any more: the other side is gone, and nobody says so. */
+  /** Keeps the present connections open but forwards nothing: the peer is gone without a sign. */
   half_open(): void {
     for (const pair of this.pairs) {
       pair.half_open = true;

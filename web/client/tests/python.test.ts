@@ -1,4 +1,4 @@
-// Python's example client is cut off 100 times, too: it misses nothing unreported, hears nothing twice, executes nothing twice.
+// Python's example client, cut 100 times: misses nothing without a gap, receives nothing twice, executes nothing twice.
 import assert from 'node:assert/strict';
 import { createServer } from 'node:net';
 import { test } from 'node:test';
@@ -7,7 +7,7 @@ import { Gateway, root } from './gateway.js';
 import { output_of } from './program.js';
 import { Proxy, random_from } from './proxy.js';
 
-test('10,000 events and 500 commands in Python', async () => {
+test('in Python, 100 cuts lose nothing of 10,000 events and 500 commands', async () => {
   const gateway = await Gateway.start('--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '100');
   const proxy = await Proxy.before(gateway.port);
   try {
@@ -21,8 +21,8 @@ test('10,000 events and 500 commands in Python', async () => {
   }
 });
 
-// Python's library takes a head that is cut off for one without a body.
-test('an answer that is cut off in its head or its body is asked for again in Python', async () => {
+// Python's library takes truncated headers for a response without a body.
+test('in Python, an answer that is cut off in its headers or body is requested again', async () => {
   const body = '<connect_response xmlns="urn:x-rois:psm:xml:message:1" return_code="OK"><session>whole</session></connect_response>';
   const answer = `HTTP/1.1 200 OK\r\nContent-Type: application/xml\r\nContent-Length: ${body.length}\r\n\r\n${body}`;
   const lengths = [30, answer.length - 20, answer.length];

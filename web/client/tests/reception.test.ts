@@ -1,4 +1,4 @@
-// The reception scenario in each language, played on the same simulated day: the histories are the same.
+// The reception scenario in each language on the same simulated day: equal histories.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
@@ -32,7 +32,7 @@ async function received_by(command: string[], cuts: number): Promise<string> {
   }
 }
 
-test('the reception has one history', { concurrency: true }, async (all) => {
+test('the reception has the same history in every language', { concurrency: true }, async (all) => {
   const each = programs.flatMap(([name, , command]) => [
     all.test(`in ${name}`, async () => assert.equal(await received_by(command, 0), history)),
     all.test(`in ${name}, while the link is cut`, async () => assert.equal(await received_by(command, 10), history)),
@@ -42,7 +42,7 @@ test('the reception has one history', { concurrency: true }, async (all) => {
 
 const [, , in_typescript] = programs[0]!;
 
-test('the reception in TypeScript says in a line what is no number of visitors', async () => {
+test('the reception in TypeScript rejects an invalid number of visitors in one line', async () => {
   const ends = ['abc', '0', '-3', '2abc', '1.5', '1000000', ''].map((visitors) =>
     assert.rejects(output_of([...in_typescript, visitors], 'http://127.0.0.1:1'), {
       message: `it ended with 1: reception: VISITORS is a whole number, 1 to 999999, not '${visitors}'\n`,
@@ -51,13 +51,13 @@ test('the reception in TypeScript says in a line what is no number of visitors',
   await Promise.all(ends);
 });
 
-test('the reception in TypeScript says in a line why it cannot receive, and ends its session', async () => {
+test('the reception in TypeScript reports in one line why it cannot start, and ends its session', async () => {
   const gateway = await Gateway.start('--scenario', `${data}/empty_hall.xml`);
   try {
     const other = await connect(gateway.url);
     await other.bind('navigation');
     await assert.rejects(output_of(in_typescript, gateway.url), { message: /^it ended with 1: reception: bind_any: .*\n$/ });
-    await other.bind('person_detection'); // what it had bound
+    await other.bind('person_detection'); // bound by the failed program before
     await other.close();
     await assert.rejects(output_of(in_typescript, `${gateway.url}/nowhere`), { message: /^it ended with 1: reception: .*\n$/ });
   } finally {

@@ -1,4 +1,4 @@
-// What a link does, step by step, before a gateway that the test plays.
+// The link step by step, with a scripted gateway.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
@@ -7,9 +7,9 @@ import { Client, type ClientOptions, namespaces, Navigation, type OpenSocket } f
 import { Clock, settled } from './clock.js';
 import { news_of, options, Scripted, scripted, type ScriptedSocket } from './scripted.js';
 
-scripted('new tries come less and less often, until one succeeds', {}, async (client, gateway, clock) => {
+scripted('retries come less and less often until one succeeds', {}, async (client, gateway, clock) => {
   for (const delay of [100, 200, 400, 800, 1000, 1000]) {
-    await gateway.socket.end('refused', true); // is no end for a client that had a session
+    await gateway.socket.end('refused', true); // is not final for a client that had a session
     const tries = gateway.sockets.length;
     await clock.pass(delay - 1);
     assert.equal(gateway.sockets.length, tries, `${delay}`);
@@ -22,7 +22,7 @@ scripted('new tries come less and less often, until one succeeds', {}, async (cl
   assert.equal(client.state, 'resumed');
 });
 
-// Resumes on a new link, which must come after so many ms.
+// Expects a new link after `delay` ms and resumes on it.
 async function resumed_after(delay: number, gateway: Scripted, clock: Clock): Promise<void> {
   const tries = gateway.sockets.length;
   await clock.pass(delay - 1);
@@ -33,7 +33,7 @@ async function resumed_after(delay: number, gateway: Scripted, clock: Clock): Pr
   await gateway.socket.answer();
 }
 
-scripted('the delay is the first one again after each link that resumed the session', {}, async (client, gateway, clock) => {
+scripted('each resumed session resets the delay', {}, async (client, gateway, clock) => {
   for (let sequence = 1; sequence <= 20; ++sequence) {
     await gateway.socket.end('cut');
     await resumed_after(100, gateway, clock);
@@ -42,7 +42,7 @@ scripted('the delay is the first one again after each link that resumed the sess
   assert.equal(client.state, 'resumed');
 });
 
-scripted('links that open and do not resume the session come less and less often', {}, async (client, gateway, clock) => {
+scripted('links that open but do not resume the session come less and less often', {}, async (client, gateway, clock) => {
   for (const delay of [100, 200, 400, 800, 1000]) {
     await gateway.socket.end('cut');
     const tries = gateway.sockets.length;
@@ -56,7 +56,7 @@ scripted('links that open and do not resume the session come less and less often
   assert.equal(client.state, 'resumed');
 });
 
-scripted('a command that fails says why', {}, async (client, gateway) => {
+scripted('a failed command has its reason', {}, async (client, gateway) => {
   const [bound, going] = [Navigation.bind(client, 'navigation'), new Navigation(client, 'navigation').go_to('attic')];
   await gateway.socket.answer();
   await gateway.socket.answer();
@@ -70,7 +70,7 @@ scripted('a command that fails says why', {}, async (client, gateway) => {
   assert.equal(`${completion}`, 'ERROR: no way leads to the attic');
 });
 
-scripted('a command that fails is told with its status alone when there is no answer to why', {}, async (client, gateway) => {
+scripted('a failed command has only its status when the reason cannot be fetched', {}, async (client, gateway) => {
   const going = new Navigation(client, 'navigation').go_to('attic');
   await gateway.socket.answer();
   await gateway.socket.completed(1, command_id_of(gateway.socket), 'ABORT');
@@ -84,7 +84,7 @@ function command_id_of(socket: ScriptedSocket): string {
   return id!;
 }
 
-scripted('what is too large for the gateway fails, and only that', {}, async (client, gateway, clock) => {
+scripted('a request that is too large for the gateway fails, and only that one', {}, async (client, gateway, clock) => {
   const calls: Promise<unknown>[] = [client.search(), client.send(`<mine>${'日'.repeat(1000)}</mine>`), client.bind('b'.repeat(2000))];
   const told = Promise.allSettled(calls);
   await gateway.socket.end('closed with 1009', false, 1009);
@@ -98,7 +98,7 @@ scripted('what is too large for the gateway fails, and only that', {}, async (cl
   assert.deepEqual(send!.reason.fault, { code: 'too_large', reason: 'closed with 1009; this has 3013 bytes' });
 });
 
-scripted('what nobody waits for any more may have been too large', {}, async (client, gateway, clock) => {
+scripted('an expired call may have been the one that was too large', {}, async (client, gateway, clock) => {
   const late = assert.rejects(client.bind('b'.repeat(2000), { deadline: 10 }), { failure: 'deadline' });
   const found = client.search();
   await clock.pass(10);
@@ -109,7 +109,7 @@ scripted('what nobody waits for any more may have been too large', {}, async (cl
   await found;
 });
 
-scripted('the oldest of what a gateway does not take for UTF-8 fails', {}, async (client, gateway, clock) => {
+scripted('when the gateway rejects a text as not UTF-8, the oldest call fails', {}, async (client, gateway, clock) => {
   const outcome = assert.rejects(client.search(), { failure: 'fault', message: 'not_well_formed: closed with 1007' });
   const profile = client.get_profile().catch(() => undefined);
   await gateway.socket.end('closed with 1007', false, 1007);
@@ -120,7 +120,7 @@ scripted('the oldest of what a gateway does not take for UTF-8 fails', {}, async
   await profile;
 });
 
-scripted('a new try comes sooner by chance', { random: () => 0.5 }, async (_, gateway, clock) => {
+scripted('delays are shortened at random', { random: () => 0.5 }, async (_, gateway, clock) => {
   await gateway.socket.end('cut');
   await clock.pass(74);
   assert.equal(gateway.sockets.length, 1);
@@ -128,7 +128,7 @@ scripted('a new try comes sooner by chance', { random: () => 0.5 }, async (_, ga
   assert.equal(gateway.sockets.length, 2);
 });
 
-scripted('calls keep their order over a broken link', {}, async (client, gateway, clock) => {
+scripted('calls keep their order across a broken link', {}, async (client, gateway, clock) => {
   const calls: Promise<unknown>[] = [client.search(), client.get_profile(), client.release('a')];
   await gateway.socket.end('cut');
   calls.push(client.bind('b'));
@@ -168,7 +168,7 @@ for (const [how, refuse] of [
     assert.deepEqual(news, ['1', '2', '3', 'lost', 'gap: session', 'open', '1', 'lost']);
   });
 
-scripted('when resume fails for now, it is tried again', {}, async (client, gateway, clock) => {
+scripted('when resume fails for now, it is retried', {}, async (client, gateway, clock) => {
   await gateway.socket.end('cut');
   await clock.pass(100);
   await gateway.socket.open();
@@ -181,7 +181,7 @@ scripted('when resume fails for now, it is tried again', {}, async (client, gate
   assert.equal(client.state, 'resumed');
 });
 
-// How a client that begins ends.
+// Starts a client and returns how it ended.
 async function begun(more: ClientOptions, open_socket: OpenSocket, dialogue: (clock: Clock) => Promise<void>): Promise<string> {
   const clock = new Clock();
   try {
@@ -203,7 +203,7 @@ async function begun(more: ClientOptions, open_socket: OpenSocket, dialogue: (cl
   }
 }
 
-test('who is refused a session tries again, and says why in the end', async () => {
+test('a client that is refused a session retries, and reports the reason in the end', async () => {
   const gateway = new Scripted();
   const told = await begun({}, gateway.open, async (clock) => {
     await gateway.socket.open();
@@ -217,7 +217,7 @@ test('who is refused a session tries again, and says why in the end', async () =
   assert.ok(gateway.socket.closed);
 });
 
-test('each try that fails is reported at once, while the client keeps trying', async () => {
+test('each failed attempt is reported at once while the client retries', async () => {
   const gateway = new Scripted();
   const told: string[] = [];
   await begun({ on_state: ({ state, reason }) => told.push(`${state}: ${reason}`) }, gateway.open, async (clock) => {
@@ -230,7 +230,7 @@ test('each try that fails is reported at once, while the client keeps trying', a
   });
 });
 
-test('who cannot be reached at all is told at once', async () => {
+test('an immediate failure of the socket is reported at once', async () => {
   const broken = () => {
     throw new Error('no sockets today');
   };
@@ -240,7 +240,7 @@ test('who cannot be reached at all is told at once', async () => {
 });
 
 for (const [when, greeted] of [['before', false], ['just when', true]] as const)
-  test(`who is closed ${when} there is a session is closed at once`, async () => {
+  test(`a client that is closed ${when} there is a session closes at once`, async () => {
     const [clock, gateway] = [new Clock(), new Scripted()];
     const client = new Client('http://robot', options, gateway.open);
     const started = assert.rejects(client.start(), { failure: 'unreachable', message: 'the client was closed' });
@@ -253,7 +253,7 @@ for (const [when, greeted] of [['before', false], ['just when', true]] as const)
     clock.remove();
   });
 
-scripted('a link that is opened and not greeted is given up', {}, async (client, gateway, clock) => {
+scripted('a link that opens but is not answered is dropped', {}, async (client, gateway, clock) => {
   await gateway.socket.end('cut');
   await clock.pass(100);
   const silent = gateway.socket;
@@ -265,10 +265,10 @@ scripted('a link that is opened and not greeted is given up', {}, async (client,
   await gateway.socket.open();
   await gateway.socket.answer();
   await clock.pass(10_000);
-  assert.equal(client.state, 'resumed', 'the patience with it has ended');
+  assert.equal(client.state, 'resumed', 'the timer of the attempt is cleared');
 });
 
-scripted('a client that is closed while it waits for the answer to that asks again', {}, async (client, gateway, clock) => {
+scripted('a client that is closed during a ping disconnects on the new link', {}, async (client, gateway, clock) => {
   const closing = Promise.all([client.close(), client.close()]);
   await gateway.socket.end('cut');
   await clock.pass(100);
@@ -281,18 +281,18 @@ scripted('a client that is closed while it waits for the answer to that asks aga
   assert.equal(client.state, 'closed');
 });
 
-scripted('a session that has ended already needs no other to be closed', {}, async (client, gateway) => {
+scripted('a session that has already ended needs no new link to close', {}, async (client, gateway) => {
   const closing = client.close();
   await gateway.socket.fault('no_session');
   await closing;
   assert.deepEqual(gateway.socket.names, ['connect', 'disconnect']);
 });
 
-scripted('a gateway is asked whether it lives when nothing has come for a while', {}, async (client, gateway, clock) => {
+scripted('a silent gateway is pinged', {}, async (client, gateway, clock) => {
   await clock.pass(9_000);
   await gateway.socket.completed(1);
   await clock.pass(9_000);
-  assert.deepEqual(gateway.socket.names, ['connect'], 'something has come');
+  assert.deepEqual(gateway.socket.names, ['connect'], 'a message has arrived');
   await clock.pass(6_000);
   assert.deepEqual(gateway.socket.names, ['connect', 'connect']);
   await gateway.socket.answer('<session>one</session>');
@@ -303,14 +303,14 @@ scripted('a gateway is asked whether it lives when nothing has come for a while'
   assert.ok(gateway.sockets[0]!.closed);
 });
 
-scripted('a call waits while something else comes, and not for ever', { deadline: 100_000 }, async (client, gateway, clock) => {
+scripted('a call waits while other messages arrive, but not for ever', { deadline: 100_000 }, async (client, gateway, clock) => {
   await clock.pass(4_000);
   const found = client.search();
   for (let sequence = 1; sequence < 4; ++sequence) {
     await clock.pass(8_000);
     await gateway.socket.completed(sequence);
   }
-  assert.deepEqual([client.state, gateway.socket.names], ['open', ['connect', 'search']], 'who has a question open is not asked another');
+  assert.deepEqual([client.state, gateway.socket.names], ['open', ['connect', 'search']], 'no ping while a call is unanswered');
   await clock.pass(15_000);
   assert.equal(client.state, 'lost');
   await gateway.socket.open();
@@ -319,7 +319,7 @@ scripted('a call waits while something else comes, and not for ever', { deadline
   assert.deepEqual(await found, []);
 });
 
-scripted('a session that has ended unsaid is found out', {}, async (client, gateway, clock) => {
+scripted('an ended session is detected by a ping', {}, async (client, gateway, clock) => {
   const news = news_of(client);
   const subscribing = client.subscribe('person_detected');
   await gateway.socket.answer('<subscribe_id>s-1</subscribe_id>');
@@ -334,13 +334,13 @@ scripted('a session that has ended unsaid is found out', {}, async (client, gate
   assert.deepEqual(news, ['1', 'gap: session', 'open', '1']);
 });
 
-scripted('a gateway that does not say whether it lives is left', {}, async (client, gateway, clock) => {
+scripted('a link without an answer to a ping is dropped', {}, async (client, gateway, clock) => {
   await clock.pass(15_000);
   await gateway.socket.fault('busy');
   assert.equal(client.state, 'lost');
 });
 
-scripted('notifications are told once, and gaps in their numbers, too', {}, async (client, gateway) => {
+scripted('notifications and gaps in their numbers are reported once', {}, async (client, gateway) => {
   const news = news_of(client);
   for (const sequence of [1, 1, 2, 5, 4, 6]) await gateway.socket.completed(sequence);
   await gateway.socket.say('<lost xmlns="urn:x-rois:psm:xml:message:1" sequence="9" count="3"/>');
@@ -350,12 +350,12 @@ scripted('notifications are told once, and gaps in their numbers, too', {}, asyn
 
 const says = '<search_response xmlns="urn:x-rois:psm:xml:message:1" return_code="OK"';
 for (const [what, text] of Object.entries({
-  'what is no document': 'Good day.',
-  'what is no message': `<completed xmlns="urn:x-rois:psm:xml:message:1"/>`,
+  'a text that is not XML': 'Good day.',
+  'an incomplete message': `<completed xmlns="urn:x-rois:psm:xml:message:1"/>`,
   'the answer to another request': `${says} request_id="r99"/>`,
-  'an answer without its end': `${says}/`,
+  'a truncated answer': `${says}/`,
 }))
-  scripted(`after ${what} the link is opened anew`, {}, async (client, gateway, clock) => {
+  scripted(`after ${what} the link is reopened`, {}, async (client, gateway, clock) => {
     const found = client.search();
     await gateway.socket.say(text);
     assert.deepEqual([client.state, gateway.socket.closed], ['lost', true]);
@@ -366,12 +366,12 @@ for (const [what, text] of Object.entries({
     assert.deepEqual(await found, []);
   });
 
-scripted('after an answer that nobody asked for the link is opened anew', {}, async (client, gateway) => {
+scripted('after an answer without a request the link is reopened', {}, async (client, gateway) => {
   await gateway.socket.say(`${says}/>`);
   assert.equal(client.state, 'lost');
 });
 
-// A listener may do what it likes, also when it is told that the session is lost.
+// A listener may do anything, also when the session is lost.
 for (const [how, lose] of [
   ['a resume', async (gateway: Scripted, clock: Clock) => {
     await gateway.socket.end('cut');
@@ -379,13 +379,13 @@ for (const [how, lose] of [
     await gateway.socket.open();
     await gateway.socket.fault('no_session');
   }],
-  ['a question whether it lives', async (gateway: Scripted, clock: Clock) => {
+  ['a ping', async (gateway: Scripted, clock: Clock) => {
     await clock.pass(15_000);
     await gateway.socket.answer('<session>two</session>');
   }],
   ['a call', (gateway: Scripted) => gateway.socket.fault('no_session')],
 ] as const)
-  scripted(`a client that is closed when ${how} tells that the session is lost is closed for good`, {}, async (client, gateway, clock) => {
+  scripted(`a client that is closed when ${how} reports a lost session stays closed`, {}, async (client, gateway, clock) => {
     const news = news_of(client);
     client.on('gap', () => void client.close());
     const call = how === 'a call' ? client.search() : undefined;
@@ -394,20 +394,20 @@ for (const [how, lose] of [
     await outcome;
     assert.deepEqual(news.filter((one) => one !== 'lost'), ['gap: session', 'closed']);
     assert.deepEqual([client.state, clock.waits, gateway.socket.is_over], ['closed', 0, true]);
-    assert.ok(!gateway.socket.names.slice(1).includes('connect') || how === 'a question whether it lives');
+    assert.ok(!gateway.socket.names.slice(1).includes('connect') || how === 'a ping');
   });
 
-scripted('an answer that comes too late makes nothing', { buffer: 1 }, async (client, gateway, clock) => {
+scripted('an answer after the deadline has no effect', { buffer: 1 }, async (client, gateway, clock) => {
   const news = news_of(client);
   const outcome = assert.rejects(client.subscribe('t', { deadline: 100 }), { failure: 'deadline' });
   await clock.pass(100);
   await outcome;
   await gateway.socket.answer('<subscribe_id>s-1</subscribe_id>');
   for (const sequence of [1, 2, 3]) await gateway.socket.event(sequence, 's-1');
-  assert.deepEqual(news, ['1', '2', '3'], 'and no gap for a stream that nobody has');
+  assert.deepEqual(news, ['1', '2', '3'], 'and no gap for a stream without a reader');
 });
 
-scripted('all calls of a session that is no more fail, and only those', {}, async (client, gateway) => {
+scripted('all calls of a lost session fail, and only those', {}, async (client, gateway) => {
   const calls = [client.search(), client.get_profile(), client.send('<mine/>')];
   const failed = calls.map((call) => assert.rejects(call, { failure: 'session_lost' }));
   await gateway.socket.fault('no_session');
@@ -420,7 +420,7 @@ scripted('all calls of a session that is no more fail, and only those', {}, asyn
   assert.deepEqual(await next, []);
 });
 
-scripted('what is subscribed to comes before all calls of a new session', {}, async (client, gateway, clock) => {
+scripted('a new session subscribes before all other calls', {}, async (client, gateway, clock) => {
   const subscribing = client.subscribe('person_detected');
   await gateway.socket.answer('<subscribe_id>s-1</subscribe_id>');
   await subscribing;
@@ -436,7 +436,7 @@ scripted('what is subscribed to comes before all calls of a new session', {}, as
   await found;
 });
 
-// In base64 it has all that base64url writes otherwise: fn5+Pj4+Pz8/w7s=
-scripted('a token is written as a subprotocol may be', { token: '~~~>>>???û' }, async (_, gateway) => {
+// Its base64 has all characters that base64url replaces: fn5+Pj4+Pz8/w7s=
+scripted('a token is encoded as base64url', { token: '~~~>>>???û' }, async (_, gateway) => {
   assert.deepEqual(gateway.socket.subprotocols, ['rois.xml.v1', 'rois.bearer.fn5-Pj4-Pz8_w7s']);
 });

@@ -1,4 +1,4 @@
-// A gateway that the test itself plays: what comes to it is seen, and what it says is said. Its time is the test's, too.
+// A gateway played by the test: records requests and sends scripted answers, on a fake clock.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
@@ -9,7 +9,7 @@ import { Clock, settled } from './clock.js';
 /** The gateway's end of one WebSocket. */
 export class ScriptedSocket implements Socket {
   readonly came: XmlElement[] = [];
-  readonly texts: string[] = []; // the same as they came
+  readonly texts: string[] = []; // unchanged
   closed = false; // by the client
   private ended = false; // by the gateway
   private answered = 0;
@@ -25,7 +25,7 @@ export class ScriptedSocket implements Socket {
     this.texts.push(text);
   }
   close(): void {
-    assert.ok(!this.is_over, 'it is over already');
+    assert.ok(!this.is_over, 'the socket has ended already');
     this.closed = true;
   }
 
@@ -46,14 +46,14 @@ export class ScriptedSocket implements Socket {
     await settled();
   }
 
-  /** The code is that of a WebSocket that the gateway has closed. */
+  /** `code`: close code of the gateway. */
   async end(reason: string, final = false, code?: number): Promise<void> {
     this.ended = true;
     if (!this.closed) this.listener.ended(code === undefined ? { reason, final } : { reason, final, code });
     await settled();
   }
 
-  /** Answers the oldest request that has no answer: OK, unless it is said otherwise. */
+  /** Answers the oldest unanswered request, by default with OK. */
   answer(content = '', return_code = 'OK'): Promise<void> {
     const { name, id } = this.oldest();
     return this.say(`<${name}_response xmlns="${namespaces.message}" return_code="${return_code}" ${id}>${content}</${name}_response>`);
@@ -89,13 +89,13 @@ export class Scripted {
     return socket;
   };
 
-  /** The newest one. */
+  /** The newest socket. */
   get socket(): ScriptedSocket {
     return this.sockets.at(-1)!;
   }
 }
 
-/** What happened to a client, a word each. */
+/** Records what happens to a client, a word each. */
 export function news_of(client: Client): string[] {
   const news: string[] = [];
   client.on('state', ({ state }) => news.push(state));
@@ -106,7 +106,7 @@ export function news_of(client: Client): string[] {
 
 export const options: ClientOptions = { first_delay: 100, most_delay: 1000, heartbeat: 10_000, random: () => 0 };
 
-/** A test with a client that has the session `one`. In the end the client is closed, and nothing of it is left over. */
+/** Defines a test with a client in session `one`. Closes the client and checks that no timer is left. */
 export function scripted(name: string, more: ClientOptions, dialogue: (client: Client, gateway: Scripted, clock: Clock) => Promise<void>): void {
   test(name, async () => {
     const [clock, gateway] = [new Clock(), new Scripted()];

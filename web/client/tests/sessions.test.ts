@@ -1,4 +1,4 @@
-// A session that ends while its client lives, and a client that ends its session.
+// Sessions that end while their client lives, and clients that end their session.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
@@ -8,7 +8,7 @@ import { Gateway } from './gateway.js';
 import { Proxy } from './proxy.js';
 import { behind_a_proxy, flags, gateway, go, number_of, quick, said_over_http, watched } from './stage.js';
 
-test('a lost session is told, and a new one has its subscriptions, each once', async () => {
+test('a lost session is reported, and the new one has its subscriptions, each once', async () => {
   let engine = await Gateway.start(...flags);
   const proxy = await Proxy.before(engine.port);
   const client = await connect(proxy.url, quick);
@@ -44,7 +44,7 @@ test('a lost session is told, and a new one has its subscriptions, each once', a
   await engine.stop();
 });
 
-test('a new session binds again what the lost one had, and tells what it cannot have', async () => {
+test('a new session binds again, and reports components that it cannot bind', async () => {
   let engine = await Gateway.start(...flags);
   const proxy = await Proxy.before(engine.port);
   const client = await connect(proxy.url, quick);
@@ -77,13 +77,13 @@ test('a new session binds again what the lost one had, and tells what it cannot 
   await restart(async () => undefined);
   assert.equal(String(await navigation.go_to('4000, 5000')), 'OK');
   assert.deepEqual(unbound, ['speech_synthesis: OUT_OF_RESOURCES']);
-  assert.equal(seen.out.filter((name) => name === 'bind').length, 2 + 2 + 1, 'what another had is not asked for again');
+  assert.equal(seen.out.filter((name) => name === 'bind').length, 2 + 2 + 1, 'components that another session had are not requested again');
   await client.close();
   await proxy.stop();
   await engine.stop();
 });
 
-test('a client may leave it to its application to bind again', async () => {
+test('with rebind false, the application binds again', async () => {
   const client = await connect(gateway.url, { ...quick, rebind: false });
   const navigation = await Navigation.bind_any(client);
   await said_over_http(client, 'disconnect');
@@ -92,7 +92,7 @@ test('a client may leave it to its application to bind again', async () => {
   await client.close();
 });
 
-test('commands that an engine stops while it shuts down have ended, and say so', async () => {
+test('commands that the engine stops during shutdown end and are reported', async () => {
   const engine = await Gateway.start(...flags);
   const client = await connect(engine.url, quick);
   await client.bind('navigation');
@@ -102,11 +102,11 @@ test('commands that an engine stops while it shuts down have ended, and say so',
   await client.close({ deadline: 1 });
 });
 
-test('a session that the engine ended on a living link is told, too', async () => {
+test('a session that the engine ended on a live link is reported', async () => {
   const client = await connect(gateway.url, quick);
   const seen = watched(client);
   const detected = await client.subscribe('person_detected');
-  await said_over_http(client, 'disconnect'); // behind the client's back
+  await said_over_http(client, 'disconnect'); // without the client's knowledge
   const open = seen.until('open');
   await assert.rejects(client.search(), { failure: 'session_lost' });
   await open;
@@ -119,13 +119,13 @@ test('a session that the engine ended on a living link is told, too', async () =
 
 behind_a_proxy('a subscription that a new session refuses ends with the refusal', {}, async (client) => {
   const narrow = await client.subscribe('reached_target');
-  (narrow.wanted as { event_type: string }).event_type = 'sunrise'; // as if its component had gone
+  (narrow.wanted as { event_type: string }).event_type = 'sunrise'; // as if its component were gone
   await said_over_http(client, 'disconnect');
   await assert.rejects(client.search(), { failure: 'session_lost' });
   await assert.rejects(narrow.next(), { failure: 'refused', return_code: 'UNSUPPORTED' });
 });
 
-behind_a_proxy('a client that is closed while its link is lost ends its session all the same', {}, async (client, proxy, seen) => {
+behind_a_proxy('a client that is closed during a broken link still ends its session', {}, async (client, proxy, seen) => {
   await client.bind('follow');
   proxy.refuses = true;
   proxy.cut();
@@ -143,7 +143,7 @@ behind_a_proxy('a client that is closed while its link is lost ends its session 
   await next.close();
 });
 
-test('a client whose session has ended meanwhile is closed without a new one', async () => {
+test('closing a client whose session has ended begins no new one', async () => {
   const engine = await Gateway.start(...flags, '--resume-window', '0.01');
   const proxy = await Proxy.before(engine.port);
   const client = await connect(proxy.url, quick);
@@ -170,10 +170,10 @@ behind_a_proxy('a client that could not end its session stays closed', {}, async
   proxy.cut();
   await seen.until('lost');
   await client.close({ deadline: 50 });
-  await pause(50); // for a try that was on its way
+  await pause(50); // for a retry under way
   const made = proxy.made;
   proxy.refuses = false;
-  await pause(50); // more than the longest delay between two tries
+  await pause(50); // longer than the longest delay
   assert.equal(proxy.made, made);
   assert.equal(client.state, 'closed');
 });

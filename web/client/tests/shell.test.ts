@@ -1,5 +1,5 @@
-// The example in a shell is cut off, too: it misses nothing unreported, hears nothing twice, executes nothing twice. It is slow: a fork a
-// field, and a second's pause after each cut. ROIS_ENDURANCE=full asks of it what is asked of the others, which takes some minutes.
+// The shell example under cuts: misses nothing without a gap, receives nothing twice, executes nothing twice. It is slow: one fork per
+// field and a second's pause after each cut. ROIS_ENDURANCE=full runs the full test, which takes some minutes.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 

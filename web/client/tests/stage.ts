@@ -1,4 +1,4 @@
-// A client behind a proxy before the real gateway, and what happens to it.
+// A client behind a proxy and the real gateway, with a record of events.
 import { after, before, test } from 'node:test';
 
 import { type Client, type ClientOptions, command, connect, type Gap, parse_xml, type StateChange } from 'rois-client';
@@ -9,7 +9,7 @@ import { Proxy } from './proxy.js';
 export const flags = ['--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '100'];
 export const quick: ClientOptions = { first_delay: 5, most_delay: 20 };
 
-/** One for all tests of a file; the hall is empty, and it remembers 30 notifications that were sent. */
+/** One gateway for all tests of a file: an empty hall; keeps 30 sent notifications. */
 export let gateway: Gateway;
 before(async () => {
   gateway = await Gateway.start(...flags, '--max-sent-notifications', '30');
@@ -20,7 +20,7 @@ after(() => gateway.stop());
 export interface Seen {
   states: string[];
   gaps: Gap[];
-  out: string[]; // names of the documents that went out
+  out: string[]; // names of the sent documents
   until(state: string): Promise<void>;
 }
 
@@ -44,7 +44,7 @@ export function watched(client: Client): Seen {
   return seen;
 }
 
-/** A test, and what is there for it. */
+/** Defines a test. */
 export function behind_a_proxy(name: string, options: ClientOptions, dialogue: (client: Client, proxy: Proxy, seen: Seen) => Promise<void>): void {
   test(name, async () => {
     const proxy = await Proxy.before(gateway.port);
@@ -58,13 +58,13 @@ export function behind_a_proxy(name: string, options: ClientOptions, dialogue: (
   });
 }
 
-/** `count` events, numbered by the text of their targets, and one completed. */
+/** `count` events, numbered in their targets, and one `completed`. */
 export const go = (client: Client, first: number, count: number) =>
   client.execute([command('navigation', 'start', { target_position: Array.from({ length: count }, (_, i) => `4000, 5000, ${first + i}e-9`) })]);
 
 export const number_of = (target: string) => Number(/(\d+)e-9$/.exec(target)![1]);
 
-/** Another way to the same session: over HTTP, as the wire allows. Gives the answer. */
+/** Makes a request of the same session over HTTP. Returns the answer. */
 export async function said_over_http(client: Client, operation: string, content = ''): Promise<string> {
   const names = 'xmlns="urn:x-rois:psm:xml:message:1" xmlns:rois="http://www.omg.org/spec/RoIS/20240801" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"';
   const headers = { 'Content-Type': 'application/xml', 'RoIS-Session': client.session };

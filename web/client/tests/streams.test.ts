@@ -1,4 +1,4 @@
-// Those who read and those who listen.
+// Streams and listeners.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
@@ -15,7 +15,7 @@ async function rest_of(stream: Stream<number>): Promise<number[]> {
   return rest;
 }
 
-test('a stream keeps its order, and drops the oldest when it is full', async () => {
+test('a stream keeps its order, and drops the oldest item when full', async () => {
   let dropped = 0;
   const stream = new Stream<number>(3, (count) => (dropped += count));
   for (let n = 1; n <= 3; ++n) stream.push(n);
@@ -29,7 +29,7 @@ test('a stream keeps its order, and drops the oldest when it is full', async () 
   assert.equal(await stream.next(), undefined);
 });
 
-test('those who wait get one each, whoever came first before the others', async () => {
+test('waiting readers get one item each, first come, first served', async () => {
   const stream = unlimited();
   const waiting = [stream.next(), stream.next(), stream.next()];
   for (let n = 1; n <= 4; ++n) stream.push(n);
@@ -37,7 +37,7 @@ test('those who wait get one each, whoever came first before the others', async 
   assert.equal(await stream.next(), 4);
 });
 
-test('a stream is waited for as long as asked', async () => {
+test('next returns after its timeout', async () => {
   const [clock, stream] = [new Clock(), unlimited()];
   try {
     const [patient, hasty] = [stream.next(1000), stream.next(10)];
@@ -46,7 +46,7 @@ test('a stream is waited for as long as asked', async () => {
     stream.push(1);
     stream.push(2);
     assert.equal(await patient, 1);
-    assert.equal(await stream.next(10), 2, 'nobody else has taken it');
+    assert.equal(await stream.next(10), 2, 'the expired reader did not take it');
     const failing = stream.next(10);
     stream.end(new Error('over'));
     await assert.rejects(failing, { message: 'over' });
@@ -56,7 +56,7 @@ test('a stream is waited for as long as asked', async () => {
   }
 });
 
-test('a stream that ends with an error says so when it has been read', async () => {
+test('a stream rejects with its error after the last item', async () => {
   const stream = unlimited();
   const waiting = [stream.next(), stream.next()];
   stream.push(1);
@@ -76,7 +76,7 @@ test('a stream that ends with an error says so when it has been read', async () 
   assert.deepEqual(read, [1, 2]);
 });
 
-test('a stream that ends without an error ends for those who wait', async () => {
+test('a stream without an error resolves its waiting readers', async () => {
   const stream = unlimited();
   const [waiting, reading] = [stream.next(), rest_of(stream)];
   stream.end();
@@ -86,7 +86,7 @@ test('a stream that ends without an error ends for those who wait', async () => 
   assert.equal(await stream.next(), undefined);
 });
 
-test('what waits in a stream can be forgotten', async () => {
+test('clear drops the queued items', async () => {
   const stream = unlimited();
   for (const n of [1, 2]) stream.push(n);
   stream.clear();
@@ -94,7 +94,7 @@ test('what waits in a stream can be forgotten', async () => {
   assert.equal(await stream.next(), 3);
 });
 
-behind_a_proxy('whoever reads too slowly is told what was dropped', { buffer: 10 }, async (client, _, seen) => {
+behind_a_proxy('a slow reader is reported what was dropped', { buffer: 10 }, async (client, _, seen) => {
   await client.bind('navigation');
   const targets = await client.subscribe('reached_target');
   assert.equal(await (await go(client, 0, 25)).status(5000), 'OK');
@@ -103,7 +103,7 @@ behind_a_proxy('whoever reads too slowly is told what was dropped', { buffer: 10
   assert.equal(number_of((await targets.next())!.results.text('target')!), 15);
 });
 
-behind_a_proxy('a listener that throws hinders nobody else', {}, async (client, _, seen) => {
+behind_a_proxy('a listener that throws does not affect the others', {}, async (client, _, seen) => {
   const reported: (() => void)[] = [];
   const report = globalThis.queueMicrotask;
   globalThis.queueMicrotask = (task) => void reported.push(task);

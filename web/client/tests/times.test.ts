@@ -1,4 +1,4 @@
-// Deadlines that pass, and times that are longer than a timer takes, before a gateway that the test plays.
+// Deadlines, and times above a timer's limit, with a scripted gateway.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
@@ -7,7 +7,7 @@ import { Client, command } from 'rois-client';
 import { Clock } from './clock.js';
 import { options, Scripted, scripted } from './scripted.js';
 
-scripted('a deadline that passes while the link is lost says why it is', {}, async (client, gateway, clock) => {
+scripted('a deadline that passes while the link is lost names the reason', {}, async (client, gateway, clock) => {
   const late = async (message: string) => {
     const outcome = assert.rejects(client.search(undefined, { deadline: 50 }), { failure: 'deadline', message });
     await clock.pass(50);
@@ -24,7 +24,7 @@ scripted('a deadline that passes while the link is lost says why it is', {}, asy
 });
 
 for (const long of [3e9, Infinity])
-  scripted(`what may take ${long} ms is not over at once`, { deadline: long, heartbeat: long }, async (client, gateway, clock) => {
+  scripted(`a deadline of ${long} ms does not pass at once`, { deadline: long, heartbeat: long }, async (client, gateway, clock) => {
     const found = client.search();
     const none = client.notifications().next(long);
     const executing = client.execute([command('navigation', 'start', {}, { command_id: 'mine' })], { deadline: long });
@@ -41,13 +41,13 @@ for (const long of [3e9, Infinity])
   });
 
 for (const long of [3e9, Infinity])
-  scripted(`a delay of ${long} ms is none that is over at once`, { first_delay: long, most_delay: long }, async (client, gateway, clock) => {
+  scripted(`a delay of ${long} ms does not pass at once`, { first_delay: long, most_delay: long }, async (client, gateway, clock) => {
     await gateway.socket.end('cut');
     await clock.pass(100_000);
     assert.deepEqual([client.state, gateway.sockets.length], ['lost', 1]);
   });
 
-test('who may take for ever to connect has not failed at once', async () => {
+test('connecting without a deadline does not fail at once', async () => {
   const [clock, gateway] = [new Clock(), new Scripted()];
   const client = new Client('http://robot', options, gateway.open);
   const started = client.start(Infinity);

@@ -1,4 +1,4 @@
-// wss: a proxy before the gateway ends TLS. That nothing is missed there either: endurance.test.ts.
+// wss through a TLS proxy before the gateway. For missed notifications over TLS see endurance.test.ts.
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 
@@ -20,7 +20,7 @@ after(async () => {
   await gateway.stop();
 });
 
-// How many components a program finds that trusts the certificate, or why none.
+// Prints the number of components if Node trusts the certificate, else the error.
 const program = `import { connect } from '${root}/web/client/dist/node.js';
   await connect(process.env.ROIS_URL).then(async (client) => {
     console.log((await client.search()).length);
@@ -29,21 +29,21 @@ const program = `import { connect } from '${root}/web/client/dist/node.js';
 const told_in_node = (url: string, { certificate }: TlsProxy) =>
   output_of([process.execPath, '--input-type=module', '-e', program], url, { NODE_EXTRA_CA_CERTS: certificate });
 
-test('Node speaks with whom it trusts', async () => {
+test('Node connects if it trusts the certificate', async () => {
   for (const url of [tls.url, tls.url.replace('https', 'wss')]) assert.equal(await told_in_node(url, tls), '15\n', url);
 });
 
-// The deadline is longer than a test may last: none of these waits for it.
-test('Node says at once whom it does not trust', async () => {
+// The deadline is longer than a test may take: none of these waits for it.
+test('Node rejects an untrusted certificate at once', async () => {
   const patient = { deadline: 1_000_000 };
-  await assert.rejects(connect(tls.url, patient), { failure: 'unreachable', message: "the gateway's certificate is refused: self-signed certificate" });
-  await assert.rejects(connect(`https://127.0.0.1:${gateway.port}`, patient), { failure: 'unreachable', message: /^TLS cannot be spoken there: / });
+  await assert.rejects(connect(tls.url, patient), { failure: 'unreachable', message: "the gateway's certificate is rejected: self-signed certificate" });
+  await assert.rejects(connect(`https://127.0.0.1:${gateway.port}`, patient), { failure: 'unreachable', message: /^the TLS handshake failed: / });
   const other = await TlsProxy.before(gateway.port, 'DNS:robot.example');
-  assert.match(await told_in_node(other.url, other), /^unreachable the gateway's certificate is refused: .*IP: 127\.0\.0\.1 is not in the cert's list/);
+  assert.match(await told_in_node(other.url, other), /^unreachable the gateway's certificate is rejected: .*IP: 127\.0\.0\.1 is not in the cert's list/);
   await other.stop();
 });
 
-test('a page that came over TLS speaks over TLS', () =>
+test('a page served over TLS connects over TLS', () =>
   in_chromium(async (page) => {
     await bring_client(page, tls.url);
     const came = await page.evaluate(async () => {
@@ -56,7 +56,7 @@ test('a page that came over TLS speaks over TLS', () =>
     assert.deepEqual(came, { status: 'OK', protocol: 'https:' });
   }, tls.chromium_switch));
 
-test('a browser refuses whom it does not trust, and its console says why', () =>
+test('a browser rejects an untrusted certificate, and the error points to its console', () =>
   in_chromium(async (page) => {
     const complaint = page.waitForEvent('console');
     const why = await page.evaluate(async (to) => {

@@ -1,4 +1,4 @@
-// Ends TLS before a gateway, with a certificate of its own that nobody has signed.
+// A TLS proxy before a gateway, with a self-signed certificate.
 import { execFileSync } from 'node:child_process';
 import { createHash, X509Certificate } from 'node:crypto';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
@@ -26,7 +26,7 @@ export class TlsProxy {
     });
   }
 
-  /** The certificate is good for `name`. */
+  /** The certificate is valid for `name`. */
   static async before(target: number, name = 'IP:127.0.0.1'): Promise<TlsProxy> {
     const folder = mkdtempSync(`${tmpdir()}/rois-tls-`);
     const made = ['-newkey', 'ec', '-pkeyopt', 'ec_paramgen_curve:prime256v1', '-nodes', '-keyout', `${folder}/key.pem`, '-out', `${folder}/certificate.pem`];
@@ -43,7 +43,7 @@ export class TlsProxy {
   get url(): string {
     return `https://127.0.0.1:${this.port}`;
   }
-  /** The certificate's file. */
+  /** Path of the certificate. */
   get certificate(): string {
     return `${this.folder}/certificate.pem`;
   }

@@ -5,7 +5,7 @@ import { type Parameter, pose_of, pose_text, Results, value } from 'rois-client'
 
 const one = (name: string, code: string, ...values: string[]): Parameter => ({ name, data_type_ref: { code }, values });
 
-test('values are written as their types want', () => {
+test('values are written by their types', () => {
   assert.deepEqual([-3.7, 2.4, -0.2].map((n) => value.int(n).values[0]), ['-4', '2', '0']);
   assert.deepEqual(value.double(0.5).values, ['0.5']);
   assert.deepEqual([NaN, Infinity, -Infinity].map((n) => value.double(n).values[0]), ['NaN', 'INF', '-INF']);
@@ -20,7 +20,7 @@ test('values are written as their types want', () => {
   });
 });
 
-test('results are read as what they are', () => {
+test('results are parsed by their types', () => {
   const results = new Results([
     one('number', 'int', ' 3 '),
     one('Names', 'string[]', 'a b', 'c'),
@@ -41,7 +41,7 @@ test('results are read as what they are', () => {
   assert.equal(results.number('names'), undefined);
 });
 
-test('places are read and written', () => {
+test('poses are parsed and written', () => {
   assert.deepEqual(pose_of(pose_text({ x: 1.5, y: -2, th: 90 })), { x: 1.5, y: -2, th: 90 });
   for (const text of ['', 'desk', '1', '1, 2, 3, 4', '1, ,2', '1, x']) assert.equal(pose_of(text), undefined, text);
 });

@@ -23,9 +23,9 @@ const state = new Console(browser);
 restore(state, visit.recall());
 state.connect();
 state.history.record();
-// At hand in the developer tools, and for tests: `rois.run('navigation', 'start', { target_position: ['desk'] })`.
+// For developer tools and tests: `rois.run('navigation', 'start', { target_position: ['desk'] })`.
 Object.assign(window, { rois: state });
-// What this page runs must not go on when the page has gone; the user is asked before.
+// Asks before closing the page: its commands would be stopped.
 addEventListener('beforeunload', (event) => {
   if (state.commands.open().length > 0 || state.runs_scenario.value) event.preventDefault();
 });

@@ -1,4 +1,4 @@
-// The panels of the page. A line here puts a panel into the navigation; docs/console.md says what it has to bring.
+// The panels of the page. A line here adds a panel to the navigation; docs/console.md says what a panel needs.
 import type { Panel } from './shell/navigation';
 import * as titles from './shell/panel_titles';
 

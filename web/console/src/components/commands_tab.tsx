@@ -1,4 +1,4 @@
-// A form for every command of a component.
+// The Commands tab: a form for each command of a component.
 import { useState } from 'preact/hooks';
 import { command, request, sequence_xml } from 'rois-client';
 
@@ -10,7 +10,7 @@ import { Checkbox, Form } from '../ui';
 import { Pick } from './pick';
 import * as t from './texts';
 
-// What is over when its `start` has completed. All else works on, and releasing would stop it.
+// Types whose work is finished when `start` completes. Releasing a component of another type would stop its work.
 const ending = /^(SpeechSynthesis|Reaction|Navigation|Move|Follow)$/;
 
 export function CommandsTab({ view }: { view: ComponentView }) {
@@ -29,7 +29,7 @@ export function CommandsTab({ view }: { view: ComponentView }) {
   );
 }
 
-// `start` first: it is what most want.
+// `start` first, as the most used command.
 function in_order(names: string[]): string[] {
   const rank = (name: string) => ['start', 'stop', 'suspend', 'resume'].indexOf(name);
   const common = names.filter((name) => rank(name) >= 0).sort((a, b) => rank(a) - rank(b));
@@ -44,7 +44,7 @@ function CommandForm({ view, name }: { view: ComponentView; name: string }) {
   const [was_tried, set_tried] = useState(false);
   const asked = asked_by(view, name);
   const problems = problems_in(console, view.ref, asked, inputs);
-  // What is missing is told when somebody wants to send it, what is wrong at once.
+  // Missing values are reported only after an attempt to send, other problems at once.
   const shown = was_tried ? problems : Object.fromEntries(Object.entries(problems).filter(([, one]) => one.what !== 'missing' && one.what !== 'either'));
   const unit = { ...command(view.ref, name), arguments: arguments_in(console, view.ref, asked, inputs) };
   const title = `${view.ref} ${name}`;
@@ -73,7 +73,7 @@ function CommandForm({ view, name }: { view: ComponentView; name: string }) {
   );
 }
 
-// What is still open on this component and was sent elsewhere: by another form or panel.
+// Open commands on this component that another form or panel sent.
 function Others({ view, title }: { view: ComponentView; title: string }) {
   const { commands } = useConsole();
   void commands.pulse.beat.value;
@@ -82,7 +82,7 @@ function Others({ view, title }: { view: ComponentView; title: string }) {
   return <>{open.map((one) => <CommandProgress key={one.id} entry={one} />)}</>;
 }
 
-/** A document, or nothing when there are characters in it that XML cannot hold. */
+/** The document, or an empty text if XML does not allow one of its characters. */
 export function written(make: () => string): string {
   try {
     return make();

@@ -1,4 +1,4 @@
-// One component: how it is, who has it, and what it can do.
+// A component: status, owner and messages.
 import { shown_description, useDraft } from '../forms';
 import { useConsole } from '../shell/context';
 import type { ComponentView } from '../state/profile_state';

@@ -1,4 +1,4 @@
-// A form to subscribe to every event of a component, what is subscribed, and the last events.
+// The Events tab: a form for each event of a component, its subscriptions and the latest events.
 import { component_ref, Condition, condition_xml, parse_xml, request, text_element } from 'rois-client';
 
 import { Exchange, signature, useDraft } from '../forms';
@@ -61,7 +61,7 @@ function SubscribeForm({ view, event }: { view: ComponentView; event: Offered })
   );
 }
 
-// Both have to hold. What was typed may stand in a filter or not.
+// Both conditions must hold. The typed one may have a filter element around it or not.
 function joined(mine: Condition | undefined, further: string): Condition | undefined {
   if (further === '') return mine;
   const inside = /^<fes:Filter(?:\s[^>]*)?>([^]*)<\/fes:Filter>$/.exec(further)?.[1] ?? further;

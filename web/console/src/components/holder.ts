@@ -1,8 +1,8 @@
-// Who has a component, in words.
+// The owner of a component as a text.
 import type { Console } from '../state/console';
 import * as texts from './texts';
 
-/** Empty: nobody has it. BUSY says that another session has, whether or not the gateway tells which. */
+/** Empty if no session has bound it. BUSY means that another session has, even if the gateway does not name the session. */
 export function holder_text({ bindings, status }: Console, ref: string): string {
   const holder = bindings.holder_of(ref);
   if (holder.who === 'me') return texts.mine();

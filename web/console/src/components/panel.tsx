@@ -1,4 +1,4 @@
-// What the engine has, as a tree of engines and components, and everything that can be done with the one that is chosen.
+// The Components panel: a tree of engines and components beside the selected component.
 import './components.css';
 
 import { useConsole, useWatch } from '../shell/context';

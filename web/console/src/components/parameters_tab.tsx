@@ -1,4 +1,4 @@
-// A component's parameters as they are, and a form that changes them.
+// The Parameters tab: a component's current parameters and a form to set them.
 import { useState } from 'preact/hooks';
 import { component_ref_xml, element, parameter_xml, request } from 'rois-client';
 

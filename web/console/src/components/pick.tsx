@@ -1,10 +1,10 @@
-// Which command, query or event: buttons of which one is pressed.
+// Buttons to choose a command, query or event.
 export interface PickProps {
   label: string;
   names: readonly string[];
   chosen: string;
   choose: (name: string) => void;
-  /** What hovering tells of each. */
+  /** Tooltip of each button. */
   tell?: (name: string) => string | undefined;
 }
 

@@ -1,4 +1,4 @@
-// A form for every query of a component.
+// The Queries tab: a form for each query of a component.
 import { component_ref, condition_xml, request, text_element } from 'rois-client';
 
 import { Exchange, signature, useDraft } from '../forms';
@@ -8,7 +8,7 @@ import { Form } from '../ui';
 import { Pick } from './pick';
 import * as t from './texts';
 
-/** What can be asked, as it is listed. */
+/** The names of its queries, as listed. */
 export function query_names(view: ComponentView): string[] {
   return [...view.queries.map((one) => one.name), ...(view.parameters.length > 0 ? ['get_parameter'] : [])];
 }

@@ -1,4 +1,4 @@
-// The tree of engines and components, as the ARIA practices have trees: one stop of the Tab key, arrows inside.
+// The tree of engines and components, following the ARIA tree pattern: one Tab stop, arrow keys inside.
 import { useEffect, useRef, useState } from 'preact/hooks';
 
 import { shown_description } from '../forms';
@@ -19,7 +19,7 @@ export function Tree({ engine }: { engine: EngineView }) {
   };
   const [focused, set_focused] = useState('');
   const chosen = selection.component.value;
-  // The list may have become lower by that.
+  // The list may have become shorter.
   useEffect(() => root.current!.querySelector('[aria-selected=true]')?.scrollIntoView({ block: 'nearest' }), [chosen]);
   const at = focused !== '' ? focused : chosen !== '' ? `component ${chosen}` : `engine ${engine.name}`;
 
@@ -58,7 +58,7 @@ export function Tree({ engine }: { engine: EngineView }) {
 
 interface EngineProps {
   engine: EngineView;
-  at: string; // the item that the Tab key comes to
+  at: string; // the item with the Tab stop
   closed: ReadonlySet<string>;
   toggle: (name: string) => void;
 }

@@ -1,4 +1,4 @@
-// That a component is at work for this console. Its status does not say so: RoIS has READY for what can be used.
+// Shows that this console has started a component. Its status is READY meanwhile (RoIS: ready to be used).
 import { useConsole } from '../shell/context';
 import { Badge } from '../ui';
 import * as t from './texts';

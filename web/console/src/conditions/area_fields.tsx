@@ -1,4 +1,4 @@
-// A place by its name, a box by its corners, or a point; typed, or picked on a map.
+// An area: a place by name, a box by its corners, or a point; typed or picked on a map.
 import { SelectField, TextField } from '../ui';
 import { useConsole } from '../shell/context';
 import { AreaPicker } from './area_picker';
@@ -50,7 +50,7 @@ export function AreaFields({ area, change, error, hint, known, distance, change_
   );
 }
 
-// Only where there is more than one frame to choose from.
+// Only if there are several frames.
 function FrameField({ crs, change }: { crs: string; change: (crs: string) => void }) {
   const view = useConsole().map.view.value;
   const frames = view.state === 'there' ? view.map.robots.flatMap((one) => (one.frame ? [one.frame.crs] : [])) : [];

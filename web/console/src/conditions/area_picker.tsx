@@ -1,4 +1,4 @@
-// A small map on which a place, a box or a point is picked. What it sets stands in the fields beside it, too; those are for the keyboard.
+// A small map to pick a place, box or point. The fields beside it show the same values and serve the keyboard.
 import { useRef, useState } from 'preact/hooks';
 
 import { useConsole, useWatch } from '../shell/context';
@@ -10,7 +10,7 @@ import type { Area } from './model';
 import * as t from './texts';
 
 const step = 50; // mm
-const least_box = 100; // mm: less is a click
+const least_box = 100; // mm; less is a click
 
 export function AreaPicker({ area, change, radius }: { area: Area; change: (area: Area) => void; radius?: number | undefined }) {
   const console = useConsole();
@@ -39,7 +39,7 @@ export function AreaPicker({ area, change, radius }: { area: Area; change: (area
     if (area.kind === 'point') return change({ ...area, x: String(to.x), y: String(to.y) });
     if (Math.abs(from.x - to.x) >= least_box && Math.abs(from.y - to.y) >= least_box)
       return change({ ...area, x: String(Math.min(from.x, to.x)), y: String(Math.min(from.y, to.y)), x2: String(Math.max(from.x, to.x)), y2: String(Math.max(from.y, to.y)) });
-    // A click on a place takes the place's box.
+    // A click on a place selects the place's box.
     if (place) {
       const { x, y, width, depth } = ground_of(place);
       change({ ...area, x: String(x), y: String(y), x2: String(x + width), y2: String(y + depth) });
@@ -75,7 +75,7 @@ export function AreaPicker({ area, change, radius }: { area: Area; change: (area
   );
 }
 
-// Where robots and people are now; those in other frames are left out.
+// The present robots and persons in the map's frame.
 function Things() {
   const { robots, entities, map } = useConsole();
   useWatch(robots.poll);

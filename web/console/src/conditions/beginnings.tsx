@@ -1,4 +1,4 @@
-// Conditions that are often meant, one press away while there is none.
+// Common conditions to start with, shown while there is no condition.
 import { Button } from '../ui';
 import { type AreaKind, type Group, new_area, new_predicate, new_sort_key, type Node, type Operator, with_added } from './model';
 import type { ConditionStore } from './store';

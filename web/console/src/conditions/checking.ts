@@ -1,4 +1,4 @@
-// What is still missing or wrong in a condition, before anything is sent. References that are not known here are the engine's to refuse.
+// Validates a condition before it is sent. Unknown references are left to the engine.
 import { parse_xml } from 'rois-client';
 
 import { unwritable } from '../forms/data_type';
@@ -15,7 +15,7 @@ const wrong: readonly Problem[] = ['no_number', 'reversed', 'no_xml', 'unwritabl
 export interface Found {
   field: ProblemField;
   problem: Problem;
-  /** It is not there yet, rather than wrong. */
+  /** Missing rather than wrong. */
   is_missing: boolean;
 }
 
@@ -70,7 +70,7 @@ export function is_time(text: string): boolean {
   return text.trim() !== '' && !Number.isNaN(new Date(text).getTime());
 }
 
-// One element, with the prefixes that a request declares.
+// One element, with the prefixes that requests declare.
 function is_xml(text: string): boolean {
   try {
     return parse_xml(wrapped(text)).children.length === 1;

@@ -1,4 +1,4 @@
-// A group of conditions: how they are joined, its members, and what can be added.
+// A group of conditions: the way of joining, its members, and buttons to add more.
 import { Button, IconButton } from '../ui';
 import { type Group, type Joining, new_group, new_predicate, type Node, with_added, with_changed, without, with_wrapped } from './model';
 import { PredicateView } from './predicate_view';

@@ -1,4 +1,4 @@
-// How many components meet a condition now: `search`, again and again while somebody looks.
+// Polls `search` for the components that match a condition while watched.
 import { signal } from '@preact/signals';
 import { Condition, everything } from 'rois-client';
 
@@ -10,15 +10,15 @@ import { is_of_results, type Reference } from './vocabulary';
 import { condition_of, written } from './writing';
 
 export interface Matches {
-  /** Refs of those that meet it, in the order that the engine gives. */
+  /** Refs of matching components, in the engine's order. */
   refs: readonly string[];
-  /** What the refusal says; the refs are those before it. */
+  /** The error of the last search; the refs are from before it. */
   trouble: unknown;
-  is_old: boolean; // the condition has changed since
+  is_old: boolean; // of an earlier condition
 }
 
 const debounce = 300; // ms
-const period = 2000; // ms: status, bindings and places change by themselves
+const period = 2000; // ms: status, bindings and places change without the user
 
 export class LiveMatches {
   readonly found = signal<Matches | undefined>(undefined);
@@ -36,7 +36,7 @@ export class LiveMatches {
     return this.poll.watch();
   }
 
-  /** Asks for this from now on, when it has stood for a moment; undefined: it is not complete, ask for nothing. */
+  /** Searches for this condition after a short delay; undefined: incomplete, search for nothing. */
   look_for(condition: Condition | undefined, may_be: (ref: string) => boolean): void {
     this.may_be = may_be;
     if (condition?.xml === this.condition?.xml) return;
@@ -59,14 +59,14 @@ export class LiveMatches {
   }
 }
 
-/** What can be said of components before there is an event or an answer: the condition without what only those can tell. */
+/** The part of the condition that can be decided now, without the results of an event or answer. */
 export function component_part(draft: Draft, references: readonly Reference[]): Condition {
   if (draft.purpose === 'search' || draft.purpose === 'bind_any') return condition_of(draft, references);
   const known = certain(draft.root, references);
   return (known && written(known, references)) ?? everything;
 }
 
-// What every candidate has to meet in any case; undefined: nothing is known yet. What is negated must be known whole.
+// The part that every match must fulfil; undefined: unknown. A negated node must be decidable as a whole.
 function certain(node: Node, references: readonly Reference[]): Node | undefined {
   if (node.kind !== 'group') return is_certain(node, references) ? node : undefined;
   const members = node.members
@@ -81,7 +81,7 @@ function is_certain(node: Node, references: readonly Reference[]): boolean {
   return leaves_of(node).every((one) => (one.kind === 'written' ? !/Result\/|located|timestamp/.test(one.xml) : !is_of_results(one.reference, references)));
 }
 
-/** Whether there is something in it that only events or answers can tell. */
+/** Whether a part depends on the results of an event or answer. */
 export function waits_for_results({ root }: Draft, references: readonly Reference[]): boolean {
   return !is_certain(root, references);
 }

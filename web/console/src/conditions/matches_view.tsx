@@ -1,4 +1,4 @@
-// How many components the condition meets now, and which.
+// The components that match the condition now.
 import { useEffect } from 'preact/hooks';
 
 import { useConsole, useWatch } from '../shell/context';
@@ -55,7 +55,7 @@ function counted({ purpose }: Draft, found: number, all: number): string {
   return purpose === 'query' ? t.can_answer(found) : t.matching(found, all);
 }
 
-// Those that have the event, or the query, at all.
+// Components with the event or query.
 function eligible({ purpose, event_type, query_type }: Draft, components: readonly { ref: string; events: { name: string }[]; queries: { name: string }[] }[]): (ref: string) => boolean {
   if (purpose !== 'subscribe' && purpose !== 'query') return () => true;
   const those = components.filter((one) => (purpose === 'subscribe' ? one.events.some(({ name }) => name === event_type) : one.queries.some(({ name }) => name === query_type)));

@@ -1,10 +1,10 @@
-// A condition while it is built: groups of predicates, as the form shows them. Values stay texts as they were typed.
+// A condition being edited: groups of predicates. Values are texts as typed.
 
-/** For what the condition is: the operation that takes it. */
+/** The operation that uses the condition. */
 export type Purpose = 'search' | 'bind_any' | 'subscribe' | 'query';
 export const purposes: readonly Purpose[] = ['search', 'bind_any', 'subscribe', 'query'];
 
-/** How the members of a group are joined, as the form says it. */
+/** How the members of a group are joined. */
 export type Joining = 'all_of' | 'any_of' | 'none_of' | 'not_all_of';
 
 export type Operator =
@@ -15,7 +15,7 @@ export type Operator =
 
 export type AreaKind = 'place' | 'box' | 'point';
 
-/** A place by its name, a box between two corners, or a point; mm. */
+/** A place by name, a box by two corners, or a point; mm. */
 export interface Area {
   kind: AreaKind;
   place: string;
@@ -23,7 +23,7 @@ export interface Area {
   y: string;
   x2: string;
   y2: string;
-  crs: string; // empty: that of the engine
+  crs: string; // empty: the engine's
 }
 
 export interface Predicate {
@@ -32,7 +32,7 @@ export interface Predicate {
   is_not: boolean;
   reference: string;
   operator: Operator;
-  value: string; // also the lower boundary, and the begin of a period
+  value: string; // also the lower boundary and the begin of a period
   upper: string;
   area: Area;
   distance: string; // mm
@@ -40,7 +40,7 @@ export interface Predicate {
   matching: 'Any' | 'All' | 'One';
 }
 
-/** A predicate that this form has no fields for; it stays as it was written. */
+/** A predicate without fields in this form; kept as XML. */
 export interface Written {
   kind: 'written';
   id: number;
@@ -58,7 +58,7 @@ export interface Group {
 
 export type Node = Group | Predicate | Written;
 
-/** By what is sorted: a value, or the distance of a position from an area's place or point. */
+/** A sort key: a value, or a position's distance from an area. */
 export interface SortKey {
   id: number;
   by: 'value' | 'distance';
@@ -106,7 +106,7 @@ export function new_draft(): Draft {
   return { purpose: 'search', event_type: '', query_type: '', inline_results: true, root: new_group(), order: [] };
 }
 
-/** The same tree with one node changed. */
+/** A copy of the tree with one node changed. */
 export function with_changed<T extends Node>(node: T, id: number, change: (node: Node) => Node): T {
   if (node.id === id) return change(node) as T;
   if (node.kind !== 'group') return node;
@@ -122,7 +122,7 @@ export function with_added(root: Group, group: number, node: Node): Group {
   return with_changed(root, group, (one) => (one.kind === 'group' ? { ...one, members: [...one.members, node] } : one));
 }
 
-/** A node in a group of its own, so that others can stand beside it. */
+/** Wraps a node in a group. */
 export function with_wrapped(root: Group, id: number): Group {
   return with_changed(root, id, (one) => new_group([one], 'Or'));
 }
@@ -132,13 +132,13 @@ export function leaves_of(node: Node): (Predicate | Written)[] {
   return node.kind === 'group' ? node.members.flatMap(leaves_of) : [node];
 }
 
-// --- What is kept from visit to visit ---
+// --- Storage across visits ---
 
 export function draft_text(draft: Draft): string {
   return JSON.stringify(draft);
 }
 
-/** Undefined for what is none; ids are new. */
+/** Undefined if invalid; ids are new. */
 export function draft_of(text: string | undefined): Draft | undefined {
   try {
     const read = JSON.parse(text ?? '') as Draft;

@@ -1,4 +1,4 @@
-// Builds conditions, shows their Filter Encoding and what they match now, and uses them.
+// The Conditions panel: builds conditions, shows their Filter Encoding and present matches, and uses them.
 import './conditions.css';
 
 import { useState } from 'preact/hooks';

@@ -1,4 +1,4 @@
-// Takes over a condition that was written elsewhere.
+// Imports a condition from XML.
 import { useState } from 'preact/hooks';
 
 import { reason_of } from '../state/reason_of';

@@ -1,4 +1,4 @@
-// One condition: what it is about, how it is compared, and with what.
+// One predicate: reference, operator and value.
 import { useState } from 'preact/hooks';
 
 import { Badge, Checkbox, Field, IconButton, SelectField } from '../ui';
@@ -57,7 +57,7 @@ export function PredicateView({ store, predicate, remove, wrap }: { store: Condi
   );
 }
 
-/** What is wrong, or what is only not there yet: the first is an error, the second a hint. */
+/** The problem of a field: an error if the value is wrong, a hint if it is missing. */
 export function complaint_of(found: readonly Found[], field: ProblemField): { error?: string; hint?: string } {
   const one = found.find((each) => each.field === field);
   if (!one) return {};
@@ -77,7 +77,7 @@ function has_matching({ operator }: Predicate, reference: Reference | undefined)
   return (reference?.is_list ?? false) && /Than|EqualTo/.test(operator);
 }
 
-/** What changes when it is about something else. */
+/** The changes for another reference. */
 export function about(predicate: Predicate, path: string, references: readonly Reference[]): Partial<Predicate> {
   const [before, now] = [resolved(predicate.reference, references), resolved(path, references)];
   const operators = operators_for(now?.type ?? 'text');
@@ -134,7 +134,7 @@ export function ReferenceField({ value, references, error, hint, change }: Refer
   );
 }
 
-// Operators of space stand there once for each kind of area.
+// Spatial operators are listed once for each kind of area.
 function OperatorField({ predicate, reference, change }: { predicate: Predicate; reference: Reference | undefined; change: (to: Partial<Predicate>) => void }) {
   const usual = operators_for(reference?.type ?? 'text');
   const operators = usual.includes(predicate.operator) ? usual : [...usual, predicate.operator];

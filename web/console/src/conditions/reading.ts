@@ -1,4 +1,4 @@
-// A condition that was written elsewhere, as far as the form has fields for it; what it has none for stays as it was written.
+// Reads a condition from XML. Predicates without fields in the form stay XML.
 import { parse_xml, type XmlElement } from 'rois-client';
 
 import {
@@ -6,7 +6,7 @@ import {
 } from './model';
 import { text_of_element, wrapped } from './xml_writing';
 
-/** Reads a Filter, a predicate, a `condition`, or a whole request. Throws XmlError for what is no XML, and Error for what is no condition. */
+/** Reads a Filter, a predicate, a `condition` or a request. Throws XmlError if it is not XML, and Error if it is not a condition. */
 export function draft_read(text: string): Draft {
   const root = whole(text);
   const purpose = root.name === 'subscribe' || root.name === 'query' || root.name === 'bind_any' ? root.name : 'search';
@@ -27,7 +27,7 @@ export function draft_read(text: string): Draft {
   };
 }
 
-// A document as it is, or a fragment that uses the usual prefixes.
+// A document, or a fragment with the usual prefixes.
 function whole(text: string): XmlElement {
   try {
     const root = parse_xml(text);
@@ -113,7 +113,7 @@ function is_usual_pattern(one: XmlElement): boolean {
   return one.attribute('wildCard') === '*' && one.attribute('singleChar') === '?' && one.attribute('escapeChar') === '\\';
 }
 
-// Only whole times: 2026 is a period, and says something else.
+// Only complete times: 2026 is a period with another meaning.
 function time(text = ''): string | undefined {
   return /T/.test(text) && !Number.isNaN(new Date(text.trim()).getTime()) ? new Date(text.trim()).toISOString() : undefined;
 }

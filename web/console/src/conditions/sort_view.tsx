@@ -1,4 +1,4 @@
-// In which order components are listed, and so which one is taken first.
+// The order of the components, which also decides which one is chosen first.
 import { Button, IconButton, SelectField } from '../ui';
 import { AreaFields } from './area_fields';
 import { area_problem } from './checking';

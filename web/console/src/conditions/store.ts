@@ -1,4 +1,4 @@
-// The condition of a console: it outlives the panel, and is kept from visit to visit.
+// The condition of a console, kept across panel changes and visits.
 import { computed, type ReadonlySignal, signal } from '@preact/signals';
 import type { Condition, Subscription } from 'rois-client';
 
@@ -12,7 +12,7 @@ export class ConditionStore {
   readonly references: ReadonlySignal<readonly Reference[]>;
   readonly known: ReadonlySignal<Known>;
   readonly matches: LiveMatches;
-  /** Those that were made here, the newest first. */
+  /** Subscriptions made here, newest first. */
   readonly subscribed = signal<readonly Subscription[]>([]);
 
   constructor(private readonly console: Console) {

@@ -1,4 +1,4 @@
-// The subscriptions that were made here, and what has come of them.
+// The subscriptions made here and their latest events.
 import type { Subscription } from 'rois-client';
 
 import { duration } from '../i18n/i18n';
@@ -43,7 +43,7 @@ export function Subscriptions({ store }: { store: ConditionStore }) {
   );
 }
 
-// Nothing comes of a component that nobody has started.
+// A component sends events only after it has been started.
 function StartHint({ subscription }: { subscription: Subscription }) {
   const console = useConsole();
   void console.commands.pulse.beat.value;
@@ -75,7 +75,7 @@ function StartHint({ subscription }: { subscription: Subscription }) {
 
 const operators = /^(PropertyIs|Within|DWithin|Beyond|Disjoint|Intersects|BBOX|During|After|Before|Not|Or)/;
 
-// The operators and texts of a condition, without its marks: enough to tell one from the other.
+// The operators and texts of a condition without markup, as a summary.
 function said_by(condition: string): string {
   const plain = condition.replace(/<(\/?)(?:[\w.-]+:)?([\w.-]+)[^>]*>/g, (_, end: string, name: string) => (end === '' && operators.test(name) ? ` ${name.replace('PropertyIs', '')} ` : ' '));
   return plain.replace(/\s+/g, ' ').trim();

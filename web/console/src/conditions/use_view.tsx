@@ -1,4 +1,4 @@
-// What is done with the condition: the request that it makes, and what came of it.
+// Uses the condition: shows its request, sends it, and shows the outcome.
 import type { Operation } from 'rois-client';
 
 import { Exchange } from '../forms/exchange';

@@ -1,4 +1,4 @@
-// With what a value is compared: a text, a number, a time, or one of those that there are.
+// The value of a comparison: a text, number, time or choice.
 import { Field, SelectField, TextField } from '../ui';
 import type { Found } from './checking';
 import type { Predicate } from './model';
@@ -48,14 +48,14 @@ function ValueField({ predicate: { operator }, reference, ...field }: FieldProps
   return <TextField {...field} unit={unit || undefined} options={options} input={type === 'number' ? { inputMode: 'decimal' } : {}} />;
 }
 
-// Of a URN the last part tells what it is.
+// The last part of a URN.
 function shown(option: string): string {
   if (option === 'true') return t.is_true();
   if (option === 'false') return t.is_false();
   return option.startsWith('urn:') ? `${option.slice(option.lastIndexOf(':') + 1)} (${option})` : option;
 }
 
-/** The browser's own field; it shows local time, and the condition has UTC. */
+/** A native field in local time; the condition has UTC. */
 function TimeField({ value, change, ...field }: Omit<FieldProps, 'predicate' | 'reference'>) {
   const read = (text: string) => (Number.isNaN(new Date(text).getTime()) ? '' : new Date(text).toISOString());
   return (

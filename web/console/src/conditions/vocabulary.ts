@@ -1,4 +1,4 @@
-// What a condition can refer to (docs/conditions.md): the words of the vocabulary, and the parameters and results of the profiles.
+// References of conditions (docs/conditions.md): common properties, parameters and results of the profiles.
 import type { ParameterProfile } from 'rois-client';
 
 import { all_values, data_type, type DataType } from '../forms/data_type';
@@ -17,13 +17,13 @@ export interface Reference {
   of: 'component' | 'parameter' | 'result';
   description: string;
   unit: string; // empty: none
-  /** Values that there are. */
+  /** Known values. */
   options: readonly string[];
-  /** Whether there are no others. */
+  /** Whether other values are invalid. */
   is_closed: boolean;
 }
 
-/** What is known of the engine, and what there is around it. */
+/** Knowledge of the engine and its world. */
 export interface Known extends Omit<World, 'components' | 'told'> {
   components: readonly ComponentView[];
   engines: readonly string[];
@@ -32,7 +32,7 @@ export interface Known extends Omit<World, 'components' | 'told'> {
 const statuses = all_values(data_type('Component_Status')) ?? [];
 const words = ['component_ref', 'component_type', 'name', 'identifier', 'engine', 'robotid', 'status', 'bound', 'location', 'located'];
 
-/** All that a condition for this purpose can refer to. */
+/** All references for this purpose. */
 export function references_of(known: Known, { purpose, event_type, query_type }: Draft): Reference[] {
   const word = (path: string, options: readonly string[], more: Partial<Reference> = {}): Reference => ({
     path, type: 'text', is_list: false, of: 'component', description: '', unit: '', options, is_closed: true, ...more,
@@ -54,13 +54,13 @@ export function references_of(known: Known, { purpose, event_type, query_type }:
   ];
 }
 
-/** Whether a path means a result, so that only an event or an answer can tell it. */
+/** Whether a path refers to a result, which only events and answers have. */
 export function is_of_results(path: string, references: readonly Reference[]): boolean {
   const name = first_step(path);
   return name === 'result' || name === 'timestamp' || resolved(path, references)?.of === 'result';
 }
 
-/** What a path refers to; undefined when it is not known here. Names have no case. */
+/** The reference of a path; undefined if unknown. Names are case-insensitive. */
 export function resolved(path: string, references: readonly Reference[]): Reference | undefined {
   const plain = path.trim().toLowerCase().replace(/\w+:/g, '').replace(/\[[^\]]*\]/g, '');
   const whole = plain === 'name' || plain === 'identifier' ? 'component_ref' : plain;
@@ -75,7 +75,7 @@ function first_step(path: string): string {
   return path.trim().toLowerCase().replace(/^\w+:/, '').split('/')[0] ?? '';
 }
 
-// Everything that some component of an engine has by this name; the first of a name counts.
+// The results of all messages of this name; the first result of a name counts.
 function results_of(components: readonly ComponentView[], kind: 'events' | 'queries', name: string): ParameterProfile[] {
   return unique_names(components.flatMap((one) => one[kind].filter((message) => message.name === name).flatMap((message) => message.results)));
 }
@@ -111,7 +111,7 @@ function unique_names(list: readonly ParameterProfile[]): ParameterProfile[] {
   return list.filter(({ name }) => !seen.has(name.toLowerCase()) && seen.add(name.toLowerCase()));
 }
 
-// --- What can be said of values of a type ---
+// --- Operators by type ---
 
 const equality: Operator[] = ['EqualTo', 'NotEqualTo'];
 const order: Operator[] = ['LessThan', 'LessThanOrEqualTo', 'GreaterThan', 'GreaterThanOrEqualTo', 'Between'];

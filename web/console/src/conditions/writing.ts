@@ -1,17 +1,17 @@
-// The condition as Filter Encoding, and the document that it is sent in.
+// Writes a condition as Filter Encoding, and the request with it.
 import { all_of, any_of, box, Condition, distance, element, everything, type Geometry, not, point, property, request, text_element } from 'rois-client';
 
 import { is_number, problems_of } from './checking';
 import type { Area, Draft, Node, Predicate, SortKey } from './model';
 import { type Reference, resolved } from './vocabulary';
 
-/** What is complete of a draft. What is not is left out. */
+/** The complete parts of a draft. */
 export function condition_of({ root, order, purpose }: Draft, references: readonly Reference[]): Condition {
   const filter = written(root, references) ?? everything;
   return purpose === 'subscribe' ? filter : order.filter((key) => sort_is_complete(key)).reduce(sorted, filter);
 }
 
-/** The request that the draft stands for. */
+/** The request of the draft. */
 export function request_of(draft: Draft, condition: Condition): string {
   const inside = condition.xml === '' ? '' : element('condition', {}, condition.xml);
   switch (draft.purpose) {
@@ -24,7 +24,7 @@ export function request_of(draft: Draft, condition: Condition): string {
   }
 }
 
-/** A node as a condition; undefined when nothing of it is complete. */
+/** A node as a condition; undefined if nothing in it is complete. */
 export function written(node: Node, references: readonly Reference[]): Condition | undefined {
   const positive = written_plainly(node, references);
   return positive && node.is_not ? not(positive) : positive;
@@ -80,7 +80,7 @@ function predicate_of(one: Predicate, references: readonly Reference[]): Conditi
   }
 }
 
-/** A name or a geometry. Whichever corners of a box were given, the lower one comes first. */
+/** A name or a geometry. The corners of a box are sorted. */
 function area_of({ kind, place, x, y, x2, y2, crs }: Area): string | Geometry {
   const frame = crs === '' ? undefined : crs;
   if (kind === 'place') return place.trim();

@@ -1,4 +1,4 @@
-// A predicate that the form has no fields for: its XML.
+// A predicate as XML, without fields in the form.
 import { Checkbox, IconButton, TextArea } from '../ui';
 import { problems_of } from './checking';
 import { type Node, with_changed, type Written } from './model';

@@ -1,11 +1,11 @@
-// Elements that were read, as text again, with the prefixes that requests declare.
+// Writes parsed elements as XML with the prefixes that requests declare.
 import { element, escape_text, namespaces, type XmlElement } from 'rois-client';
 
 const prefixes = new Map<string, string>(
   (['rois', 'fes', 'gml', 'unr', 'xsi'] as const).map((prefix) => [namespaces[prefix], `${prefix}:`]),
 );
 
-/** A fragment inside an element that declares all prefixes. */
+/** A fragment in an element that declares all prefixes. */
 export function wrapped(fragment: string): string {
   const declared = [...prefixes].map(([namespace, prefix]) => ` xmlns:${prefix.slice(0, -1)}="${namespace}"`);
   return `<condition xmlns="${namespaces.message}"${declared.join('')}>${fragment.replace(/^\s*<\?xml[^>]*\?>/, '')}</condition>`;

@@ -1,4 +1,4 @@
-// Fields for all arguments of a command, and the parameters that come of them.
+// Fields for the arguments of a command.
 import './forms.css';
 
 import type { Parameter } from 'rois-client';
@@ -17,7 +17,7 @@ export interface ArgumentFieldsProps {
   asked: readonly Asked[];
   inputs: Inputs;
   change: (inputs: Inputs) => void;
-  /** What is wrong, by name: as `problems_in` finds it. Leave out what the user has not been asked for yet. */
+  /** Problems by parameter name, from `problems_in`. Omit those that the user need not see yet. */
   problems: Readonly<Record<string, Problem>>;
 }
 
@@ -26,7 +26,7 @@ export function ArgumentFields({ view, asked, inputs, change, problems }: Argume
   useWatch(console.parameters.poll(view.ref));
   const told = console.parameters.of(view.ref);
   const has_things = asked.some(is_of_things);
-  void (has_things && console.now.value); // what there is changes all the time: once a second is enough
+  void (has_things && console.now.value); // robots and persons change all the time: updating once a second is enough
   const world = what_there_is(console, view.ref);
   return (
     <div class="form-fields">
@@ -46,13 +46,13 @@ export function ArgumentFields({ view, asked, inputs, change, problems }: Argume
   );
 }
 
-/** What is wrong with what was typed; what the component has already need not be given again. */
+/** Problems in the entered values. A value that the component already has may be omitted. */
 export function problems_in(console: Console, ref: string, asked: readonly Asked[], inputs: Inputs): Record<string, Problem> {
   const told = console.parameters.of(ref);
   return problems_of(asked, inputs, (name) => told !== undefined && told.texts(name).length > 0);
 }
 
-/** What was typed, as a message carries it: identifiers with the codebook that they were found in. */
+/** The entered values as parameters of a message. Identifiers get the codebook of the chosen option. */
 export function arguments_in(console: Console, ref: string, asked: readonly Asked[], inputs: Inputs): Parameter[] {
   const world = what_there_is(console, ref);
   return parameters_from(asked, inputs, (name, code) => {
@@ -76,7 +76,7 @@ function is_of_things({ name, data_type_ref }: Asked): boolean {
   return data_type(data_type_ref.code).kind === 'identifier' && /robot|person|face|sound|object|target/i.test(name);
 }
 
-// Robots that can be chosen are those that are there now.
+// Watches the robots, so that the list of options is current.
 function LooksAtRobots() {
   useWatch(useConsole().robots.poll);
   return null;

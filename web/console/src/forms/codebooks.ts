@@ -1,6 +1,6 @@
-// What the codes of known codebooks are called. Engines tell codes alone.
+// Names for the codes of known codebooks. Engines send only codes.
 
-// The example codebook Reaction_Type of Annex D, in its order, from 1.
+// Example codebook Reaction_Type of annex D, codes from 1.
 const reactions = (
   'nod the head|angle the head|shake the head|look right|look left|look up|look down|drop the head|bow the head|shake hands|' +
     'spread hands slightly|raise hands and spread|spread hands|clap hands|clap hands rhythmically|point by the right hand|point by the left hand|' +
@@ -12,12 +12,12 @@ const reactions = (
     'swing arms back and forth|knock|push by both hands|indicate a height by a hand|bend an arm|put an arm on a shoulder|glance at a wristwatch'
 ).split('|');
 
-/** The name of a code; undefined when there is none, or when nothing is known of its codebook. */
+/** The name of a code; undefined if the code or its codebook is unknown. */
 export function name_in(codebook: string | undefined, code: string): string | undefined {
   return /::reaction(_type)?$/i.test(codebook ?? '') ? reactions[Number(code) - 1] : undefined;
 }
 
-/** `9 – bow the head`; the code alone when it has no name. */
+/** `9 – bow the head`; only the code if it has no name. */
 export function with_name(codebook: string | undefined, code: string): string {
   const name = name_in(codebook, code);
   return name === undefined ? code : `${code} – ${name}`;

@@ -1,4 +1,4 @@
-// How a command is, live: waiting, running since, ended how and why.
+// Live state of a command: waiting, running since, how it ended and why.
 import './forms.css';
 
 import { useEffect } from 'preact/hooks';

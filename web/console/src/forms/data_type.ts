@@ -1,18 +1,18 @@
-// The data types of profiles (docs/profiles.md), and whether a text is of one.
+// Data types of profiles (docs/profiles.md) and validation of values.
 
 export type Kind = 'integer' | 'number' | 'bool' | 'text' | 'date_time' | 'date' | 'time' | 'identifier' | 'component_status' | 'stream_status';
 
 export interface DataType {
   kind: Kind;
   is_list: boolean;
-  /** As the profile names it, without a URN around it. */
+  /** Name in the profile, without the URN. */
   name: string;
-  /** Of an integer. */
+  /** Limits of an integer. */
   least?: bigint;
   most?: bigint;
 }
 
-/** What is wrong with a value. `texts.ts` says it in words. */
+/** A problem with a value; `texts.ts` has its text. */
 export type Problem =
   | { what: 'missing' }
   | { what: 'either'; other: string }
@@ -38,7 +38,7 @@ const kinds: Record<string, Kind> = {
   stream_status: 'stream_status', streamstatus: 'stream_status',
 };
 
-/** What the code of a `data_type_ref` means. Types that nobody knows are texts: their values are not checked. */
+/** The type for the code of a `data_type_ref`. Unknown types are texts, whose values are not checked. */
 export function data_type(code: string): DataType {
   const text = without_urn(code.trim());
   const item = /^(.*)\[\]$/.exec(text)?.[1] ?? /^(?:Set|List|Sequence|seq)\s*<(.+)>$/i.exec(text)?.[1];
@@ -57,12 +57,12 @@ function last_part(code: string): string {
   return code.slice(Math.max(code.lastIndexOf(':'), code.lastIndexOf('#'), code.lastIndexOf('/')) + 1);
 }
 
-/** Whether the items of a list of these stand in one text. */
+/** Whether a list of these items is written in one text. */
 export function is_packed({ kind }: DataType): boolean {
   return kind === 'integer' || kind === 'number' || kind === 'bool';
 }
 
-/** The values that there are, of a type that has only so many. */
+/** All values of a type that has a fixed set. */
 export function all_values({ kind }: DataType): readonly string[] | undefined {
   switch (kind) {
     case 'bool':
@@ -85,10 +85,10 @@ const shapes: Partial<Record<Kind, RegExp>> = {
 const a_date = /^(\d{4})-(\d\d)-(\d\d)/;
 const a_time = /^(?:[01]\d|2[0-3]):[0-5]\d:[0-5]\d(?:\.\d+)?/;
 const a_zone = /^(?:Z|[+-](?:(?:0\d|1[0-3]):[0-5]\d|14:00))$/;
-/** What cannot stand in XML 1.0. */
+/** Characters that XML 1.0 does not allow. */
 export const unwritable = /[^\t\n\r\u0020-\uD7FF\uE000-\uFFFD\u{10000}-\u{10FFFF}]/u;
 
-/** What is wrong with one item; undefined when it is of the type. */
+/** The problem with one item; undefined if it is valid. */
 export function problem_of(type: DataType, text: string): Problem | undefined {
   if (unwritable.test(text)) return { what: 'unwritable' };
   if (type.kind === 'text') return undefined;
@@ -116,7 +116,7 @@ function zone_may_follow(rest: string | undefined): boolean {
   return rest !== undefined && (rest === '' || a_zone.test(rest));
 }
 
-// What stands behind a day that exists.
+// The text after the date, if the date exists.
 function after_date(text: string): string | undefined {
   const found = a_date.exec(text);
   if (!found) return undefined;

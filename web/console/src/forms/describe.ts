@@ -1,4 +1,4 @@
-// What the descriptions of profiles tell a form: units, choices, and what must be given.
+// Reads units, choices and mandatory parameters from the descriptions in profiles.
 import type { MessageProfile, ParameterProfile } from 'rois-client';
 
 import type { ComponentView } from '../state/profile_state';
@@ -8,26 +8,26 @@ const names: Record<string, string> = { millimetre: 'mm', millimeter: 'mm', degr
 const unit = '(?:mm|ms|(?:millimet(?:re|er)|met(?:re|er)|degree|millisecond|second|percent)s?)';
 const mentioned = new RegExp(`\\bin (${unit}(?:(?:, | and )${unit})*)\\b`, 'g');
 
-/** The units that a description names, in its order: `["mm", "°"]` of "Distance in millimetre and direction in degree." */
+/** The units that a description names, in order: `["mm", "°"]` for "Distance in millimetre and direction in degree." */
 export function units_of(description = ''): string[] {
   return [...description.matchAll(mentioned)].flatMap(([, list]) => list!.split(/, | and /).map((one) => names[one.replace(/s$/, '')] ?? names[one] ?? one));
 }
 
-/** The values that a description names, as in "`time` or `distance`": none when there is but one. */
+/** The values that a description names, as in "`time` or `distance`"; none if it names only one. */
 export function choices_of(description = ''): string[] {
   const quoted = [...description.matchAll(/`([^`\s]+)`/g)].map(([, name]) => name!);
   return quoted.length > 1 ? quoted : [];
 }
 
-/** `needed`: it must be given. `either`: it or the other one must. */
+/** `needed`: mandatory. `either`: this or `other` is mandatory. */
 export type Need = { kind: 'optional' } | { kind: 'needed' } | { kind: 'either'; other: string };
 
-/** A parameter as a form asks for it. */
+/** A parameter with its need. */
 export interface Asked extends ParameterProfile {
   need: Need;
 }
 
-/** What a command takes: `start` and `set_parameter` the component's parameters, and each command what its own profile says. */
+/** The arguments of a command. `start` and `set_parameter` also take the component's parameters. */
 export function asked_by(view: ComponentView, command_type: string): Asked[] {
   if (command_type === 'set_parameter') return view.parameters.map((one) => ({ ...one, need: { kind: 'optional' } }));
   const own = view.commands.find((one) => same(one.name, command_type))?.arguments ?? [];
@@ -37,13 +37,13 @@ export function asked_by(view: ComponentView, command_type: string): Asked[] {
   return [...asked, ...further.map((one) => ({ ...one, need: need_of(one) }))];
 }
 
-/** All that can be asked of a component by `execute`. */
+/** All commands that `execute` accepts for a component. */
 export function command_types(view: ComponentView): string[] {
   const names = view.commands.map((one) => one.name);
   return view.parameters.length > 0 ? [...names, 'set_parameter'] : names;
 }
 
-/** As its description says at its end; what has a default value is optional. */
+/** Read from the end of the description. A parameter with a default is optional. */
 export function need_of({ description = '', default_value }: ParameterProfile): Need {
   if (default_value !== undefined) return { kind: 'optional' };
   const other = /\bEither this or (\w+) is mandatory\b/i.exec(description)?.[1];
@@ -51,20 +51,20 @@ export function need_of({ description = '', default_value }: ParameterProfile): 
   return { kind: /\bMandatory\.?\s*$/i.test(description) ? 'needed' : 'optional' };
 }
 
-/** How many items a list has whose description names a unit for each: 2 of "Distance in millimetre and direction in degree"; 0: any number. */
+/** The length of a list whose description names a unit for each item: 2 for "Distance in millimetre and direction in degree"; 0: any. */
 export function fixed_length({ data_type_ref, description }: ParameterProfile): number {
   const type = data_type(data_type_ref.code);
-  if (!type.is_list || type.kind === 'text') return 0; // of a text the units are those of its parts
+  if (!type.is_list || type.kind === 'text') return 0; // the units of a text are those of its parts
   const units = units_of(description);
   return units.length > 1 ? units.length : 0;
 }
 
-/** A description without what the form says by itself, and without where the specification has it. */
+/** The description without the need (shown by the form) and without references to the specification. */
 export function shown_description(description = ''): string {
   return description.replace(/\s*\b(Optional|Mandatory|Either this or \w+ is mandatory)\.?\s*$/i, '').replace(/ \((?:table )?[\d.]+\)/g, '').replaceAll('`', '');
 }
 
-/** Whether its texts are positions, as a floor map can give them. */
+/** Whether its texts are positions that can be chosen on the map. */
 export function is_position({ name, description = '', data_type_ref }: ParameterProfile): boolean {
   return data_type(data_type_ref.code).kind === 'text' && (/position/i.test(name) || /"x, y(, th)?"/.test(description));
 }
@@ -73,7 +73,7 @@ export function same(a: string, b: string): boolean {
   return a.toLowerCase() === b.toLowerCase();
 }
 
-/** `start(speech_text, volume)`, for what is read aloud and for hovering. */
+/** `start(speech_text, volume)`, for tooltips and screen readers. */
 export function signature({ name, arguments: given, results }: MessageProfile): string {
   const list = given.length > 0 ? given : results;
   return `${name}(${list.map((one) => one.name).join(', ')})`;

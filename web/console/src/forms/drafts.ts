@@ -1,4 +1,4 @@
-// What was typed and not sent yet, kept while the page is: a panel is taken down when another one is shown.
+// Unsent input, kept until the page is closed: panels are unmounted when another one is shown.
 import { useState } from 'preact/hooks';
 
 const kept = new Map<string, unknown>();

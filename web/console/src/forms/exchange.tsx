@@ -1,4 +1,4 @@
-// A request as it is built, the button that sends it, and what came of it.
+// A request being written, the button that sends it, and its outcome.
 import './forms.css';
 
 import { useEffect, useRef, useState } from 'preact/hooks';
@@ -16,27 +16,27 @@ import { draft, useDraft } from './drafts';
 import * as t from './exchange_texts';
 
 export interface ExchangeProps {
-  /** What it is called, for buttons and regions: `navigation start`. */
+  /** Name for buttons and regions: `navigation start`. */
   title: string;
   operation: Operation;
-  /** The document, as it would be sent now; empty when it cannot be written. */
+  /** The document that would be sent; empty if it cannot be written. */
   request: string;
-  /** Sends it, by whatever operation of the console. */
+  /** Sends the request. */
   act: () => Promise<unknown>;
-  /** Called before; what is false keeps it from being sent. */
+  /** Called before sending; false prevents it. */
   may_send?: () => boolean;
-  /** There is something to send: the button can be pressed. */
+  /** Whether the button is enabled. */
   can_send?: boolean;
-  /** Enter in a field of the form sends it. */
+  /** Enter in a field sends the request. */
   by_enter?: boolean;
   label?: string;
   icon?: IconName;
-  /** More buttons. */
+  /** Additional buttons. */
   children?: preact.ComponentChildren;
 }
 
 export interface Outcome {
-  request: LoggedDocument | undefined; // as it was sent; undefined when it was not
+  request: LoggedDocument | undefined; // as sent; undefined if it was not sent
   answer: LoggedDocument | undefined;
   error: unknown;
 }
@@ -79,12 +79,12 @@ export function Exchange({ title, operation, request, act, may_send, can_send = 
 
 const key_of = (title: string) => `outcome of ${title}`;
 
-/** What came of what was sent last under this title. */
+/** The outcome of the last request with this title. */
 export function last_outcome(title: string): Outcome | undefined {
   return draft(key_of(title));
 }
 
-/** Does it, and finds the documents that it is made of. */
+/** Runs `act` and finds its request and answer. */
 export async function watched(console: Console, operation: Operation, act: () => Promise<unknown>): Promise<Outcome> {
   const outcome: Outcome = { request: undefined, answer: undefined, error: undefined };
   const stop = console.documents.listen((one) => {
@@ -101,7 +101,7 @@ export async function watched(console: Console, operation: Operation, act: () =>
   return outcome;
 }
 
-// What counts is first: how the commands are, or what was refused and why. While it `follows`, it is in view, however long it grows.
+// The state of the commands, or the refusal, comes first. If `follows`, it is scrolled into view whenever it grows.
 function Came({ title, answer, error, follows }: Outcome & { title: string; follows: boolean }) {
   const { commands } = useConsole();
   void commands.pulse.beat.value;

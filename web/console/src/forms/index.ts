@@ -1,4 +1,4 @@
-// Forms that are made from profiles: fields, checks, and the arguments that come of them; requests, how they are sent, and what comes of them.
+// Forms made from profiles: fields, validation, arguments, requests and their outcomes.
 export * from './argument_fields';
 export * from './command_progress';
 export * from './data_type';

@@ -1,27 +1,27 @@
-// What stands in the fields of a form, what is wrong with it, and the parameters that it makes.
+// The contents of a form, their problems, and the parameters made from them.
 import type { Parameter } from 'rois-client';
 
 import { data_type, is_packed, type Problem, problem_of } from './data_type';
 import { type Asked, fixed_length, same } from './describe';
 
-/** What somebody has put into a field: one text, or those of a list. Blank ones do not count. */
+/** The input of one field: a text, or the items of a list. Blank texts are ignored. */
 export interface Input {
   texts: readonly string[];
-  /** Given as an empty text or list, rather than left out. */
+  /** Send an empty text or list instead of omitting the parameter. */
   is_empty?: boolean;
 }
 
-/** By the names of parameters; one that is not there is left out. */
+/** By parameter name; missing parameters are omitted. */
 export type Inputs = Readonly<Record<string, Input>>;
 
-/** A value that may be chosen. */
+/** A choice. */
 export interface Option {
   value: string;
   label?: string;
   codebook?: string; // of an identifier
 }
 
-/** The items that are given; undefined when the parameter is left out. */
+/** The entered items; undefined if the parameter is omitted. */
 export function given(asked: Asked, inputs: Inputs): string[] | undefined {
   const input = inputs[asked.name];
   const texts = (input?.texts ?? []).filter((text) => text.trim() !== '');
@@ -29,7 +29,7 @@ export function given(asked: Asked, inputs: Inputs): string[] | undefined {
   return input?.is_empty ? [] : undefined;
 }
 
-/** What is wrong, by name. `has_value`: whether the component has a value already, from an earlier set_parameter. */
+/** Problems by parameter name. `has_value`: whether the component already has a value, from an earlier set_parameter. */
 export function problems_of(all: readonly Asked[], inputs: Inputs, has_value: (name: string) => boolean = () => false): Record<string, Problem> {
   const problems: Record<string, Problem> = {};
   for (const asked of all) {
@@ -55,7 +55,7 @@ function missing({ name, need }: Asked, all: readonly Asked[], inputs: Inputs, h
   return is_there ? undefined : { what: 'either', other: need.other };
 }
 
-/** The parameters as a message carries them, in the order of the profile. `codebook` knows those of identifiers. */
+/** The parameters of the message, in the profile's order. `codebook` returns the codebook of an identifier. */
 export function parameters_from(all: readonly Asked[], inputs: Inputs, codebook: (name: string, code: string) => string | undefined = () => undefined): Parameter[] {
   return all.flatMap((asked): Parameter[] => {
     const items = given(asked, inputs);
@@ -74,7 +74,7 @@ function values_of(items: string[], is_list: boolean, packed: boolean): string[]
   return packed ? [items.join(' ')] : items;
 }
 
-/** What would have to stand in the fields for these parameters: the way back. */
+/** The inputs that would produce these parameters. */
 export function inputs_of(parameters: readonly Parameter[]): Inputs {
   return Object.fromEntries(
     parameters.map(({ name, data_type_ref, values }): [string, Input] => {
@@ -85,7 +85,7 @@ export function inputs_of(parameters: readonly Parameter[]): Inputs {
   );
 }
 
-/** The same inputs with one of them changed. */
+/** A copy of the inputs with one changed. */
 export function with_input(inputs: Inputs, name: string, input: Input | undefined): Inputs {
   const { [name]: _, ...others } = inputs;
   return input === undefined || (input.texts.every((text) => text === '') && !input.is_empty && input.texts.length < 2) ? others : { ...others, [name]: input };

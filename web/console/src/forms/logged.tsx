@@ -1,4 +1,4 @@
-// A document that was logged, and what the engine says more of an event or error.
+// A logged document, and the details of an event or error.
 import { useConsole } from '../shell/context';
 import { show_document } from '../shell/navigation';
 import type { LoggedDocument } from '../state/documents';
@@ -7,10 +7,10 @@ import { Button, XmlView } from '../ui';
 import * as t from './exchange_texts';
 import { ResultsTable } from './results_table';
 
-/** The document, or the one of this number as long as it is remembered. */
+/** The document, or the stored one with this number. */
 export function LoggedXml({ label, document }: { label: string; document: LoggedDocument | number }) {
   const console = useConsole();
-  const logged = typeof document === 'number' ? console.documents.ring.numbered(document) : document.number < 0 ? undefined : document; // below 0: of the page that was here before
+  const logged = typeof document === 'number' ? console.documents.ring.numbered(document) : document.number < 0 ? undefined : document; // below 0: from before a reload
   if (!logged) return <p>{t.document_gone()}</p>;
   return (
     <>
@@ -20,7 +20,7 @@ export function LoggedXml({ label, document }: { label: string; document: Logged
   );
 }
 
-/** `none` is said when there are no details. */
+/** `none` is shown if there are no details. */
 export function DetailsOf({ label, details, none }: { label: string; details: Details; none: string }) {
   if (details.state === 'gone') return <p>{t.gone(details.reason)}</p>;
   if (details.state !== 'there') return <p role="status">{t.fetching()}</p>;

@@ -1,4 +1,4 @@
-// What may be chosen for a parameter, of all that exists: places, robots, people, components, and what a component says that it can do.
+// Choices for a parameter: places, robots, persons, components, and values that the component itself offers.
 import type { Results } from 'rois-client';
 
 import type { Entity, Robot } from '../state/things';
@@ -7,17 +7,17 @@ import { all_values, data_type } from './data_type';
 import { type Asked, choices_of, is_position, same } from './describe';
 import type { Option } from './inputs';
 
-/** What there is. */
+/** The known things of the world. */
 export interface World {
   places: readonly string[];
   robots: Iterable<Robot>;
   entities: Iterable<Entity>;
   components: readonly string[];
-  /** What the component has told of itself (`get_parameter`). */
+  /** The component's own parameters (`get_parameter`). */
   told: Results | undefined;
 }
 
-/** Texts that can be chosen; anything else may be typed, unless `is_closed`. */
+/** Choices. Other texts may be typed unless `is_closed`. */
 export interface Options {
   list: readonly Option[];
   is_closed: boolean;
@@ -34,7 +34,7 @@ export function options_for(asked: Asked, world: World): Options {
   return { list: [], is_closed: false };
 }
 
-// `language` is one of `synthesizable_languages`, `reaction_ref` one of `available_reactions`.
+// `language` is chosen from `synthesizable_languages`, `reaction_ref` from `available_reactions`.
 function offered_by(name: string, told: Results | undefined): Option[] {
   const plural = name.replace(/_ref$/i, '').replace(/s$/, '') + 's';
   const list = told?.parameters.find((one) => !same(one.name, name) && one.name.toLowerCase().endsWith(`_${plural.toLowerCase()}`));

@@ -1,4 +1,4 @@
-// A field for one parameter of a profile.
+// A field for one parameter.
 import { useId } from 'preact/hooks';
 
 import { Field, IconButton, joined } from '../ui';
@@ -14,14 +14,14 @@ export interface ParameterFieldProps {
   change: (input: Input | undefined) => void;
   problem?: Problem | undefined;
   options: Options;
-  /** What the component has now: shown where nothing is typed. */
+  /** The component's current value, shown in an empty field. */
   now?: string | undefined;
 }
 
 export function ParameterField(props: ParameterFieldProps) {
   const { asked, problem } = props;
   const type = data_type(asked.data_type_ref.code);
-  const called = props.options.list.find((one) => one.value === props.input?.texts[0]?.trim())?.label; // what was chosen
+  const called = props.options.list.find((one) => one.value === props.input?.texts[0]?.trim())?.label; // of the chosen option
   const hint = joined(!props.options.is_closed && called && `“${called}”.`, shown_description(asked.description), t.of_type(asked.data_type_ref.code), asked.default_value && t.preset(asked.default_value));
   const shared = { label: asked.name, hint, error: problem && t.problem(problem), required: asked.need.kind === 'needed' };
   if (type.is_list) return <ListField {...props} type={type} {...shared} />;
@@ -74,7 +74,7 @@ function ListField({ type, label, hint, error, required, ...props }: ParameterFi
 
 interface ItemProps extends Pick<ParameterFieldProps, 'asked' | 'input' | 'options' | 'now'> {
   type: DataType;
-  own: object; // what ties it to its label
+  own: object; // attributes that connect it to its label
   text: string;
   put: (text: string) => void;
 }
@@ -123,7 +123,7 @@ function Item({ asked, input, options, now, type, own, text, put }: ItemProps) {
   );
 }
 
-// An empty text is something else than none: it deletes what was set.
+// An empty text is a value: it clears the parameter.
 function EmptyToggle({ asked, input, change }: ParameterFieldProps) {
   const is_empty = input?.is_empty === true;
   return (

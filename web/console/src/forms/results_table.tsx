@@ -4,7 +4,7 @@ import { Table } from '../ui';
 import { with_name } from './codebooks';
 import * as t from './exchange_texts';
 
-/** Results, or the parameters of a component: name, value, type. */
+/** Table of results or parameters: name, value, type. */
 export function ResultsTable({ label, results }: { label: string; results: Results }) {
   return (
     <Table<Parameter>
@@ -20,7 +20,7 @@ export function ResultsTable({ label, results }: { label: string; results: Resul
   );
 }
 
-// Positions and sentences stand below each other; short names side by side.
+// Long texts are listed vertically, short ones side by side.
 function Values({ texts }: { texts: string[] }) {
   const are_long = texts.some((text) => text.length > 12);
   return <span class={are_long ? `results-values results-below${texts.length > 8 ? ' results-many' : ''}` : 'results-values'}>{texts.map((text, i) => <span key={i}>{text === '' ? '“”' : text}</span>)}</span>;

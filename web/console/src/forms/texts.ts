@@ -5,22 +5,22 @@ const kinds: Record<Kind, readonly [en: string, ja: string]> = {
   integer: ['a whole number', '整数'],
   number: ['a number', '数'],
   bool: ['true or false', 'true または false'],
-  text: ['a text', '文字列'],
+  text: ['text', '文字列'],
   date_time: ['a time such as 2026-11-20T12:00:00Z', '2026-11-20T12:00:00Z のような日時'],
   date: ['a day such as 2026-11-20', '2026-11-20 のような日付'],
   time: ['a time of day such as 12:00:00', '12:00:00 のような時刻'],
   identifier: ['a code', 'コード'],
-  component_status: ['a status of components', 'コンポーネントの状態'],
-  stream_status: ['a status of streams', 'ストリームの状態'],
+  component_status: ['a component status', 'コンポーネントの状態'],
+  stream_status: ['a stream status', 'ストリームの状態'],
 };
 
 export const problem = text_of((problem: Problem) => {
   switch (problem.what) {
-    case 'missing': return ['This is needed.', '入力が必要です。'];
-    case 'either': return [`Either this or ${problem.other} is needed.`, `これか ${problem.other} のどちらかが必要です。`];
-    case 'not_of_kind': return [`This has to be ${kinds[problem.kind][0]}.`, `${kinds[problem.kind][1]}を入力してください。`];
-    case 'out_of_range': return [`This has to be between ${problem.least} and ${problem.most}.`, `${problem.least} から ${problem.most} までの値を入力してください。`];
-    case 'unwritable': return ['There is a character in it that XML cannot hold.', 'XML に書けない文字が含まれています。'];
+    case 'missing': return ['Required.', '入力が必要です。'];
+    case 'either': return [`Either this or ${problem.other} is required.`, `これか ${problem.other} のどちらかが必要です。`];
+    case 'not_of_kind': return [`Enter ${kinds[problem.kind][0]}.`, `${kinds[problem.kind][1]}を入力してください。`];
+    case 'out_of_range': return [`Enter a value from ${problem.least} to ${problem.most}.`, `${problem.least} から ${problem.most} までの値を入力してください。`];
+    case 'unwritable': return ['It has a character that XML does not allow.', 'XML に書けない文字が含まれています。'];
   }
 });
 export const of_type = text_of((type: string) => [`Type ${type}.`, `型 ${type}。`]);

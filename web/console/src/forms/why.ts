@@ -1,4 +1,4 @@
-// Why a command has failed, as far as it can be told from what the engine said and what is known of the hall.
+// Explains why a command failed, from the engine's results and the console's knowledge of the hall.
 import { pose_of } from 'rois-client';
 
 import type { CommandEntry } from '../state/commands_state';
@@ -8,7 +8,7 @@ import * as t from './exchange_texts';
 
 const most_errors = 3;
 
-/** Sentences, the most certain first: what the engine says, then what the console has found. */
+/** Sentences, the most reliable first: the engine's reason, then the console's findings. */
 export function why(console: Console, entry: CommandEntry): string[] {
   const said = entry.results?.parameters.filter((one) => one.name !== 'status').map((one) => `${one.name}: ${one.values.join('; ')}`) ?? [];
   if (entry.state === 'OK' || entry.state === 'waiting' || entry.state === 'running') return said;
@@ -21,7 +21,7 @@ export function why(console: Console, entry: CommandEntry): string[] {
   return [...said, ...errors, ...found];
 }
 
-/** Positions that cannot be reached, since they are no part of the hall; told before it is sent, too. */
+/** Target positions that are outside the map or inside furniture. Also shown before sending. */
 export function misplaced({ map }: Console, entry: Pick<CommandEntry, 'arguments'>): string[] {
   const view = map.view.value;
   if (view.state !== 'there') return [];

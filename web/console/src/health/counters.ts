@@ -1,4 +1,4 @@
-// What /metrics tells of sessions, limits and troubles, in rows. Older gateways tell less: then there are fewer rows.
+// Rows for sessions, limits and problems from /metrics. Older gateways have fewer metrics, so fewer rows.
 import type { Scrape } from '../state/metrics_state';
 
 export interface SessionRow {
@@ -13,7 +13,7 @@ export interface SessionRow {
 
 const same_time = 1500; // ms
 
-/** `begun`: when our own session began. */
+/** `begun`: the begin of this console's session. */
 export function sessions_in(scrape: Scrape, mine: ReadonlySet<string>, begun: number): SessionRow[] {
   const of = (name: string, session: string) => scrape.value(name, { session }) ?? 0;
   const rows = scrape.all('rois_session_age_seconds').map(({ labels, value }): SessionRow => {
@@ -34,7 +34,7 @@ export function sessions_in(scrape: Scrape, mine: ReadonlySet<string>, begun: nu
   return rows.sort((a, b) => Number(a.number) - Number(b.number));
 }
 
-// Nobody is told the number of their session. It is the one that has bound what we have bound, or that began when ours began.
+// The row of this console. A session does not know its number, so it is found by its bindings or its begin.
 function own_of(rows: SessionRow[], at: number, mine: ReadonlySet<string>, begun: number): SessionRow | undefined {
   const by_bound = rows.filter((row) => row.bound.some((ref) => mine.has(ref)));
   if (by_bound.length === 1) return by_bound[0];
@@ -46,8 +46,8 @@ export interface LimitRow {
   name: string;
   now: number | undefined;
   most: number;
-  reached: number; // since the gateway began
-  lately: number; // in what is remembered
+  reached: number; // since the gateway started
+  lately: number; // in the stored history
 }
 
 export function limits_in(latest: Scrape, oldest: Scrape | undefined): LimitRow[] {
@@ -58,7 +58,7 @@ export function limits_in(latest: Scrape, oldest: Scrape | undefined): LimitRow[
   });
 }
 
-// Of the session that is nearest to the limit, where each has its own.
+// The session nearest to the limit, if the limit is for each session.
 function now_of(name: string, scrape: Scrape): number | undefined {
   const most_of_one = (metric: string) => {
     const values = scrape.all(metric).map((one) => one.value);
@@ -81,7 +81,7 @@ function now_of(name: string, scrape: Scrape): number | undefined {
 export interface TroubleRow {
   name: string; // of the metric
   detail: string; // code, status
-  count: number; // since the gateway began
+  count: number; // since the gateway started
   lately: number;
 }
 
@@ -95,7 +95,7 @@ const troubles: [metric: string, label: string, fine: string[]][] = [
   ['rois_stray_component_answers_total', '', []],
 ];
 
-/** What went wrong since the gateway began; what never did is left out. */
+/** Problems since the gateway started; counters at 0 are omitted. */
 export function troubles_in(latest: Scrape, oldest: Scrape | undefined): TroubleRow[] {
   return troubles.flatMap(([name, label, fine]) => {
     const kinds = label === '' ? [''] : [...new Set(latest.all(name).map((one) => one.labels[label] ?? ''))];
@@ -110,7 +110,7 @@ export function troubles_in(latest: Scrape, oldest: Scrape | undefined): Trouble
   });
 }
 
-// A counter that begins while one looks was 0 before.
+// A counter that is new was 0 before.
 function grown(now: number, before = 0): number {
   return now >= before ? now - before : now;
 }

@@ -1,4 +1,4 @@
-// What this session was told of that went wrong; each opens to what is known of it.
+// The session's errors, each with its details.
 import { useState } from 'preact/hooks';
 
 import { CommandProgress, DetailsOf, LoggedXml } from '../forms';
@@ -18,7 +18,7 @@ export function ErrorLog() {
   void console.events.pulse.beat.value;
   void console.commands.pulse.beat.value;
   void console.history.pulse.beat.value;
-  void console.now.value; // what was refused
+  void console.now.value; // for new refusals
   const entries = log_of(console);
   return (
     <section class="health-part health-log">
@@ -79,7 +79,7 @@ function told(entry: LogEntry): Told {
 function Entry({ entry }: { entry: LogEntry }) {
   const { tone, kind, title, component, more } = told(entry);
   const [is_open, set_open] = useState(false);
-  const at = clock_time(entry.at); // tells apart those that are open at once
+  const at = clock_time(entry.at); // distinguishes open entries
   const summary = (
     <>
       <span class="health-when">{at}</span>

@@ -1,4 +1,4 @@
-// The numbers that one looks at first.
+// The most important numbers.
 import { bytes_text, count_text, duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import * as shell from '../shell/texts';

@@ -1,4 +1,4 @@
-// What went wrong, as the session was told: errors, what was missed, what was refused, when the link was away.
+// The session's error log: errors, gaps, refusals, lost links.
 import { code_of, parse_xml } from 'rois-client';
 
 import type { CommandEntry } from '../state/commands_state';
@@ -17,7 +17,7 @@ export type LogEntry = { at: number; key: string } & (
   | { kind: 'link'; span: Span }
 );
 
-/** The newest first. All of it is bounded, since the rings are. */
+/** Newest first. Bounded, because its sources are rings. */
 export function log_of({ events, traffic, history, commands }: Console): LogEntry[] {
   const entries: LogEntry[] = [];
   for (const entry of events.errors) entries.push({ kind: 'error', at: entry.at, key: `error ${entry.number}`, entry });
@@ -30,13 +30,13 @@ export function log_of({ events, traffic, history, commands }: Console): LogEntr
   return entries.sort((a, b) => b.at - a.at);
 }
 
-/** What the engine says for a refusal; empty when it says nothing. */
+/** The engine's reason for a refusal; may be empty. */
 export function reason_of({ text }: LoggedDocument): string {
   const said = /<(?:\w+:)?reason>([^<]*)</.exec(text)?.[1] ?? '';
   return unescaped(said);
 }
 
-/** Whom a refusal concerns: of a sequence it says which step it does not take. */
+/** The component of a refusal. For a sequence, the component of the refused step. */
 export function refused_component(document: LoggedDocument): string {
   const { component = '', request } = document;
   if (request?.name !== 'execute') return component;
@@ -46,6 +46,6 @@ export function refused_component(document: LoggedDocument): string {
     const meant = all.find(({ path }) => reason.startsWith(`${path}:`));
     return meant ? meant.ref : [...new Set(all.map(({ ref }) => ref))].join(', ');
   } catch {
-    return component; // what was refused may be no XML at all
+    return component; // the refused text may not be XML
   }
 }

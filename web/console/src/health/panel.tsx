@@ -1,4 +1,4 @@
-// How the link, the gateway and the session are: numbers, plots of the last minute, who has what, limits, and what went wrong.
+// The Health panel: numbers, plots of the last minute, sessions, limits and errors.
 import './health.css';
 
 import { untracked } from '@preact/signals';
@@ -16,7 +16,7 @@ export default function HealthPanel() {
   useWatch(metrics.poll);
   useWatch(traffic.ping);
   const at = now.value;
-  // Once a second: not with each answer, too.
+  // Once a second, not with each answer.
   const is_stale = untracked(() => metrics.is_stale(at));
   return (
     <div class={is_stale ? 'health health-stale' : 'health'} role="region" aria-label={t.all()} tabIndex={0}>

@@ -1,4 +1,4 @@
-// A plot of the last minute. What the lines are is told beside them, with the values under the pointer; keys move along them, and a table has the same.
+// A plot of the last minute. A legend shows the values under the pointer; keys move along the lines; a table has the same data.
 import { type Signal, useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 
@@ -10,7 +10,7 @@ import { time_marks, value_marks } from '../ui/scales';
 import { fresh_for, highest, longest_gap, point_near, type Series, shown_for } from './series';
 import * as t from './texts';
 
-/** Lines differ in colour and in their dashes. */
+/** Lines differ in colour and dash pattern. */
 export type Ink = 'first' | 'second' | 'third';
 
 export interface Line {
@@ -23,11 +23,11 @@ export interface PlotProps {
   title: string;
   lines: readonly Line[];
   now: number; // the right edge, ms since 1970
-  /** A value with its unit. */
+  /** Formats a value with its unit. */
   text: (value: number) => string;
-  /** A value at the axis. */
+  /** Formats a value of the axis. */
   short: (value: number) => string;
-  /** The time that is pointed at, in all plots alike. */
+  /** The time under the pointer, shared by all plots. */
   cursor: Signal<number | undefined>;
 }
 
@@ -40,7 +40,7 @@ export function Plot({ title, lines, now, text, short, cursor }: PlotProps) {
   const from = now - shown_for;
   const pointed = cursor.value !== undefined && cursor.value >= from ? cursor.value : undefined;
   const is_open = useSignal(false);
-  const left = useRef(0); // px, where the lines begin
+  const left = useRef(0); // px, left end of the lines
   const { canvas } = useDrawing((sheet) => (left.current = draw(sheet, { lines, from, now, short, pointed })));
   const point_at = (event: PointerEvent) => {
     const box = canvas.current!.getBoundingClientRect();
@@ -107,7 +107,7 @@ function Swatch({ ink }: { ink: Ink }) {
   );
 }
 
-// Every five seconds, the newest first.
+// Every five seconds, newest first.
 function Values({ title, lines, now, text }: Pick<PlotProps, 'title' | 'lines' | 'now' | 'text'>) {
   const times = Array.from({ length: 13 }, (_, i) => now - i * 5000);
   return (
@@ -139,7 +139,7 @@ interface Drawn {
   pointed: number | undefined;
 }
 
-// Gives where the lines begin: beside the longest text of the axis.
+// Returns the left end of the lines, right of the axis labels.
 function draw({ pen, width, height, color }: Sheet, { lines, from, now, short, pointed }: Drawn): number {
   const marks = value_marks(Math.max(0, ...lines.map((line) => highest(line.series) ?? 0)), 3);
   pen.font = `11px ${color('--sans')}`;
@@ -179,7 +179,7 @@ function draw({ pen, width, height, color }: Sheet, { lines, from, now, short, p
       const is_joined = before !== undefined && point.at - before.at <= longest_gap;
       if (is_joined) pen.lineTo(x, y);
       else pen.moveTo(x, y);
-      if (!is_joined && (after === undefined || after.at - point.at > longest_gap)) pen.rect(x - 1, y - 1, 2, 2); // one by itself
+      if (!is_joined && (after === undefined || after.at - point.at > longest_gap)) pen.rect(x - 1, y - 1, 2, 2); // an isolated point
     });
     pen.stroke();
     pen.setLineDash([]);

@@ -9,7 +9,7 @@ import { Plot } from './plot';
 import { documents_a_second, growth, inside, latencies, shown_for } from './series';
 import * as t from './texts';
 
-/** With as many digits as say something. */
+/** Rounded to significant digits. */
 export function ms_text(ms: number): string {
   return t.ms(Number(digits(ms)));
 }
@@ -74,7 +74,7 @@ export function Plots() {
   );
 }
 
-// What `search` finds is not whom it asks.
+// `search` asks the engine, not the component in its condition.
 function asked({ name, component, request }: LoggedDocument): string {
   const operation = request?.name ?? name;
   return operation === 'search' || component === undefined ? operation : `${operation} ${component}`;

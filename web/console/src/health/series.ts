@@ -1,4 +1,4 @@
-// From what was measured to lines in a plot.
+// Converts measurements to the lines of a plot.
 import type { Scrape } from '../state/metrics_state';
 import { median, type Second } from '../state/traffic';
 
@@ -7,18 +7,18 @@ export interface Point {
   value: number;
 }
 
-/** Points in order. Where the next one is farther away than `longest_gap`, nothing was measured. */
+/** Points in order. A distance above `longest_gap` means that nothing was measured. */
 export type Series = readonly Point[];
 
-/** What a plot shows. */
+/** Time shown in a plot. */
 export const shown_for = 60_000; // ms
-/** An older value is not that of now. */
+/** Maximum age of a current value. */
 export const fresh_for = 5000; // ms
 export const longest_gap = 2600; // ms
 
 const since = <T extends { at: number }>(all: Iterable<T>, from: number) => [...all].filter((one) => one.at >= from);
 
-/** How long answers took, in ms: the middle one and the slowest of each second. */
+/** Response times in ms: median and maximum of each second. */
 export function latencies(seconds: Iterable<Second>, from: number): { middle: Series; slowest: Series } {
   const those = since(seconds, from).filter((one) => one.tooks.length > 0);
   return {
@@ -27,7 +27,7 @@ export function latencies(seconds: Iterable<Second>, from: number): { middle: Se
   };
 }
 
-/** Documents of each whole second; a second in which there were none counts as 0. */
+/** Documents in each whole second; 0 for seconds without documents. */
 export function documents_a_second(seconds: Iterable<Second>, from: number, now: number, count: (one: Second) => number): Series {
   const all = [...seconds];
   const by_time = new Map(all.map((one) => [one.at, one]));
@@ -38,7 +38,7 @@ export function documents_a_second(seconds: Iterable<Second>, from: number, now:
 }
 const nothing: Second = { at: 0, sent: 0, received: 0, tooks: [] };
 
-/** How much a counter has grown in a second, between one look and the next. A gateway that was started anew counts from 0. */
+/** Growth of a counter per second between two samples. A decrease means that the gateway was restarted. */
 export function growth(history: Iterable<Scrape>, from: number, count: (scrape: Scrape) => number | undefined): Series {
   const points: Point[] = [];
   let before: Point | undefined;
@@ -52,7 +52,7 @@ export function growth(history: Iterable<Scrape>, from: number, count: (scrape: 
   return points;
 }
 
-/** What a request took inside the gateway, in ms, on average between one look and the next. */
+/** Average time of a request inside the gateway between two samples, in ms. */
 export function inside(history: Iterable<Scrape>, from: number): Series {
   const all = [...history];
   const sums = growth(all, from, (one) => one.value('rois_request_duration_seconds_sum'));
@@ -60,7 +60,7 @@ export function inside(history: Iterable<Scrape>, from: number): Series {
   return sums.flatMap(({ at, value }) => ((counts.get(at) ?? 0) > 0 ? [{ at, value: (value / counts.get(at)!) * 1000 }] : []));
 }
 
-/** The point that is nearest in time, if there is one within a gap. */
+/** The point nearest in time, within `longest_gap`. */
 export function point_near(series: Series, at: number): Point | undefined {
   let best: Point | undefined;
   for (const point of series) if (!best || Math.abs(point.at - at) < Math.abs(best.at - at)) best = point;

@@ -1,4 +1,4 @@
-// Sessions, limits, and what the gateway has counted of what went wrong.
+// Tables of sessions, limits and the gateway's error counters.
 import { count_text, duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import { Badge, Table } from '../ui';

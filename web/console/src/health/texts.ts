@@ -8,13 +8,13 @@ const limit_names: Record<string, Both> = {
   waiting_notifications: ['Waiting notifications of a session', 'セッションの未読通知'],
 };
 const trouble_names: Record<string, Both> = {
-  rois_faults_total: ['Messages that could not be taken', '受け付けられなかったメッセージ'],
-  rois_commands_completed_total: ['Commands that ended otherwise than OK', 'OK 以外で終わったコマンド'],
-  rois_requests_total: ['Operations that were refused', '拒否された操作'],
-  rois_errors_total: ['Errors that were notified', '通知されたエラー'],
-  rois_connections_cut_total: ['Connections closed since their reader was too slow', '読み取りが遅いため閉じた接続'],
-  rois_notifications_lost_total: ['Notifications dropped since a session did not read', '読まれずに捨てた通知'],
-  rois_stray_component_answers_total: ['Late or stray answers of components', '遅れた、または宛先のないコンポーネントの応答'],
+  rois_faults_total: ['Rejected messages', '受け付けられなかったメッセージ'],
+  rois_commands_completed_total: ['Commands that did not end with OK', 'OK 以外で終わったコマンド'],
+  rois_requests_total: ['Refused operations', '拒否された操作'],
+  rois_errors_total: ['Notified errors', '通知されたエラー'],
+  rois_connections_cut_total: ['Connections closed because of a slow reader', '読み取りが遅いため閉じた接続'],
+  rois_notifications_lost_total: ['Notifications dropped because a session did not read', '読まれずに捨てた通知'],
+  rois_stray_component_answers_total: ['Late or unexpected component answers', '遅れた、または宛先のないコンポーネントの応答'],
 };
 
 export const all = text('Health of the link, the gateway and the session', '接続・ゲートウェイ・セッションの状態');
@@ -33,21 +33,21 @@ export const a_second = text_of((n: number) => [`${count_text(n)} /s`, `毎秒 $
 export const ms = text_of((n: number) => [`${n} ms`, `${n} ミリ秒`]);
 export const share = text_of((n: number) => `${n} %`);
 export const metrics_trouble = text_of((why: string) => [
-  `The gateway's numbers cannot be had: ${why}. What follows is as old as the last ones.`,
+  `The gateway's metrics are not available: ${why}. Older values follow.`,
   `ゲートウェイの数値を取得できません: ${why}。以下は最後に得た数値です。`,
 ]);
-export const stale = text_of((age: string) => [`The gateway's numbers are ${age} old.`, `ゲートウェイの数値は${age}前のものです。`]);
-export const no_metrics = text('The gateway has not told its numbers yet.', 'ゲートウェイの数値はまだありません。');
+export const stale = text_of((age: string) => [`The gateway's metrics are ${age} old.`, `ゲートウェイの数値は${age}前のものです。`]);
+export const no_metrics = text('No metrics from the gateway yet.', 'ゲートウェイの数値はまだありません。');
 export const plots = text('The last minute', '直近 1 分');
-export const latency_plot = text('How long answers take, ms', '応答にかかる時間（ミリ秒）');
+export const latency_plot = text('Response time, ms', '応答にかかる時間（ミリ秒）');
 export const middle = text('Round trip', '往復時間');
 export const slowest = text('Slowest', '最も遅い応答');
 export const inside = text('In the gateway', 'ゲートウェイ内');
 export const slowest_was = text_of((what: string, ms: string) => [`Slowest in the last minute: ${what}, ${ms}.`, `直近 1 分で最も遅い応答: ${what}、${ms}。`]);
-export const gateway_plot = text('The gateway, a second', 'ゲートウェイ（毎秒）');
+export const gateway_plot = text('The gateway, per second', 'ゲートウェイ（毎秒）');
 export const notifications = text('Notifications', '通知');
 export const fired = text('Events', 'イベント');
-export const own_plot = text('This console, a second', 'このコンソール（毎秒）');
+export const own_plot = text('This console, per second', 'このコンソール（毎秒）');
 export const sent = text('Sent', '送信');
 export const received = text('Received', '受信');
 export const summary = text_of((line: string, most: string) => [`${line} at most ${most}`, `${line} 最大 ${most}`]);
@@ -63,7 +63,7 @@ export const subscriptions = text('Subscriptions', '購読');
 export const waiting = text('Unread', '未読');
 export const nothing_bound = text('nothing', 'なし');
 export const sessions_untold = text_of((n: string) => [
-  `The gateway has ${n} sessions and does not tell more of them. This console has bound:`,
+  `The gateway has ${n} sessions and gives no details. This console has bound:`,
   `ゲートウェイのセッションは ${n} 件で、詳しい情報はありません。このコンソールのバインド:`,
 ]);
 export const limits = text('Limits', '上限');
@@ -75,16 +75,16 @@ export const reached = text('Reached', '到達');
 export const never = text('never', 'なし');
 export const times = text_of((n: number) => [`${count_text(n)} ${n === 1 ? 'time' : 'times'}`, `${count_text(n)} 回`]);
 export const lately = text_of((n: number) => [`${count_text(n)} lately`, `最近 ${count_text(n)}`]);
-export const limits_untold = text('This gateway does not tell its limits.', 'このゲートウェイは上限を知らせません。');
-export const troubles = text('What went wrong since the gateway began', 'ゲートウェイ開始以降の問題');
+export const limits_untold = text('This gateway does not report its limits.', 'このゲートウェイは上限を知らせません。');
+export const troubles = text('Problems since the gateway started', 'ゲートウェイ開始以降の問題');
 export const trouble_name = text_of((name: string) => trouble_names[name] ?? name);
 export const what = text('What', '内容');
 export const detail = text('Which', '種類');
 export const count = text('Count', '件数');
 export const in_minutes = text('Last two minutes', '直近 2 分');
 export const no_troubles = text('Nothing.', 'ありません。');
-export const log = text('Log of errors', 'エラーの記録');
-export const no_log = text('This session was told of no error.', 'このセッションにエラーの通知はありません。');
+export const log = text('Error log', 'エラーの記録');
+export const no_log = text('No errors in this session.', 'このセッションにエラーの通知はありません。');
 export const error = text('Error', 'エラー');
 export const missed = text('Missed', '受信漏れ');
 export const refused = text('Refused', '拒否');
@@ -93,7 +93,7 @@ export const gap_lost = text_of((n: number) => [`${count_text(n)} notifications 
 export const gap_session = text('The session was lost', 'セッションを失いました');
 export const older = text_of((n: number) => [`Show ${count_text(n)} older`, `さらに古い ${count_text(n)} 件を表示`]);
 export const details = text('Details', '詳細');
-export const no_details = text('The engine says no more.', 'エンジンからの詳しい情報はありません。');
+export const no_details = text('The engine gives no details.', 'エンジンからの詳しい情報はありません。');
 export const request = text('The request', '要求');
 export const document = text('The document', '文書');
 

@@ -1,4 +1,4 @@
-// English and Japanese. Each part of the page has its own `texts.ts` with both side by side.
+// English and Japanese texts. Each part of the page has a `texts.ts` with both.
 import { signal } from '@preact/signals';
 
 export type Language = 'en' | 'ja';
@@ -10,23 +10,23 @@ export const languages: readonly { code: Language; name: string }[] = [
 /** The language of the page. */
 export const language = signal<Language>('en');
 
-/** A text in English and in Japanese, or the one text that is right in both. */
+/** A text in English and Japanese, or one for both. */
 export type Both = readonly [en: string, ja: string] | string;
 
 /**
- * Texts of the page are exported by the `texts.ts` of a part: `export const title = text('Health', '状態監視')`. A component calls them while
- * it renders, `t.title()`, and is rendered again when the language changes.
+ * Defines a text of a `texts.ts`: `export const title = text('Health', '状態監視')`. Components call it while rendering, `t.title()`, and so
+ * are rendered again when the language changes.
  */
 export function text(en: string, ja = en): () => string {
   return () => said([en, ja]);
 }
 
-/** A text that depends on numbers or names: `text_of((n: number) => [`${n} a second`, `毎秒 ${n}`])`. */
+/** A text with arguments: `text_of((n: number) => [`${n} a second`, `毎秒 ${n}`])`. */
 export function text_of<Given extends unknown[]>(made: (...given: Given) => Both): (...given: Given) => string {
   return (...given) => said(made(...given));
 }
 
-/** Whether fingers point: then texts do not speak of keys and of a mouse. */
+/** Whether the main pointer is a finger. Texts then do not mention keys and mouse. */
 export function is_touched(): boolean {
   return globalThis.matchMedia?.('(pointer: coarse)').matches ?? false;
 }
@@ -35,7 +35,7 @@ function said(both: Both): string {
   return typeof both === 'string' ? both : both[language.value === 'ja' ? 1 : 0];
 }
 
-/** The language that the browser wishes for, among those that there are. */
+/** The first supported language of the browser's preferences. */
 export function wished_language(wishes: readonly string[]): Language {
   for (const wish of wishes) {
     if (wish.toLowerCase().startsWith('ja')) return 'ja';
@@ -46,7 +46,7 @@ export function wished_language(wishes: readonly string[]): Language {
 
 // --- Numbers and times, in the language of the page ---
 
-/** `14:03:21.480`, in the time zone of the browser. */
+/** `14:03:21.480`, in the browser's time zone. */
 export function clock_time(at: number, with_ms = true): string {
   const date = new Date(at);
   const two = (n: number) => String(n).padStart(2, '0');
@@ -54,11 +54,11 @@ export function clock_time(at: number, with_ms = true): string {
   return with_ms ? `${time}.${String(date.getMilliseconds()).padStart(3, '0')}` : time;
 }
 
-/** `0.4 s`, `12 s`, `3 min`, `2 h`: how long something is ago or takes. */
+/** A time span: `0.4 s`, `12 s`, `3 min`, `2 h`. */
 export function duration(ms: number): string {
   const japanese = language.value === 'ja';
   const said = (n: number, digits: number, en: string, ja: string) => {
-    const text = n.toFixed(digits); // both languages write a point; toLocaleString takes a millisecond
+    const text = n.toFixed(digits); // both languages use a decimal point; toLocaleString takes 1 ms
     return japanese ? `${text}${ja}` : `${text} ${en}`;
   };
   if (ms < 1000) return said(Math.max(0, Math.round(ms)), 0, 'ms', 'ミリ秒');

@@ -1,4 +1,4 @@
-// The canvas, and what pointers, wheel and keys do on it.
+// The canvas with its pointer, wheel and key input.
 import { useSignal } from '@preact/signals';
 import { useEffect, useMemo, useRef } from 'preact/hooks';
 
@@ -14,9 +14,9 @@ import * as texts from './texts';
 import type { Point } from './view';
 
 export interface BoardProps {
-  /** The drawing, once there is one; undefined when the canvas goes. */
+  /** Called with the drawing when it exists, with undefined when it is removed. */
   begun: (drawing: Drawing | undefined) => void;
-  /** Where the pointer is on the floor. */
+  /** Called with the pointer's position on the floor. */
   pointed: (at: Point | undefined) => void;
   /** Ctrl+Enter. */
   send: () => void;
@@ -88,7 +88,7 @@ export function Board({ begun, pointed, send }: BoardProps) {
     said.value = spoken();
   }
 
-  // Where the cursor is, and who is near: for those who do not see it.
+  // For screen readers: the cursor's position and the things near it.
   function spoken(): string {
     const { cursor } = session.interaction.value;
     if (!cursor) return '';

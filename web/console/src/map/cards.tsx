@@ -1,4 +1,4 @@
-// What was chosen on the floor, and what can be done with it: a target to send a robot to, a person to follow, a robot.
+// Cards of a target, person or robot with the actions for it.
 import { useSignal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { command } from 'rois-client';
@@ -18,7 +18,7 @@ import { PlaceChoice } from './toolbar';
 
 const no_radius = 250; // mm
 
-/** Does something that can fail, and says beside the button why. */
+/** Runs an action and shows its error beside the button. */
 function useDeed(): { run(deed: () => Promise<void>): void; is_busy: boolean; trouble: ComponentChildren } {
   const is_busy = useSignal(false);
   const trouble = useSignal('');
@@ -47,7 +47,7 @@ function Card({ title, close, children }: { title: string; close: () => void; ch
   );
 }
 
-/** The robot that is sent, where there are several. */
+/** Chooses the robot to send, if there are several. */
 function DriverChoice() {
   const session = session_of(useConsole());
   const all = session.drivers();
@@ -59,7 +59,7 @@ function DriverChoice() {
 export interface Sending {
   is_busy: boolean;
   trouble: ComponentChildren;
-  /** Undefined: it cannot be sent now. */
+  /** Undefined if it cannot be sent now. */
   send: (() => void) | undefined;
 }
 
@@ -135,12 +135,12 @@ export function TargetCard({ target, sending }: { target: Target; sending: Sendi
   );
 }
 
-// Another point is no longer the place.
+// A moved target is no longer the named place.
 function moved({ x, y, th }: Target, to: Partial<Target>): Target {
   return { x, y, ...(th !== undefined && { th }), ...to };
 }
 
-/** A number of the target. What is being typed stays as it is typed; `undefined`: nothing was. */
+/** A number of the target. Keeps the text while the user edits it; `undefined`: not being edited. */
 function NumberField({ label, unit, text, hint, put }: { label: string; unit: string; text: string; hint?: string; put: (n: number | undefined) => void }) {
   const draft = useSignal<string | undefined>(undefined);
   const change = (typed: string) => {
@@ -185,7 +185,7 @@ export function ThingCard({ thing, close }: { thing: Shown; close: () => void })
   );
 }
 
-// Leads to the component.
+// A link to the component.
 function ComponentLink({ component }: { component: string }) {
   const console = useConsole();
   return (
@@ -225,13 +225,13 @@ function OwnRobot({ driver }: { driver: Driver }) {
   );
 }
 
-// A sentence, said at once.
+// Speaks a sentence at once.
 function Speaking({ voice }: { voice: string }) {
   const console = useConsole();
   const deed = useDeed();
   const words = useSignal('');
   const say = async () => {
-    // With all that is optional as it is by default: a component that stays bound keeps what was set for a speech before.
+    // Optional parameters get their defaults: a bound component keeps the values of an earlier speech.
     const asked = asked_by(console.profile.component(voice)!, 'start');
     const inputs = Object.fromEntries(asked.map(({ name, default_value }) => [name, { texts: [name === 'speech_text' ? words.value.trim() : (default_value ?? '')] }]));
     const { command_ids, ends } = await console.execute([{ ...command(voice, 'start'), arguments: parameters_from(asked, inputs) }], { give_back: true });
@@ -259,7 +259,7 @@ function Pursuit({ driver, thing, close }: { driver: Driver; thing: Shown; close
   const gap = Number(session.gap.value);
   const is_number = session.gap.value.trim() !== '' && Number.isFinite(gap) && gap > 0;
   const go_there = () => (session.interaction.value = { ...session.interaction.value, chosen: undefined, target: { x: Math.round(thing.x), y: Math.round(thing.y), whom: thing.name } });
-  const pursue = () => is_number && driver.follow && deed.run(() => follow(console, driver, thing, Math.round(gap * 1000)).then(close)); // the map says it, and has a button to stop it
+  const pursue = () => is_number && driver.follow && deed.run(() => follow(console, driver, thing, Math.round(gap * 1000)).then(close)); // the map shows the motion with a button to stop it
   return (
     <Form class="map-form" submit={pursue}>
       <DriverChoice />

@@ -1,4 +1,4 @@
-// Draws the floor on a canvas: nothing while nothing changes, and never more than once a picture.
+// Draws the floor on a canvas: only after changes and at most once a frame.
 import { effect, signal, untracked } from '@preact/signals';
 
 import type { Console } from '../state/console';
@@ -18,7 +18,7 @@ import type { MapSession } from './session';
 import { Trails } from './trails';
 import { box_around, fitted, margin_of, type Point, type Size, to_floor, to_screen, type View, with_point } from './view';
 
-/** As much of a canvas as this needs. */
+/** The needed part of HTMLCanvasElement. */
 export interface Sheet {
   width: number;
   height: number;
@@ -28,26 +28,26 @@ export interface Sheet {
 export interface DrawingTools {
   make_sheet: () => Sheet;
   read_palette: () => Palette;
-  /** A signal is read in it: called again when that changes. */
+  /** Reads a signal, so that drawings follow the theme. */
   theme: () => string;
   age_text: (ms: number) => string;
   distance_text: (mm: number) => string;
 }
 
-const target_edge = 60; // px that the target keeps from the edge when the size changes
+const target_edge = 60; // px, distance of the target from the edge after a resize
 const usual_radius = 250; // mm, of a robot that is not on the map
-const least_move = 1.5; // px that a thing at rest moves before it is drawn elsewhere
-const noise = 4; // standard deviations that a robot at rest may seem to move
-const reach = { fine: 10, coarse: 20 }; // px around a thing that still hit it
+const least_move = 1.5; // px, smallest movement of a resting thing that is drawn
+const noise = 4; // standard deviations of a resting robot's position that are not drawn
+const reach = { fine: 10, coarse: 20 }; // px, hit radius around a thing
 
 export class Drawing {
-  /** What was drawn so far, for those who measure. */
+  /** Drawings so far, for measurements. */
   readonly counts = { pictures: 0, grounds: 0, trails: 0 };
-  /** Pixels a mm, of the last picture. */
+  /** Pixels per mm in the last frame. */
   readonly scale = signal(0);
-  is_coarse = false; // fingers point
+  is_coarse = false; // for touch
   private size: Size = { width: 0, height: 0 };
-  private ratio = 1; // pixels of the device for one of CSS
+  private ratio = 1; // device pixels per CSS pixel
   private is_due = false;
   private is_over = false;
   private shown: Shown[] = [];
@@ -70,7 +70,7 @@ export class Drawing {
     this.ways = tools.make_sheet();
   }
 
-  /** Draws from now on whatever changes. */
+  /** Redraws on changes from now on. */
   start(): Stop {
     const { robots, entities, commands, map, link, status, bindings } = this.console;
     const { interaction, hovered, layers, engine } = this.session;
@@ -102,21 +102,21 @@ export class Drawing {
       sheet.height = Math.round(size.height * ratio);
     }
     this.keep_target();
-    this.draw(); // a canvas that gets another size is empty
+    this.draw(); // resizing clears a canvas
   }
 
-  // The card of the target may have made the picture smaller.
+  // Keeps the target visible when its card shrinks the canvas.
   private keep_target(): void {
     const { view, target } = this.session.interaction.peek();
     if (view && target) this.session.interaction.value = { ...this.session.interaction.peek(), view: with_point(view, this.size, target, target_edge) };
   }
 
-  /** With reduced motion things jump. */
+  /** With reduced motion, things jump. */
   set is_still(is_still: boolean) {
     this.glide.is_still = is_still;
   }
 
-  // --- What the user does ---
+  // --- User input ---
 
   act(input: Input): void {
     const before = this.session.interaction.peek();
@@ -132,12 +132,12 @@ export class Drawing {
     return to_floor(this.view, this.size, at);
   }
 
-  /** Whether it is drawn in the right half. */
+  /** Whether it is in the right half of the screen. */
   is_right(at: Point): boolean {
     return to_screen(this.view, this.size, at).x > this.size.width / 2;
   }
 
-  /** What is near the keyboard's cursor, the nearest first. */
+  /** Things near the keyboard's cursor, nearest first. */
   near(point: Point): Shown[] {
     return this.shown.filter((one) => distance(one, point) < 2000).sort((a, b) => distance(a, point) - distance(b, point));
   }
@@ -193,7 +193,7 @@ export class Drawing {
 
   // --- Drawing ---
 
-  /** Whether a picture drawn now would differ from the last one: something has come, gone or moved, or its label has changed. */
+  /** Whether a new frame would differ: a thing was added, removed or moved, or its label changed. */
   private has_news(): boolean {
     const now = this.console.environment.now();
     const { shown } = this.session.scene();
@@ -202,7 +202,7 @@ export class Drawing {
     return shown.length !== this.shown.length || shown.some((one, i) => !is_same(one, this.shown[i]) || this.glide.is_news(one.key, told(one), now, this.slack_of(one)));
   }
 
-  // People are told of only when they move; a robot's position is asked for, so it comes with noise.
+  // Robot positions are polled and so have noise. Persons are reported only when they move.
   private slack_of({ kind, ellipse }: Shown): number {
     return Math.max(least_move / this.scale.peek(), kind === 'robot' && ellipse ? noise * ellipse.a : 0);
   }

@@ -1,4 +1,4 @@
-// The robots that can be sent about, with the components that move them, and what they are doing for this console.
+// Robots that this console can send, their motion components and current motions.
 import { value } from 'rois-client';
 
 import { show_document, show_panel } from '../shell/navigation';
@@ -10,14 +10,14 @@ import type { Shown } from './scene';
 import { target_words } from './says';
 import * as texts from './texts';
 
-/** A robot, and the components of its engine that share its wheels. */
+/** A robot and the components of its engine that move it. */
 export interface Driver {
   engine: string;
   name: string;
-  robot: Robot | undefined; // unless nobody tells where it is
+  robot: Robot | undefined; // undefined if its position is unknown
   navigation: string | undefined;
   follow: string | undefined;
-  wheels: string[]; // all that move it
+  wheels: string[]; // all components that move it
 }
 
 const moving_types = ['Navigation', 'Follow', 'Move'];
@@ -34,31 +34,31 @@ export function drivers_of({ profile, robots }: Console): Driver[] {
   });
 }
 
-/** What it does for this console: `start`s that have not ended, the newest last. */
+/** Its open `start` commands from this console, newest last. */
 export function motions_of({ commands }: Pick<Console, 'commands'>, driver: Driver): CommandEntry[] {
   return commands.open().filter((one) => one.command_type === 'start' && driver.wheels.includes(one.component));
 }
 
-/** As navigation takes it: the name of a place, `x, y`, or `x, y, th`. */
+/** The target as navigation's text: the name of a place, `x, y`, or `x, y, th`. */
 export function target_text({ x, y, th, place }: Target): string {
   return place ?? (th === undefined ? `${x}, ${y}` : `${x}, ${y}, ${th}`);
 }
 
-/** Sends it there. `time_limit` is in ms, 0 for none. Rejects when it was not accepted. */
+/** Sends the robot. `time_limit` in ms; 0: none. Rejects if the command is not accepted. */
 export async function go(console: Console, driver: Driver, target: Target, time_limit: number): Promise<void> {
   const named = { target_position: value.strings([target_text(target)]), time_limit: value.int(time_limit) };
   const said = target_words(target);
   await drive(console, driver, driver.navigation!, named, said, texts.arrived(driver.name, said));
 }
 
-/** Has it follow somebody, by the permanent name when it is known. */
+/** Makes the robot follow a person, by the permanent name if known. */
 export async function follow(console: Console, driver: Driver, { thing, identity, name }: Shown, distance: number): Promise<void> {
   const { ref: code, codebook } = identity ?? thing;
   const whom = value.identifier(codebook === '' ? code : { code, codebook_ref: codebook });
   await drive(console, driver, driver.follow!, { target_object_ref: whom, distance: value.int(distance) }, name, texts.followed(driver.name, name));
 }
 
-/** Stops what this console has it do. */
+/** Stops the robot's motions of this console. */
 export async function stop(console: Console, driver: Driver): Promise<void> {
   await end_all(console, motions_of(console, driver));
 }
@@ -69,15 +69,16 @@ async function end_all(console: Console, motions: readonly CommandEntry[]): Prom
   await Promise.all(stops.map((one) => one.ends));
 }
 
-// Where commands lead, as the user was told: the engine knows a point alone.
+// Targets in words, as shown to the user; the command has only coordinates.
 const whithers = new WeakMap<CommandEntry, string>();
 
-/** In words, when this page has sent it. */
+/** In words, if this page sent the command. */
 export function whither_of(entry: CommandEntry | undefined): string | undefined {
   return entry && whithers.get(entry);
 }
 
-// Another component of the same wheels is stopped first; a new start of the same one replaces what it did. The map shows the motion with a button to stop it.
+// Stops another component of the same wheels first; a new start of the same component replaces its motion. The map shows the motion with
+// a stop button.
 async function drive(console: Console, driver: Driver, ref: string, named: Parameters<Console['run']>[2], whither: string, done: string): Promise<void> {
   const { notices, commands } = console;
   const about = `drive ${driver.engine}`;
@@ -95,6 +96,6 @@ async function drive(console: Console, driver: Driver, ref: string, named: Param
         notices.tell('error', texts.failed(whither), { about, detail: reason || status!, action: { label: texts.why(), act: open } });
       } else if (motions_of(console, driver).length === 0) notices.tell('info', texts.stopped(driver.name), { about });
     },
-    () => undefined, // the session is gone; the link says so
+    () => undefined, // the session is lost, as the link shows
   );
 }

@@ -1,4 +1,5 @@
-// Between two poses that were received, things move evenly. With reduced motion, or after a leap, they jump. The noise of a thing at rest is not drawn.
+// Moves things smoothly between received poses. With reduced motion, or over long distances, they jump. Noise of a resting thing is not
+// drawn.
 import { distance, type FloorPose, turned } from '../state/floor';
 
 interface Way {
@@ -6,21 +7,21 @@ interface Way {
   to: FloorPose;
   began: number; // ms
   takes: number; // ms
-  anchor: FloorPose; // the last pose that was farther than noise from the anchor before it
-  moved: number; // ms: when that was
+  anchor: FloorPose; // last pose beyond noise from the previous anchor
+  moved: number; // ms, time of that
 }
 
-const slowest = 300; // ms; who is told of less often jumps the rest of the way
+const slowest = 300; // ms; with rarer updates, a thing jumps the rest of the way
 const quickest = 50;
 const leap = 1500; // mm
-const settles = 1000; // ms after the last movement; every pose is drawn until then
+const settles = 1000; // ms after the last movement, until which every pose is drawn
 const least_turn = 6; // degrees
 
 export class Glide {
   is_still = false;
   private ways = new Map<string, Way>();
 
-  /** Where a thing is drawn whose pose was received. A thing at rest stays where it is drawn until it is farther than `slack` mm from there. */
+  /** The drawn pose for a received one. A resting thing keeps its drawn pose until it is more than `slack` mm away. */
   pose(key: string, told: FloorPose, now: number, slack = 0): FloorPose {
     const way = this.ways.get(key);
     if (way === undefined || distance(way.to, told) > leap) {
@@ -35,25 +36,25 @@ export class Glide {
     return between(next, now);
   }
 
-  /** Whether a picture with this pose would show something new. */
+  /** Whether drawing this pose would change the picture. */
   is_news(key: string, told: FloorPose, now: number, slack: number): boolean {
     const way = this.ways.get(key);
     return way === undefined || is_off(way.anchor, told, slack) || (now - way.moved < settles && is_off(way.to, told, 0));
   }
 
-  /** Whether something has not arrived. */
+  /** Whether any thing is moving between poses. */
   is_moving(now: number): boolean {
     for (const { began, takes, from, to } of this.ways.values()) if (from !== to && now - began < takes) return true;
     return false;
   }
 
-  /** Forgets all but these. */
+  /** Removes all other things. */
   keep(keys: ReadonlySet<string>): void {
     for (const key of this.ways.keys()) if (!keys.has(key)) this.ways.delete(key);
   }
 }
 
-// Farther than so many mm away, or turned by more than a few degrees. Without slack any difference counts.
+// Farther than `slack` mm, or turned by more than a few degrees. Without slack, any difference counts.
 function is_off(from: FloorPose, to: FloorPose, slack: number): boolean {
   const turn = from.th === undefined || to.th === undefined ? Number(from.th !== to.th) * 360 : Math.abs(turned(to.th - from.th));
   return distance(from, to) > slack || turn > (slack > 0 ? least_turn : 0);

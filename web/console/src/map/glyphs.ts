@@ -1,10 +1,10 @@
-// How robots, people, faces and sounds look from above. Shapes differ, not only colours.
+// Symbols of robots, persons, faces and sounds from above. They differ in shape, not only in colour.
 import type { Pen } from './pen';
 import type { Palette } from './palette';
 import type { Kind, Shown } from './scene';
 import type { Point } from './view';
 
-/** Standard deviations: 95 % of a normal distribution in the plane are within. */
+/** In standard deviations: 95 % of a two-dimensional normal distribution lie inside. */
 export const confidence = 2.4477;
 const least: Record<Kind, number> = { robot: 10, person: 10, face: 4, sound: 5 }; // px
 const gone = [3, 3];
@@ -13,7 +13,7 @@ export function color_of(kind: Kind, palette: Palette): string {
   return palette[kind];
 }
 
-/** How large a thing is drawn, in pixels. */
+/** The drawn radius in pixels. */
 export function radius_of(pen: Pick<Pen, 'length'>, { kind, radius }: Pick<Shown, 'kind' | 'radius'>): number {
   return Math.max(least[kind], pen.length(radius));
 }
@@ -46,7 +46,7 @@ function draw_robot(pen: Pen, { th, freshness }: Shown, at: Point, radius: numbe
   });
 }
 
-// Shoulders and a head; a nose where they look. Full when it is known who it is.
+// Shoulders and head, with a nose in the viewing direction. Filled if identified.
 function draw_person(pen: Pen, { th, freshness, identity }: Shown, at: Point, radius: number, style: string): void {
   const { context, palette } = pen;
   const alpha = /gone|old|unknown/.test(freshness) ? 0 : identity ? 1 : 0.45;
@@ -71,7 +71,7 @@ function draw_person(pen: Pen, { th, freshness, identity }: Shown, at: Point, ra
   pen.stroke(style, 1.5, freshness === 'live' ? 1 : 0.75);
 }
 
-// A diamond, and what it looks at.
+// A diamond with a viewing direction.
 function draw_face(pen: Pen, { th, freshness }: Shown, at: Point, radius: number, style: string): void {
   const { context } = pen;
   if (th !== undefined)
@@ -106,7 +106,7 @@ function draw_sound(pen: Pen, { freshness }: Shown, at: Point, radius: number, s
   }
 }
 
-/** Where it is with 95 % certainty; nothing when that is smaller than what is drawn of it. */
+/** The ellipse of 95 % certainty, if it is larger than the symbol. */
 export function draw_certainty(pen: Pen, { ellipse, kind }: Shown, at: Point): void {
   if (!ellipse) return;
   const [a, b] = [pen.length(ellipse.a * confidence), pen.length(ellipse.b * confidence)];

@@ -1,4 +1,4 @@
-// Where robots are under way to, whoever has sent them.
+// Current goals of robots, sent by any session.
 import { useEffect } from 'preact/hooks';
 import { pose_of, type Parameter } from 'rois-client';
 
@@ -15,8 +15,8 @@ export interface Goal extends Point {
   driver: Driver;
   kind: 'go' | 'follow';
   th?: number;
-  text: string; // the name of the place or of whom it follows, or where it is
-  /** Sent by this console. Of others' one only knows what they have set last. */
+  text: string; // name of the place or followed person, or the position
+  /** Sent by this console. For other sessions, only the last set parameters are known. */
   is_mine: boolean;
 }
 
@@ -24,7 +24,7 @@ type Place = Omit<Goal, 'driver' | 'is_mine'>;
 
 const arrived = 300; // mm
 
-/** Of all robots that are under way, as far as one can know. */
+/** The known goals of all moving robots. */
 export function goals_of(console: Console, shown: readonly Shown[]): Goal[] {
   return drivers_of(console).flatMap((driver) => goal_of(console, driver, shown) ?? []);
 }
@@ -42,13 +42,13 @@ function goal_of(console: Console, driver: Driver, shown: readonly Shown[]): Goa
   return undefined;
 }
 
-/** Those whose parameters say where a robot goes: what others have bound, and what works for this console. */
+/** Components whose parameters give the robot's goal: bound by other sessions, or working for this console. */
 function components_of(console: Console, driver: Driver): string[] {
   const at_work = motions_of(console, driver).map((one) => one.component);
   return [driver.navigation, driver.follow].filter((ref) => ref !== undefined).filter((ref) => at_work.includes(ref) || console.status.of(ref)?.status === 'BUSY');
 }
 
-/** Asks for the parameters that it takes. */
+/** Polls their parameters. */
 export function useGoals(): void {
   const console = useConsole();
   void console.commands.pulse.beat.value;
@@ -59,7 +59,7 @@ export function useGoals(): void {
   }, [refs.join(' ')]);
 }
 
-// The last position is where it ends.
+// The last position is the goal.
 function place_of(target: Parameter | undefined, map: FloorMap | undefined): Place | undefined {
   const text = target?.values.at(-1)?.trim();
   if (text === undefined) return undefined;

@@ -1,9 +1,9 @@
-// What stands still: the floor with its grid, walls, furniture, places and frames. Drawn once, until the view changes.
+// The static layer: floor, grid, walls, furniture, places and frames. Redrawn only when the view changes.
 import type { Bounds, FloorMap, Place } from '../state/floor_map';
 import type { Pen } from './pen';
 import { round_step, to_floor } from './view';
 
-/** What the user wants to see. */
+/** The layers that the user has switched on. */
 export interface Layers {
   grid: boolean;
   places: boolean;
@@ -48,7 +48,7 @@ export function draw_ground(pen: Pen, map: FloorMap | undefined, layers: Layers)
   for (const frame of frames_of(map)) draw_axes(pen, frame);
 }
 
-/** A frame of reference, where it is in that of the map. */
+/** A frame of reference in the map's frame. */
 export interface Axes {
   x: number;
   y: number;
@@ -61,12 +61,12 @@ export function frames_of(map: FloorMap): Axes[] {
   return [{ x: 0, y: 0, heading: 0, name: short_name(map.crs) }, ...own];
 }
 
-/** The part of a frame's name that tells it from others. */
+/** The last part of a frame's name. */
 export function short_name(crs: string): string {
   return crs.slice(crs.lastIndexOf(':') + 1);
 }
 
-/** How wide a cell of the grid is, in mm. */
+/** Width of a grid cell in mm. */
 export function grid_step(scale: number): number {
   return round_step(least_cell / scale);
 }
@@ -117,7 +117,7 @@ function draw_walls(pen: Pen, { walls, bounds: { x, y, width, depth } }: FloorMa
   pen.stroke(palette.wall, Math.max(2, pen.length(wall_width)));
 }
 
-// Around the place: what conditions mean by its name.
+// The area of a place, as used in conditions.
 function draw_area(pen: Pen, { x, y, width, depth }: Place): void {
   pen.dashed(3, 4);
   box(pen, { x: x - width / 2, y: y - depth / 2, width, depth }, () => {
@@ -127,14 +127,14 @@ function draw_area(pen: Pen, { x, y, width, depth }: Place): void {
   pen.dashed();
 }
 
-// Where a name is written: its middle, in px.
+// Centre of a written name, in px.
 interface Name {
   x: number;
   y: number;
   half: number; // of its width
 }
 
-// A name that would lie over one of `names` is left out until the view is closer; undefined: no names are shown.
+// Omits a name that would overlap one of `names` until the user zooms in; undefined: shows no names.
 function draw_place(pen: Pen, place: Place, names: Name[] | undefined): void {
   const { context, palette } = pen;
   const at = pen.at(place);
@@ -158,18 +158,18 @@ function draw_place(pen: Pen, place: Place, names: Name[] | undefined): void {
   pen.text(place_name(place), { x: at.x, y: at.y + name_below }, palette.soft, 'center');
 }
 
-/** As people write it. */
+/** With spaces instead of underscores. */
 export function place_name({ name }: Place): string {
   return name.replaceAll('_', ' ');
 }
 
-/** Where a place's name stands, so that no other one is written over it. */
+/** The box of a place's name; other labels avoid it. */
 export function name_box(pen: Pen, place: Place, width: number): { x: number; y: number; width: number; height: number } {
   const at = pen.at(place);
   return { x: at.x - width / 2, y: at.y + name_below - 2, width, height: 16 };
 }
 
-/** Where a frame's name stands: beside its origin; at the edge before it. */
+/** The box of a frame's name, beside its origin and inside the screen. */
 export function frame_box(pen: Pen, frame: Axes, width: number): { x: number; y: number; width: number; height: number } {
   const at = pen.at(frame);
   const room = pen.size.width - 8 - width;
@@ -193,7 +193,7 @@ function draw_axes(pen: Pen, frame: Axes): void {
     const angle = ((frame.heading + turn) * Math.PI) / 180;
     context.font = palette.font;
     context.textBaseline = 'middle';
-    // Beside its arrow, between both: there may be a wall along it.
+    // Beside its arrow, on the inner side: a wall may lie along the outer side.
     const [along, beside] = [36, 10 * side];
     pen.text(letter, { x: at.x + along * Math.cos(angle) - beside * Math.sin(angle), y: at.y - along * Math.sin(angle) - beside * Math.cos(angle) }, palette.soft, 'center');
   }

@@ -1,4 +1,4 @@
-// How the map is worked with, and what its signs mean.
+// Help: input methods and symbols.
 import { is_touched } from '../i18n/i18n';
 import { Dialog, Fact } from '../ui';
 import * as t from './texts';

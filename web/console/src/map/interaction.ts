@@ -1,17 +1,17 @@
-// What pointers, wheel and keys do to the map: one step after the other, each a pure function of what was before.
+// Map input by pointer, wheel and keys, as pure functions from state to state.
 import { turned } from '../state/floor';
 import { panned, pinched, type Point, type Size, to_floor, to_screen, type View, with_point, zoomed } from './view';
 
-/** Where the robot would be sent. Without `th` it stands as it arrives. */
+/** Target for a robot. Without `th`, the robot keeps its direction of arrival. */
 export interface Target extends Point {
   th?: number;
-  /** The place by whose name it is sent, as long as nobody has turned it. */
+  /** The place whose name is sent, until the user changes the direction. */
   place?: string;
-  /** The name of the person or thing that stands there. */
+  /** Name of the person or thing there. */
   whom?: string;
 }
 
-/** What is at a point of the screen. */
+/** What is under a point of the screen. */
 export type Hit =
   | { what: 'floor' }
   | { what: 'target' }
@@ -26,27 +26,27 @@ type Gesture =
   | { kind: 'pinching'; pointers: [number, number]; at: [Point, Point] };
 
 export interface Interaction {
-  /** Undefined: all of the floor, however large the screen is. */
+  /** Undefined: the whole floor, whatever the screen's size. */
   view: View | undefined;
   target: Target | undefined;
-  /** Key of the thing that was chosen. */
+  /** Key of the selected thing. */
   chosen: string | undefined;
-  /** Where the keyboard is on the floor. */
+  /** The keyboard's cursor on the floor. */
   cursor: Point | undefined;
   gesture: Gesture;
 }
 
 export const at_rest: Interaction = { view: undefined, target: undefined, chosen: undefined, cursor: undefined, gesture: { kind: 'none' } };
 
-/** What it takes to understand an input. */
+/** What an input needs to know. */
 export interface Surroundings {
   size: Size;
-  /** What is seen while `view` is undefined. */
+  /** The view while `view` is undefined. */
   whole: View;
   hit(at: Point): Hit;
   /** The direction in which the robot would arrive there. */
   arrival(at: Point): number;
-  /** What N and P step through. */
+  /** The things that N and P step through. */
   things: readonly ({ key: string } & Point)[];
 }
 
@@ -62,13 +62,13 @@ export type Input =
   | { kind: 'choose'; key: string | undefined }
   | { kind: 'key'; key: string; shift: boolean; ctrl: boolean };
 
-const slop = 5; // px that a click may move
-const edge = 48; // px that the cursor keeps from the edge
+const slop = 5; // px, tolerance of a click
+const edge = 48; // px, distance of the cursor from the edge
 const steps = { fine: 250, coarse: 1000 }; // mm
 const turn_step = 15; // degrees
 export const key_zoom = 1.25;
 
-/** The same object when nothing has changed. */
+/** Returns the same object if nothing has changed. */
 export function stepped(before: Interaction, input: Input, around: Surroundings): Interaction {
   const view = before.view ?? around.whole;
   const middle = { x: around.size.width / 2, y: around.size.height / 2 };
@@ -133,7 +133,7 @@ function moved(before: Interaction, { pointer, at }: Input & { kind: 'move' }, a
   }
 }
 
-// The target looks to where the pointer is; too near to it there is no direction.
+// Turns the target towards the pointer. Too near, there is no direction.
 function turned_to(before: Interaction, pointer: number, at: Point, around: Surroundings): Interaction {
   const { target } = before;
   if (!target) return before;
@@ -208,7 +208,7 @@ function typed(before: Interaction, { key, shift, ctrl }: Input & { kind: 'key' 
   }
 }
 
-/** The keys that the map understands; all others belong to the page. */
+/** Keys of the map; all others are the page's. */
 export function is_map_key({ key, ctrlKey, metaKey, altKey }: Pick<KeyboardEvent, 'key' | 'ctrlKey' | 'metaKey' | 'altKey'>): boolean {
   if (altKey || metaKey) return false;
   return /^(Arrow.*|Enter)$/.test(key) || (!ctrlKey && /^([-+=0qenp ]|Home|Escape)$/.test(key));
@@ -229,7 +229,7 @@ function to_cursor(before: Interaction, cursor: Point, around: Surroundings): In
   return { ...before, cursor, view: stays ? before.view : seen };
 }
 
-// One thing after the other.
+// Drops one thing at a time.
 function escaped(before: Interaction): Interaction {
   if (before.gesture.kind !== 'none') return { ...before, gesture: { kind: 'none' } };
   if (before.target) return { ...before, target: undefined };
@@ -237,12 +237,12 @@ function escaped(before: Interaction): Interaction {
   return before.cursor ? { ...before, cursor: undefined } : before;
 }
 
-// Whole degrees; and a place that is entered from another side is not the place as it is meant.
+// In whole degrees. Drops the place: its own direction no longer applies.
 function with_direction({ x, y, whom }: Target, th: number): Target {
   return { x, y, th: Math.round(turned(th)), ...(whom !== undefined && { whom }) };
 }
 
-// As exactly as it is shown.
+// Rounded to the displayed precision.
 function rounded({ x, y }: Point): Target {
   return { x: Math.round(x / 10) * 10, y: Math.round(y / 10) * 10 };
 }

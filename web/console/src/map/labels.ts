@@ -1,12 +1,12 @@
-// Names beside what they name, none over another.
+// Places labels beside their things without overlaps.
 import type { Size, Point } from './view';
 
 export interface Label {
   key: string;
   width: number; // px
-  at: Point; // of what it names
-  radius: number; // of what it names
-  /** It is shown even where there is no room. */
+  at: Point; // of the thing
+  radius: number; // of the thing
+  /** Shown even if there is no room. */
   must: boolean;
 }
 
@@ -20,11 +20,11 @@ const height = 18;
 const sides = ['right', 'left', 'below', 'above'] as const;
 type Side = (typeof sides)[number];
 
-/** Remembers on which side a name was, so that it does not jump about. */
+/** Remembers the side of each label, so that it does not jump. */
 export class Labels {
   private readonly sides = new Map<string, Side>();
 
-  /** By key; those that find no room, beside one another and what is taken already, are not in it. The first ones choose first. */
+  /** The boxes by key, in order of priority. Labels without room are missing. */
   placed(labels: readonly Label[], size: Size, before: readonly Place[] = []): Map<string, Place> {
     const places = new Map<string, Place>();
     const taken = [...before];

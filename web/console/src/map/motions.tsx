@@ -1,4 +1,4 @@
-// What robots are doing now, each with a button to stop it.
+// The robots' current motions, each with a stop button.
 import { useConsole } from '../shell/context';
 import { Button, tried } from '../ui';
 import { motions_of, stop } from './driving';

@@ -1,27 +1,27 @@
-// The switch `observe`: has the engine look for people, faces and sounds, so that they appear though no application has asked for them.
+// The Observe switch: starts the detection of persons, faces and sounds, so that the map shows them without another application.
 import { effect, signal, untracked } from '@preact/signals';
 import { command, RoisError } from 'rois-client';
 
 import type { GiveBack } from '../state/bindings';
 import type { Console } from '../state/console';
 
-/** What is bound and started for it, where the engine has it. */
+/** Types of components to bind and start, if the engine has them. */
 export const observing_types = ['PersonDetection', 'PersonLocalization', 'PersonIdentification', 'FaceLocalization', 'SoundLocalization'];
 
 export interface Observing {
   is_wanted: boolean;
-  is_busy: boolean; // starting, or giving back
-  /** Components that sense for it. */
+  is_busy: boolean; // starting or releasing
+  /** Components that are observing. */
   on: readonly string[];
-  /** Components that it could not have, and why. */
+  /** Components that could not be started, with the reason. */
   refused: readonly { ref: string; error: unknown }[];
 }
 
-const remembered = 'map.observe'; // a page that is loaded again goes on
+const remembered = 'map.observe'; // restored after a reload
 
 const off: Observing = { is_wanted: false, is_busy: false, on: [], refused: [] };
 
-/** Goes on when the panel is taken down, and through new sessions, until it is switched off. */
+/** Observes across panel changes and sessions until it is switched off. */
 export class Observer {
   readonly state;
   private readonly held = new Map<string, { give_back: GiveBack; was_running: boolean }>();
@@ -35,13 +35,13 @@ export class Observer {
     effect(() => {
       const { link, profile } = console;
       const [session, is_open] = [link.session.value, link.is_open];
-      void profile.components.value; // what the engine has got since is started, too
+      void profile.components.value; // also starts components that are new in the profile
       untracked(() => {
         if (session !== this.session) this.forget(session);
         if (is_open && this.state.value.is_wanted) this.next(() => this.take());
       });
     });
-    // What was released elsewhere is not sensed for us any more.
+    // Forgets components that were released elsewhere.
     effect(() => {
       const mine = console.bindings.mine.value;
       untracked(() => {
@@ -51,7 +51,7 @@ export class Observer {
         if (left.length < on.length && !is_busy) this.tell(left.length > 0 || !console.link.is_open ? { on: left } : off);
       });
     });
-    // Neither is what was stopped: it is started again as soon as nobody else has a use for it.
+    // Restarts stopped components when no command needs them.
     effect(() => {
       void console.commands.pulse.beat.value;
       void console.now.value;
@@ -59,12 +59,12 @@ export class Observer {
     });
   }
 
-  /** Those of the engine that it is about. */
+  /** The engine's components to observe with. */
   get components(): string[] {
     return observing_types.flatMap((type) => this.console.profile.of_type(type).map((one) => one.ref));
   }
 
-  /** Resolves when they sense, or have been given back. */
+  /** Resolves when the components are started or released. */
   async turn_to(is_wanted: boolean): Promise<void> {
     this.tell({ is_wanted, refused: [] });
     await this.next(() => (this.state.value.is_wanted ? this.take() : this.give_back()));
@@ -87,7 +87,7 @@ export class Observer {
         await this.start(ref);
         this.tell({ on: this.sensing(), refused: this.state.value.refused.filter((one) => one.ref !== ref) });
       } catch (error) {
-        if (error instanceof RoisError && ['link_lost', 'session_lost', 'closed'].includes(error.failure)) return; // it is tried again with the next link
+        if (error instanceof RoisError && ['link_lost', 'session_lost', 'closed'].includes(error.failure)) return; // retried with the next link
         this.tell({ refused: [...this.state.value.refused.filter((one) => one.ref !== ref), { ref, error }] });
       }
     }
@@ -122,7 +122,7 @@ export class Observer {
     if ([...this.held.keys()].some((ref) => !commands.goes_on(ref) && bindings.lent(ref) === 1)) void this.next(() => this.take());
   }
 
-  // Releasing stops what was bound for it; what the user had bound before is stopped, unless it was at work already.
+  // Releasing stops components bound by Observe. Components bound by the user before are stopped unless they were already working.
   private async give_back(): Promise<void> {
     const { console } = this;
     for (const [ref, { give_back, was_running }] of [...this.held]) {

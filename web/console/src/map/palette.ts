@@ -1,4 +1,4 @@
-// The colours of ui/tokens.css, as a canvas takes them.
+// The colours of ui/tokens.css for canvases.
 import { color } from '../shell/theme';
 
 const names = {

@@ -1,4 +1,4 @@
-// The floor map: where robots and people are, and where robots are sent from.
+// The Map panel: shows robots and persons and sends robots.
 import './map.css';
 
 import { useSignal } from '@preact/signals';
@@ -55,7 +55,7 @@ export default function MapPanel() {
   );
 }
 
-// The card stands where it does not cover what it is about, and stays on that side.
+// Places the card on the side where it does not cover its subject, and keeps it there.
 function Chosen({ sending, drawing }: { sending: ReturnType<typeof useSending>; drawing: Drawing | undefined }) {
   const console = useConsole();
   const session = session_of(console);
@@ -65,7 +65,7 @@ function Chosen({ sending, drawing }: { sending: ReturnType<typeof useSending>; 
     const at = target ?? session.scene().shown.find((one) => one.key === chosen);
     return at !== undefined && drawing !== undefined && drawing.is_right(at);
   }, [key, drawing]);
-  // The button that had the focus may have gone with its card.
+  // The focused button may have been removed with its card.
   const cards = useRef<HTMLDivElement>(null);
   const about = target ? 'target' : chosen;
   const before = useRef<string>();
@@ -78,7 +78,7 @@ function Chosen({ sending, drawing }: { sending: ReturnType<typeof useSending>; 
   return <div ref={cards} class={at_left ? 'map-cards map-cards-left' : 'map-cards'}>{target ? <TargetCard target={target} sending={sending} /> : <ChosenThing chosen={chosen!} />}</div>;
 }
 
-// As often as positions come in.
+// Updated with every position.
 function ChosenThing({ chosen }: { chosen: string }) {
   const console = useConsole();
   const session = session_of(console);
@@ -102,7 +102,7 @@ function Scale({ drawing }: { drawing: Drawing }) {
   );
 }
 
-// Of the map, or of what is told when there is none.
+// The map's frame, or that of the positions if there is no map.
 function Frame() {
   const console = useConsole();
   const session = session_of(console);
@@ -116,7 +116,7 @@ function Frame() {
   );
 }
 
-/** What there is to say of the whole picture. */
+/** Remarks about the whole picture. */
 function Remarks() {
   const console = useConsole();
   const session = session_of(console);

@@ -1,4 +1,4 @@
-// What everything is drawn with: a canvas in CSS pixels, and where the floor is on it.
+// Drawing tools: a canvas in CSS pixels and the floor's transformation.
 import type { Palette } from './palette';
 import { type Point, type Size, to_screen, type View } from './view';
 
@@ -31,7 +31,7 @@ export class Pen {
     this.context.lineTo(to.x, to.y);
   }
 
-  /** Draws with the origin at a point of the screen, x along a direction of the floor in degrees. */
+  /** Draws with the origin at a screen point and x in a direction of the floor in degrees. */
   turned({ x, y }: Point, degrees: number, draw: () => void): void {
     this.context.save();
     this.context.translate(x, y);

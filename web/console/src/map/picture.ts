@@ -1,4 +1,4 @@
-// One picture of the floor, on top of what stands still: who is there, where they go, and what the user is about to do.
+// The dynamic layer: things, goals and the user's target.
 import type { Place } from '../state/floor_map';
 import { bearing, type FloorPose } from '../state/floor';
 import { draw_certainty, draw_choice, draw_thing, radius_of } from './glyphs';
@@ -10,7 +10,7 @@ import type { Pen } from './pen';
 import type { Shown } from './scene';
 import type { Point, Size } from './view';
 
-/** A robot that would be sent, before it is. */
+/** A robot at the target, before it is sent. */
 export interface Preview {
   target: Target;
   radius: number; // mm
@@ -21,7 +21,7 @@ export interface Preview {
 
 export interface Picture {
   shown: readonly Shown[];
-  /** Where each is drawn. */
+  /** The pose to draw. */
   pose(one: Shown): FloorPose;
   goals: readonly Goal[];
   /** Of the map. */
@@ -32,12 +32,12 @@ export interface Picture {
   hovered: string | undefined;
   cursor: Point | undefined;
   preview: Preview | undefined;
-  /** Of what is not told of any more: `12 s`. */
+  /** The age of an outdated thing: `12 s`. */
   age_text(ms: number): string;
 }
 
 const order = { face: 0, sound: 1, person: 2, robot: 3 };
-/** How far from a target the knob is by which one turns it, in px: nearer where the picture ends. */
+/** Distance in px of the rotation handle from its target; shorter at the edge of the screen. */
 export function knob_distance(radius: number, at: Point, th: number, { width, height }: Size): number {
   const angle = (th * Math.PI) / 180;
   const room = (before: number, all: number, way: number) => ((way > 0 ? all - before : before) - 9) / Math.max(Math.abs(way), 1e-9);
@@ -143,7 +143,7 @@ function pill(pen: Pen, text: string, at: Point, style: string): void {
   pen.text(text, { x: at.x, y: at.y + 1 }, palette.ink, 'center');
 }
 
-/** A thing's name, and how old it is unless it was told of just now. */
+/** The thing's name, with its age unless it is current. */
 export function label_of({ name, freshness, age }: Shown, age_text: (ms: number) => string): string {
   return freshness === 'live' ? name : `${name} · ${age_text(age)}`;
 }

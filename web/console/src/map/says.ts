@@ -1,10 +1,10 @@
-// Numbers of the floor in words.
+// Formats numbers of the floor.
 import { duration } from '../i18n/i18n';
 import { confidence } from './glyphs';
 import type { Target } from './interaction';
 import * as texts from './texts';
 
-/** `4.20 m`; nearer than a metre `0.25 m`. */
+/** `4.20 m`; below a metre `0.25 m`. */
 export function metres(mm: number, digits = 2): string {
   const said = (mm / 1000).toFixed(digits);
   return texts.metres(Number(said) === 0 ? (0).toFixed(digits) : said);
@@ -21,19 +21,19 @@ export function degrees(th: number): string {
   return texts.degrees(Math.round(th).toFixed(0).replace(/^-0$/, '0'));
 }
 
-/** Whole seconds below 10 s, then steps of 5 s: a map at rest is drawn again only when a label changes. */
+/** In seconds below 10 s, then in steps of 5 s, because a changed label redraws the map. */
 export function age(ms: number): string {
   const step = ms < 10_000 ? 1000 : 5000;
   return duration(Math.max(1000, Math.floor(ms / step) * step)).replace('.0', '');
 }
 
-/** `± 0.12 m (95 %)`, of both axes when they differ. */
+/** `± 0.12 m (95 %)`, for both axes if they differ. */
 export function certainty(ellipse: { a: number; b: number }): string {
   const [a, b] = [metres(ellipse.a * confidence), metres(ellipse.b * confidence)];
   return texts.certain(a === b ? a : `${a} × ${b}`);
 }
 
-/** A target as it is told to people: a place or a person by its name. */
+/** A target in words: a place or person by name, else the position. */
 export function target_words(target: Target): string {
   return target.place ?? target.whom ?? position(target);
 }

@@ -1,4 +1,4 @@
-// What is on the floor now: robots, people, faces and sounds, each with how sure one can be that it is still there.
+// The things on the floor now, each with its freshness.
 import type { FloorMap, RobotFrame } from '../state/floor_map';
 import { ellipse_of, type Entity, type Robot, type Thing } from '../state/things';
 import { distance, frame_named, out_of, turned_by } from '../state/floor';
@@ -7,27 +7,27 @@ import type { Point } from './view';
 export type Kind = 'robot' | Entity['kind'];
 
 /**
- * - `live`: told of just now;
- * - `quiet`: sensed, but not told of for a while: who stands still is not told of;
- * - `old`: sensed, and not told of for so long that one should not rely on it;
- * - `unknown`: the link is lost, nobody senses any longer, or the events come without results: nobody knows whether it is still there;
- * - `gone`: its component has told that it is out of sight, or a robot tells nothing. It was there.
+ * - `live`: reported just now;
+ * - `quiet`: watched but not reported for a while, as a standing person;
+ * - `old`: watched but not reported for too long to rely on;
+ * - `unknown`: the link is lost, its component has stopped, or events arrive without results;
+ * - `gone`: its component reported it out of sight, or a robot has stopped reporting.
  */
 export type Freshness = 'live' | 'quiet' | 'old' | 'unknown' | 'gone';
 
 export interface Shown extends Point {
   key: string;
   kind: Kind;
-  /** Its name: the permanent one of somebody who was identified. */
+  /** The name; of an identified person the permanent one. */
   name: string;
   thing: Thing;
   th?: number;
   radius: number; // mm
   ellipse?: { a: number; b: number; angle: number };
   freshness: Freshness;
-  age: number; // ms since it was told of
+  age: number; // ms since the last report
   identity?: Entity['identity'];
-  /** Of its trail's points. */
+  /** The frame of its trail. */
   frame?: RobotFrame;
 }
 
@@ -38,26 +38,26 @@ export interface Told {
   now: number;
   /** Whether the link is open. */
   is_live: boolean;
-  /** Whether anybody has this component sense. */
+  /** Whether a component is working for any session. */
   senses(component: string): boolean;
 }
 
 export interface Scene {
   shown: Shown[];
-  /** Told in a frame of which nobody knows where it is. */
+  /** Things in frames without a known position. */
   lost: Thing[];
 }
 
-const robot_radius = 250; // mm, of one that is not on the map
+const robot_radius = 250; // mm, of a robot that is not on the map
 const radii: Record<Entity['kind'], number> = { person: 220, face: 90, sound: 110 };
 const quiet_after: Record<Kind, number> = { robot: 2000, person: 5000, face: 2000, sound: 1500 }; // ms
 const old_after = 30_000; // ms
-const shown_for = 30_000; // ms, when it is gone
-// Nobody tells that a sound is over, or that somebody has looked away: a sound that is not told of any more is over, and a face is where
-// it was as long as somebody is there.
-const echo = 6000; // ms for which they are shown then
+const shown_for = 30_000; // ms, after it is gone
+// The end of a sound and a face that turns away are not reported. So an unreported sound is over, and a face stays as long as a person is
+// there.
+const echo = 6000; // ms for which they are then shown
 const head = 500; // mm
-const surely_sensed = 2000; // ms: who was told of just now is sensed, whatever one knows of bindings
+const surely_sensed = 2000; // ms after a report, a thing counts as watched, whatever the bindings
 
 export function scene_of({ robots, entities, map, now, is_live, senses }: Told): Scene {
   const scene: Scene = { shown: [], lost: [] };
@@ -67,7 +67,7 @@ export function scene_of({ robots, entities, map, now, is_live, senses }: Told):
     const pose = frame ? out_of(frame, thing) : thing;
     const ellipse = ellipse_of(thing);
     const shown: Shown = { key: `${kind} ${thing.ref}`, kind, thing, x: pose.x, y: pose.y, age: Math.max(0, now - thing.at), ...more };
-    if (pose.th !== undefined && kind !== 'sound') shown.th = pose.th; // a sound's is where it is heard, not where it looks
+    if (pose.th !== undefined && kind !== 'sound') shown.th = pose.th; // a sound's direction points to it
     if (ellipse) shown.ellipse = { ...ellipse, angle: turned_by(frame, ellipse.angle) };
     if (frame) shown.frame = frame;
     scene.shown.push(shown);

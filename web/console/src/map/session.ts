@@ -1,4 +1,4 @@
-// What outlives the panel when another one is shown in its place: where one looked, what was chosen, whether it observes.
+// State of the map, kept while another panel is shown: view, selection, Observe.
 import { effect, signal, untracked } from '@preact/signals';
 
 import type { Console } from '../state/console';
@@ -12,11 +12,11 @@ import { type Scene, scene_of } from './scene';
 export class MapSession {
   readonly interaction = signal<Interaction>(at_rest);
   readonly hovered = signal<string | undefined>(undefined);
-  /** The engine of the robot that is sent about; empty: the first one. */
+  /** Engine of the robot to send; empty: the first one. */
   readonly engine = signal('');
   readonly layers = signal<Layers>(all_layers);
   readonly shows_table = signal(false);
-  /** For the next way and the next pursuit, as typed. */
+  /** Time limit and distance for the next commands, as typed. */
   readonly time_limit = signal('120'); // s; empty: none
   readonly gap = signal('1.0'); // m
   readonly observer: Observer;
@@ -26,7 +26,7 @@ export class MapSession {
     const hidden = new Set((console.environment.recall('map.hidden') ?? '').split(' '));
     this.layers.value = Object.fromEntries(Object.keys(all_layers).map((name) => [name, !hidden.has(name)])) as unknown as Layers;
     this.shows_table.value = console.environment.recall('map.table') === 'shown';
-    // A robot that was chosen is the one that is sent.
+    // Selecting a robot also makes it the one to send.
     effect(() => {
       const { chosen } = this.interaction.value;
       const driver = untracked(() => this.drivers().find(({ robot }) => robot !== undefined && `robot ${robot.ref}` === chosen));
@@ -39,7 +39,7 @@ export class MapSession {
     return view.state === 'there' ? view.map : undefined;
   }
 
-  /** As it is at this moment. */
+  /** The present scene. */
   scene(): Scene {
     const { robots, entities, environment, link, bindings, commands, status } = this.console;
     return scene_of({
@@ -57,7 +57,7 @@ export class MapSession {
     return drivers_of(this.console);
   }
 
-  /** The one that is sent about. */
+  /** The robot to send. */
   driver(): Driver | undefined {
     const all = this.drivers();
     return all.find((one) => one.engine === this.engine.value) ?? all[0];

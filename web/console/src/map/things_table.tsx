@@ -1,4 +1,4 @@
-// What is on the floor as a table: always there for screen readers, and shown to all who ask for it. It changes once a second.
+// The things on the floor as a table: always for screen readers, visible on request. Updated once a second.
 import { untracked } from '@preact/signals';
 
 import { useConsole } from '../shell/context';

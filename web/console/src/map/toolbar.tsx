@@ -1,4 +1,4 @@
-// Above the map: observing, places by name, layers, table, help.
+// Toolbar of the map: Observe, places, layers, table, help.
 import { useSignal } from '@preact/signals';
 
 import { useConsole } from '../shell/context';
@@ -33,7 +33,7 @@ export function Toolbar() {
   );
 }
 
-const fresh_for = 30_000; // ms: then news are old
+const fresh_for = 30_000; // ms, maximum age of a current report
 
 function Observe() {
   const console = useConsole();
@@ -82,7 +82,7 @@ function Observe() {
   );
 }
 
-/** Of the target: sets it. */
+/** Chooses a place as the target. */
 export function PlaceChoice() {
   const session = session_of(useConsole());
   const places = session.map?.places ?? [];

@@ -1,4 +1,4 @@
-// The ways that things have come, on a canvas of their own: while the view stays, only what is new is drawn.
+// Trails on a separate canvas: while the view stays, only new parts are drawn.
 import { out_of } from '../state/floor';
 import { color_of } from './glyphs';
 import type { Pen } from './pen';
@@ -7,25 +7,25 @@ import type { TrailPoint } from '../state/things';
 import type { Point } from './view';
 
 const longest = { robot: 600, person: 200, face: 0, sound: 0 }; // points
-const overhang = 60; // points that may stay too long before all is drawn anew
-const lag = 300; // ms: what is drawn glides behind what was told
+const overhang = 60; // points beyond the limit before all is redrawn
+const lag = 300; // ms: the drawing lags behind the reports
 
 interface Drawn {
   ring: Shown['thing']['trail'];
   from: number; // numbers of points
-  to: number; // the next to be drawn
+  to: number; // the next to draw
   last: Point | undefined; // on the floor
 }
 
 export class Trails {
   private drawn = new Map<string, Drawn>();
 
-  /** The view, or anything else, is another one. */
+  /** Forgets all drawn trails, as after a change of view. */
   forget(): void {
     this.drawn.clear();
   }
 
-  /** Whether something on it has to vanish. */
+  /** Whether a drawn part must be removed. */
   is_stale(shown: readonly Shown[]): boolean {
     if (this.drawn.size === 0) return false;
     const those = new Map(shown.map((one) => [one.key, one]));
@@ -36,7 +36,7 @@ export class Trails {
     return false;
   }
 
-  /** Draws what is not there yet. */
+  /** Draws the new parts. */
   draw(pen: Pen, shown: readonly Shown[], now: number): void {
     pen.context.lineJoin = 'round';
     pen.context.lineCap = 'round';
@@ -63,7 +63,7 @@ export class Trails {
     }
   }
 
-  /** Where the trail ends that is drawn; the rest of the way is to where the thing is drawn. */
+  /** The end of the drawn trail. The rest leads to the thing's drawn pose. */
   end_of(key: string): Point | undefined {
     return this.drawn.get(key)?.last;
   }

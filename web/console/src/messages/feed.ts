@@ -1,4 +1,4 @@
-// The rows of the list: documents and gaps that pass the filter, kept up to date without looking at all of them again.
+// The rows of the message list: documents and gaps that match the filter, updated incrementally.
 import type { GapEntry } from '../state/events_state';
 import type { LoggedDocument } from '../state/documents';
 
@@ -8,8 +8,8 @@ export const categories: readonly Category[] = ['event', 'completed', 'error', '
 export interface Filter {
   hidden: ReadonlySet<Category>;
   component: string; // empty: all
-  text: string; // empty: all; no case
-  with_own: boolean; // also what the console asks by itself
+  text: string; // empty: all; case-insensitive
+  with_own: boolean; // include the console's own requests
 }
 
 export const no_filter: Filter = { hidden: new Set(), component: '', text: '', with_own: false };
@@ -27,11 +27,11 @@ export function category_of({ kind, name, return_code }: LoggedDocument): Catego
   return name === 'completed' ? 'completed' : 'notice';
 }
 
-/** What rows come from: rings, or the list of a recording. */
+/** The source of the rows: the console's rings or a recording. */
 export interface Source {
   documents: { readonly first: number; readonly end: number; numbered(number: number): LoggedDocument | undefined };
   gaps: { readonly first: number; readonly size: number; numbered(number: number): GapEntry | undefined };
-  /** The component that a document is about, also where it does not name it. */
+  /** The component that a document concerns, even if it does not name it. */
   component_of(document: LoggedDocument): string;
 }
 
@@ -55,7 +55,7 @@ export class Feed {
     this.update();
   }
 
-  /** Takes what has come, and drops what the rings have forgotten; gives whether anything has changed. */
+  /** Adds new rows and removes forgotten ones. Returns whether anything changed. */
   update(): boolean {
     const { documents, gaps } = this.source;
     let changed = this.forget();
@@ -63,7 +63,7 @@ export class Feed {
     const { end } = documents;
     for (this.next_document = Math.max(this.next_document, documents.first); this.next_document < end; ++this.next_document) {
       const document = documents.numbered(this.next_document);
-      if (!document) continue; // forgotten before others
+      if (!document) continue; // its ring has dropped it already
       changed = (this.passes(document) && this.rows.push(document) > 0) || changed;
     }
     const gaps_end = gaps.first + gaps.size;
@@ -83,7 +83,7 @@ export class Feed {
     return gone > 0;
   }
 
-  // Some are forgotten before others that are older.
+  // Rings forget at different rates, so forgotten rows may lie between others.
   private sweep(): boolean {
     const { documents } = this.source;
     const before = this.rows.length;
@@ -94,7 +94,7 @@ export class Feed {
     return kept < before;
   }
 
-  /** Whether the filter lets it through. */
+  /** Whether the document matches the filter. */
   passes(document: LoggedDocument): boolean {
     const { hidden, component, with_own } = this.filter;
     if (document.is_own && !with_own) return false;
@@ -103,7 +103,7 @@ export class Feed {
     return this.text === '' || document.text.toLowerCase().includes(this.text);
   }
 
-  // At its time; gaps are few, and almost always at the end.
+  // Inserts the gap by time. Gaps are few and almost always at the end.
   private insert(gap: GapEntry): boolean {
     let at = this.rows.length;
     while (at > 0 && this.rows[at - 1]!.at > gap.at) at -= 1;

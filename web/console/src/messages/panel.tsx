@@ -1,4 +1,4 @@
-// Every document in and out: a list that can be filtered, and the document that is chosen.
+// The Messages panel: a list of all documents with a filter, and the selected document.
 import './messages.css';
 
 import { useEffect, useMemo, useState } from 'preact/hooks';
@@ -16,14 +16,14 @@ import { command_of, component_of } from './summary';
 import * as t from './texts';
 import { Toolbar } from './toolbar';
 
-const look_every = 250; // ms: nobody reads faster
+const look_every = 250; // ms, update period
 
 export default function MessagesPanel() {
   const console = useConsole();
   const [frame, is_wide] = useIsWide(900); // for the list and the document side by side
   const tape = recording.value;
   const feed = useMemo(() => new Feed(tape ? source_of(tape) : live(console), filter.value), [tape, filter.value]);
-  // What the filter could show: not what the console has asked by itself, unless that is wanted.
+  // The total: all documents that the filter could show, so without the console's own requests unless they are included.
   const { with_own } = filter.value;
   const whole = useMemo(() => new Feed(tape ? source_of(tape) : live(console), { ...no_filter, with_own: with_own || tape !== undefined }), [tape, with_own]);
   const [, again] = useState(0);

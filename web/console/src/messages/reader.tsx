@@ -1,4 +1,4 @@
-// One document: what it belongs to, its details, and its text.
+// The selected document: its relations, details and text.
 import { useState } from 'preact/hooks';
 import { is_notification, notification_of, parse_xml, Results, results_of } from 'rois-client';
 
@@ -56,7 +56,7 @@ export function Reader({ document, tape, choose }: ReaderProps) {
   );
 }
 
-// What the engine can still be asked about it.
+// Details that the engine can still provide.
 function Live({ document }: { document: LoggedDocument }) {
   const console = useConsole();
   const { events, commands } = console;
@@ -114,18 +114,18 @@ function values_in(document: LoggedDocument): Results {
     const told = notification_of(element);
     return told.name === 'receive_event' ? told.results : new Results();
   } catch {
-    return new Results(); // a recording may hold anything
+    return new Results(); // a recording may have any content
   }
 }
 
-// Of a fault: where in the request it is.
+// The place in the request that a fault names.
 function place_of({ kind, text }: LoggedDocument): { line: number; column: number } | undefined {
   const found = kind === 'fault' ? /^[^>]*?\sline="(\d+)"/.exec(text.slice(text.indexOf('<fault'))) : null;
   const column = /^[^>]*?\scolumn="(\d+)"/.exec(text.slice(text.indexOf('<fault')))?.[1];
   return found ? { line: Number(found[1]), column: Number(column ?? 1) } : undefined;
 }
 
-// Entries come in the order of their documents.
+// Entries are in the order of their documents.
 function entry_of<Entry extends EventEntry | ErrorEntry>(ring: Ring<Entry>, { number }: LoggedDocument): Entry | undefined {
   let low = 0;
   let high = ring.size;
@@ -138,7 +138,7 @@ function entry_of<Entry extends EventEntry | ErrorEntry>(ring: Ring<Entry>, { nu
   return found?.document === number ? found : undefined;
 }
 
-const most_later = 500; // documents after a request in which its answer is looked for
+const most_later = 500; // documents searched after a request for its answer
 
 function answer_to({ documents }: Console, tape: ShownRecording | undefined, request: LoggedDocument): LoggedDocument | undefined {
   for (let i = request.number + 1; i <= request.number + most_later; ++i) {

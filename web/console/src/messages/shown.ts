@@ -1,4 +1,4 @@
-// What the panel shows; it outlives the panel, which is taken down when another one is chosen.
+// State of the panel, kept while another panel is shown.
 import { signal } from '@preact/signals';
 
 import type { Recording } from '../state/recording';
@@ -9,9 +9,9 @@ export interface ShownRecording extends Recording {
 }
 
 export const filter = signal<Filter>(no_filter);
-/** A recording that is read in place of what happens. */
+/** The open recording; undefined: live. */
 export const recording = signal<ShownRecording | undefined>(undefined);
-/** The rows as they were when the user stopped time. */
+/** The rows when the user paused the list. */
 export const paused = signal<{ rows: readonly Row[]; until: number } | undefined>(undefined);
-/** Of the recording: the number of the document that is read. Of what happens it is `console.selection.document`. */
+/** The selected document of a recording. Live: `console.selection.document`. */
 export const chosen_of_recording = signal<number | undefined>(undefined);

@@ -1,10 +1,10 @@
-// What a document says, in a few words, without reading it whole.
+// Summarizes a document in a few words without parsing it.
 import type { LoggedDocument } from '../state/documents';
 import { unescaped } from '../ui/xml_text';
 
 const known = new WeakMap<LoggedDocument, string>();
 
-/** `person-1 1.00, 2.00 m` or `number: 2` of an event, `speech_synthesis start` of an execute, the reason of a refusal. */
+/** Event: `person-1 1.00, 2.00 m` or `number: 2`; execute: `speech_synthesis start`; refusal: its reason. */
 export function summary(document: LoggedDocument): string {
   const before = known.get(document);
   if (before !== undefined) return before;
@@ -13,18 +13,18 @@ export function summary(document: LoggedDocument): string {
   return made;
 }
 
-/** Its name; of an event the type of the event. */
+/** The root's name; for an event, the event type. */
 export function name_of({ name, text }: LoggedDocument): string {
   return (name === 'receive_event' && first_text(text, 'event_type')) || name;
 }
 
-/** The component that a document names, be it in a condition; empty: none. */
+/** The component that the document names, also in a condition; empty: none. */
 export function component_of({ component, text, kind }: LoggedDocument): string {
   if (component !== undefined || kind !== 'request') return component ?? '';
   return unescaped(/>component_ref<\/[^>]*>\s*<(?:[\w.-]+:)?Literal>([^<]*)</.exec(text)?.[1] ?? '');
 }
 
-/** Of a completed: the command's id. */
+/** The command id of a `completed`. */
 export function command_of({ text }: LoggedDocument): string {
   return first_text(text, 'command_id');
 }
@@ -83,7 +83,7 @@ function values(text: string, element: string): string[] {
   });
 }
 
-// Who is where comes first, instead of the lists that say the same.
+// Positions come first and replace the lists of the same values.
 function of_event(document: LoggedDocument): string {
   const those = located(document.text);
   const more = values(document.text, 'result').filter((one) => those.length === 0 || !/^(\w+_ref|position_data):/.test(one));

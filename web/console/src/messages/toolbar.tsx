@@ -1,4 +1,4 @@
-// What is shown, whether time stands still, and recordings.
+// Filter, pause and recordings.
 import { useRef } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
@@ -10,7 +10,7 @@ import { categories, type Category, type Feed, type Filter, type Row } from './f
 import { chosen_of_recording, filter, paused, recording } from './shown';
 import * as t from './texts';
 
-const most_bytes = 64 * 1024 * 1024; // of a recording that is opened
+const most_bytes = 64 * 1024 * 1024; // of a recording
 
 export function Toolbar({ feed, rows, all }: { feed: Feed; rows: readonly Row[]; all: number }) {
   const { profile } = useConsole();

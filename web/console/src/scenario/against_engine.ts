@@ -1,4 +1,4 @@
-// What of a scenario this engine cannot do: told before it runs. It may be run all the same, since engines change.
+// Checks a scenario against the engine's profile and warns. The scenario may still run, because engines change.
 import type { ComponentView, ProfileState } from '../state/profile_state';
 import type { Scenario, ScenarioCommand } from './model';
 import type { Problem } from './read';

@@ -1,4 +1,4 @@
-// The scenario that is open, what is changed in it, and how it runs. One for each console: it outlives the panel that shows it.
+// The open scenario, its changes and its run. One for each console, kept while another panel is shown.
 import { computed, signal } from '@preact/signals';
 
 import reception from '../../../../client-cpp/scenarios/reception.xml?raw';
@@ -12,22 +12,22 @@ import { plain_lines } from './source';
 
 export type HistoryEntry = { number: number; at: number } & ({ kind: 'transition'; from: string; to: string; by: string; trigger: string } | { kind: 'print'; line: string });
 
-/** A run; it changes in place: read `pulse.beat.value`, then this. */
+/** A run. It changes in place: read `pulse.beat.value` first. */
 export interface Run {
   began_at: number;
   ended_at?: number;
   outcome?: Outcome;
-  /** Empty before the first one: components are bound then. */
+  /** Empty before the first state, while components are bound. */
   state: string;
   entered_at: number;
   is_leaving: boolean;
-  /** Paths of elements in the text that is run. */
+  /** Paths of elements in the running text. */
   last_trigger: string;
-  /** How many transitions there were. */
+  /** Number of transitions. */
   taken: number;
   visits: Map<string, number>;
   variables: ReadonlyMap<string, readonly string[]>;
-  changed: Map<string, number>; // when a variable changed last
+  changed: Map<string, number>; // time of a variable's last change
 }
 
 const most_history = 1000;
@@ -38,11 +38,11 @@ export class Desk {
   readonly text = signal('');
   readonly file_name = signal(shipped_name);
   readonly reading = computed(() => read_scenario(this.text.value));
-  /** The last one that could be run, for the diagram. */
+  /** The last valid scenario, for the diagram. */
   readonly drawn = signal<Scenario | undefined>(undefined);
-  /** All of the diagram, however small. */
+  /** Whether the diagram is scaled to fit. */
   readonly shows_whole = signal(false);
-  /** The state that is looked at; empty: the scenario itself. */
+  /** The selected state; empty: the scenario itself. */
   readonly chosen = signal('');
   readonly history = new Ring<HistoryEntry>(most_history);
   readonly pulse: Pulse;
@@ -67,7 +67,7 @@ export class Desk {
     return this.text.value === plain_lines(reception);
   }
 
-  // --- The text ---
+  // --- Text ---
 
   open(name: string, text: string): void {
     if (this.is_running.value) return;
@@ -84,7 +84,7 @@ export class Desk {
     this.open(shipped_name, reception);
   }
 
-  /** Changes of the same thing, one after the other, are undone at once. */
+  /** Successive changes with one key are undone together. */
   edit(text: string, key: string): void {
     if (this.is_running.value || text === this.text.value) return;
     if (this.undone.at(-1)?.key !== key || key === '') this.undone.push({ text: this.text.value, key });

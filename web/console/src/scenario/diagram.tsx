@@ -1,4 +1,4 @@
-// Figure 1: states and what leads from one to the other. What runs lights up, and the way that was taken.
+// The state diagram (figure 1). Highlights the current state and the last transition.
 import { useSignal } from '@preact/signals';
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 
@@ -10,7 +10,7 @@ import type { Scenario, State } from './model';
 import { arrow_head, neighbour, picture_of, shown_name } from './picture';
 import * as w from './texts';
 
-const smallest = 0.5; // below that one scrolls
+const smallest = 0.5; // below this scale it scrolls
 
 export function Diagram({ desk, scenario, edit }: { desk: Desk; scenario: Scenario; edit: (state: string) => void }) {
   const frame = useRef<HTMLDivElement>(null);
@@ -81,7 +81,7 @@ export function Diagram({ desk, scenario, edit }: { desk: Desk; scenario: Scenar
   );
 }
 
-// The box and what comes after it.
+// Scrolls to the box and its successors.
 function bring_into_view(frame: HTMLElement, box: Box, scale: number): void {
   const [top, bottom] = [(box.y - 60) * scale, (box.y + 110) * scale];
   const [left, right] = [(box.x - box.width / 2 - 20) * scale, (box.x + box.width / 2 + 20) * scale];
@@ -116,7 +116,7 @@ interface StateProps {
   run: Run | undefined;
   is_start: boolean;
   is_chosen: boolean;
-  /** With the Tab key; the others with arrows. */
+  /** The item with the Tab stop; arrows reach the others. */
   is_reachable: boolean;
   choose: () => void;
 }

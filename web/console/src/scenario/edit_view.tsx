@@ -1,4 +1,4 @@
-// A state and what leads on from it, or the scenario itself, in forms.
+// Forms for a state and its triggers, or for the scenario itself.
 import { Button, Icon, SelectField } from '../ui';
 import type { Desk } from './desk';
 import { may_add, names_of, unused, with_new } from './editing';

@@ -1,27 +1,27 @@
-// What the forms offer: where a new element goes, how it begins, and which values there are to choose from.
+// Editing in forms: the place and content of new elements, and choices for values.
 import type { ComponentView } from '../state/profile_state';
 import { type AttributeType, rule_of, steps } from './grammar';
 import { type Node, nodes_in, with_attribute, with_child } from './source';
 
-/** Of all elements of a name, in order; for choosing among states, components and variables. */
+/** The names of all elements of these kinds, in order. */
 export function names_of(root: Node, ...elements: string[]): string[] {
   return [...nodes_in(root)].filter((one) => elements.includes(one.name)).map((one) => (one.element.attribute('name') ?? '').trim());
 }
 
-/** The child before which one of this name has to stand; undefined: at the end. */
+/** The child before which a new element goes; undefined: at the end. */
 export function place_for(parent: Node, name: string): Node | undefined {
   const groups = rule_of(parent.name)?.content ?? [];
   const group = groups.findIndex((one) => one.names.includes(name));
   return parent.children.find((child) => groups.findIndex((one) => one.names.includes(child.name)) > group);
 }
 
-/** Whether one more may stand there. */
+/** Whether one more is allowed. */
 export function may_add(parent: Node, name: string): boolean {
   const group = rule_of(parent.name)?.content.find((one) => one.names.includes(name));
   return group !== undefined && parent.children.filter((one) => group.names.includes(one.name)).length < group.most;
 }
 
-/** A new element as it begins: with names that there are, so that as little as can be is wrong with it. */
+/** A new element, filled with existing names so that it is as valid as possible. */
 export function begun(name: string, root: Node, state: string): string {
   const first = (...elements: string[]) => names_of(root, ...elements)[0] ?? '';
   const [variable, component] = [first('variable'), first('component')];
@@ -76,7 +76,7 @@ export function with_new(text: string, parent: Node, name: string, root: Node, s
   return with_child(text, parent, begun(name, root, state).replace(/<(\/?)/g, `<$1${prefix}`), place_for(parent, name));
 }
 
-// --- Conditions: exactly one of these says what has to hold ---
+// --- Conditions: a `when` has exactly one of these ---
 
 export const relations = ['is', 'is_not', 'in', 'not_in', 'empty', 'near'] as const;
 
@@ -84,7 +84,7 @@ export function relation_of(node: Node): (typeof relations)[number] | undefined 
   return relations.find((one) => node.element.attribute(one) !== undefined);
 }
 
-/** The text with another relation, which keeps the operand as far as it means something there. */
+/** The text with another relation; keeps the operand if it fits. */
 export function with_relation(text: string, node: Node, to: (typeof relations)[number], read: (text: string) => Node, variable: string): string {
   const from = relation_of(node);
   const again = (changed: string) => at_path(read(changed), node.path);
@@ -101,9 +101,9 @@ function at_path(root: Node, path: string): Node {
   return path.split('/').slice(1).reduce((node, index) => node.children[Number(index)]!, root);
 }
 
-// --- What may be chosen ---
+// --- Choices ---
 
-/** Names that there must be: nothing else may be written. */
+/** Names that must exist; no others are valid. */
 export function closed_choices(type: AttributeType, root: Node): string[] | undefined {
   if (type === 'state') return names_of(root, 'state', 'end');
   if (type === 'variable') return names_of(root, 'variable');
@@ -111,7 +111,7 @@ export function closed_choices(type: AttributeType, root: Node): string[] | unde
   return undefined;
 }
 
-/** Names that the engine knows; it may know others another day. */
+/** Names that the engine knows; others may be valid later. */
 export function suggestions(node: Node, attribute: string, components: readonly ComponentView[], meant: (name: string) => ComponentView | undefined): string[] | undefined {
   const own = meant(node.element.attribute('component') ?? '');
   const asked = own ? [own] : components;
@@ -141,7 +141,7 @@ function results_of(trigger: Node | undefined, components: readonly ComponentVie
   return [...new Set(messages.flatMap((one) => one.results.map(({ name }) => name)))].sort();
 }
 
-/** The steps that a trigger may have: only events and answers bring results to take. */
+/** The steps allowed in a trigger: only events and answers have results to take. */
 export function steps_for(trigger: Node): readonly string[] {
   return trigger.name === 'event' || trigger.name === 'answered' ? steps : steps.filter((one) => one !== 'take');
 }

@@ -1,4 +1,4 @@
-// A form for an element of a scenario: its attributes, its text, and the elements in it.
+// A form for an element: attributes, text and children.
 import { useConsole } from '../shell/context';
 import { IconButton, SelectField, TextField } from '../ui';
 import type { Desk } from './desk';
@@ -14,12 +14,12 @@ export interface FormProps {
   node: Node;
 }
 
-/** What is wrong with an element, in words. */
+/** Problems of an element in words. */
 export function problems_at(problems: readonly Problem[], node: Node): string[] {
   return problems.filter((one) => one.node?.path === node.path).map(({ say }) => say());
 }
 
-/** With its name, and what moves it and takes it away. */
+/** With its name and buttons to move and remove it. */
 export function ElementCard({ desk, root, node }: FormProps) {
   const title = w.element(node.name);
   const sisters = (node.parent?.children ?? []).filter((one) => same_group(one, node));
@@ -61,7 +61,7 @@ function addable(node: Node): readonly string[] {
   return rule_of(node.name)?.content.length === 1 ? steps_for(node) : [];
 }
 
-/** Chooses what is added; one kind alone is a button's worth. */
+/** A menu to add an element; a button if there is only one kind. */
 export function Adder({ desk, root, parent, names }: { desk: Desk; root: Node; parent: Node; names: readonly string[] }) {
   if (names.length === 0) return null;
   const state = name_of_state(parent);
@@ -89,14 +89,14 @@ function name_of_state(node: Node | undefined): string {
   return node.name === 'state' || node.name === 'end' ? (node.element.attribute('name') ?? '') : name_of_state(node.parent);
 }
 
-/** The fields of its attributes and of its text. */
+/** Fields of its attributes and text. */
 export function ElementFields({ desk, root, node }: FormProps) {
   const rule = rule_of(node.name);
   if (!rule) return null;
   const change_text = (value: string) => desk.edit(with_text(desk.text.value, node, value), `text ${node.path}`);
   const names = Object.keys(rule.attributes);
   const is_given = (name: string) => node.element.attribute(name) !== undefined;
-  // A result is mostly taken as it comes: the rest is there for those who look for it.
+  // Rarely used attributes are hidden until requested.
   const hidden = node.name === 'take' || node.name === 'place' || node.name === 'command' ? names.filter((name) => !rule.attributes[name]!.required && !is_given(name)) : [];
   const field = (name: string) => <AttributeField key={name} desk={desk} root={root} node={node} name={name} rule={rule.attributes[name]!} />;
   if (node.name === 'when') return <WhenFields desk={desk} root={root} node={node} />;
@@ -161,7 +161,7 @@ function component_meant(root: Node, name: string, profile: ReturnType<typeof us
   return type !== undefined ? profile.of_type(type)[0] : profile.component(ref ?? name);
 }
 
-// A condition says one thing of a variable: what that is, is chosen.
+// A `when` has one relation, which is chosen first.
 function WhenFields({ desk, root, node }: FormProps) {
   const relation = relation_of(node);
   const rules = rule_of('when')!.attributes;
@@ -180,5 +180,5 @@ function WhenFields({ desk, root, node }: FormProps) {
   );
 }
 
-/** The names of elements that a state is entered with. */
+/** Elements that run on entering a state. */
 export const entering: readonly string[] = [...actions, 'command', 'query'];

@@ -1,6 +1,6 @@
-// What may stand in a scenario: schemas/scenario.xsd as tables, for checking and for the forms.
+// The grammar of scenarios: schemas/scenario.xsd as tables, for validation and forms.
 
-/** `variable`, `component`, `state`: the name of one that there is; `result`: a name that the engine knows; `text` may hold {name}. */
+/** `variable`, `component`, `state`: an existing name; `result`: a name of the engine; `text` may have {name}. */
 export type AttributeType = 'name' | 'variable' | 'component' | 'state' | 'result' | 'text' | 'token' | 'plain' | 'status' | 'boolean' | 'double' | 'natural';
 
 export interface AttributeRule {
@@ -8,7 +8,7 @@ export interface AttributeRule {
   required: boolean;
 }
 
-/** So many of these elements, in any order among each other. */
+/** The allowed number of these elements, in any order. */
 export interface Group {
   names: readonly string[];
   least: number;
@@ -17,9 +17,9 @@ export interface Group {
 
 export interface ElementRule {
   attributes: Readonly<Record<string, AttributeRule>>;
-  /** The groups follow each other. */
+  /** Groups in this order. */
   content: readonly Group[];
-  /** Whether it holds a text: one with {name} in it, or one that is as it is. */
+  /** Whether it has text: with {name} or plain. */
   text?: 'text' | 'plain';
 }
 
@@ -79,7 +79,7 @@ export function rule_of(name: string): ElementRule | undefined {
 const a_name = /^[A-Za-z_][A-Za-z0-9_.-]*$/;
 const a_double = /^[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$|^-?INF$|^NaN$/;
 
-/** Whether a value is of its type; whether there is what it names is another question. */
+/** Whether a value has the right form; the named thing may still be missing. */
 export function is_of(type: AttributeType, value: string): boolean {
   const text = value.trim();
   switch (type) {

@@ -1,15 +1,15 @@
-// A scenario as a graph: its states, and an edge for each pair of states that triggers lead between.
+// A scenario as a graph: one edge for each pair of states connected by triggers.
 import type { Scenario, Trigger } from './model';
 
 export interface Edge {
   from: string;
   to: string;
-  /** In their order; those of one edge lead from the same state to the same state. */
+  /** In order; all have the same source and target. */
   triggers: Trigger[];
 }
 
 export interface Graph {
-  states: string[]; // in their order in the document
+  states: string[]; // in document order
   start: string;
   edges: Edge[];
 }
@@ -25,7 +25,7 @@ export function graph_of(scenario: Scenario): Graph {
   return { states: [...scenario.states.keys()], start: scenario.start, edges };
 }
 
-/** What a trigger waits for, as short as an edge needs it. Names are those of the document. */
+/** A short label for a trigger, with names of the document. */
 export function label_of({ kind, event_type, status, seconds }: Trigger): string {
   if (kind === 'event') return event_type;
   if (kind === 'completed') return status === undefined ? 'completed' : `completed ${status}`;

@@ -1,11 +1,11 @@
-// What a running scenario has heard and not taken yet.
+// Notifications that a running scenario has received and not processed.
 import type { Completed, Notification, ReceiveEvent } from 'rois-client';
 
 import type { Environment } from '../state/environment';
 
 export type News = ReceiveEvent | Completed;
 
-/** Why nothing more is heard. */
+/** Why the inbox has ended. */
 export type Ending = 'stopped' | 'session' | 'closed';
 
 export class Inbox {
@@ -35,7 +35,7 @@ export class Inbox {
     this.waiting = [];
   }
 
-  /** The oldest; undefined when the time has come before, or nothing more will be heard. */
+  /** The oldest notification; undefined after `until`, or if the inbox has ended. */
   async take(until?: number): Promise<News | undefined> {
     if (this.waiting.length === 0 && this.ending === undefined && (until === undefined || until > this.environment.now()))
       await new Promise<void>((resolve) => {

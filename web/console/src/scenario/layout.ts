@@ -1,9 +1,8 @@
-// Where the states of a graph are drawn: in layers from the start downwards, with few crossings, each edge with a place for its label.
-// What leads back goes up beside the others. The same graph is always drawn the same.
+// Layout of a graph: layers from the start downwards with few crossings, a place for each label, and back edges beside. Deterministic.
 import type { Edge, Graph } from './graph';
 
 export interface Box {
-  x: number; // of its middle
+  x: number; // of its centre
   y: number;
   width: number;
   height: number;
@@ -35,13 +34,13 @@ const side_gap = 14;
 const margin = 12;
 const sweeps = 12;
 
-// A state, the label of an edge, or the place where a long edge passes a layer.
+// A state, an edge's label, or a point where a long edge passes a layer.
 interface Spot extends Box {
   layer: number;
   order: number;
   above: Spot[];
   below: Spot[];
-  /** How much it wants to stand straight below what is above it. */
+  /** Preference for standing straight below the spots above. */
   weight: number;
 }
 
@@ -65,7 +64,7 @@ export function layout_of(graph: Graph, sizes: Sizes): Layout {
   shift_to_margin(layers);
   return drawn(layers, boxes, chains);
 
-  // The spots of an edge from the upper state to the lower one, both among them; its label is halfway, between two layers of states.
+  // The spots of an edge from the upper to the lower state, including both; its label is between two layers.
   function chain_of(edge: Edge): { spots: Spot[]; label: Spot; is_back: boolean } {
     const back = is_back(edge);
     const [top, bottom] = (back ? [edge.to, edge.from] : [edge.from, edge.to]).map((name) => boxes.get(name)!) as [Spot, Spot];
@@ -75,7 +74,7 @@ export function layout_of(graph: Graph, sizes: Sizes): Layout {
       joined(top, label);
       return { spots: [top], label, is_back: false };
     }
-    // Close to where the edge begins, so that one sees what leads on from there.
+    // Near the source, so that the reader sees its outgoing edges.
     const label_layer = back ? bottom.layer - 1 : top.layer + 1;
     const spots: Spot[] = [top];
     let label!: Spot;
@@ -94,12 +93,12 @@ function joined(upper: Spot, lower: Spot): void {
   lower.above.push(upper);
 }
 
-// Layers by the longest way from the start, when what leads back in a walk through the graph does not count.
+// Layers by the longest path from the start, ignoring back edges of a depth-first search.
 function ranked({ states, start, edges }: Graph): { ranks: Map<string, number>; is_back: (edge: Edge) => boolean } {
   const out = new Map(states.map((name) => [name, edges.filter((one) => one.from === name)]));
   const back = new Set<Edge>();
   const open = new Set<string>();
-  const done: string[] = []; // the last ones first
+  const done: string[] = []; // in reverse order of completion
   const visit = (name: string) => {
     open.add(name);
     for (const edge of out.get(name) ?? []) {
@@ -116,7 +115,7 @@ function ranked({ states, start, edges }: Graph): { ranks: Map<string, number>; 
   return { ranks, is_back: (edge) => back.has(edge) && edge.from !== edge.to };
 }
 
-// Sweeps down and up: each spot goes to the mean place of those that it is joined to. The order with the fewest crossings stays.
+// Sweeps down and up, moving each spot to the mean of its neighbours. Keeps the order with the fewest crossings.
 function order(layers: Spot[][]): void {
   const number = (layer: Spot[]) => layer.forEach((one, i) => (one.order = i));
   layers.forEach(number);
@@ -151,7 +150,7 @@ function crossings(layers: readonly Spot[][]): number {
   return count;
 }
 
-// Rows, then columns: everything is drawn towards what it is joined to, as far as its neighbours let it.
+// Rows, then columns: each spot moves towards its connected spots as far as there is room.
 function place(layers: Spot[][]): void {
   let y = margin;
   for (const layer of layers) {
@@ -183,7 +182,7 @@ function shift_to_margin(layers: readonly Spot[][]): void {
   for (const one of layers.flat()) one.x += margin - left;
 }
 
-// A long edge goes straight for as long as what is beside it leaves room.
+// Straightens long edges as far as there is room.
 function straighten(layers: readonly Spot[][], spots: readonly Spot[]): void {
   let group: Spot[] = [];
   let [low, high] = [-Infinity, Infinity];
@@ -205,12 +204,12 @@ function straighten(layers: readonly Spot[][], spots: readonly Spot[]): void {
   settle_group();
 }
 
-// As near to what is wanted as can be without touching: those that would overlap move as a block to the mean of their wishes.
+// As near to the wanted positions as possible without overlap: overlapping spots move as a block to their mean.
 function settle(layer: Spot[], wanted: readonly number[]): void {
   interface Block {
     spots: number[];
-    offsets: number[]; // from the first one
-    sum: number; // of wishes for the first one
+    offsets: number[]; // from the first spot
+    sum: number; // of the wanted positions of the first spot
   }
   const blocks: Block[] = [];
   const at = ({ sum, spots }: Block) => sum / spots.length;
@@ -257,7 +256,7 @@ function through({ x, y, height }: Spot): Point[] {
   return height === 0 ? [{ x, y }] : [{ x, y: y - height / 2 }, { x, y: y + height / 2 }];
 }
 
-// Edges leave and reach a box in the order of where they go to.
+// Ports of a box are in the order of the other ends, so that edges do not cross.
 function port(box: Spot, other: Spot, side: 'above' | 'below'): Point {
   const those = [...box[side]].sort((a, b) => a.x - b.x);
   const step = Math.min(26, (box.width - 24) / Math.max(1, those.length));
@@ -272,7 +271,7 @@ function loop(box: Spot, label: Spot): Point[] {
   return [out, { x: out.x, y: label.y }, { x: right, y: label.y }, { x: right, y: box.y }, { x: box.x + box.width / 2, y: box.y }];
 }
 
-/** A path along points, its corners rounded. */
+/** A path along points with rounded corners. */
 export function path_of(points: readonly Point[]): string {
   const [first, ...rest] = points;
   if (!first) return '';

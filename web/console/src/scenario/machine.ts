@@ -1,4 +1,4 @@
-// Runs a scenario, as `rois scenario` does: docs/rois-command.md says what states, triggers and steps mean.
+// Runs a scenario, as `rois scenario` does. docs/rois-command.md defines states, triggers and steps.
 import { code_of, type Completed, type CompletedStatus, component_ref, type CommandMessage, type ReceiveEvent, Results, type Subscription } from 'rois-client';
 
 import type { GiveBack } from '../state/bindings';
@@ -11,25 +11,25 @@ import { typed_arguments } from './typed';
 import { listed, Variables } from './variables';
 import * as w from './texts';
 
-/** What a machine tells while it runs. */
+/** Receives the steps of a run. */
 export interface Observer {
   entered(state: State): void;
-  /** Its commands of `leaving` are sent, and have not ended. */
+  /** The commands of `leaving` are sent and have not ended. */
   leaving(state: State, trigger: Trigger): void;
   left(state: State, trigger: Trigger, by: string): void;
   printed(line: string): void;
   variables(variables: Variables): void;
 }
 
-/** How it ended: in a state `end`, or one that is marked `failed`; stopped by the user; or with trouble. */
+/** How it ended: in an `end` state, in a state marked `failed`, stopped by the user, or with an error. */
 export type Outcome = { how: 'ended' | 'failed'; state: string } | { how: 'stopped' } | { how: 'trouble'; trouble: unknown };
 
-const most_in_a_row = 100; // states, before the page may breathe: they may go round in a circle
+const most_in_a_row = 100; // states before the page gets time to respond: the scenario may loop
 
 export class Machine {
   readonly variables: Variables;
   private readonly inbox: Inbox;
-  private readonly refs = new Map<string, string>(); // by the names that the scenario has for them
+  private readonly refs = new Map<string, string>(); // by the scenario's names
   private readonly borrowed: GiveBack[] = [];
   private readonly subscriptions: Subscription[] = [];
   private state!: State;
@@ -48,7 +48,7 @@ export class Machine {
     this.inbox = new Inbox(console.environment);
   }
 
-  /** Ends it: what it runs is stopped. */
+  /** Ends the run and stops its commands. */
   stop(): void {
     this.inbox.end('stopped');
   }
@@ -111,8 +111,8 @@ export class Machine {
       this.subscriptions.push(await this.console.subscribe(type));
   }
 
-  // Gives back all that was bound for it. What the user had bound before stays so, but does not go on with what it was told here; what others of
-  // this page have a use for goes on.
+  // Returns all components bound for the run. Components that the user had bound before stay bound, but stop unless another part of this
+  // page uses them.
   private async let_go(): Promise<void> {
     const { bindings } = this.console;
     const session_is_there = this.inbox.ended !== 'session' && this.inbox.ended !== 'closed';
@@ -129,7 +129,7 @@ export class Machine {
     this.status = 'OK';
     this.observer.entered(state);
     this.tell(this.variables.take(state.steps, undefined) ?? []);
-    this.inbox.clear(); // what came before a state was entered is no trigger in it
+    this.inbox.clear(); // earlier events do not trigger in the new state
     this.entered = this.console.environment.now();
     this.pending = await this.execute(state.commands);
     if (state.query && (await this.fire('answered', await this.ask(state.query), 'answered'))) return;
@@ -163,7 +163,7 @@ export class Machine {
   }
 
   private async take_event(event: ReceiveEvent): Promise<void> {
-    if (!this.subscriptions.some((one) => one.subscribe_id === event.subscribe_id)) return; // somebody else's
+    if (!this.subscriptions.some((one) => one.subscribe_id === event.subscribe_id)) return; // of another subscriber
     const is_meant = (trigger: Trigger) =>
       trigger.kind === 'event' && trigger.event_type === event.event_type && (trigger.component === '' || this.refs.get(trigger.component) === code_of(event.component_ref));
     await this.fire_if(is_meant, event.results, `${event.event_type} ${values_of(event.results)}`);
@@ -181,7 +181,7 @@ export class Machine {
     if (!triggers.some(({ kind }) => kind === 'event' || kind === 'after')) Trouble.raise(() => w.unexpected_end(name, ended));
   }
 
-  // --- Times, since the state was entered ---
+  // --- Timers, from the entry of the state ---
 
   private due({ seconds }: Trigger): number {
     const text = this.variables.filled(seconds);
@@ -199,7 +199,7 @@ export class Machine {
     return times.length === 0 ? undefined : Math.min(...times);
   }
 
-  // Each of them once in a state, whether what it asks for holds or not.
+  // Each fires once in a state, whether its conditions hold or not.
   private async fire_timers(): Promise<void> {
     const now = this.console.environment.now();
     for (const trigger of this.timers()) {
@@ -209,13 +209,13 @@ export class Machine {
     }
   }
 
-  // --- From one state to the next ---
+  // --- Transitions ---
 
   private fire(kind: TriggerKind, results: Results, by: string): Promise<boolean> {
     return this.fire_if((trigger) => trigger.kind === kind, results, by);
   }
 
-  // The first trigger that is meant, and whose steps hold, leads on.
+  // The first matching trigger whose conditions hold is taken.
   private async fire_if(is_meant: (trigger: Trigger) => boolean, results: Results | undefined, by: string): Promise<boolean> {
     for (const trigger of this.state.triggers) {
       const printed = is_meant(trigger) ? this.variables.take(trigger.steps, results) : undefined;

@@ -1,4 +1,4 @@
-// A robot scenario (figure 1) as it is run.
+// A robot scenario (figure 1), ready to run.
 import type { CompletedStatus } from 'rois-client';
 
 import type { Node } from './source';
@@ -18,7 +18,7 @@ export interface TakeResult {
   not_in: string; // a variable; empty: any value
   beside: string; // another result; empty: none
   is: string;
-  apart: number; // mm; more than 0: then the list holds places
+  apart: number; // mm; if above 0, the list has places
 }
 
 export type Relation = 'is' | 'is_not' | 'in' | 'not_in' | 'empty' | 'not_empty' | 'near';
@@ -32,7 +32,7 @@ export interface When {
 }
 
 export interface ScenarioCommand {
-  component: string; // as the scenario names it
+  component: string; // the scenario's name
   type: string;
   arguments: { name: string; text: string }[];
   delay?: number; // ms
@@ -45,7 +45,7 @@ export interface Trigger {
   kind: TriggerKind;
   event_type: string;
   component: string; // empty: any
-  status?: CompletedStatus; // left out: any
+  status?: CompletedStatus; // undefined: any
   seconds: string;
   steps: Step[];
   to: string;
@@ -56,7 +56,7 @@ export interface State {
   name: string;
   steps: Step[];
   commands: ScenarioCommand[];
-  query?: { type: string; component: string; node: Node }; // an empty component: any
+  query?: { type: string; component: string; node: Node }; // component empty: any
   triggers: Trigger[];
   leaving: ScenarioCommand[];
   is_end: boolean;
@@ -67,7 +67,7 @@ export interface State {
 export interface Scenario {
   name: string;
   start: string;
-  components: { name: string; ref: string; type: string; node: Node }[]; // an empty ref: any of the type
+  components: { name: string; ref: string; type: string; node: Node }[]; // ref empty: any of the type
   variables: Map<string, string>;
   states: Map<string, State>;
   root: Node;

@@ -1,4 +1,4 @@
-// A scenario: its diagram, how it runs, and how it is changed.
+// The Scenario panel: diagram, run and editing.
 import './scenario.css';
 
 import { useSignal } from '@preact/signals';
@@ -17,7 +17,7 @@ import * as w from './texts';
 
 type Part = 'run' | 'edit' | 'xml';
 
-const beside_from = 760; // px: narrower than that, the diagram stands above the rest
+const beside_from = 760; // px; below this width, the diagram is above the rest
 
 export default function ScenarioPanel() {
   const console = useConsole();
@@ -94,14 +94,14 @@ function Bar({ desk, started }: { desk: Desk; started: () => void }) {
   );
 }
 
-// It may end while the user looks elsewhere.
+// A notice, because the user may be in another panel.
 function tell_end(desk: Desk, notices: Notices): void {
   const { tone, text, why } = state_of(desk.run, false);
   if (tone === 'calm') return;
   notices.tell(tone === 'good' ? 'good' : 'error', `${desk.drawn.value?.name || w.unnamed()}: ${text}`, { about: 'scenario', ...(why !== undefined && { detail: why }) });
 }
 
-// What keeps it from running, and what this engine cannot do.
+// Errors, and warnings about the engine.
 function Problems({ desk, choose }: { desk: Desk; choose: (state: string) => void }) {
   const { profile } = useConsole();
   const { problems, scenario, text } = desk.reading.value;

@@ -1,9 +1,9 @@
-// The diagram's sizes and shapes, without the page.
+// Sizes and shapes of the diagram, independent of the page.
 import { type Edge, graph_of, label_of_edge } from './graph';
 import { type Box, type DrawnEdge, type Layout, layout_of, type Point } from './layout';
 import type { Scenario } from './model';
 
-const letter = 0.6; // of a text's size, on the average
+const letter = 0.6; // average width of a letter, relative to the font size
 
 export function shown_name(name: string): string {
   return name.replaceAll('_', ' ');
@@ -16,14 +16,14 @@ const sizes = {
 
 const known = new WeakMap<Scenario, Layout>();
 
-/** Made once for each scenario. */
+/** Computed once for each scenario. */
 export function picture_of(scenario: Scenario): Layout {
   const picture = known.get(scenario) ?? layout_of(graph_of(scenario), sizes);
   known.set(scenario, picture);
   return picture;
 }
 
-/** The head of an arrow: a triangle that stands where the edge ends. */
+/** The arrow head at the end of an edge. */
 export function arrow_head({ points }: DrawnEdge): string {
   const [before, end] = [points.at(-2)!, points.at(-1)!];
   const sideways = before.y === end.y;
@@ -32,7 +32,7 @@ export function arrow_head({ points }: DrawnEdge): string {
   return `M${end.x} ${end.y}L${back.x - dy * 4} ${back.y - dx * 4}L${back.x + dy * 4} ${back.y + dx * 4}Z`;
 }
 
-/** The state that one comes to with an arrow key: the nearest of those that lie more that way than aside. */
+/** The state in the direction of an arrow key: the nearest that lies more in that direction than aside. */
 export function neighbour(boxes: ReadonlyMap<string, Box>, from: string, key: string): string | undefined {
   const way = ({ ArrowUp: { x: 0, y: -1 }, ArrowDown: { x: 0, y: 1 }, ArrowLeft: { x: -1, y: 0 }, ArrowRight: { x: 1, y: 0 } } as Record<string, Point>)[key];
   const here = boxes.get(from);

@@ -1,4 +1,4 @@
-// Reads scenarios as `rois scenario` does (schemas/scenario.xsd and what goes beyond it), and finds all that is wrong, not the first alone.
+// Reads scenarios as `rois scenario` does (schemas/scenario.xsd and further rules), and reports all problems.
 import { type CompletedStatus, XmlError } from 'rois-client';
 
 import { type ElementRule, is_of, namespace, rule_of, steps, to_double, triggers } from './grammar';
@@ -10,13 +10,13 @@ import * as w from './texts';
 
 export interface Problem {
   say: Say;
-  /** Of the text, from 1. */
+  /** In the text, from 1. */
   line: number;
   column: number;
   node?: Node;
 }
 
-/** A scenario is there when nothing is wrong; its elements are there when the text is a document at all. */
+/** `scenario` is set if there are no problems; `root` if the text is well-formed. */
 export interface Reading {
   text: string;
   root?: Node;
@@ -68,7 +68,7 @@ class Reader {
     this.problems.push({ say, node, ...line_and_column(this.text, node.start) });
   }
 
-  // --- What the schema says ---
+  // --- Schema ---
 
   private check_grammar(node: Node): void {
     const rule = rule_of(node.name);
@@ -97,12 +97,12 @@ class Reader {
       if (count < least) return this.complain(node, () => w.missing_element(names.join(', '), node.name));
     }
     const more = node.children[at];
-    if (!more || !rule_of(more.name)) return; // what nobody knows is told where it stands
+    if (!more || !rule_of(more.name)) return; // an unknown element is reported at its own place
     const known = content.some(({ names }) => names.includes(more.name));
     this.complain(more, () => (known ? w.element_out_of_order(more.name, node.name) : w.unknown_element(more.name, node.name)));
   }
 
-  // --- What it means ---
+  // --- Content ---
 
   private component(node: Node): Scenario['components'][number] {
     const read = { name: name(node, 'name'), ref: name(node, 'ref'), type: name(node, 'type'), node };
@@ -119,7 +119,7 @@ class Reader {
     this.variables.set(own, node.element.text.trim());
   }
 
-  // All names of states, before any is led to.
+  // Collects all states before targets are checked.
   private announce(node: Node): void {
     const own = name(node, 'name');
     if (this.states.has(own)) this.complain(node, () => w.second('state', own));
@@ -227,7 +227,7 @@ class Reader {
     return { kind: 'when', variable, relation, operand, within: number(node, 'within') };
   }
 
-  // --- What there must be ---
+  // --- References ---
 
   private check_state(node: Node, to: string): void {
     if (!this.states.has(to)) this.complain(node, () => w.no_such('state', to, [...this.states.keys()]));

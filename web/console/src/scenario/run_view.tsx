@@ -1,4 +1,4 @@
-// How a scenario runs: what its variables hold, what has happened.
+// A run: variables and history.
 import { useLayoutEffect, useRef } from 'preact/hooks';
 
 import { clock_time, duration } from '../i18n/i18n';
@@ -13,7 +13,7 @@ import * as w from './texts';
 
 const most_shown = 300;
 
-/** In which tone, and in which words. */
+/** The state of a run as tone and text. */
 export function state_of(run: Run | undefined, is_running: boolean): { tone: Tone; text: string; why?: string } {
   if (!run) return { tone: 'calm', text: w.never_run() };
   if (is_running) return { tone: 'busy', text: run.state === '' ? w.binding() : w.running() };
@@ -104,7 +104,7 @@ function Entry({ entry, is_new }: { entry: HistoryEntry; is_new: boolean }) {
   );
 }
 
-// What they begin with is changed in the text, as all else.
+// Initial values are changed in the text.
 function VariablesTable({ desk }: { desk: Desk }) {
   void desk.pulse.beat.value;
   const { root, text } = desk.reading.value;

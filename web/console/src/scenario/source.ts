@@ -1,5 +1,4 @@
-// A scenario's text, with the place where each of its elements stands: so it is changed here and there, and all the rest of it, comments
-// and layout, stays as it was written.
+// A scenario's text with the positions of its elements. Edits change only their own part; comments and layout stay.
 import { escape_attribute, escape_text, parse_xml, type XmlElement } from 'rois-client';
 
 interface Span {
@@ -7,22 +6,22 @@ interface Span {
   end: number;
 }
 
-/** An element and where it stands; offsets are of the text that it was read from. */
+/** An element with its position; offsets refer to the text that was read. */
 export interface Node extends Span {
   element: XmlElement;
   name: string;
   parent: Node | undefined;
   children: Node[];
-  /** Which one it is: `0/3/1`. */
+  /** Position in the tree: `0/3/1`. */
   path: string;
-  written: string; // its name with its prefix
-  open_end: number; // behind the `>` of its start tag
-  close: number; // where its end tag begins; `open_end` when it has none
+  written: string; // its name with prefix
+  open_end: number; // after the `>` of its start tag
+  close: number; // start of its end tag; `open_end` if there is none
   is_closed: boolean; // `<name/>`
   attributes: Map<string, Span>; // from the name to the closing quote
 }
 
-/** As parse_xml wants it: lines end with a line feed, and no mark is before the first one. */
+/** As parse_xml expects: lines end in LF, no byte order mark. */
 export function plain_lines(text: string): string {
   return text.replace(/^\uFEFF/, '').replace(/\r\n?/g, '\n');
 }
@@ -30,7 +29,7 @@ export function plain_lines(text: string): string {
 const start_tag = /<([^\s<>/]+)((?:[^"'<>]|"[^"]*"|'[^']*')*)>/y;
 const an_attribute = /([^\s=]+)\s*=\s*("[^"]*"|'[^']*')/g;
 
-/** Throws XmlError for what is no document. */
+/** Throws XmlError if the text is not well-formed. */
 export function read_source(text: string): Node {
   const root = parse_xml(text);
   const open: Node[] = [];
@@ -68,7 +67,7 @@ function node_at(text: string, at: number, parent: Node | undefined, element: Xm
   return { element, name: element.name, parent, children: [], path, written, start: at, open_end: end, close: end, end, is_closed: inside.endsWith('/'), attributes };
 }
 
-/** From 1, as editors count. */
+/** From 1, as in editors. */
 export function line_and_column(text: string, offset: number): { line: number; column: number } {
   const before = text.slice(0, offset);
   return { line: before.split('\n').length, column: offset - before.lastIndexOf('\n') };
@@ -86,13 +85,13 @@ export function* nodes_in(node: Node): Generator<Node> {
   for (const child of node.children) yield* nodes_in(child);
 }
 
-// --- Changes; each gives the new text, and nodes are of the old one then ---
+// --- Edits. Each returns the new text; nodes refer to the old one. ---
 
 function replaced(text: string, { start, end }: Span, by: string): string {
   return text.slice(0, start) + by + text.slice(end);
 }
 
-/** Without a value, the attribute goes. */
+/** `undefined` removes the attribute. */
 export function with_attribute(text: string, node: Node, name: string, value: string | undefined): string {
   const there = node.attributes.get(name);
   const written = value === undefined ? '' : `${name}="${escape_attribute(value)}"`;
@@ -103,20 +102,20 @@ export function with_attribute(text: string, node: Node, name: string, value: st
   return replaced(text, { start: node.start, end: node.start + tag.length }, `${tag} ${written}`);
 }
 
-/** The text of an element that holds nothing else. */
+/** The text of an element without children. */
 export function with_text(text: string, node: Node, value: string): string {
   const tag = text.slice(node.start, node.open_end - (node.is_closed ? 2 : 1)).trimEnd();
   return replaced(text, node, value === '' ? `${tag}/>` : `${tag}>${escape_text(value)}</${node.written}>`);
 }
 
-/** With the line that it stands on, when it stands there alone. */
+/** Removes the element, with its line if it is alone there. */
 export function without(text: string, node: Node): string {
   const before = /\n[ \t]*$/.exec(text.slice(0, node.start))?.[0].length ?? 0;
   const is_alone = /^[ \t]*(\n|$)/.test(text.slice(node.end)) || text.startsWith('<', node.end);
   return replaced(text, { start: node.start - (is_alone ? before : 0), end: node.end }, '');
 }
 
-/** Puts an element, written as XML, into another one: before one of its children, or at its end. */
+/** Inserts an element, given as XML, before a child or at the end. */
 export function with_child(text: string, parent: Node, xml: string, before?: Node): string {
   const indent = (at: number) => /(?:^|\n)([ \t]*)[^\n]*$/.exec(text.slice(0, at))![1]!;
   if (before) return replaced(text, { start: before.start, end: before.start }, `${xml}\n${indent(before.start)}`);
@@ -130,7 +129,7 @@ export function with_child(text: string, parent: Node, xml: string, before?: Nod
   return replaced(text, { start: last, end: last }, inside + (has_line ? '' : `\n${indent(parent.start)}`));
 }
 
-/** Changes places with the sister that many places on. */
+/** Swaps the element with its sibling at this distance. */
 export function moved(text: string, node: Node, by: 1 | -1): string {
   const sisters = node.parent?.children ?? [];
   const other = sisters[sisters.indexOf(node) + by];
@@ -139,7 +138,7 @@ export function moved(text: string, node: Node, by: 1 | -1): string {
   return text.slice(0, a.start) + text.slice(b.start, b.end) + text.slice(a.end, b.start) + text.slice(a.start, a.end) + text.slice(b.end);
 }
 
-/** A state gets another name, and all that leads to it follows. */
+/** Renames a state and all references to it. */
 export function with_state_renamed(text: string, root: Node, from: string, to: string): string {
   const places: { node: Node; attribute: string }[] = [];
   for (const node of nodes_in(root)) {

@@ -1,29 +1,29 @@
-// All texts of the panel, and what may be wrong with a scenario.
+// Texts of the panel and problems of a scenario.
 import { type Both, text, text_of } from '../i18n/i18n';
 
 const kinds_ja: Record<string, string> = { component: 'コンポーネント', variable: '変数', state: '状態' };
 
 
-// The bar
+// Toolbar
 export const start = text('Start', '開始');
 export const stop = text('Stop', '停止');
 export const open = text('Open …', '開く…');
 export const save = text('Save', '保存');
-export const shipped = text('Reception as shipped', '付属の受付シナリオ');
-export const shipped_hint = text('Opens the reception of figure 1, as it comes with the program', 'プログラムに付属する図 1 の受付シナリオを開きます');
+export const shipped = text('Reception example', '付属の受付シナリオ');
+export const shipped_hint = text('Opens the included reception scenario of figure 1', 'プログラムに付属する図 1 の受付シナリオを開きます');
 export const undo = text('Undo', '元に戻す');
 export const unnamed = text('Scenario', 'シナリオ');
 export const not_connected = text('Connect first', '先に接続してください');
-export const mend_first = text('Mend what is wrong first', '先に誤りを直してください');
+export const mend_first = text('Fix the problems first', '先に誤りを直してください');
 
-// How it runs
+// State of the run
 export const never_run = text('Not started', '未開始');
 export const binding = text('Binding …', 'バインド中…');
 export const running = text('Running', '実行中');
 export const ended = text_of((state: string) => [`Ended in “${state}”`, `「${state}」で終了`]);
 export const failed = text_of((state: string) => [`Failed in ${state}`, `${state} で失敗`]);
 export const was_stopped = text('Stopped', '停止しました');
-export const trouble = text('Ended with trouble', '問題が起きて終了');
+export const trouble = text('Ended with an error', '問題が起きて終了');
 export const for_so_long = text_of((time: string) => `(${time})`);
 
 // Tabs
@@ -45,7 +45,7 @@ export const is_end = text('end', '終了');
 export const is_failed = text('end, failed', '終了(失敗)');
 export const starts_here = text('start', '開始');
 export const visits = text_of((n: number) => [`entered ${n} ×`, `${n} 回入りました`]);
-export const cannot_draw = text('It cannot be drawn until this is mended:', '次を直すまで図にできません:');
+export const cannot_draw = text('It cannot be drawn until this is fixed:', '次を直すまで図にできません:');
 
 // Run
 export const history = text('History', '履歴');
@@ -53,20 +53,20 @@ export const no_history = text('Transitions and what the scenario prints appear 
 export const variables = text('Variables', '変数');
 export const no_variables = text('This scenario has no variables.', 'このシナリオに変数はありません。');
 export const column_name = text('Name', '名前');
-export const column_begins = text('Begins with', '初期値');
+export const column_begins = text('Initial value', '初期値');
 export const column_value = text('Holds', '現在の値');
-export const begins_with = text_of((name: string) => [`What ${name} begins with`, `${name} の初期値`]);
-export const begins_hint = text('texts and triggers speak of them as {name}', '文字列やトリガーでは {name} と書きます');
+export const begins_with = text_of((name: string) => [`Initial value of ${name}`, `${name} の初期値`]);
+export const begins_hint = text('texts and triggers refer to them as {name}', '文字列やトリガーでは {name} と書きます');
 export const nothing = text('nothing', '空');
 export const printed = text('Printed', '出力');
 
 // Edit
 export const state = text('State', '状態');
 export const scenario_itself = text('The scenario itself', 'シナリオ全体');
-export const locked = text('It runs. Stop it to change it.', '実行中です。変更するには停止してください。');
+export const locked = text('Running. Stop it to edit.', '実行中です。変更するには停止してください。');
 export const on_entering = text('When entered', '入るとき');
 export const triggers = text('Triggers', 'トリガー');
-export const triggers_hint = text('The first one whose conditions all hold leads on.', '条件がすべて成り立つ最初のものが次へ進めます。');
+export const triggers_hint = text('The first trigger whose conditions all hold is taken.', '条件がすべて成り立つ最初のものが次へ進めます。');
 export const on_leaving = text('When left', '出るとき');
 export const needed_components = text('Components', 'コンポーネント');
 export const add = text_of((what: string) => [`Add ${what}`, `${what}を追加`]);
@@ -90,8 +90,8 @@ export const attribute = text_of((name: string) => attributes[name] ?? name);
 export const xml_label = text('The scenario as XML', 'シナリオの XML');
 
 // Problems
-export const problems = text('What is wrong', '誤り');
-export const warnings = text('What this engine cannot do', 'このエンジンにできないこと');
+export const problems = text('Problems', '誤り');
+export const warnings = text('Not supported by this engine', 'このエンジンにできないこと');
 export const at_line = text_of((line: number, column: number) => [`line ${line}, column ${column}`, `${line} 行 ${column} 桁`]);
 export const file_unreadable = text('The file cannot be read', 'ファイルを読めません');
 export const unknown_element = text_of((name: string, parent: string) => [
@@ -102,16 +102,16 @@ export const unknown_attribute = text_of((name: string, element: string) => [`'$
 export const missing_attribute = text_of((name: string, element: string) => [`'${element}' needs the attribute '${name}'`, `'${element}' に属性 '${name}' が必要です`]);
 export const missing_element = text_of((names: string, element: string) => [`'${element}' needs one of: ${names}`, `'${element}' に次のいずれかが必要です: ${names}`]);
 export const element_out_of_order = text_of((name: string, parent: string) => [
-  `'${name}' stands in the wrong place inside '${parent}'`,
+  `'${name}' is in the wrong place inside '${parent}'`,
   `'${parent}' の中の '${name}' の位置が違います`,
 ]);
 export const wrong_value = text_of((name: string, value: string, type: string) => [
   `${name}: '${value}' is not of the type ${type}`,
   `${name}: '${value}' は型 ${type} ではありません`,
 ]);
-export const no_text_here = text_of((name: string) => [`'${name}' holds no text`, `'${name}' は文字列を持てません`]);
+export const no_text_here = text_of((name: string) => [`'${name}' must not have text`, `'${name}' は文字列を持てません`]);
 export const not_a_scenario = text_of((name: string) => [
-  `this is no robot scenario: expected the element robot_scenario, not '${name}'`,
+  `this is not a robot scenario: expected the element robot_scenario, not '${name}'`,
   `ロボットシナリオではありません: 要素 '${name}' ではなく robot_scenario が必要です`,
 ]);
 export const ref_or_type = text_of(() => ["a component has one of 'ref' and 'type'", "コンポーネントには 'ref' か 'type' の一方だけを書きます"]);
@@ -121,18 +121,18 @@ export const no_commands = text_of(() => ['this state waits for the end of its c
 export const no_query = text_of(() => ['this state waits for an answer, and has no query', 'この状態は応答を待ちますが、query がありません']);
 export const nothing_to_take = text_of(() => ['only events and answers have results to take', '結果を取り出せるのはイベントと応答だけです']);
 export const belong_together = text_of((a: string, b: string) => [`'${a}' and '${b}' belong together`, `'${a}' と '${b}' は一緒に使います`]);
-export const one_relation = text_of((names: string) => [`a 'when' has exactly one of ${names}`, `'when' には次のちょうど一つが必要です: ${names}`]);
+export const one_relation = text_of((names: string) => [`a 'when' needs exactly one of ${names}`, `'when' には次のちょうど一つが必要です: ${names}`]);
 export const no_such = text_of((what: string, name: string, known: string[]) => [
   `no ${what} '${name}'; there are ${known.join(', ')}`,
   `${kinds_ja[what] ?? what} '${name}' はありません。あるもの: ${known.join(', ')}`,
 ]);
 
-// What ends it
+// Endings
 export const stopped = text('stopped', '停止しました');
-export const session_ended = text('The session has ended, and what the robot did for it.', 'セッションが終わり、ロボットの動作も終わりました。');
+export const session_ended = text('The session has ended, and its commands with it.', 'セッションが終わり、ロボットの動作も終わりました。');
 export const connection_closed = text('The connection has closed.', '接続が閉じられました。');
-export const no_place = text_of((text: string) => [`'${text}' is no place "x, y, th"`, `'${text}' は位置 "x, y, th" ではありません`]);
-export const no_seconds = text_of((state: string, text: string) => [`${state}: '${text}' is no number of seconds`, `${state}: '${text}' は秒数ではありません`]);
+export const no_place = text_of((text: string) => [`'${text}' is not a place: expected "x, y, th"`, `'${text}' は位置 "x, y, th" ではありません`]);
+export const no_seconds = text_of((state: string, text: string) => [`${state}: '${text}' is not a number of seconds`, `${state}: '${text}' は秒数ではありません`]);
 export const unexpected_end = text_of((state: string, status: string) => [
   `The commands of '${state}' ended with ${status}, and no trigger is for that.`,
   `'${state}' のコマンドが ${status} で終わり、それに対するトリガーがありません。`,
@@ -141,20 +141,20 @@ export const no_component = text_of((ref: string) => [`the engine has no compone
 export const none_of_type = text_of((type: string) => [`the engine has no component of the type ${type}`, `エンジンに型 ${type} のコンポーネントがありません`]);
 export const no_command = text_of((ref: string, type: string) => [`${ref} has no command '${type}'`, `${ref} にコマンド '${type}' はありません`]);
 export const no_argument = text_of((ref: string, name: string, known: string[]) => [
-  `${ref} has no argument '${name}'${known.length > 0 ? `; it has ${known.join(', ')}` : '; it has none at all'}`,
+  `${ref} has no argument '${name}'${known.length > 0 ? `; it has ${known.join(', ')}` : '; it has no arguments'}`,
   `${ref} に引数 '${name}' はありません${known.length > 0 ? `。あるもの: ${known.join(', ')}` : ''}`,
 ]);
 export const not_of_type = text_of((name: string, value: string, type: string) => [
   `${name}: '${value}' is not of the type ${type}`,
   `${name}: '${value}' は型 ${type} ではありません`,
 ]);
-export const one_value = text_of((name: string) => [`${name}: exactly one value is needed`, `${name}: 値はちょうど一つ必要です`]);
+export const one_value = text_of((name: string) => [`${name}: expected exactly one value`, `${name}: 値はちょうど一つ必要です`]);
 export const no_query_of = text_of((type: string) => [`no component of this engine answers the query '${type}'`, `このエンジンに問い合わせ '${type}' に答えるコンポーネントはありません`]);
-export const no_event_of = text_of((type: string) => [`no component that is meant tells the event '${type}'`, `イベント '${type}' を通知するコンポーネントがありません`]);
+export const no_event_of = text_of((type: string) => [`no matching component sends the event '${type}'`, `イベント '${type}' を通知するコンポーネントがありません`]);
 
 
 
-// Elements and attributes in words; the XML has their names.
+// Names of elements and attributes; the XML has its own.
 const elements: Record<string, Both> = {
   event: ['event', 'イベント'],
   completed: ['commands completed', 'コマンド終了'],

@@ -1,4 +1,4 @@
-// Texts as arguments of a command, typed as the component's profile says; checked before anything is sent.
+// Converts texts to typed command arguments by the component's profile, and validates them.
 import type { Parameter, ParameterProfile } from 'rois-client';
 
 import { data_type, is_packed, problem_of } from '../forms/data_type';
@@ -6,13 +6,13 @@ import type { ComponentView } from '../state/profile_state';
 import { Trouble } from './trouble';
 import * as w from './texts';
 
-/** What a command may be given: its own arguments, and whatever `set_parameter` takes. */
+/** The arguments of a command: its own and the component's parameters. */
 export function known_arguments(component: ComponentView, command_type: string): ParameterProfile[] {
   const own = component.commands.find((one) => one.name.toLowerCase() === command_type.toLowerCase())?.arguments ?? [];
   return [...own, ...component.parameters];
 }
 
-/** Several of one name are a list. Throws Trouble. */
+/** Repeated names make a list. Throws Trouble. */
 export function typed_arguments(component: ComponentView, command_type: string, given: readonly { name: string; text: string }[]): Parameter[] {
   const known = known_arguments(component, command_type);
   const made: Parameter[] = [];
@@ -33,7 +33,7 @@ export function typed_arguments(component: ComponentView, command_type: string, 
   return made;
 }
 
-// Lists of numbers and truth values are one text; of other things, an empty text is no item.
+// Lists of numbers and bools are one text. In other lists, an empty text is not an item.
 function add_value(argument: Parameter, text: string): void {
   const type = data_type(argument.data_type_ref.code);
   if (type.is_list && is_packed(type) && argument.values.length > 0) argument.values[0] += ` ${text}`;

@@ -1,4 +1,4 @@
-// The variables of a scenario, each a list of texts, and what its steps do with them.
+// Variables of a scenario (lists of texts) and the steps on them.
 import { type Pose, pose_of, pose_text, type Results } from 'rois-client';
 
 import type { Step, TakeResult, When } from './model';
@@ -16,7 +16,7 @@ export function names_in(text: string): string[] {
   return names;
 }
 
-/** Values one after the other, as reasons and texts have them. */
+/** Values joined for messages and texts. */
 export function listed(values: Iterable<string>): string {
   return [...values].join(', ');
 }
@@ -40,7 +40,7 @@ export class Variables {
     return this.values.get(name) ?? [];
   }
 
-  /** The text with what variables hold in place of their names. */
+  /** Replaces {name} by the variable's value. */
   filled(text: string): string {
     let filled = '';
     for (;;) {
@@ -52,7 +52,7 @@ export class Variables {
     }
   }
 
-  /** Does the steps in order, and gives what they print. Undefined, and nothing is changed, when one of them does not hold. */
+  /** Runs the steps in order and returns the printed lines. Returns undefined, without changes, if one does not hold. */
   take(steps: readonly Step[], results: Results | undefined): string[] | undefined {
     const before = new Map(this.values);
     const printed: string[] = [];
@@ -139,13 +139,13 @@ function distance(a: Pose, b: Pose): number {
   return Math.hypot(a.x - b.x, a.y - b.y);
 }
 
-/** The place so many mm before somebody, looking at them; turned by so many degrees to their left. */
+/** The place `away` mm in front of a pose, facing it, turned by `turn` degrees to its left. */
 function before({ x, y, th }: Pose, away: number, turn: number): Pose {
   const angle = ((th + turn) * Math.PI) / 180;
   return { x: x + away * Math.cos(angle), y: y + away * Math.sin(angle), th: th + turn + 180 };
 }
 
-// Rounded to a thousandth: a micrometre.
+// Rounded to 0.001.
 function text_of({ x, y, th }: Pose): string {
   const rounded = (n: number) => Math.round(n * 1000) / 1000 + 0;
   return pose_text({ x: rounded(x), y: rounded(y), th: rounded(th) });

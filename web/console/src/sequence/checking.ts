@@ -1,4 +1,4 @@
-// What keeps a sequence from being sent, step by step.
+// Validates a sequence, step by step.
 import type { Problem as FieldProblem } from '../forms/data_type';
 import { asked_by, command_types, same } from '../forms/describe';
 import { given, type Inputs, problems_of as field_problems } from '../forms/inputs';
@@ -9,19 +9,19 @@ import { milliseconds } from './units';
 export interface Problem {
   step: number; // its id; 0: the sequence as a whole
   what: 'nothing' | 'no_component' | 'unknown_component' | 'no_command' | 'unknown_command' | 'arguments' | 'unknown_arguments' | 'no_time' | 'no_branches';
-  /** Of `arguments`: by name. */
+  /** For `arguments`: by name. */
   fields?: Readonly<Record<string, FieldProblem>>;
 }
 
 export interface Profiles {
   component(ref: string): ComponentView | undefined;
-  /** Whether a component has a value for a parameter already. */
+  /** Whether a component already has a value for a parameter. */
   has_value(ref: string, name: string): boolean;
 }
 
 export function problems_in_sequence(root: Lane, profiles: Profiles): Problem[] {
   if (commands_in(root).length === 0 && root.steps.every((one) => one.kind !== 'wait')) return [{ step: 0, what: 'nothing' }];
-  const set = new Set<string>(); // what commands before have given: `component parameter`
+  const set = new Set<string>(); // values set by earlier commands: `component parameter`
   return steps_of(root).flatMap((step) => problems_of_step(step, profiles, set));
 }
 
@@ -62,7 +62,7 @@ function delay_is_wrong(delay: string): boolean {
   return delay.trim() !== '' && milliseconds(delay) === undefined;
 }
 
-/** Whether the step is only not filled in yet, rather than wrong. */
+/** Whether the step is incomplete rather than wrong. */
 export function is_unfinished({ what, fields }: Problem): boolean {
   if (what === 'arguments') return Object.values(fields ?? {}).every((one) => one.what === 'missing' || one.what === 'either');
   return what === 'nothing' || what === 'no_component' || what === 'no_command' || what === 'no_branches';

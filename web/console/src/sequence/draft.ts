@@ -1,11 +1,11 @@
-// What is kept of an unfinished sequence from visit to visit.
+// Storage of an unfinished sequence across visits.
 import { copy_of, type Lane, new_lane, type Step } from './model';
 
 export function draft_text(root: Lane): string {
   return JSON.stringify(root);
 }
 
-/** Undefined for what is none; ids are new. */
+/** Undefined if invalid; ids are new. */
 export function draft_of(text: string | undefined): Lane | undefined {
   try {
     const { steps } = JSON.parse(text ?? '') as Lane;

@@ -1,4 +1,4 @@
-// Dragging steps with the mouse to another place of the drawing. (Fingers scroll it; they have the buttons.)
+// Dragging steps with the mouse. Touch scrolls the drawing; there are buttons for moving.
 import { useRef, useState } from 'preact/hooks';
 
 import type { Slot } from './model';
@@ -6,10 +6,10 @@ import type { Slot } from './model';
 const begins_after = 6; // px
 
 export interface Drag {
-  /** The step that is dragged; undefined: none. */
+  /** The dragged step, if any. */
   dragged: number | undefined;
   over: Slot | undefined;
-  /** What a step has to listen to. */
+  /** The event handlers of a step. */
   handlers(step: number): {
     onPointerDown(event: PointerEvent): void;
     onPointerMove(event: PointerEvent): void;

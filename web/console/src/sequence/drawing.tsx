@@ -1,4 +1,4 @@
-// The sequence as annex B draws it: boxes one behind the other, and branches beside each other between two bars.
+// The sequence drawn as in annex B: boxes in a row, and branches between two bars.
 import { useEffect, useRef } from 'preact/hooks';
 
 import { useConsole } from '../shell/context';
@@ -14,7 +14,7 @@ import * as t from './texts';
 
 export interface DrawingProps {
   store: SequenceStore;
-  /** Where something is being added; undefined: nowhere. */
+  /** The place where a step is being added, if any. */
   adding: Slot | undefined;
   set_adding: (slot: Slot | undefined) => void;
   open_form: () => void;
@@ -40,7 +40,7 @@ export function Drawing({ store, adding, set_adding, open_form }: DrawingProps) 
     event.preventDefault();
     if (event.altKey) go_to(store.chosen.value);
   };
-  // What is running is brought into sight, unless somebody works in the drawing.
+  // Scrolls to the running step unless the focus is in the drawing.
   const running = [...view].find(([, one]) => one.state === 'running')?.[0];
   useEffect(() => {
     if (running !== undefined && !frame.current?.contains(document.activeElement)) frame.current?.querySelector(`[data-step="${running}"]`)?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
@@ -64,10 +64,10 @@ export interface LaneContext {
   adding: Slot | undefined;
   set_adding: (slot: Slot | undefined) => void;
   drag: ReturnType<typeof useDrag>;
-  /** The step that Tab goes to. */
+  /** The step with the Tab stop. */
   first: number | undefined;
   go_to: (step: number) => void;
-  /** Goes on to the form of the step that is chosen. */
+  /** Moves the focus to the form of the selected step. */
   open_form: () => void;
 }
 

@@ -1,4 +1,4 @@
-// The form of the step that is chosen: which command of which component with which arguments, how long it waits, its branches.
+// The form of the selected step: component, command, arguments, delay, branches.
 import { ArgumentFields } from '../forms/argument_fields';
 import { CommandProgress } from '../forms/command_progress';
 import { asked_by, command_types, same } from '../forms/describe';
@@ -30,7 +30,7 @@ export function Inspector({ store }: { store: SequenceStore }) {
   );
 }
 
-// How it went, and why it did not.
+// The outcome, and why it failed.
 function Outcome({ store, step }: { store: SequenceStore; step: Step }) {
   const run = store.run.value;
   const entry = run?.entries.get(step.id);
@@ -41,7 +41,7 @@ function Outcome({ store, step }: { store: SequenceStore; step: Step }) {
 interface CommandFormProps {
   step: CommandStep;
   problem: Problem | undefined;
-  /** The problem, also when it is not to be complained of yet. */
+  /** The problem, even if it is not shown yet. */
   all: Problem | undefined;
   change: (to: Partial<CommandStep>) => void;
 }
@@ -97,7 +97,7 @@ function types_of(view: ComponentView | undefined): string[] {
   return view ? command_types(view) : [];
 }
 
-// What is chosen stands in the list, too, when it is not one of those that there are.
+// Includes the chosen value even if it is unknown.
 function listed(all: readonly string[], chosen: string, choose: string) {
   const listed_ones = all.includes(chosen) ? all : [chosen, ...all];
   return listed_ones.map((value) => ({ value, label: value === '' ? choose : value }));

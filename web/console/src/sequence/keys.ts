@@ -1,4 +1,4 @@
-// The keyboard in the drawing.
+// Keyboard input of the drawing.
 import { type Direction, neighbour, slot_towards, with_moved, without } from './model';
 import type { SequenceStore } from './store';
 
@@ -7,13 +7,13 @@ const arrows: Record<string, Direction> = { ArrowLeft: 'earlier', ArrowRight: 'l
 export interface KeyActions {
   /** Moves the focus to a step. */
   go_to(step: number): void;
-  /** Offers what can be added behind the step. */
+  /** Opens the menu to add a step after it. */
   add(): void;
-  /** Goes on to the form of the step. */
+  /** Moves the focus to the form of the step. */
   open(): void;
 }
 
-/** Whether the key was meant for it. */
+/** Returns whether the key was handled. */
 export function step_key(event: KeyboardEvent, store: SequenceStore, { go_to, add, open }: KeyActions): boolean {
   const step = store.chosen.value;
   const direction = arrows[event.key];

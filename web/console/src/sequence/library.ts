@@ -1,4 +1,4 @@
-// Sequences that are kept in this browser, by name, as the XML that is exported, too.
+// Sequences stored in this browser by name, as XML.
 import type { Environment } from '../state/environment';
 
 const place = 'sequences';
@@ -6,7 +6,7 @@ const most = 100;
 
 type Kept = Pick<Environment, 'recall' | 'remember'>;
 
-/** By name, in the order of their names. */
+/** Sorted by name. */
 export function kept_sequences(environment: Kept): ReadonlyMap<string, string> {
   try {
     const read = Object.entries(JSON.parse(environment.recall(place) ?? '{}') as Record<string, unknown>);
@@ -17,7 +17,7 @@ export function kept_sequences(environment: Kept): ReadonlyMap<string, string> {
   }
 }
 
-/** Under this name, in place of what was there. */
+/** Replaces a sequence of this name. */
 export function keep_sequence(environment: Kept, name: string, xml: string): ReadonlyMap<string, string> {
   const others = [...kept_sequences(environment)].filter(([one]) => one !== name).slice(0, most - 1);
   environment.remember(place, JSON.stringify(Object.fromEntries([...others, [name, xml]])));

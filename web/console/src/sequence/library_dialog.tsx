@@ -1,4 +1,4 @@
-// Keeps sequences in this browser, and takes them in and out as XML.
+// Stores sequences in this browser; imports and exports XML.
 import { useRef, useState } from 'preact/hooks';
 
 import { reason_of } from '../state/reason_of';

@@ -1,4 +1,4 @@
-// A sequence while it is edited: steps one after the other, and branches of steps beside each other.
+// A sequence being edited: steps in order, and parallel branches.
 import type { Parameter } from 'rois-client';
 
 import type { Inputs } from '../forms/inputs';
@@ -6,10 +6,10 @@ import type { Inputs } from '../forms/inputs';
 export interface CommandStep {
   kind: 'command';
   id: number;
-  component: string; // its ref; empty: not chosen yet
+  component: string; // its ref; empty: not chosen
   command_type: string;
   inputs: Inputs;
-  /** Arguments that came along from elsewhere and that no profile knows. */
+  /** Imported arguments that the profile does not have. */
   unknown: Parameter[];
   delay: string; // ms before it starts, as typed; empty: none
 }
@@ -29,13 +29,13 @@ export interface ParallelStep {
 
 export type Step = CommandStep | WaitStep | ParallelStep;
 
-/** Steps that are carried out one after the other: the sequence itself, or a branch. */
+/** Steps in order: the sequence itself or a branch. */
 export interface Lane {
   id: number;
   steps: Step[];
 }
 
-/** Before which step of which lane. */
+/** A place in a lane: before the step of this index. */
 export interface Slot {
   lane: number;
   index: number;
@@ -60,18 +60,18 @@ export function new_parallel(branches: Lane[] = [new_lane(), new_lane()], delay 
   return { kind: 'parallel', id: next_id(), branches, delay };
 }
 
-/** The same step with other ids, all the way down. */
+/** A copy with new ids. */
 export function copy_of(step: Step): Step {
   if (step.kind === 'parallel') return new_parallel(step.branches.map((one) => new_lane(one.steps.map(copy_of))), step.delay);
   return { ...step, id: next_id() };
 }
 
-/** Where a step is. */
+/** A step with its place. */
 export interface Found {
   step: Step;
   slot: Slot;
   lane: Lane;
-  /** The parallel step that the lane belongs to, and which of its branches it is; undefined in the sequence itself. */
+  /** The parallel step and branch number of the lane; undefined in the sequence itself. */
   parallel?: ParallelStep;
   branch: number;
 }
@@ -92,7 +92,7 @@ function find_in(lane: Lane, id: number, parallel: ParallelStep | undefined, bra
   return undefined;
 }
 
-/** All steps in the order of the document; a parallel one before those inside. */
+/** All steps in document order; a parallel step before its branches. */
 export function steps_of(lane: Lane): Step[] {
   return lane.steps.flatMap((step) => [step, ...(step.kind === 'parallel' ? step.branches.flatMap(steps_of) : [])]);
 }
@@ -101,7 +101,7 @@ export function commands_in(lane: Lane): CommandStep[] {
   return steps_of(lane).filter((one): one is CommandStep => one.kind === 'command');
 }
 
-// --- Changes; each gives a new tree ---
+// --- Edits. Each returns a new tree. ---
 
 function mapped(lane: Lane, change: (steps: Step[], lane: Lane) => Step[]): Lane {
   const inside = lane.steps.map((step) => (step.kind === 'parallel' ? { ...step, branches: step.branches.map((one) => mapped(one, change)) } : step));
@@ -124,7 +124,7 @@ export function with_branch(root: Lane, parallel: number): Lane {
   return with_changed(root, parallel, (step) => (step.kind === 'parallel' ? { ...step, branches: [...step.branches, new_lane()] } : step));
 }
 
-/** Without a branch and all that is in it; of the last branch but one nothing is left beside, so its steps take the place of the parallel one. */
+/** Removes a branch with its steps. If only one branch remains, its steps replace the parallel step. */
 export function without_branch(root: Lane, lane: number): Lane {
   return mapped(root, (steps) =>
     steps.flatMap((step) => {
@@ -135,7 +135,7 @@ export function without_branch(root: Lane, lane: number): Lane {
   );
 }
 
-/** A step moved to before what stands at the slot now; the same tree when it cannot go there. */
+/** Moves a step to the slot. Returns the same tree if it cannot go there. */
 export function with_moved(root: Lane, id: number, to: Slot): Lane {
   const from = found(root, id);
   if (!from || (from.step.kind === 'parallel' && from.step.branches.some((one) => holds(one, to.lane)))) return root;
@@ -152,8 +152,8 @@ function holds(lane: Lane, id: number): boolean {
 export type Direction = 'earlier' | 'later' | 'up' | 'down';
 
 /**
- * Where a step goes that is moved by one: earlier and later within its lane, and out of a branch at its ends; up and down to the branch
- * beside it, or into the parallel step that stands before or behind it. Undefined: nowhere.
+ * The slot one step in a direction. Earlier and later: within its lane, and out of a branch at its ends. Up and down: to the neighbouring
+ * branch, or into an adjacent parallel step. Undefined: none.
  */
 export function slot_towards(root: Lane, id: number, direction: Direction): Slot | undefined {
   const at = found(root, id);
@@ -177,7 +177,7 @@ export function slot_towards(root: Lane, id: number, direction: Direction): Slot
   }
 }
 
-/** The step that an arrow key goes to. Undefined: there is none. */
+/** The step in the direction of an arrow key, if any. */
 export function neighbour(root: Lane, id: number, direction: Direction): number | undefined {
   const at = found(root, id);
   if (!at) return root.steps[0]?.id;
@@ -196,7 +196,7 @@ export function neighbour(root: Lane, id: number, direction: Direction): number 
   }
 }
 
-// What comes after it; at the end of a branch, what comes after all branches.
+// The next step; at the end of a branch, the step after the parallel one.
 function after(root: Lane, { lane, slot, parallel }: Found): Step | undefined {
   const next = lane.steps[slot.index + 1];
   if (next || !parallel) return next;

@@ -1,4 +1,4 @@
-// An editor for `execute`: sequences with branches and waits, drawn, checked, run, and shown while they run.
+// The Sequence panel: an editor for `execute` that draws, validates and runs sequences and shows their progress.
 import './sequence.css';
 
 import { useEffect, useRef, useState } from 'preact/hooks';
@@ -69,7 +69,7 @@ export default function SequencePanel() {
   );
 }
 
-// What components have already need not be given in the sequence.
+// Parameters that a component already has may be omitted.
 function Looks({ component }: { component: string }) {
   useWatch(useConsole().parameters.poll(component));
   return null;

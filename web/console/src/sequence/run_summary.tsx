@@ -1,4 +1,4 @@
-// How the run as a whole is, in one line, and why it failed.
+// The run in one line: its state, and why it failed.
 import { why } from '../forms/why';
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
@@ -14,7 +14,7 @@ export function RunSummary({ store }: { store: SequenceStore }) {
   return (
     <div class="sequence-summary" role="status">
       {run && (run.error !== undefined ? <Refused store={store} run={run} /> : <Progress store={store} run={run} />)}
-      {store.waiting_in_vain.length > 0 && <span class="field-hint">{t.in_vain(store.waiting_in_vain.join(', '))}</span>}
+      {store.still_queued.length > 0 && <span class="field-hint">{t.left_queued(store.still_queued.join(', '))}</span>}
       {!run && store.going_on.length > 0 && <span class="field-hint">{t.stays_bound(store.going_on.join(', '))}</span>}
     </div>
   );

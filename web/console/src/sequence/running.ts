@@ -1,18 +1,18 @@
-// How far a sequence is, step by step. The engine tells of commands only; how far waits and branches are follows from them.
+// Progress of a sequence by step. The engine reports commands only; waits and branches are inferred.
 import { type CommandEntry, type CommandState, has_ended } from '../state/commands_state';
 import type { Lane, Step } from './model';
 import { milliseconds } from './units';
 
 export interface StepState {
   state: CommandState;
-  since?: number; // ms since 1970: when it began to be so
-  took?: number; // ms, when it has ended
+  since?: number; // ms since 1970: begin of this state
+  took?: number; // ms, once ended
 }
 
-/** By the ids of steps; those that were not part of what was sent are not there. */
+/** By step id; steps that were not sent are missing. */
 export type RunView = ReadonlyMap<number, StepState>;
 
-// When something is over: a time, not yet, or never since it failed.
+// The end of a step: a time, undefined if it has not ended, or 'failed' if it never will.
 type End = number | undefined | 'failed';
 
 export function run_view(root: Lane, entries: ReadonlyMap<number, CommandEntry>, sent_at: number, now: number): RunView {
@@ -31,7 +31,7 @@ function step_end(step: Step, turn: End, entries: ReadonlyMap<number, CommandEnt
   switch (step.kind) {
     case 'command': {
       const entry = entries.get(step.id);
-      if (!entry) return turn; // added since
+      if (!entry) return turn; // added after sending
       view.set(step.id, state_of_entry(entry, turn));
       return entry.state === 'OK' ? (entry.ended_at ?? now) : has_ended(entry) ? 'failed' : undefined;
     }
@@ -55,7 +55,7 @@ function step_end(step: Step, turn: End, entries: ReadonlyMap<number, CommandEnt
   }
 }
 
-// When it has begun is told late, or never of what is over at once: then it was its turn.
+// The start is reported late, and not at all for short commands: then the end of the step before counts as the start.
 function state_of_entry(entry: CommandEntry, turn: End): StepState {
   const { state, ended_at } = entry;
   const started_at = entry.started_at ?? (typeof turn === 'number' ? turn : undefined);
@@ -63,7 +63,7 @@ function state_of_entry(entry: CommandEntry, turn: End): StepState {
   return ended_at !== undefined && started_at !== undefined ? { state, took: Math.max(0, ended_at - started_at) } : { state };
 }
 
-// All branches have to come to an end before it has one.
+// A parallel step ends when all branches have ended.
 function whole_of(inside: StepState[], turn: End): StepState {
   const is_open = inside.some(({ state }) => state === 'waiting' || state === 'running');
   if (is_open) return { state: typeof turn === 'number' || inside.some(({ state }) => state !== 'waiting') ? 'running' : 'waiting' };

@@ -1,4 +1,4 @@
-// The way from one step to the next, where steps can be added and dropped.
+// The gap between two steps, where steps are added and dropped.
 import { useLayoutEffect, useRef } from 'preact/hooks';
 
 import { Button, IconButton, joined } from '../ui';
@@ -13,7 +13,7 @@ export function SlotView({ slot, context, is_empty = false }: { slot: Slot; cont
     store.change(with_inserted(store.root.value, slot, step));
     set_adding(undefined);
     store.chosen.value = step.id;
-    if (step.kind === 'parallel') go_to(step.id); // it is filled in the drawing
+    if (step.kind === 'parallel') go_to(step.id); // its branches are filled in the drawing
     else open_form();
   };
   const name = joined('sequence-slot', is(drag.over) && 'sequence-target', is_empty && 'sequence-empty');
@@ -24,7 +24,7 @@ export function SlotView({ slot, context, is_empty = false }: { slot: Slot; cont
           <Button small icon="clock" onClick={() => add(new_wait())}>
             {t.wait()}
           </Button>
-          {/* In the middle, under the pointer that has opened it. */}
+          {/* Under the pointer that opened the menu. */}
           <Button small look="primary" icon="components" onClick={() => add(new_command())}>
             {t.command()}
           </Button>
@@ -39,7 +39,7 @@ export function SlotView({ slot, context, is_empty = false }: { slot: Slot; cont
   );
 }
 
-// Takes the focus; Escape and leaving it close it.
+// Takes the focus. Escape or leaving closes it.
 function Choices({ close, children }: { close: () => void; children: preact.ComponentChildren }) {
   const box = useRef<HTMLDivElement>(null);
   useLayoutEffect(() => box.current?.querySelector<HTMLElement>('.button-primary')?.focus(), []);

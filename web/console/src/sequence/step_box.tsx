@@ -1,4 +1,4 @@
-// One step in the drawing, with how far it is.
+// A step in the drawing, with its progress.
 import { duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import { Icon, joined, StatusBadge } from '../ui';
@@ -59,7 +59,7 @@ function time_text(text: string): string {
   return time === undefined ? '?' : duration(time);
 }
 
-// The values alone: which is which stands in the form.
+// Only the values; the form shows their names.
 function said_by({ inputs }: CommandStep): string {
   return Object.values(inputs)
     .map(({ texts: values }) => values.filter((one) => one.trim() !== '').join(' → '))

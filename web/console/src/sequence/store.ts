@@ -1,4 +1,4 @@
-// The sequence of a console: what is edited, what is kept, and the run that is shown. It outlives the panel.
+// The edited sequence, the stored ones and the shown run. Kept while another panel is shown.
 import { computed, signal } from '@preact/signals';
 import { type CommandUnit, type Parameter, parse_xml, request, RoisError, sequence_xml } from 'rois-client';
 
@@ -13,15 +13,15 @@ import { drop_sequence, keep_sequence, kept_sequences } from './library';
 import { type CommandStep, commands_in, type Lane, new_lane } from './model';
 import { lane_of, units_of_lane } from './units';
 
-/** What was sent, and what became of it. */
+/** A sent sequence and its outcome. */
 export interface Run {
   sent_at: number;
   root: Lane;
-  /** By the ids of steps; empty until the engine has accepted it. */
+  /** By step id; empty until the engine has accepted it. */
   entries: ReadonlyMap<number, CommandEntry>;
-  /** Components that were bound for it, and are released when it is over. */
+  /** Components bound for the run and released at its end. */
   borrowed: readonly string[];
-  /** Somebody has stopped it: what waits then waits in vain. */
+  /** Stopped by the user: waiting commands will not run. */
   is_stopped?: boolean;
   /** Why it was refused. */
   error?: unknown;
@@ -34,16 +34,16 @@ const most_undone = 50;
 export class SequenceStore {
   readonly root = signal<Lane>(new_lane());
   readonly name = signal('');
-  /** The step that is open; 0: none. */
+  /** The selected step; 0: none. */
   readonly chosen = signal(0);
   readonly kept = signal<ReadonlyMap<string, string>>(new Map());
   readonly run = signal<Run | undefined>(undefined);
-  /** Whether what is missing has been complained of: from when somebody has tried to run it. */
+  /** Whether missing values are shown as problems: after the first attempt to run. */
   readonly is_strict = signal(false);
   readonly problems = computed(() => problems_in_sequence(this.root.value, this.profiles));
   readonly can_undo = signal(false);
   private readonly past: Lane[] = [];
-  private in_vain: CommandEntry[] = []; // waited behind a delay when their run was stopped
+  private left_queued: CommandEntry[] = []; // delayed commands that were waiting when their run was stopped
 
   constructor(private readonly console: Console) {
     this.root.value = draft_of(console.environment.recall('sequence')) ?? new_lane();
@@ -71,7 +71,7 @@ export class SequenceStore {
     this.console.environment.remember('sequence', draft_text(root));
   }
 
-  /** Another sequence in place of this one; what was shown of a run goes with it. */
+  /** Replaces the sequence and drops the shown run. */
   open(name: string, root: Lane): void {
     this.change(root);
     this.rename(name);
@@ -85,24 +85,24 @@ export class SequenceStore {
     this.console.environment.remember('sequence.name', name);
   }
 
-  // --- As XML ---
+  // --- XML ---
 
   get units(): CommandUnit[] {
     return units_of_lane(this.root.value, this.arguments_of);
   }
 
-  /** The request as it would be sent; empty when there are characters in it that XML cannot hold. */
+  /** The request that would be sent; empty if XML does not allow one of its characters. */
   get request(): string {
     return written(() => request('execute', {}, sequence_xml(this.units)));
   }
 
-  /** The sequence as a document of its own. */
+  /** The sequence as a document. */
   get document(): string {
     const whole = parse_and_cut(this.request);
     return whole === '' ? '' : `<?xml version="1.0" encoding="UTF-8"?>\n${whole}\n`;
   }
 
-  /** Throws XmlError for what is no XML, and Error for what has no sequence in it. */
+  /** Throws XmlError if it is not XML, and Error if it has no sequence. */
   read(text: string): Lane {
     const units = units_of(parse_xml(text));
     if (units.length === 0) throw new Error('no CommandUnitSequence');
@@ -125,7 +125,7 @@ export class SequenceStore {
     };
   }
 
-  // --- Keeping ---
+  // --- Storage ---
 
   keep(): void {
     const name = this.name.value.trim();
@@ -148,12 +148,12 @@ export class SequenceStore {
   }
 
   /**
-   * Components of this sequence that have a command of a stopped run in their queue. An engine looks at the binding only when its turn
-   * comes: bound again before, it would run.
+   * Components with a queued command of a stopped run. The engine checks the binding when the command's turn comes, so it would run if
+   * the component were bound again before.
    */
-  get waiting_in_vain(): string[] {
+  get still_queued(): string[] {
     void this.console.commands.pulse.beat.value;
-    const refs = new Set(this.in_vain.filter((one) => !has_ended(one)).map((one) => one.component));
+    const refs = new Set(this.left_queued.filter((one) => !has_ended(one)).map((one) => one.component));
     return [...new Set(commands_in(this.root.value).map((one) => one.component))].filter((ref) => refs.has(ref));
   }
 
@@ -161,7 +161,7 @@ export class SequenceStore {
     return [...(this.run.value?.entries.values() ?? [])].filter((one) => !has_ended(one));
   }
 
-  /** Components whose work goes on when their `start` has completed: they stay bound. */
+  /** Components that keep working after `start`: they stay bound. */
   get going_on(): string[] {
     const starts = commands_in(this.root.value).filter((one) => same(one.command_type, 'start')).map((one) => one.component);
     return [...new Set(starts)].filter((ref) => this.console.profile.lasts(ref));
@@ -188,13 +188,14 @@ export class SequenceStore {
     }
   }
 
-  /** Stops what runs, and with it what waits behind that. What waits on its own, behind a delay, ends in its turn: its component is released. */
+  /** Stops running commands and those queued behind them. A command that waits for its delay is aborted at its turn, because its
+      component is released. */
   async stop(): Promise<void> {
     const open = () => [...new Set(this.open_entries().map((one) => one.component))];
     await Promise.all(open().map(async (ref) => (await this.console.run(ref, 'stop')).ends.catch(() => undefined)));
-    this.in_vain = [...this.in_vain, ...this.open_entries()].filter((one) => !has_ended(one));
+    this.left_queued = [...this.left_queued, ...this.open_entries()].filter((one) => !has_ended(one));
     const waiting = open();
-    // With nothing left that waits, what was borrowed goes back by itself.
+    // If no command waits, borrowed components are released by themselves.
     const done_with = waiting.length === 0 ? [] : [...new Set([...waiting, ...(this.run.value?.borrowed ?? [])])];
     for (const ref of done_with) if (this.console.bindings.mine.value.has(ref)) await this.console.bindings.release(ref);
     if (this.run.value) this.run.value = { ...this.run.value, is_stopped: true };
@@ -216,7 +217,7 @@ function written(make: () => string): string {
   }
 }
 
-// The element inside of the request, which has to declare its prefixes itself then.
+// Cuts the element out of the request and declares its prefixes.
 function parse_and_cut(text: string): string {
   const [, declared = '', inside = ''] = /^<execute((?:\s[^<>]*)?)>([^]*)<\/execute>$/.exec(text) ?? [];
   const prefixes = [...declared.matchAll(/\sxmlns:\w+="[^"]*"/g)].map(([one]) => one).join('');

@@ -1,4 +1,4 @@
-// What can be done with the sequence and with the step that is chosen.
+// Buttons for the sequence and the selected step.
 import { useConsole } from '../shell/context';
 import { Button, IconButton, tried } from '../ui';
 import { move } from './keys';
@@ -20,7 +20,7 @@ export function Toolbar({ store, set_adding, open_library }: ToolbarProps) {
     const [problem] = store.problems.value;
     store.is_strict.value = problem !== undefined;
     if (problem) store.chosen.value = problem.step;
-    else void store.execute().catch(() => undefined); // the drawing shows it
+    else void store.execute().catch(() => undefined); // shown by the drawing
   };
   const stop = () => tried(console, 'sequence', store.stop());
   const add = () => set_adding({ lane: at?.lane.id ?? root.id, index: at ? at.slot.index + 1 : root.steps.length });
@@ -30,7 +30,7 @@ export function Toolbar({ store, set_adding, open_library }: ToolbarProps) {
   );
   return (
     <div class="sequence-toolbar" role="group" aria-label={t.tools()}>
-      <Button look="primary" icon="play" disabled={store.is_empty || store.is_running || store.waiting_in_vain.length > 0 || !console.link.is_open} onClick={run}>
+      <Button look="primary" icon="play" disabled={store.is_empty || store.is_running || store.still_queued.length > 0 || !console.link.is_open} onClick={run}>
         {t.run()}
       </Button>
       <Button look="danger" icon="stop" disabled={!store.is_running} onClick={stop}>

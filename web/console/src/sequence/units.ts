@@ -1,13 +1,13 @@
-// Between the steps of the editor and the units of the specification.
+// Conversion between steps of the editor and units of the specification.
 import { code_of, type CommandMessage, type CommandUnit, command, type Parameter } from 'rois-client';
 
 import { inputs_of } from '../forms/inputs';
 import { type CommandStep, type Lane, new_command, new_lane, new_parallel, new_wait, type Step } from './model';
 
-/** The arguments of a step as its component's profile has them. */
+/** The arguments of a step, typed by its component's profile. */
 export type ArgumentsOf = (step: CommandStep) => Parameter[];
 
-/** All units, and the steps that their commands are from, in the order of the document. */
+/** All units, in document order. */
 export function units_of_lane(root: Lane, arguments_of: ArgumentsOf): CommandUnit[] {
   return root.steps.flatMap((step) => unit_of(step, arguments_of));
 }
@@ -19,7 +19,7 @@ function unit_of(step: Step, arguments_of: ArgumentsOf): CommandUnit[] {
   if (branches.length === 0) return [];
   const delay = milliseconds(step.delay);
   const rest = delay === undefined ? {} : { delay_time: delay };
-  // The published form has commands alone in its branches; with more inside, that of the first specification is needed.
+  // RoIS 2.0 branches contain only commands; other branches need the units of RoIS 1.0.
   const plain = branches.map((one) => messages_of(one, arguments_of));
   if (plain.every((one): one is CommandMessage[] => one !== undefined)) return [{ kind: 'concurrent', branches: plain, ...rest }];
   return [{ kind: 'parallel', units: branches.map((one) => one_unit(units_of_lane(one, arguments_of))), ...rest }];
@@ -30,7 +30,7 @@ function one_unit(units: CommandUnit[]): CommandUnit {
   return units.length === 1 && first ? first : { kind: 'sequential', units };
 }
 
-// A branch as commands alone: a wait before a command is the command's delay. Undefined when that does not do.
+// A branch as commands only: a wait becomes the delay of the next command. Undefined if not possible.
 function messages_of(lane: Lane, arguments_of: ArgumentsOf): CommandMessage[] | undefined {
   const messages: CommandMessage[] = [];
   let waited = 0;
@@ -57,7 +57,7 @@ export function milliseconds(text: string): number | undefined {
   return /^\s*\d{1,9}\s*$/.test(text) ? Number(text) : undefined;
 }
 
-/** The steps of units that were read. `knows`: whether a command of a component takes an argument of this name. */
+/** The steps of units. `knows`: whether a command has an argument of this name. */
 export function lane_of(units: readonly CommandUnit[], knows: (component: string, command_type: string, name: string) => boolean): Lane {
   const step_of = (unit: CommandUnit): Step[] => {
     const delay = unit.delay_time === undefined ? '' : String(unit.delay_time);
@@ -75,7 +75,7 @@ export function lane_of(units: readonly CommandUnit[], knows: (component: string
       case 'parallel':
         return [new_parallel(unit.units.map((one) => new_lane(one.kind === 'sequential' && one.delay_time === undefined ? one.units.flatMap(step_of) : step_of(one))), delay)];
       case 'sequential':
-        // Inside of a row of steps it makes no difference whether some of them are one unit.
+        // Within steps, a nested sequential unit makes no difference.
         return [...(delay === '' || delay === '0' ? [] : [new_wait(delay)]), ...unit.units.flatMap(step_of)];
     }
   };

@@ -34,8 +34,8 @@ export function App({ console }: { console: Console }) {
   );
 }
 
-// People are told of when they come or move: whoever begins to listen later does not know of those who stand still. Trails have no gaps
-// while other panels are shown.
+// Watches persons and robots from the start: events report only changes, so a late subscriber would miss persons who stand still. It also
+// keeps trails without gaps.
 function Watch() {
   const { entities, robots } = useConsole();
   useWatch(entities);

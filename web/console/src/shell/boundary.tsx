@@ -1,4 +1,4 @@
-// A panel that fails takes no other with it.
+// Error boundary: a failed panel does not affect the others.
 import { Component, type ComponentChildren } from 'preact';
 
 import { reason_of } from '../state/reason_of';

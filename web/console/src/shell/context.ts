@@ -1,4 +1,4 @@
-// How the parts of the page come by the state.
+// Access to the state.
 import { createContext } from 'preact';
 import { useContext, useEffect } from 'preact/hooks';
 
@@ -7,14 +7,14 @@ import type { Stop } from '../state/environment';
 
 export const ConsoleContext = createContext<Console | undefined>(undefined);
 
-/** The state and the operations; the same object for ever. */
+/** The state and operations; always the same object. */
 export function useConsole(): Console {
   const console = useContext(ConsoleContext);
-  if (!console) throw new Error('there is no console around this');
+  if (!console) throw new Error('useConsole needs a ConsoleContext');
   return console;
 }
 
-/** Looks at something that is asked for while somebody looks: `useWatch(console.status.poll)`. */
+/** Watches while the component is mounted: `useWatch(console.status.poll)`. */
 export function useWatch(watched: { watch(): Stop }): void {
   useEffect(() => watched.watch(), [watched]);
 }

@@ -1,11 +1,11 @@
-// The browser as the state sees it.
+// The browser as the state's environment.
 import { open_socket } from 'rois-client';
 
 import type { Environment } from '../state/environment';
 
 const prefix = 'rois-console.';
 
-/** Kept for this visit alone: it outlives a reload, not the tab. */
+/** Stored for this tab; survives a reload. */
 export const visit = {
   recall: (): string | undefined => {
     try {
@@ -14,7 +14,7 @@ export const visit = {
       return undefined;
     }
   },
-  /** Whether it was taken: it may be too much, or the user's settings forbid it. */
+  /** Returns whether it was stored: it may be too large, or storage may be disabled. */
   remember: (text: string): boolean => {
     try {
       sessionStorage.setItem(prefix + 'past', text);
@@ -37,7 +37,7 @@ export const browser: Environment = {
     const timer = setTimeout(act, ms);
     return () => clearTimeout(timer);
   },
-  // A page that nobody sees draws no pictures, and its memory must stay bounded all the same.
+  // A hidden page renders no frames, but pulses must still fire so that memory stays bounded.
   before_picture: (act) => void (document.hidden ? setTimeout(act, 1000) : requestAnimationFrame(act)),
   fetch: (path, init) => fetch(path, init),
   open_socket,
@@ -45,14 +45,14 @@ export const browser: Environment = {
     try {
       return localStorage.getItem(prefix + name) ?? undefined;
     } catch {
-      return undefined; // the user's settings forbid it
+      return undefined; // storage is disabled
     }
   },
   remember: (name, value) => {
     try {
       localStorage.setItem(prefix + name, value);
     } catch {
-      // then it is not remembered
+      // storage is disabled or full
     }
   },
 };

@@ -88,13 +88,13 @@ export function Header() {
   }
 }
 
-// In a row where there is room, else behind a button.
+// A row if there is room, else a menu.
 function Menu({ children }: { children: ComponentChildren }) {
   const those = <div class="head-end">{children}</div>;
   return is_narrow.value ? <Pop label={t.menu()} at_right>{those}</Pop> : those;
 }
 
-// What this console has bound, since others cannot have it meanwhile.
+// Lists the components that this console has bound, because other sessions cannot use them.
 function Bound() {
   const console = useConsole();
   const { bindings } = console;

@@ -1,4 +1,4 @@
-// Draws the panels: on a wide screen in up to three areas at once, on a narrower one behind one row of tabs.
+// Draws the panels: in up to three areas on a wide screen, behind one row of tabs on a narrow one.
 import type { ComponentType } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 
@@ -38,7 +38,7 @@ function Group({ id, label }: { id: Area | 'all'; label: string }) {
   );
 }
 
-// The code of panels that have been shown.
+// Loaded panels.
 const loaded = new Map<Panel, ComponentType>();
 
 // An error while loading is shown by the Boundary, whose button tries again.

@@ -1,10 +1,10 @@
-// How the link is: a mark in the header, and a line below it when there is something to say.
+// Link state: a badge in the header and, if needed, a banner.
 import { useConsole } from './context';
 import { Badge, tone_of } from '../ui/states';
 import { Button } from '../ui/button';
 import * as t from './texts';
 
-const stale_after = 5000; // ms; the console asks for something every second
+const stale_after = 5000; // ms; the console sends a request every second
 
 export function LinkMark() {
   const { link, now } = useConsole();
@@ -25,7 +25,7 @@ export function LinkBanner() {
   const { phase, reason, since } = console.link.view.value;
   const missed = console.link.missed.value;
   const heard = console.link.heard_at;
-  // A link that opens within a moment is not worth a line that comes and goes.
+  // A quick reconnect should not flash a banner.
   const is_long = console.now.value - since > 1500;
   const said = () => {
     if (phase === 'lost') return `${t.is_old(console.now.value - heard)} ${t.lost_hint()}`;

@@ -1,15 +1,15 @@
-// Which panel is in front of its area, and how panels lead from one to the other.
+// The shown panel of each area, and links between panels.
 import { type Signal, signal } from '@preact/signals';
 import type { ComponentType } from 'preact';
 
 import type { Console } from '../state/console';
 import type { IconName } from '../ui/icon';
 
-/** Where a panel stands on a wide screen: the big one, the strip below it, or the column beside both. */
+/** The area of a panel on a wide screen: the large one, the strip below, or the column beside both. */
 export type Area = 'main' | 'below' | 'side';
 
 export interface Panel {
-  /** In addresses (`#components`) and in what is remembered. */
+  /** Used in addresses (`#components`) and stored settings. */
   id: string;
   title: () => string;
   icon: IconName;
@@ -18,11 +18,11 @@ export interface Panel {
   load: () => Promise<{ default: ComponentType }>;
 }
 
-/** A screen on which all three areas stand side by side. */
+/** Whether the screen has room for all three areas. */
 export const is_wide = signal(true);
-/** The header is a menu. */
+/** Whether the header collapses to a menu. */
 export const is_narrow = signal(false);
-/** The panel that is in front, in each area and, on a narrow screen, in all. */
+/** The id of the shown panel of each area, and of `all` on a narrow screen. */
 export const shown = signal<Readonly<Record<Area | 'all', string>>>({ main: '', below: '', side: '', all: '' });
 
 let panels: readonly Panel[] = [];
@@ -32,13 +32,13 @@ export function panels_of(area: Area | 'all'): readonly Panel[] {
   return area === 'all' ? panels : panels.filter((one) => one.area === area);
 }
 
-/** The panel that is in front of the area; the first one, unless another was shown. */
+/** The shown panel of an area, initially the first one. */
 export function in_front(area: Area | 'all'): Panel | undefined {
   const all = panels_of(area);
   return all.find((one) => one.id === shown.value[area]) ?? all[0];
 }
 
-/** Brings a panel to the front of its area. */
+/** Shows a panel in its area. */
 export function show_panel(id: string): void {
   const panel = panels.find((one) => one.id === id);
   if (!panel) return;
@@ -46,25 +46,25 @@ export function show_panel(id: string): void {
   history.replaceState(null, '', `#${id}`);
 }
 
-/** Shows a component in the list of components. */
+/** Shows a component in the Components panel. */
 export function show_component({ selection }: Console, ref: string): void {
   selection.component.value = ref;
   show_panel('components');
 }
 
-/** Shows a document in the list of messages. */
+/** Shows a document in the Messages panel. */
 export function show_document({ selection }: Console, number: number): void {
   selection.wanted.value = number;
   show_panel('messages');
 }
 
-/** Shows the events of a subscription only. */
+/** Shows only the events of a subscription. */
 export function show_events({ selection }: Console, subscribe_id: string): void {
   selection.subscription.value = subscribe_id;
   show_panel('messages');
 }
 
-/** Begins with these panels, the recalled ones in front, and follows the width of the window and the address. */
+/** Starts with these panels, shows the recalled ones, and follows the window's width and the address. */
 export function begin_layout(all: readonly Panel[], recalled: string | undefined): void {
   panels = all;
   follow('(min-width: 1100px)', is_wide);
@@ -76,7 +76,7 @@ export function begin_layout(all: readonly Panel[], recalled: string | undefined
     if (panel) shown.value = { ...shown.value, [panel.area]: id, all: id };
   }
   from_address();
-  // Fetched while the page is rendered, not after.
+  // Fetches the code while the page is rendered, not after.
   for (const area of is_wide.value ? areas : (['all'] as const)) in_front(area)?.load().catch(() => undefined);
 }
 

@@ -7,7 +7,7 @@ import * as texts from './texts';
 
 const signs: Record<Severity, IconName> = { info: 'info', good: 'check', warning: 'warning', error: 'warning' };
 
-/** At the edge of the page. Errors are said at once, all else when the screen reader has time. */
+/** Notices at the edge of the page. Screen readers announce errors at once, others when idle. */
 export function NoticeArea() {
   const { notices } = useConsole();
   return (

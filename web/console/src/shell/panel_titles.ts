@@ -1,4 +1,4 @@
-// What the panels are called, in the navigation and in the panels themselves.
+// Titles of the panels, for the navigation and the panels themselves.
 import { text } from '../i18n/i18n';
 
 export const map = text('Floor map', 'フロアマップ');

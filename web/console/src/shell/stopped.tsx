@@ -1,4 +1,4 @@
-// That everything is stopped, until somebody clears it; and that something which moved is held.
+// Banners for "everything is stopped" and for held robots.
 import { useSignal } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 
@@ -43,7 +43,7 @@ export function StoppedBanner() {
   );
 }
 
-/** A notice for each hold, with a button where it is for this console to go on. */
+/** A notice for each hold, with a button to resume if this console may. */
 export function Holds() {
   const console = useConsole();
   const { events, notices, bindings } = console;

@@ -1,4 +1,4 @@
-// Dark or light, as the user wishes or as their system is.
+// Dark or light theme, chosen by the user or the system.
 import { computed, effect, signal } from '@preact/signals';
 
 export type Theme = 'system' | 'dark' | 'light';
@@ -6,7 +6,7 @@ export type Theme = 'system' | 'dark' | 'light';
 export const theme = signal<Theme>('system');
 const system_is_dark = signal(true);
 
-/** What is shown; for what is drawn on a canvas, which must be drawn anew when it changes. */
+/** The theme in effect. Canvases must redraw when it changes. */
 export const shown_theme = computed<'dark' | 'light'>(() => {
   if (theme.value !== 'system') return theme.value;
   return system_is_dark.value ? 'dark' : 'light';
@@ -22,7 +22,7 @@ export function follow_system(): void {
   });
 }
 
-/** The value of one of the custom properties of tokens.css, for a canvas. */
+/** A custom property of tokens.css, for canvases. */
 export function color(name: `--${string}`): string {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }

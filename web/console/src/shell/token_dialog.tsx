@@ -1,4 +1,4 @@
-// Asked for when the gateway wants a token. It is kept for this visit alone.
+// Asks for the gateway's token, which is kept for this visit only.
 import { useSignal } from '@preact/signals';
 
 import { Button } from '../ui/button';

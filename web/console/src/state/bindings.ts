@@ -1,20 +1,20 @@
-// Which components this console has bound, and binding on demand.
+// The components that this console has bound, and binding on demand.
 import { signal } from '@preact/signals';
 import { type Client, code_of, namespaces, parse_xml } from 'rois-client';
 
 import type { LoggedDocument } from './documents';
 
-/** Who has a component: this console, another session by its number, or nobody. */
+/** The owner of a component: this console, another session by its number, or none. */
 export type Holder = { who: 'me' } | { who: 'other'; session: string } | { who: 'nobody' };
 
-/** Gives back what was borrowed; what was bound only for that is released. */
+/** Returns borrowed components and releases the ones that were bound only for the borrower. */
 export type GiveBack = () => Promise<void>;
 
 export class Bindings {
   readonly mine = signal<ReadonlySet<string>>(new Set());
-  private readonly borrowed = new Map<string, number>(); // those that were bound to be lent, and how many have them
+  private readonly borrowed = new Map<string, number>(); // bound only for borrowers, with their number
   private readonly kept = new Set<string>();
-  private readonly left = new Map<string, unknown>(); // those that were released, and what was known of others then: that they had it was told of this console
+  private readonly left = new Map<string, unknown>(); // released, with the other owners known then: the metrics may still name this console
 
   constructor(
     private readonly client: () => Client,
@@ -27,18 +27,18 @@ export class Bindings {
     return session === undefined || this.left.get(ref) === this.others() ? { who: 'nobody' } : { who: 'other', session };
   }
 
-  /** How many have borrowed it, unless the user has it for themselves. */
+  /** The number of borrowers; 0 if the user has bound it. */
   lent(ref: string): number {
     return this.kept.has(ref) ? 0 : (this.borrowed.get(ref) ?? 0);
   }
 
-  /** Binds and keeps it until `release`. */
+  /** Binds it until `release`. */
   async bind(ref: string): Promise<void> {
     if (!this.mine.value.has(ref)) await this.client().bind(ref);
     this.kept.add(ref);
   }
 
-  /** Releases it: what this console runs there is stopped (decision 6). */
+  /** Releases it. The engine stops this session's commands on it (decision 6). */
   async release(ref: string): Promise<void> {
     this.kept.delete(ref);
     this.borrowed.delete(ref);
@@ -49,7 +49,7 @@ export class Bindings {
     await Promise.all([...this.mine.value].map((ref) => this.release(ref)));
   }
 
-  /** Has all of these bound; those that were not are released when the last borrower gives them back. Nothing is bound when one cannot be. */
+  /** Binds all or none. Components that were not bound before are released when the last borrower returns them. */
   async borrow(refs: readonly string[]): Promise<GiveBack> {
     const taken: string[] = [];
     try {
@@ -68,11 +68,11 @@ export class Bindings {
     };
   }
 
-  /** Has any component of a type bound. It may be one that this console has already. */
+  /** Binds any component of a type, perhaps one that is already bound. */
   async borrow_any(type: string): Promise<{ ref: string; give_back: GiveBack }> {
     const before = this.mine.value;
     const ref = code_of(await this.client().bind_any(type));
-    if (!before.has(ref)) this.borrowed.set(ref, 0); // bound to be lent
+    if (!before.has(ref)) this.borrowed.set(ref, 0); // bound only for borrowers
     return { ref, give_back: await this.borrow([ref]) };
   }
 
@@ -99,15 +99,15 @@ export class Bindings {
   private async give_back(refs: string[]): Promise<void> {
     for (const ref of refs) {
       if (!this.borrowed.has(ref) || this.lower(ref) > 0 || this.kept.has(ref) || !this.mine.value.has(ref)) continue;
-      this.gone(ref); // already: whoever wants it before the answer comes has to bind it anew
+      this.gone(ref); // before the answer, so that a new borrower binds it again
       await this.client()
         .release(ref)
-        .catch(() => undefined); // the session is gone, and the binding with it
+        .catch(() => undefined); // the session is lost, and the binding with it
     }
   }
 
-  /** Learns from the answers, whoever has sent the requests. */
-  heard({ name, return_code, text, request }: LoggedDocument): void {
+  /** Updates from an answer, whether the user or the console sent the request. */
+  on_answer({ name, return_code, text, request }: LoggedDocument): void {
     if (return_code !== 'OK' || request === undefined) return;
     if (name === 'bind_response' && request.component !== undefined) this.add(request.component);
     if (name === 'bind_any_response') {
@@ -122,7 +122,7 @@ export class Bindings {
     if (this.mine.value.has(ref)) this.mine.value = new Set([...this.mine.value].filter((one) => one !== ref));
   }
 
-  /** The session is gone, and its bindings with it. */
+  /** The session is lost, and its bindings with it. */
   forget(): void {
     this.mine.value = new Set();
     this.borrowed.clear();

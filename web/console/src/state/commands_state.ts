@@ -1,4 +1,4 @@
-// The commands of this session: what was sent, what of it waits, runs, or has ended how.
+// The commands of this session: waiting, running or ended.
 import { type Client, code_of, type CommandUnit, type CompletedStatus, type Parameter, parse_xml, type Results } from 'rois-client';
 
 import type { Documents, LoggedDocument } from './documents';
@@ -7,7 +7,7 @@ import { Pulse } from './pulse';
 import { Ring } from './ring';
 import { placed_commands, units_of } from './sequences';
 
-/** `unknown`: the session was lost before it ended. */
+/** `unknown`: the session was lost before the command ended. */
 export type CommandState = 'waiting' | 'running' | CompletedStatus | 'unknown';
 
 export interface CommandEntry {
@@ -15,28 +15,28 @@ export interface CommandEntry {
   component: string;
   command_type: string;
   arguments: Parameter[];
-  path: string; // where it stands in its sequence
+  path: string; // place in its sequence
   sequence: SequenceEntry;
   state: CommandState;
   sent_at: number; // ms since 1970, as all times
-  started_at?: number; // when we have seen that it runs
+  started_at?: number; // when the console noticed that it runs
   ended_at?: number;
-  completed?: number; // of the document that told how it ended
-  results?: Results; // fetched when somebody asks (`fetch_results`), and by itself when it has failed
+  completed?: number; // number of the `completed` document
+  results?: Results; // fetched by `fetch_results`, and automatically after a failure
 }
 
-/** One `execute` or `set_parameter` that was accepted. */
+/** An accepted `execute` or `set_parameter`. */
 export interface SequenceEntry {
   number: number;
   units: CommandUnit[];
   commands: CommandEntry[];
   sent_at: number;
-  document: number; // of the request
+  document: number; // number of the request
 }
 
 const most_commands = 5000;
-const look_every = 400; // ms, at those that wait
-const most_asked = 16; // at once
+const look_every = 400; // ms, period of checking waiting commands
+const most_asked = 16; // per check
 
 export function has_ended({ state }: CommandEntry): boolean {
   return state !== 'waiting' && state !== 'running';
@@ -49,7 +49,7 @@ export class CommandsState {
   private readonly by_id = new Map<string, CommandEntry>();
   private readonly unended = new Set<CommandEntry>();
   private readonly working = new Set<string>();
-  private readonly early = new Map<string, CompletedStatus>(); // ended before their answer was read
+  private readonly early = new Map<string, CompletedStatus>(); // ended before their answer was processed
   private next_sequence = 1;
   private stop_looking: Stop | undefined;
 
@@ -67,23 +67,23 @@ export class CommandsState {
     return this.by_id.get(id);
   }
 
-  /** Those that have not ended, the oldest first. */
+  /** Commands that have not ended, oldest first. */
   open(): CommandEntry[] {
     return [...this.unended];
   }
 
-  /** What a component is doing for this session. */
+  /** This session's running commands on a component. */
   running_on(ref: string): CommandEntry[] {
     return this.open().filter((one) => one.component === ref && one.state === 'running');
   }
 
-  /** Whether it was started, and neither stopped nor released since, and its work goes on when `start` has completed. */
+  /** Whether a component was started and keeps working after `start` has completed, until it is stopped or released. */
   goes_on(ref: string): boolean {
     return this.working.has(ref) && this.lasts(ref);
   }
 
-  /** Learns from the answers, whoever has sent the requests. */
-  heard({ name, return_code, text, request }: LoggedDocument): void {
+  /** Updates from an answer, whether the user or the console sent the request. */
+  on_answer({ name, return_code, text, request }: LoggedDocument): void {
     if (return_code !== 'OK' || request === undefined) return;
     if (name === 'release_response') this.working.delete(request.component ?? '');
     if (name === 'execute_response') this.accepted(units_of(parse_xml(text)), request);
@@ -103,14 +103,14 @@ export class CommandsState {
     if (status !== 'OK') void this.fetch_results(entry);
   }
 
-  /** The session is gone. Its commands were stopped, but nobody says how they ended. */
+  /** The session is lost: its commands were stopped, but how they ended is unknown. */
   forget_session(): void {
     for (const entry of [...this.unended]) this.end(entry, 'unknown');
     this.by_id.clear();
     this.working.clear();
   }
 
-  /** Takes commands of the page that was here before. Those that had not ended then are over, and nobody says how. */
+  /** Adds the commands of this page before its reload. Unfinished commands become `unknown`. */
   recall(entries: readonly CommandEntry[]): void {
     for (const entry of entries) {
       const sequence: SequenceEntry = { number: this.next_sequence++, units: [], commands: [], sent_at: entry.sent_at, document: -1 };
@@ -174,7 +174,7 @@ export class CommandsState {
     this.pulse.touch();
   }
 
-  // Asks how those are that wait: the engine tells when a command ends, but not when it begins.
+  // Checks waiting commands: the engine notifies the end of a command, but not its start.
   private look(): void {
     this.stop_looking?.();
     this.stop_looking = undefined;
@@ -200,7 +200,7 @@ export class CommandsState {
   }
 }
 
-// What a set_parameter does, as the command that it is.
+// A set_parameter as a command.
 function setting(command_id: string, request: LoggedDocument): CommandUnit {
   return { kind: 'command', component_ref: request.component ?? '', command_type: 'set_parameter', command_id, arguments: [] };
 }

@@ -1,4 +1,4 @@
-// Everything that the page knows and can do. Made once, and handed down; the panels look and act through it alone.
+// The state of the page and its operations. Panels use only this.
 import { signal } from '@preact/signals';
 import {
   type Arguments,
@@ -44,26 +44,26 @@ import { Traffic } from './traffic';
 /** Commands that the engine has accepted. */
 export interface Accepted {
   command_ids: string[];
-  /** How each of them ends. Rejects when the session is lost before. */
+  /** Resolves with how they end. Rejects if the session is lost first. */
   ends: Promise<CompletedStatus[]>;
 }
 
 export interface ExecuteOptions {
-  /** What had to be bound for it is released when all commands have ended. Leave it out for what goes on after `start` (detection, ...). */
+  /** Release components bound for these commands when they end. Omit it for work that continues after `start` (detection, ...). */
   give_back?: boolean;
 }
 
-/** What became of a document that was sent as text. */
+/** The outcome of a document sent as text. */
 export interface Sent {
   answer: XmlElement;
-  document: LoggedDocument | undefined; // the answer as it was logged
+  document: LoggedDocument | undefined; // as logged
 }
 
-const forever = 2 ** 31 - 1; // ms; the longest that a timer takes
-const most_delay = 15_000; // ms between two tries: whoever does not want to wait has a button
+const forever = 2 ** 31 - 1; // ms; a timer's limit
+const most_delay = 15_000; // ms, longest delay between retries; the user can retry at once
 
 export class Console {
-  /** ms since 1970; changes each second, for ages. */
+  /** ms since 1970; changes each second, for showing ages. */
   readonly now = signal(0);
   /** Whether this page runs a scenario. Set by the scenario's desk. */
   readonly runs_scenario = signal(false);
@@ -102,7 +102,7 @@ export class Console {
     this.documents = new Documents(environment);
     this.status = new StatusState(environment, this.documents, client, components, is_open);
     this.parameters = new ParametersState(environment, this.documents, client, is_open);
-    this.metrics = new MetricsState(environment, token, () => !/^(connecting|lost|closed)$/.test(this.link.view.value.phase)); // else nobody is there
+    this.metrics = new MetricsState(environment, token, () => !/^(connecting|lost|closed)$/.test(this.link.view.value.phase)); // else the gateway is unreachable
     this.everything = new EverythingState(environment, token, this.metrics);
     this.bindings = new Bindings(
       () => this.client,
@@ -138,32 +138,32 @@ export class Console {
     this.now.value = environment.now();
     environment.every(1000, () => (this.now.value = environment.now()));
     this.documents.is_own_subscription = (id) => this.subscriptions.is_own(id);
-    this.documents.listen((document) => this.heard(document));
+    this.documents.listen((document) => this.on_document(document));
   }
 
-  /** ms since 1970. Whoever reads it while rendering is drawn again each second; `now` itself may be a second old. */
+  /** ms since 1970. Unlike `now`, not up to a second old. A component that reads it while rendering is rendered again each second. */
   time(): number {
     return Math.max(this.now.value, this.environment.now());
   }
 
   // --- The link ---
 
-  /** The client that speaks; the operations below are enough for most. */
+  /** The client, for operations that are missing below. */
   get client(): Client {
-    if (!this.speaker) throw new Error('connect comes first');
+    if (!this.speaker) throw new Error('not connected: call connect first');
     return this.speaker;
   }
 
-  /** The token that is used, for curl lines and for asking over HTTP. */
+  /** The current token, for curl lines and HTTP requests. */
   get current_token(): string | undefined {
     return this.token;
   }
 
-  /** Begins to connect, again with another token if need be; tries until it succeeds or a token is asked for. */
+  /** Connects, or reconnects with another token. Retries until it succeeds or the gateway requires a token. */
   connect(token?: string): void {
     this.leave();
     this.token = token;
-    // What was lent is not for the next session to have; whoever still wants it binds it there.
+    // Bindings are not repeated: borrowers bind again in the new session.
     const client = new Client(this.environment.origin, { most_delay, rebind: false, ...(token !== undefined && { token }) }, this.environment.open_socket);
     this.speaker = client;
     this.stops = [
@@ -173,19 +173,19 @@ export class Console {
       client.on('gap', (gap) => this.missed(gap)),
       client.on('notification', (notification) => this.notified(notification)),
     ];
-    client.start(forever).catch(() => undefined); // the link's state says it
+    client.start(forever).catch(() => undefined); // reported by the link's state
   }
 
-  /** Tries at once to open the link that is away. */
+  /** Retries at once to open a lost link. */
   retry(): void {
     this.speaker?.retry();
   }
 
-  /** Ends the session at once: what this console runs is stopped. */
+  /** Ends the session at once. The engine stops its commands. */
   async close(): Promise<void> {
     const client = this.speaker;
     await client?.close({ deadline: 1000 });
-    this.link.turn('closed', '');
+    this.link.set_phase('closed', '');
   }
 
   private leave(): void {
@@ -239,15 +239,15 @@ export class Console {
 
   // --- What comes ---
 
-  private heard(document: LoggedDocument): void {
+  private on_document(document: LoggedDocument): void {
     if (document.kind !== 'answer') return;
-    this.bindings.heard(document);
-    this.commands.heard(document);
-    this.subscriptions.heard(document);
+    this.bindings.on_answer(document);
+    this.commands.on_answer(document);
+    this.subscriptions.on_answer(document);
   }
 
   private notified(notification: Notification): void {
-    const { number: document, is_own } = this.documents.ring.last!; // a document is logged before it is read
+    const { number: document, is_own } = this.documents.ring.last!; // a document is logged before it is processed
     switch (notification.name) {
       case 'receive_event':
         this.events.event(notification, document, is_own);
@@ -256,7 +256,7 @@ export class Console {
         break;
       case 'receive_error':
         this.events.error(notification, document);
-        this.metrics.poll.now(); // perhaps everything was stopped
+        this.metrics.poll.now(); // everything may have been stopped
         break;
       case 'completed':
         this.commands.ended(notification.command_id, notification.status, document);
@@ -265,20 +265,20 @@ export class Console {
         void this.read_profile();
         break;
       case 'lost':
-        break; // told as a gap
+        break; // reported as a gap
     }
   }
 
-  // --- What can be done. Each rejects with RoisError. ---
+  // --- Operations. Each rejects with RoisError. ---
 
-  /** Executes commands; components that are not bound are bound first. */
+  /** Executes commands. Binds unbound components first. */
   async execute(units: readonly CommandUnit[], { give_back = false }: ExecuteOptions = {}): Promise<Accepted> {
     const refs = commands_of(units).map((one) => code_of(one.component_ref));
     const back = give_back ? await this.bindings.borrow(refs) : await this.bind_all(refs);
     try {
       const execution = await this.client.execute(units);
       const ends = execution.statuses().finally(() => back().catch(() => undefined));
-      ends.catch(() => undefined); // nobody has to wait for it
+      ends.catch(() => undefined); // the caller may ignore it
       return { command_ids: execution.command_ids, ends };
     } catch (error) {
       await back();
@@ -291,7 +291,7 @@ export class Console {
     return this.execute([command(ref, command_type, named)], options);
   }
 
-  /** Sets parameters of a component, which is bound first when it is not. */
+  /** Sets parameters of a component. Binds it first if needed. */
   async set_parameter(ref: string, named: Arguments): Promise<Accepted> {
     await this.bindings.bind(ref);
     const execution = await this.client.set_parameter(ref, named);
@@ -300,7 +300,7 @@ export class Console {
     return { command_ids: execution.command_ids, ends };
   }
 
-  /** A component's parameters; needs no binding (decision 18). */
+  /** Returns a component's parameters. Needs no binding (decision 18). */
   async get_parameter(ref: string): Promise<Results> {
     return (await this.client.query('get_parameter', component_ref(ref))).results;
   }
@@ -313,12 +313,12 @@ export class Console {
     return this.client.search(condition);
   }
 
-  /** Its events come to `events`, and to all that learn from events. It outlives sessions, until `subscriptions.unsubscribe`. */
+  /** Subscribes until `subscriptions.unsubscribe`, across sessions. Events go to `events` and the other state. */
   subscribe(event_type: string, options: SubscribeOptions = {}): Promise<Subscription> {
     return this.subscriptions.subscribe(event_type, options);
   }
 
-  /** Sends a document as it is. The answer is given whatever it says; only a link that breaks, or a text that no client may send, rejects. */
+  /** Sends a document unchanged and returns the answer. Rejects if the link breaks or the client may not send it. */
   async send(text: string): Promise<Sent> {
     let sent: LoggedDocument | undefined;
     let document: LoggedDocument | undefined;

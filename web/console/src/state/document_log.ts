@@ -1,5 +1,5 @@
-// The last documents, by number. What the console asks again and again by itself, and what it listens for, has a bound of its own, so that it
-// does not push out the rest.
+// The latest documents by number. The console's own polls and subscriptions have a separate limit, so that they do not displace the
+// user's documents.
 import type { LoggedDocument } from './documents';
 import { Ring } from './ring';
 
@@ -8,17 +8,17 @@ export interface DocumentLimits {
   most_bytes: number;
 }
 
-const share_of_polls = 0.1; // of both bounds, beside them
+const share_of_polls = 0.1; // of both limits, in addition to them
 const polls = /^((query|search|get_command_result)(_response)?|receive_event)$/;
 
-/** Numbers go up without end; those that are forgotten, and there may be some between others, are not there any more. */
+/** Numbers only increase. Any document may be missing once it is forgotten. */
 export class DocumentLog implements Iterable<LoggedDocument> {
   private readonly said: Ring<LoggedDocument>;
   private readonly polled: Ring<LoggedDocument>;
   private next = 0;
 
   constructor({ most, most_bytes }: DocumentLimits) {
-    // A text takes two bytes a unit at worst.
+    // A UTF-16 text takes up to two bytes a unit.
     const weigh = ({ text }: LoggedDocument) => 2 * text.length + 200;
     this.said = new Ring(most, most_bytes, weigh);
     this.polled = new Ring(Math.ceil(most * share_of_polls), most_bytes * share_of_polls, weigh);
@@ -29,18 +29,18 @@ export class DocumentLog implements Iterable<LoggedDocument> {
     (document.is_own && polls.test(document.name) ? this.polled : this.said).push(document);
   }
 
-  /** How many are there. */
+  /** Number of stored documents. */
   get size(): number {
     return this.said.size + this.polled.size;
   }
   get bytes(): number {
     return this.said.bytes + this.polled.bytes;
   }
-  /** The number of the oldest that is there. */
+  /** The number of the oldest stored document. */
   get first(): number {
     return Math.min(this.said.at(0)?.number ?? this.next, this.polled.at(0)?.number ?? this.next);
   }
-  /** The number that the next one will have. */
+  /** The number of the next document. */
   get end(): number {
     return this.next;
   }

@@ -1,25 +1,25 @@
-// Every document in and out, as it was on the wire: the last ones, and how they belong together.
+// All documents sent and received: the latest ones, with requests and answers paired.
 import { type DocumentLimits, DocumentLog } from './document_log';
 import type { Environment } from './environment';
 
 export type Direction = 'in' | 'out';
 
-/** What a document is: by direction alone that cannot be told. */
+/** Kind of a document; the direction alone does not determine it. */
 export type DocumentKind = 'request' | 'answer' | 'fault' | 'notification';
 
 export interface LoggedDocument {
-  number: number; // from 0, as they came
+  number: number; // from 0, in order of arrival
   at: number; // ms since 1970
   direction: Direction;
   kind: DocumentKind;
-  name: string; // of its root: `bind`, `bind_response`, `receive_event`, `fault`; empty when it has none
+  name: string; // of the root: `bind`, `bind_response`, `receive_event`, `fault`; empty if there is none
   text: string;
-  component?: string; // the first component_ref that it names
+  component?: string; // the first component_ref in it
   sequence?: number; // of a notification
   return_code?: string; // of an answer
-  request?: LoggedDocument; // of an answer: what it answers
+  request?: LoggedDocument; // of an answer: its request
   took?: number; // of an answer: ms since the request, with fractions
-  is_own: boolean; // of the console itself, which asks for what it shows: hidden unless somebody wants to see it
+  is_own: boolean; // sent by the console for its own display: hidden by default
 }
 
 const usual_limits: DocumentLimits = { most: 20_000, most_bytes: 16 * 1024 * 1024 };
@@ -31,16 +31,16 @@ const the_subscription = /<(?:[\w.-]+:)?subscribe_id>([^<]*)</;
 const the_return_code = /\sreturn_code\s*=\s*["'](\w+)["']/;
 const notifications = ['receive_event', 'receive_error', 'completed', 'lost', 'profile_changed'];
 
-/** What is told to those who learn from documents. */
+/** Called for each document. */
 export interface DocumentListener {
   (document: LoggedDocument): void;
 }
 
 export class Documents {
   readonly ring: DocumentLog;
-  /** Whether the console itself has subscribed to what an event is told for. */
+  /** Whether an event belongs to a subscription of the console itself. */
   is_own_subscription: (subscribe_id: string) => boolean = () => false;
-  private waiting: { request: LoggedDocument; since: number }[] = []; // requests without their answers, in order; since by the precise clock
+  private waiting: { request: LoggedDocument; since: number }[] = []; // unanswered requests, in order; since: by the precise clock
   private next = 0;
   private asks_itself = false;
   private readonly listeners = new Set<DocumentListener>();
@@ -52,13 +52,13 @@ export class Documents {
     this.ring = new DocumentLog(limits);
   }
 
-  /** Gives the function that ends the listening. */
+  /** Returns a function that removes the listener. */
   listen(listener: DocumentListener): () => void {
     this.listeners.add(listener);
     return () => this.listeners.delete(listener);
   }
 
-  /** A document has gone in or out. */
+  /** Records a document sent or received. */
   note(direction: Direction, text: string): LoggedDocument {
     const document = described(this.next++, this.environment.now(), direction, text);
     document.is_own = direction === 'out' && (this.asks_itself || document.name === 'connect' || document.name === 'resume');
@@ -70,7 +70,7 @@ export class Documents {
     return document;
   }
 
-  /** What this function sends at once is the console's own. */
+  /** Requests that `send` sends synchronously count as the console's own. */
   as_own<T>(send: () => T): T {
     const before = this.asks_itself;
     this.asks_itself = true;
@@ -81,12 +81,12 @@ export class Documents {
     }
   }
 
-  /** The link is gone: nothing that was sent will be answered on it. */
+  /** The link is lost: pending requests get no answer. */
   forget_waiting(): void {
     this.waiting = [];
   }
 
-  // Answers come in the order of requests.
+  // Answers arrive in the order of requests.
   private pair(answer: LoggedDocument): void {
     const asked = this.waiting.shift();
     if (asked === undefined) return;
@@ -98,7 +98,7 @@ export class Documents {
   }
 }
 
-// Without reading it whole: hundreds may come in a second.
+// Reads only the root, because hundreds may arrive in a second.
 function described(number: number, at: number, direction: Direction, text: string): LoggedDocument {
   const [, , name = '', attributes = ''] = root.exec(text.startsWith('<?') ? text.slice(text.indexOf('?>') + 2) : text) ?? [];
   const document: LoggedDocument = { number, at, direction, kind: kind_of(direction, name), name, text, is_own: false };

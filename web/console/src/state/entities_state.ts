@@ -1,23 +1,23 @@
-// People, faces and sound sources, as the events of localization and identification tell them.
+// Persons, faces and sound sources, from the events of localization and identification.
 import type { ReceiveEvent, Subscription } from 'rois-client';
 
 import type { Environment, Stop } from './environment';
 import { Pulse } from './pulse';
-import { type Entity, kind_told_by, located_in, placed } from './things';
+import { type Entity, kind_of_event, located_in, placed } from './things';
 
 const most_entities = 500;
-const forgotten_after = 30_000; // ms since it was told of
-const same_event = 500; // ms between two notifications of it
-const same_place = 1000; // mm: somebody who is identified there is the one who is tracked there
+const forgotten_after = 30_000; // ms since the last event
+const same_event = 500; // ms between two notifications of one event
+const same_place = 1000; // mm: an identified person at the place of a tracked one is the same person
 
-/** The events that tell of them; the last one tells when there is nobody. */
+/** The event types used; the last one reports when there are no persons. */
 export const entity_events = ['person_localized', 'face_localized', 'sound_localized', 'person_identified', 'person_detected'];
 
 export class EntitiesState {
-  /** By kind and ref: `person person-1`. They change in place: read `pulse.beat.value`, then this. */
+  /** By kind and ref: `person person-1`. Entries change in place: read `pulse.beat.value` first. */
   readonly all = new Map<string, Entity>();
   readonly pulse: Pulse;
-  /** When an event with results came last; 0 before the first. ms since 1970. */
+  /** Time of the last event with results in ms since 1970; 0: none yet. */
   told_at = 0;
   private lookers = 0;
   private readonly subscribed = new Map<string, Promise<Subscription | undefined>>();
@@ -33,7 +33,7 @@ export class EntitiesState {
     this.pulse = new Pulse(environment);
   }
 
-  /** Subscribes to what tells of them while somebody looks. It does not start the components that do. */
+  /** Subscribes to these events while at least one caller watches. Does not start the components. */
   watch(): Stop {
     this.lookers += 1;
     if (this.lookers === 1) this.stop_clock = this.environment.every(1000, () => this.forget_old());
@@ -50,7 +50,7 @@ export class EntitiesState {
     };
   }
 
-  /** Subscribes to events that the engine has got since. */
+  /** Subscribes to event types that are new in the profile. */
   profile_changed(): void {
     if (this.lookers === 0) return;
     for (const event_type of entity_events)
@@ -64,18 +64,18 @@ export class EntitiesState {
         );
   }
 
-  /** Learns from every event, whoever has subscribed to it. */
+  /** Updates from an event of any subscription. */
   event(event: ReceiveEvent): void {
-    const kind = kind_told_by(event);
+    const kind = kind_of_event(event);
     const has_results = event.results.parameters.length > 0 || event.results.located.length > 0;
     if (has_results && entity_events.includes(event.event_type)) this.told_at = this.environment.now();
-    if (kind && !has_results) this.not_told(kind, event.component_ref.code);
+    if (kind && !has_results) this.without_results(kind, event.component_ref.code);
     else if (kind) this.localized(kind, event);
     else if (event.event_type === 'person_identified') this.identified(event);
-    else if (event.event_type === 'person_detected' && event.results.number('number') === 0) this.nobody_there(event);
+    else if (event.event_type === 'person_detected' && event.results.number('number') === 0) this.none_detected(event);
   }
 
-  /** Whether what they do is not told: an event is not subscribed to, or comes without results. */
+  /** Whether positions are unknown: an event type has no subscription, or its events have no results. */
   is_blind(): boolean {
     const is_unfed = (event_type: string) => this.has_event(event_type) && !this.is_fed(event_type);
     return entity_events.some(is_unfed) || [...this.all.values()].some((one) => one.unknown_since !== undefined);
@@ -87,14 +87,14 @@ export class EntitiesState {
     this.pulse.touch();
   }
 
-  // Somebody has moved, come or gone, and nobody knows who. The same event may come twice, with results and without.
-  private not_told(kind: Entity['kind'], component: string): void {
+  // An event without results: something moved, came or left, but which is unknown. The same event may arrive again with results.
+  private without_results(kind: Entity['kind'], component: string): void {
     const now = this.environment.now();
     for (const entity of this.all.values()) if (entity.component === component && entity.kind === kind && now - entity.at > same_event) entity.unknown_since ??= now;
     this.pulse.touch();
   }
 
-  // It tells of all that it sees, so whoever is not among them is out of its sight.
+  // The event lists all that the component sees, so all others are out of its sight.
   private localized(kind: Entity['kind'], event: ReceiveEvent): void {
     const component = event.component_ref.code;
     const at = this.environment.now();
@@ -116,15 +116,15 @@ export class EntitiesState {
     this.pulse.touch();
   }
 
-  // Localization tells nothing when the last one has left: detection does.
-  private nobody_there(event: ReceiveEvent): void {
+  // Localization does not report that the last person has left; detection does.
+  private none_detected(event: ReceiveEvent): void {
     const engine = this.engine_of(event.component_ref.code);
     for (const entity of this.all.values())
       if (entity.kind !== 'sound' && this.engine_of(entity.component) === engine) entity.is_seen = false;
     this.pulse.touch();
   }
 
-  // Identification names somebody by another code than tracking does; they are the same when they are in the same place.
+  // Identification uses another code than tracking. An identified person at the place of a tracked one is the same.
   private identified(event: ReceiveEvent): void {
     const codebook = event.results.get('person_ref')?.data_type_ref.codebook_ref ?? '';
     for (const located of located_in(event.results, 'person_ref', 'person_ref')) {

@@ -1,4 +1,4 @@
-// What the engine has told: events, errors, and what was missed.
+// Received events, errors and gaps.
 import { type Client, type Gap, type ReceiveError, type ReceiveEvent, type Results, RoisError } from 'rois-client';
 
 import type { Documents } from './documents';
@@ -6,14 +6,14 @@ import type { Environment } from './environment';
 import { Pulse } from './pulse';
 import { Ring } from './ring';
 
-/** What is known of the details: not asked for yet, on its way, there, or gone (expired, or the session is another). */
+/** State of the details: not requested, requested, available, or gone (expired or of another session). */
 export type Details = { state: 'none' | 'asked' } | { state: 'there'; results: Results } | { state: 'gone'; reason: string };
 
 export interface EventEntry {
-  number: number; // of its kind, from 0
-  at: number; // when it came, ms since 1970
+  number: number; // from 0 for each kind
+  at: number; // ms since 1970
   event: ReceiveEvent;
-  document: number; // the logged document that it was in
+  document: number; // number of the logged document
   details: Details;
 }
 
@@ -38,7 +38,7 @@ const most_fetched_at_once = 8;
 
 export class EventsState {
   readonly events = new Ring<EventEntry>(most_events);
-  /** Those that the console listens for by itself: they come often, and must not push out what somebody has asked for. */
+  /** Events of the console's own subscriptions. They are frequent and must not displace the user's. */
   readonly own_events = new Ring<EventEntry>(most_own_events);
   readonly errors = new Ring<ErrorEntry>(most_errors);
   readonly gaps = new Ring<GapEntry>(most_gaps);
@@ -63,7 +63,7 @@ export class EventsState {
     return entry;
   }
 
-  /** Its details are fetched by themselves, unless errors come in floods. */
+  /** Adds an error. Its details are fetched automatically, unless errors flood in. */
   error(error: ReceiveError, document: number): ErrorEntry {
     const entry: ErrorEntry = { number: this.next_error++, at: this.environment.now(), error, document, details: { state: 'none' } };
     this.errors.push(entry);
@@ -72,7 +72,7 @@ export class EventsState {
     return entry;
   }
 
-  /** Takes what was told to the page that was here before. */
+  /** Adds the entries of this page before its reload. */
   recall(events: readonly EventEntry[], own_events: readonly EventEntry[], errors: readonly ErrorEntry[], gaps: readonly GapEntry[]): void {
     for (const one of gaps) this.gaps.push(one);
     for (const one of events) this.events.push({ ...one, number: this.next_event++ });
@@ -86,7 +86,7 @@ export class EventsState {
     this.pulse.touch();
   }
 
-  /** Whether the engine still knows the details. */
+  /** Whether the engine no longer has the details. */
   is_expired({ event }: EventEntry): boolean {
     return event.expire.getTime() <= this.environment.now();
   }

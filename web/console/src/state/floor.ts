@@ -1,4 +1,4 @@
-// Where things are on the floor: frames, directions, what stands in the way.
+// Geometry of the floor: frames, directions, obstacles.
 import type { Bounds, FloorMap, Place, RobotFrame } from './floor_map';
 
 /** mm. */
@@ -11,7 +11,7 @@ export interface FloorPose extends Point {
   th?: number;
 }
 
-/** Between -180 and 180. */
+/** Normalizes to -180..180. */
 export function turned(degrees: number): number {
   const within = ((degrees % 360) + 360) % 360;
   return within > 180 ? within - 360 : within;
@@ -21,12 +21,12 @@ export function distance(a: Point, b: Point): number {
   return Math.hypot(a.x - b.x, a.y - b.y);
 }
 
-/** In which direction `to` lies, seen from `from`. */
+/** The direction from `from` to `to` in degrees. */
 export function bearing(from: Point, to: Point): number {
   return (Math.atan2(to.y - from.y, to.x - from.x) * 180) / Math.PI;
 }
 
-/** What is told in a robot's frame, in the map's. */
+/** Converts a pose from a robot's frame to the map's. */
 export function out_of(frame: RobotFrame, pose: FloorPose): FloorPose {
   const turn = (frame.heading * Math.PI) / 180;
   const placed: FloorPose = {
@@ -37,7 +37,7 @@ export function out_of(frame: RobotFrame, pose: FloorPose): FloorPose {
   return placed;
 }
 
-/** Brings poses of this frame to the map: `undefined` is the map's own frame, `unknown` is one of which nobody knows where it is. Frames have no case. */
+/** The frame with this name: `undefined` for the map's own frame, `unknown` for one without a known position. Names are case-insensitive. */
 export function frame_named(map: FloorMap | undefined, crs: string): RobotFrame | undefined | 'unknown' {
   const is = (name: string) => name.toLowerCase() === crs.toLowerCase();
   if (!map || crs === '' || is(map.crs)) return undefined;
@@ -49,7 +49,7 @@ export function on_map(map: FloorMap | undefined, crs: string, pose: FloorPose):
   return frame === 'unknown' ? undefined : frame ? out_of(frame, pose) : pose;
 }
 
-/** What a round robot would stand in or against; undefined: nothing that is on the map. */
+/** The obstacle at a round robot's position; undefined: none on the map. */
 export function obstacle_at(map: FloorMap | undefined, { x, y }: Point, radius: number): 'outside' | 'furniture' | 'wall' | undefined {
   if (!map) return undefined;
   const { bounds } = map;
@@ -63,24 +63,24 @@ export function obstacle_at(map: FloorMap | undefined, { x, y }: Point, radius: 
   return near_wall ? 'wall' : undefined;
 }
 
-/** The place within a box that is nearest. */
+/** The nearest point inside a box. */
 export function nearest_of(box: Bounds, { x, y }: Point): Point {
   return { x: Math.min(box.x + box.width, Math.max(box.x, x)), y: Math.min(box.y + box.depth, Math.max(box.y, y)) };
 }
 
-/** The ground of a place, which is told by its middle. */
+/** The area of a place, which is given by its centre. */
 export function ground_of({ x, y, width, depth }: Place): Bounds {
   return { x: x - width / 2, y: y - depth / 2, width, depth };
 }
 
-/** For engines without a map: 20 m by 14 m, or what holds all that there is. */
+/** Bounds for engines without a map: 20 m by 14 m, or larger if needed. */
 export function bounds_around(seen: readonly Point[]): Bounds {
   const [xs, ys] = [[0, 20_000, ...seen.map((one) => one.x)], [0, 14_000, ...seen.map((one) => one.y)]] as const;
   const [x, y] = [Math.min(...xs), Math.min(...ys)];
   return { x, y, width: Math.max(...xs) - x, depth: Math.max(...ys) - y };
 }
 
-/** A covariance's ellipse, brought along. */
+/** The angle of a covariance ellipse, converted to the map's frame. */
 export function turned_by(frame: RobotFrame | undefined | 'unknown', angle: number): number {
   return frame && frame !== 'unknown' ? turned(angle + frame.heading) : angle;
 }

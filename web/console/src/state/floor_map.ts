@@ -1,4 +1,4 @@
-// The engine's floor map: `GET /rois/map`. Lengths are mm, angles degrees counter-clockwise, x goes right and y up.
+// The engine's floor map (`GET /rois/map`): mm, degrees counter-clockwise, x to the right, y up.
 import { signal } from '@preact/signals';
 import { parse_xml, type XmlElement } from 'rois-client';
 
@@ -21,7 +21,7 @@ export interface Place extends Bounds {
   name: string;
   heading: number;
 }
-/** A frame that a robot has of its own, and where its origin is in the map's frame. */
+/** A robot's own frame: its origin in the map's frame. */
 export interface RobotFrame {
   crs: string;
   x: number;
@@ -44,7 +44,7 @@ export interface FloorMap {
   robots: MapRobot[];
 }
 
-/** `none`: this engine has no map, show a plain grid. */
+/** `none`: the engine has no map; show an empty grid. */
 export type MapView = { state: 'unknown' } | { state: 'none' } | { state: 'there'; map: FloorMap } | { state: 'trouble'; reason: string };
 
 export class MapState {
@@ -69,7 +69,7 @@ export class MapState {
   }
 }
 
-/** Throws XmlError for what is no document, and takes 0 for numbers that are not there. */
+/** Throws XmlError if the text is not XML. Missing numbers are 0. */
 export function read_floor_map(text: string): FloorMap {
   const root = parse_xml(text);
   const bounds = root.child('bounds');

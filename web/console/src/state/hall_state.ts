@@ -1,4 +1,4 @@
-// People in the simulated hall who do what they are told, through the component that is the hall itself. An engine without it has real people.
+// Simulated persons, moved by commands to the simulator's Hall component. Engines without it have real persons.
 import { computed } from '@preact/signals';
 import { type Arguments, type Client, component_ref, type Pose, pose_of, pose_text, RoisError, value } from 'rois-client';
 
@@ -9,25 +9,25 @@ import { Poll } from './poll';
 import type { ProfileState } from './profile_state';
 import { Pulse } from './pulse';
 
-/** Somebody in the hall, in truth: not as the robot's sensors see them. In the map's frame, mm and degrees counter-clockwise. */
+/** A simulated person: the true position, not a robot's measurement. Map frame, mm, degrees counter-clockwise. */
 export interface Visitor {
   ref: string;
   x: number;
   y: number;
   th: number;
-  /** Whether identification knows them. */
+  /** Whether identification knows the person. */
   known: boolean;
-  /** Whether they do what they are told here; others come with the engine's scenario. */
+  /** Whether the person takes commands. Others follow the engine's scenario. */
   steered: boolean;
 }
 
-/** How an order ended; `reason` when it did not end well and the engine says why. */
+/** How a command ended; `reason` may be given for a failure. */
 export interface Outcome {
   status: string;
   reason: string;
 }
 
-/** What visitors are told through this state. */
+/** Gestures of visitors. */
 export const gestures = ['wave', 'nod', 'shake_head', 'bow', 'point', 'raise_hand', 'clap', 'thumbs_up'] as const;
 export type Gesture = (typeof gestures)[number];
 
@@ -36,28 +36,28 @@ export interface HallParts {
   commands: CommandsState;
   profile: ProfileState;
   client: () => Client | undefined;
-  /** Binds, executes, and gives back when it has ended. */
+  /** Binds, executes, and releases at the end. */
   run: (ref: string, command_type: string, named: Arguments) => Promise<{ command_ids: string[]; ends: Promise<string[]> }>;
   may_ask: () => boolean;
 }
 
 const period = 150; // ms
 const period_at_rest = 1000; // ms
-const rests_after = 3000; // ms without a step
+const rests_after = 3000; // ms without movement
 
 export class HallState {
-  /** The component; undefined when the engine has none. */
+  /** The Hall component; undefined if the engine has none. */
   readonly component = computed(() => this.parts.profile.of_type('Hall')[0]);
-  /** Whether the world stands still but for what is let pass: the engine's profile says it. */
+  /** Whether simulated time runs only by `let_pass`, as the engine's profile states. */
   readonly stands_still = computed(() => {
     const speed = this.parts.profile.profile.value?.engine.parameters.find(({ name }) => name === 'sim_speed')?.default_value;
     return speed !== undefined && Number(speed) === 0;
   });
-  /** By ref, in the order of their coming. They change in place: read `pulse.beat.value`, then this. */
+  /** By ref, in order of arrival. Entries change in place: read `pulse.beat.value` first. */
   readonly visitors = new Map<string, Visitor>();
   readonly pulse: Pulse;
   readonly poll: Poll;
-  /** When the engine said last who is there; 0 before it has. ms since 1970. */
+  /** Time of the last answer in ms since 1970; 0: none yet. */
   told_at = 0;
   private moved_at = 0;
 
@@ -69,12 +69,12 @@ export class HallState {
     this.poll = new Poll(environment, period, () => this.look(), () => parts.may_ask() && this.component.value !== undefined && this.is_due());
   }
 
-  // --- What visitors are told. Each ends when they have done it; rejects with RoisError when the engine refuses. ---
+  // --- Commands to visitors. They resolve at the end of the command and reject with RoisError if it is refused. ---
 
   enter(ref: string, { language, known }: { language?: string; known?: boolean } = {}): Promise<Outcome> {
     return this.tell('enter', { visitor_ref: ref, language: language || undefined, known });
   }
-  /** To a place by its name, or to one on the floor; straight away, whatever way they are on. */
+  /** Walks to a place or position at once, dropping the present walk. */
   walk(ref: string, to: string | Omit<Pose, 'th'> | Pose): Promise<Outcome> {
     return this.tell('walk', { visitor_ref: ref, target_position: value.strings([target_text(to)]) });
   }
@@ -88,7 +88,7 @@ export class HallState {
     return this.tell('leave', { visitor_ref: ref });
   }
 
-  /** Lets so many ms of a world pass that stands still; a multiple of 20. */
+  /** Lets simulated time pass while it is stopped; rounded to a multiple of 20 ms. */
   async let_pass(ms: number): Promise<Outcome> {
     const outcome = await this.tell('let_pass', { time: Math.max(20, Math.round(ms / 20) * 20) });
     this.moved_at = this.environment.now();
@@ -96,13 +96,13 @@ export class HallState {
     return outcome;
   }
 
-  /** What somebody has been told and has not done yet, the oldest first. */
+  /** The visitor's open commands, oldest first. */
   orders_of(ref: string): CommandEntry[] {
     const hall = this.component.value?.ref;
     return this.parts.commands.open().filter((one) => one.component === hall && one.arguments.some(({ name, values }) => name === 'visitor_ref' && values[0] === ref));
   }
 
-  /** Who has been told to come in and waits until the entrance is free. */
+  /** The visitors who wait for the entrance to be free. */
   awaited(): string[] {
     const hall = this.component.value?.ref;
     const enters = this.parts.commands.open().filter((one) => one.component === hall && one.command_type === 'enter');

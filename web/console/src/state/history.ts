@@ -1,4 +1,4 @@
-// What was so from when to when: how each component was, who had bound it, how the link was. For the time line.
+// History for the time line: each component's status and owner, and the state of the link.
 import { effect, type ReadonlySignal } from '@preact/signals';
 
 import type { Bindings } from './bindings';
@@ -9,18 +9,18 @@ import { Pulse } from './pulse';
 import { Ring } from './ring';
 import type { StatusState } from './status_state';
 
-/** `status`: of a component; `holder`: who has bound it, `me` or the number of a session; `link`: its phase. */
+/** `status` and `holder` (`me` or a session number) of a component; `link`: its phase. */
 export type SpanKind = 'status' | 'holder' | 'link';
 
-/** Something that stayed as it was. */
+/** A period in which a value did not change. */
 export interface Span {
-  number: number; // in the order in which they began
+  number: number; // in order of their begin
   kind: SpanKind;
-  ref: string; // of the component; empty for the link
+  ref: string; // the component; empty for the link
   value: string;
-  from: number; // when it was seen first, ms since 1970
-  to: number; // when it was seen last
-  note: string; // in English, why it is so; mostly empty
+  from: number; // first seen, ms since 1970
+  to: number; // last seen
+  note: string; // in English: the reason; usually empty
 }
 
 interface Sources {
@@ -32,18 +32,18 @@ interface Sources {
 }
 
 const most_spans = 20_000;
-/** Longer without a look, and nothing is said of the time between. A status that nobody answers takes some seconds. */
+/** After a longer time without an observation, the value in between is unknown. A status query may take some seconds to fail. */
 export const longest_blink = 15_000; // ms
-const stale_after = 5000; // ms without metrics: then nothing is said of others' bindings
+const stale_after = 5000; // ms without metrics, after which other sessions' bindings are unknown
 
 export class History {
-  /** Those that are over, in the order in which they ended. */
+  /** Ended spans, in order of their end. */
   readonly past: Ring<Span>;
-  /** Those that go on: one at most for each kind and component. */
+  /** Current spans, at most one for each kind and component. */
   readonly present = new Map<string, Span>();
   /** Beats when a span begins or ends. */
   readonly pulse: Pulse;
-  private readonly freed = new Map<string, number>(); // when
+  private readonly freed = new Map<string, number>(); // time of release
   private next = 0;
 
   constructor(
@@ -55,7 +55,7 @@ export class History {
     this.pulse = new Pulse(environment);
   }
 
-  /** Looks from now on, and asks for what it wants to know, until the function is called that this gives. */
+  /** Records until the returned function is called. Watches the state that it needs. */
   record(): Stop {
     const { link, status, metrics, bindings, now } = this.sources;
     const is_open = () => /^(open|resumed)$/.test(link.view.peek().phase);
@@ -93,13 +93,13 @@ export class History {
     };
   }
 
-  /** Takes spans of the page that was here before, in their order. */
+  /** Adds the spans of this page before its reload. */
   recall(spans: readonly Span[]): void {
     for (const span of spans) this.past.push({ ...span, number: this.next++ });
     this.pulse.touch();
   }
 
-  // What the metrics said before it was released still names this console's session.
+  // Metrics from before a release still name this console's session.
   private was_mine(ref: string, told_at: number): boolean {
     if (this.present.get(`holder ${ref}`)?.value === 'me') this.freed.set(ref, this.environment.now());
     if ((this.freed.get(ref) ?? 0) >= told_at) return true;
@@ -110,11 +110,11 @@ export class History {
   private see(kind: SpanKind, ref: string, value: string, at: number, note = ''): void {
     const key = `${kind} ${ref}`;
     const before = this.present.get(key);
-    if (before && at < before.to) return; // told again
+    if (before && at < before.to) return; // already recorded
     const goes_on = before !== undefined && (kind === 'link' || at - before.to <= longest_blink);
     if (before && goes_on) {
-      before.to = at; // or so: it has changed between two looks
-      if (before.value === value && (kind === 'link' || before.note === note)) return; // why it was lost, not why it is still away
+      before.to = at; // approximately: it changed between two observations
+      if (before.value === value && (kind === 'link' || before.note === note)) return; // the note of the link stays the reason of its loss
     }
     if (before) this.past.push(before);
     this.present.set(key, { number: this.next++, kind, ref, value, from: at, to: at, note });
@@ -130,7 +130,7 @@ export class History {
     }
   }
 
-  // Nothing is known from now on: neither that it stayed so nor that it changed.
+  // From now on the values are unknown: spans neither continue nor change.
   private break_off(): void {
     for (const kind of ['status', 'holder'] as const) this.end_others(kind, () => false);
   }

@@ -1,5 +1,4 @@
-// What the time line shows outlives a reload of the page: a text for the browser to keep, and the way back. Documents do not: they hold
-// more than a browser keeps.
+// Stores what the time line shows across a reload of the page. Documents are too large for that.
 import { Results } from 'rois-client';
 
 import type { CommandEntry } from './commands_state';
@@ -8,9 +7,9 @@ import type { LoggedDocument } from './documents';
 import type { EventEntry, ErrorEntry, GapEntry } from './events_state';
 import type { Span } from './history';
 
-/** Rows of each kind, the newest: about 1 MB in all. A browser that refuses that is offered less. */
+/** Rows of each kind to store, the newest: about 1 MB in all. If the browser refuses, the next smaller number is tried. */
 const offers = [1000, 200, 40];
-const no_document = -1; // its number, when it is not there any more
+const no_document = -1; // the number of a document that is not stored
 
 interface Kept {
   spans: Span[];
@@ -22,7 +21,7 @@ interface Kept {
   refused: LoggedDocument[];
 }
 
-/** `remember` gives whether the browser has taken the text. */
+/** `remember` returns whether the browser has stored the text. */
 export function keep(console: Console, remember: (text: string) => boolean): void {
   offers.some((most) => remember(kept_text(console, most)));
 }
@@ -38,11 +37,11 @@ function kept_text({ history, commands, events, traffic }: Console, most: number
     gaps: newest(events.gaps),
     refused: newest(traffic.refused).map(in_short),
   };
-  // Commands refer to their sequence, which refers to them.
+  // Commands and their sequence refer to each other.
   return JSON.stringify(kept, (key, value: unknown) => (key === 'units' || (key === 'commands' && value !== kept.commands) ? [] : value));
 }
 
-/** Puts in front what another page of this visit has kept. What cannot be read is left out. */
+/** Adds what this page stored before its reload. Invalid data is ignored. */
 export function restore(console: Console, text: string | undefined): void {
   if (text === undefined) return;
   try {
@@ -53,11 +52,11 @@ export function restore(console: Console, text: string | undefined): void {
     console.events.recall(events.map(revived).map(details), own_events.map(revived).map(details), errors.map(details), gaps);
     console.traffic.recall(refused.map((one, i) => ({ ...one, number: no_document - i })));
   } catch {
-    // it was written by another version of the page
+    // stored by another version of the page
   }
 }
 
-// What the time line and the log of errors say of it.
+// A document reduced to what the time line and the error log show.
 function in_short({ at, direction, kind, name, return_code, text, component, request, is_own }: LoggedDocument): LoggedDocument {
   const reason = /<(?:[\w.-]+:)?reason>([^<]*)</.exec(text)?.[1] ?? '';
   const about = request?.component ?? component;

@@ -1,47 +1,48 @@
-// How the link to the gateway is, as the user is told.
+// The state of the link as shown to the user.
 import { batch, signal } from '@preact/signals';
 import type { Client, Gap, StateChange } from 'rois-client';
 
 import type { Environment } from './environment';
 
 /**
- * - `connecting`: for the first time;
- * - `open`: with a new session; `resumed`: open again with the session as it was;
- * - `lost`: what is shown is stale, and the link is tried for;
- * - `refused`: the gateway is there and will not have us (too many sessions, an origin that it does not know); it is asked again;
- * - `token`: it wants a token, or another one; nothing is tried until there is one;
- * - `draining`: it is starting or shutting down; it is asked again;
- * - `closed`: for good, by the user.
+ * - `connecting`: first connection;
+ * - `open`: new session; `resumed`: same session after a loss;
+ * - `lost`: shown data is stale; retrying;
+ * - `refused`: the gateway refuses this console (too many sessions, unknown origin); retrying;
+ * - `token`: the gateway requires a token or another one; waiting for the user;
+ * - `draining`: the gateway is starting or shutting down; retrying;
+ * - `closed`: closed by the user.
  */
 export type Phase = 'connecting' | 'open' | 'resumed' | 'lost' | 'refused' | 'token' | 'draining' | 'closed';
 
 export interface LinkView {
   phase: Phase;
   since: number; // ms since 1970
-  reason: string; // in English, as the gateway or the browser says it; empty when open
+  reason: string; // in English, from the gateway or browser; empty when open
 }
 
-/** What was missed: the user is told until they have seen it. */
+/** A gap, shown until the user has acknowledged it. */
 export interface MissedNote {
   at: number;
   gap: Gap;
 }
 
-/** How a gateway answers to somebody who asks whether a link could be had. */
+/** The result of a plain HTTP request to the gateway. */
 type Outlook = { phase: Phase; reason: string } | 'reachable' | 'unreachable';
 
 export class LinkState {
   readonly view = signal<LinkView>({ phase: 'connecting', since: 0, reason: '' });
   readonly missed = signal<MissedNote | undefined>(undefined);
-  /** The session's id; empty without one. Whoever has it can act as this console. */
+  /** The session's id; empty if there is none. Anyone with the id can act as this console. */
   readonly session = signal('');
-  /** When that session began; ms since 1970. Resuming it is no beginning. */
+  /** When the session began, in ms since 1970. Resuming does not change it. */
   session_since = 0;
-  /** When the last document came; ms since 1970, 0 before the first. Not a signal: it changes all the time; the age is read each second. */
+  /** When the last document arrived, in ms since 1970; 0: none yet. Not a signal, because it changes all the time; ages are updated each
+      second. */
   heard_at = 0;
 
   constructor(private readonly environment: Environment) {
-    this.turn('connecting', '');
+    this.set_phase('connecting', '');
   }
 
   get is_open(): boolean {
@@ -49,9 +50,9 @@ export class LinkState {
     return phase === 'open' || phase === 'resumed';
   }
 
-  /** A client speaks from now on. `wants_token` is called when the gateway refuses it for its token. */
+  /** Follows a client. Calls `wants_token` if the gateway refuses its token. */
   follow(client: Client, token: string | undefined, wants_token: () => void): () => void {
-    this.turn('connecting', '');
+    this.set_phase('connecting', '');
     let asked = 0;
     let gave_up = false;
     const changed = ({ state, reason }: StateChange) => {
@@ -62,16 +63,16 @@ export class LinkState {
         if (client.session !== this.session.value) this.session_since = this.environment.now();
         this.session.value = client.session;
         if (state === 'connecting' || state === 'lost') this.trouble(state, reason);
-        else this.turn(state, reason);
+        else this.set_phase(state, reason);
       });
       if (state !== 'connecting' && state !== 'lost') return;
       void this.outlook(token).then((outlook) => {
         if (question !== asked) return;
-        if (outlook === 'unreachable' && this.view.value.phase !== state) this.turn(state, reason);
+        if (outlook === 'unreachable' && this.view.value.phase !== state) this.set_phase(state, reason);
         if (typeof outlook === 'string') return;
-        this.turn(outlook.phase, outlook.reason);
+        this.set_phase(outlook.phase, outlook.reason);
         if (outlook.phase !== 'token') return;
-        gave_up = true; // it would only be told the same again
+        gave_up = true; // repeating would have the same result
         wants_token();
       });
     };
@@ -88,12 +89,12 @@ export class LinkState {
     };
   }
 
-  /** The user has seen what was missed. */
+  /** The user has acknowledged the gap. */
   forget_missed(): void {
     this.missed.value = undefined;
   }
 
-  turn(phase: Phase, reason: string): void {
+  set_phase(phase: Phase, reason: string): void {
     const before = this.view.value;
     if (before.phase === phase && before.reason === reason && before.since !== 0) return;
     const since = before.phase === phase && before.since !== 0 ? before.since : this.environment.now();
@@ -103,19 +104,19 @@ export class LinkState {
   private trouble(state: 'connecting' | 'lost', reason: string): void {
     const before = this.view.value;
     const phase = troubled(before, state, reason);
-    // It was said why; a failed try does not say anything better.
+    // The first reason is kept: that of a failed retry says no more.
     const was_said = phase === before.phase && phase !== state && !refusals.test(reason) && !going_away.test(reason);
-    this.turn(phase, was_said ? before.reason : reason);
+    this.set_phase(phase, was_said ? before.reason : reason);
   }
 
   private note_gap(gap: Gap): void {
-    if (gap.reason === 'buffer') return; // only what the console does not read
+    if (gap.reason === 'buffer') return; // dropped only from a stream that the console does not read
     const before = this.missed.value?.gap;
     const sum = gap.reason === 'lost' && before?.reason === 'lost' ? { ...gap, first: before.first, count: gap.count + before.count } : gap;
     this.missed.value = { at: this.environment.now(), gap: sum };
   }
 
-  // A page is not told why its WebSocket does not open: a plain request is.
+  // A browser hides why a WebSocket failed to open, so a plain HTTP request asks for the reason.
   private async outlook(token: string | undefined): Promise<Outlook> {
     const headers: HeadersInit = token === undefined ? {} : { Authorization: `Bearer ${token}` };
     try {
@@ -134,7 +135,7 @@ export class LinkState {
 const refusals = /^(too_many|not_allowed|unauthorized):/;
 const going_away = /closed with (1001|1012|1013)\b|^shutting_down:/;
 
-// What it said counts until somebody has asked whether it is still there.
+// The gateway's last refusal counts until a new request has been answered.
 function troubled(before: LinkView, state: 'connecting' | 'lost', reason: string): Phase {
   if (refusals.test(reason)) return 'refused';
   if (going_away.test(reason)) return 'draining';

@@ -1,4 +1,4 @@
-// What the gateway counts (/metrics, in Prometheus' text format), the last minutes of it.
+// The gateway's metrics (/metrics, Prometheus text format) of the last minutes.
 import { computed, signal } from '@preact/signals';
 
 import type { Environment } from './environment';
@@ -13,7 +13,7 @@ export interface Sample {
   value: number;
 }
 
-/** All of /metrics at a time. */
+/** One response of /metrics. */
 export class Scrape {
   private readonly by_name = new Map<string, Sample[]>();
 
@@ -32,7 +32,7 @@ export class Scrape {
     return this.by_name.get(name) ?? [];
   }
 
-  /** The sum over those whose labels are as given; undefined when there are none. */
+  /** The sum of the samples with these labels; undefined if there are none. */
   value(name: string, labels: Record<string, string> = {}): number | undefined {
     const those = this.all(name).filter((one) => Object.entries(labels).every(([key, text]) => one.labels[key] === text));
     return those.length === 0 ? undefined : those.reduce((sum, one) => sum + one.value, 0);
@@ -40,19 +40,19 @@ export class Scrape {
 }
 
 export class MetricsState {
-  /** The last one; undefined before the first, or when it cannot be had. */
+  /** The latest response; undefined if not available. */
   readonly latest = signal<Scrape | undefined>(undefined);
-  /** Why there is none. */
+  /** Why `latest` is undefined. */
   readonly trouble = signal('');
-  /** The last two minutes, the oldest first; read `latest.value` to hear of changes. */
+  /** The last two minutes, oldest first. Read `latest.value` to be updated. */
   readonly history = new Ring<Scrape>(120);
-  /** Who has bound what: the component's ref and the session's number. */
+  /** Bound components by ref, with the session's number. */
   readonly bound = computed<ReadonlyMap<string, string>>(
     () => new Map((this.latest.value?.all('rois_component_bound') ?? []).filter((one) => one.value > 0).map((one) => [one.labels['component_ref'] ?? '', one.labels['session'] ?? ''])),
   );
   readonly poll: Poll;
 
-  /** Whether what was told last is too old to be relied on. */
+  /** Whether the latest response is too old to rely on. */
   is_stale(now: number): boolean {
     return now - (this.latest.value?.at ?? now) > stale_after;
   }
@@ -87,7 +87,7 @@ const stale_after = 5000; // ms
 const line = /^([A-Za-z_:][\w:]*)(?:\{(.*)\})?\s+(\S+)(?:\s+\d+)?$/;
 const label = /([A-Za-z_]\w*)="((?:[^"\\]|\\.)*)"/g;
 
-/** Reads Prometheus' text format; lines that are none are passed over. */
+/** Parses Prometheus text format; ignores invalid lines. */
 export function read_metrics(text: string): Sample[] {
   const samples: Sample[] = [];
   for (const one of text.split('\n')) {

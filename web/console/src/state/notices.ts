@@ -1,20 +1,20 @@
-// What the user is told without having looked for it: at the edge of the page, and aloud by a screen reader.
+// Notices: messages at the edge of the page, also announced by screen readers.
 import { signal } from '@preact/signals';
 
 import type { Environment } from './environment';
 
 export type Severity = 'info' | 'good' | 'warning' | 'error';
 
-/** Something that happened. Its text is in the user's language already. */
+/** A notice. Its text is in the user's language. */
 export interface Notice {
   number: number;
   at: number;
   severity: Severity;
   text: string;
   detail?: string;
-  /** What the user may do about it: an undo, say. */
+  /** An action offered to the user, such as undo. */
   action?: { label: string; act(): void };
-  /** What it is about: what is told of it later takes its place. */
+  /** The subject. A later notice about it replaces this one. */
   about?: string;
 }
 
@@ -34,7 +34,7 @@ export class Notices {
     return notice.number;
   }
 
-  /** One by its number, or all that was told `about` something: it has come to a good end since. */
+  /** Removes a notice by number, or all `about` a subject. */
   dismiss(which: number | string): void {
     const others = this.list.value.filter((one) => one.number !== which && one.about !== which);
     if (others.length < this.list.value.length) this.list.value = others;

@@ -1,4 +1,4 @@
-// The parameters of components as they are: `get_parameter`, asked while somebody looks at a component.
+// Parameters of components, polled by `get_parameter` while they are watched.
 import { signal } from '@preact/signals';
 import { type Client, component_ref, type Results } from 'rois-client';
 
@@ -18,12 +18,12 @@ export class ParametersState {
     private readonly period = 1500, // ms
   ) {}
 
-  /** As they were told last; undefined before, and for a component that tells none. */
+  /** The latest parameters; undefined if not received. */
   of(ref: string): Results | undefined {
     return this.all.value.get(ref);
   }
 
-  /** Each component has its own, always the same. */
+  /** The component's own poll, always the same object. */
   poll(ref: string): Poll {
     const known = this.polls.get(ref);
     if (known) return known;

@@ -1,4 +1,4 @@
-// Asks again and again while somebody looks.
+// Polls while at least one caller watches.
 import type { Environment, Stop } from './environment';
 
 export class Poll {
@@ -6,7 +6,7 @@ export class Poll {
   private stop_clock: Stop | undefined;
   private is_asking = false;
 
-  /** `ask` never runs twice at once, and only when `may_ask` says so. What it throws is its own business. */
+  /** `ask` is called only if `may_ask` allows it, never twice at a time. Its errors are ignored. */
   constructor(
     private readonly environment: Pick<Environment, 'every'>,
     private readonly period: number, // ms
@@ -14,7 +14,7 @@ export class Poll {
     private readonly may_ask: () => boolean = () => true,
   ) {}
 
-  /** Somebody looks from now on, until the function is called that this gives. The first one is served at once. */
+  /** Watches until the returned function is called. The first watcher polls at once. */
   watch(): Stop {
     this.lookers += 1;
     if (this.lookers === 1) {
@@ -30,7 +30,7 @@ export class Poll {
     };
   }
 
-  /** Asks out of turn, if somebody looks. */
+  /** Polls at once if watched. */
   now(): void {
     if (this.is_asking || this.lookers === 0 || !this.may_ask()) return;
     this.is_asking = true;

@@ -1,29 +1,29 @@
-// What the engine has: its profile, with what each component includes resolved.
+// The engine's profile, with included component profiles resolved.
 import { computed, signal } from '@preact/signals';
 import type { ComponentEntry, ComponentProfile, EngineProfile, MessageProfile, ParameterProfile, Profile } from 'rois-client';
 
-/** A message of a component, and the name of the profile that it is from. */
+/** A message with the name of its profile. */
 export interface Offered extends MessageProfile {
   from: string;
 }
 
-/** A component with everything that it can do, included profiles first resolved. */
+/** A component with all its messages and parameters; included profiles first. */
 export interface ComponentView {
   ref: string;
   type: string; // URN
-  type_name: string; // the last part of it: `Navigation`
+  type_name: string; // last part of the URN: `Navigation`
   engine: string;
   description: string;
   includes: string[]; // URNs
-  unresolved: string[]; // URNs of included profiles that nobody has told of
-  commands: Offered[]; // what `execute` takes, without set_parameter
+  unresolved: string[]; // URNs of included profiles that the engine has not sent
+  commands: Offered[]; // commands of `execute`, without set_parameter
   queries: Offered[]; // without get_parameter and set_parameter
   events: Offered[];
   parameters: ParameterProfile[];
   profile?: ComponentProfile;
 }
 
-/** An engine, its own components, and the engines inside it. */
+/** An engine, its components and its sub engines. */
 export interface EngineView {
   name: string;
   identifier: string;
@@ -33,7 +33,7 @@ export interface EngineView {
 
 const common = 'urn:x-rois:def:component:OMG::RoISCommon';
 
-// Table 32. An engine's profile names it and does not tell it: it is part of the specification.
+// Table 32. Engine profiles refer to RoIS_Common without defining it.
 const own_profiles: ComponentProfile[] = [
   {
     id: 'profile.RoIS_Common',
@@ -50,7 +50,7 @@ const own_profiles: ComponentProfile[] = [
 ];
 
 export class ProfileState {
-  /** As the engine told it last; undefined before. */
+  /** The latest profile; undefined before the first. */
   readonly profile = signal<Profile | undefined>(undefined);
   readonly told_at = signal(0);
   readonly components = computed<readonly ComponentView[]>(() => (this.profile.value ? views_of(this.profile.value) : []));
@@ -59,26 +59,26 @@ export class ProfileState {
     const profile = this.profile.value;
     return profile && engine_view(profile.engine, this.components.value);
   });
-  /** An engine that is there and has no components. */
+  /** Whether the engine is known to have no components. */
   readonly is_empty = computed(() => this.profile.value !== undefined && this.components.value.length === 0);
 
   component(ref: string): ComponentView | undefined {
     return this.by_ref.value.get(ref);
   }
 
-  /** Whether its work goes on when `start` has completed: it detects, localizes, identifies, recognizes or streams. */
+  /** Whether a component works on after `start` has completed: it detects, localizes, identifies, recognizes or streams. */
   lasts(ref: string): boolean {
     const view = this.component(ref);
     return view !== undefined && [view.type, ...view.includes].some((urn) => /(Detection|Localization|Identification|Recognition|Streaming)$/i.test(urn));
   }
 
-  /** Those of a type, by its URN or its last part, ignoring case; sub profiles count. */
+  /** Components of a type, by URN or its last part, case-insensitive. Included profiles count. */
   of_type(type: string): ComponentView[] {
     const is_it = (urn: string) => urn.toLowerCase() === type.toLowerCase() || type_name(urn).toLowerCase() === type.toLowerCase();
     return this.components.value.filter((one) => is_it(one.type) || one.includes.some(is_it));
   }
 
-  /** Those that have an event of this name. */
+  /** Components with an event of this name. */
   with_event(event_type: string): ComponentView[] {
     return this.components.value.filter((one) => one.events.some((event) => event.name === event_type));
   }
@@ -89,7 +89,7 @@ export class ProfileState {
   }
 }
 
-/** `Navigation` of `urn:x-rois:def:component:OMG::Navigation`. */
+/** `Navigation` for `urn:x-rois:def:component:OMG::Navigation`. */
 export function type_name(urn: string): string {
   return urn.slice(urn.lastIndexOf(':') + 1);
 }
@@ -124,12 +124,12 @@ function view_of(entry: ComponentEntry, profile: ComponentProfile | undefined, k
   return view;
 }
 
-// Parameters that only the profile of the message tells.
+// Parameters that only the message's profile declares.
 function set_by_message(profile: ComponentProfile): ParameterProfile[] {
   return profile.messages.filter((one) => one.kind === 'command' && one.name === 'set_parameter').flatMap((one) => one.arguments);
 }
 
-// The profile itself, then those that it includes, each once.
+// The profile and all that it includes, each once.
 function with_included(profile: ComponentProfile | undefined, known: Map<string, ComponentProfile>) {
   const all = profile ? [profile] : [];
   const missing: string[] = [];
@@ -142,7 +142,7 @@ function with_included(profile: ComponentProfile | undefined, known: Map<string,
   return { all, missing };
 }
 
-// Names have no case; the first of a name counts.
+// Names are case-insensitive; the first of a name counts.
 function unique<T extends { name: string; kind?: string }>(list: T[]): T[] {
   const seen = new Set<string>();
   return list.filter((one) => {

@@ -1,11 +1,10 @@
-// Tells of changes no more often than pictures are drawn.
+// Limits updates to one for each frame.
 import { signal } from '@preact/signals';
 
 import type { Environment } from './environment';
 
 /**
- * The version of something that changes often and in place. Whoever shows it reads `beat.value` and then the thing itself; however many
- * changes there were since the last picture, they are told once.
+ * The version of something that changes often and in place. Readers read `beat.value` and then the thing. It beats at most once a frame.
  */
 export class Pulse {
   readonly beat = signal(0);

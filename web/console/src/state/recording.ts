@@ -1,17 +1,17 @@
-// Recordings as `rois record` writes them and `rois replay` serves them: a JSON object a line.
+// Recordings of `rois record` and `rois replay`: one JSON object on each line.
 import { type Direction, Documents, type LoggedDocument } from './documents';
 import type { Environment } from './environment';
 
 const format = 'rois-recording-1';
 
 export interface Recording {
-  url: string; // of the engine; empty when the file does not say it
-  begun: string; // as the file has it
-  is_cut: boolean; // its last line is not whole, and left out: whoever wrote it was ended
-  documents: LoggedDocument[]; // `at` is in ms since 1970 when it is known when the recording began, else since then
+  url: string; // of the engine; empty if unknown
+  begun: string; // as in the file
+  is_cut: boolean; // the last line was incomplete and is ignored
+  documents: LoggedDocument[]; // `at`: ms since 1970, or since the begin if that is unknown
 }
 
-/** The file, in pieces. Sessions are told apart when there were several. */
+/** The file in pieces. Several sessions are marked. */
 export function recording_of(documents: Iterable<LoggedDocument>, url: string): string[] {
   const list = [...documents];
   const begun = list[0]?.at ?? 0;
@@ -32,44 +32,44 @@ function is_connect({ direction, name }: LoggedDocument): boolean {
   return direction === 'out' && name === 'connect';
 }
 
-/** Throws an Error that says which line is wrong, and why. */
+/** Throws an Error with the line and the reason. */
 export function read_recording(text: string): Recording {
   const lines = text.split('\n').filter((line, i) => i === 0 || line.trim() !== '');
   const is_cut = lines.length > 1 && !text.endsWith('\n') && parsed(lines.at(-1)!) === undefined;
   if (is_cut) lines.pop();
-  if (text.trim() === '') throw new Error('nothing is recorded');
+  if (text.trim() === '') throw new Error('the recording is empty');
   const head = object_of(lines[0]!, 1);
-  if (head['recording'] !== format) throw new Error(`line 1: this is no recording of the format ${format}`);
+  if (head['recording'] !== format) throw new Error(`line 1: expected a recording of the format ${format}`);
   const begun = String(head['begun'] ?? '');
   const zero = Date.parse(begun);
   const sessions = new Map<string, Documents>();
   let now = 0;
   const documents = lines.slice(1).map((line, i) => {
     const { at, direction, session = '', document } = object_of(line, i + 2);
-    if (typeof at !== 'number' || typeof document !== 'string') throw new Error(`line ${i + 2}: 'at' and 'document' are needed`);
-    if (direction !== 'in' && direction !== 'out') throw new Error(`line ${i + 2}: the direction has to be "in" or "out"`);
+    if (typeof at !== 'number' || typeof document !== 'string') throw new Error(`line ${i + 2}: 'at' (a number) or 'document' (a text) is missing`);
+    if (direction !== 'in' && direction !== 'out') throw new Error(`line ${i + 2}: 'direction' must be "in" or "out"`);
     now = (Number.isNaN(zero) ? 0 : zero) + at * 1000;
     const logged = sessions_log(sessions, String(session), () => now).note(direction as Direction, document);
     logged.number = i;
     logged.is_own = false;
     return logged;
   });
-  if (documents.length === 0) throw new Error('nothing is recorded');
+  if (documents.length === 0) throw new Error('the recording is empty');
   return { url: String(head['url'] ?? ''), begun, is_cut, documents };
 }
 
-// Answers belong to the requests of their own session.
+// Answers are paired with requests of their own session.
 function sessions_log(sessions: Map<string, Documents>, session: string, now: () => number): Documents {
   const known = sessions.get(session);
   if (known) return known;
-  // All that a log needs of the world is the time.
+  // A log needs only the time.
   const world = { now, precise: now } as Partial<Environment> as Environment;
   const made = new Documents(world, { most: 1, most_bytes: Infinity });
   sessions.set(session, made);
   return made;
 }
 
-/** Undefined when it is no JSON. */
+/** Undefined if it is not JSON. */
 function parsed(line: string): unknown {
   try {
     return JSON.parse(line);
@@ -81,5 +81,5 @@ function parsed(line: string): unknown {
 function object_of(line: string, number: number): Record<string, unknown> {
   const read = parsed(line);
   if (typeof read === 'object' && read !== null) return read as Record<string, unknown>;
-  throw new Error(`line ${number}: this is no JSON object`);
+  throw new Error(`line ${number}: not a JSON object`);
 }

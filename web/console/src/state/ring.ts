@@ -1,9 +1,9 @@
-// A list that forgets its oldest entries.
+// A list that drops its oldest entries.
 
-/** Bounded by number and, when a weight is given, by the sum of weights (bytes, say). Entries are numbered from 0 as they come. */
+/** Limited in number and, with a weight function, in total weight (such as bytes). Entries are numbered from 0. */
 export class Ring<T> implements Iterable<T> {
   private entries: T[] = [];
-  private begin = 0; // of those in `entries` that are still there
+  private begin = 0; // index of the first live entry
   private forgotten = 0;
   private weight = 0;
 
@@ -25,7 +25,7 @@ export class Ring<T> implements Iterable<T> {
 
   private forget(): void {
     this.weight -= this.weigh(this.entries[this.begin]!);
-    this.entries[this.begin] = undefined as T; // so that it is not kept alive
+    this.entries[this.begin] = undefined as T; // for the garbage collector
     this.begin += 1;
     this.forgotten += 1;
   }
@@ -36,15 +36,15 @@ export class Ring<T> implements Iterable<T> {
   get bytes(): number {
     return this.weight;
   }
-  /** The number of the oldest that is there. */
+  /** The number of the oldest entry. */
   get first(): number {
     return this.forgotten;
   }
-  /** By its place: 0 is the oldest that is there, -1 the newest. */
+  /** By index: 0 is the oldest, -1 the newest. */
   at(index: number): T | undefined {
     return index < 0 ? (this.size + index < 0 ? undefined : this.entries[this.entries.length + index]) : this.entries[this.begin + index];
   }
-  /** By its number: undefined when it is forgotten or not there yet. */
+  /** By number; undefined if dropped or not yet added. */
   numbered(number: number): T | undefined {
     return number < this.forgotten ? undefined : this.entries[this.begin + number - this.forgotten];
   }

@@ -1,4 +1,4 @@
-// Where the robots are: `robot_position`, asked while somebody looks; less often while no robot moves.
+// Positions of the robots: polls `robot_position` while watched, less often while no robot moves.
 import { type Client, component_ref } from 'rois-client';
 
 import type { Documents } from './documents';
@@ -9,12 +9,12 @@ import { Pulse } from './pulse';
 import { located_in, placed, type Robot } from './things';
 
 const forgotten_after = 60_000; // ms
-const rests_after = 3000; // ms without a step of a trail
+const rests_after = 3000; // ms without movement
 const period = 100; // ms
 const period_at_rest = 500; // ms
 
 export class RobotsState {
-  /** By ref. Robots change in place: read `pulse.beat.value`, then this. */
+  /** By ref. Robots change in place: read `pulse.beat.value` first. */
   readonly all = new Map<string, Robot>();
   readonly pulse: Pulse;
   readonly poll: Poll;
@@ -25,7 +25,7 @@ export class RobotsState {
     private readonly documents: Documents,
     private readonly client: () => Client | undefined,
     private readonly components: () => readonly ComponentView[],
-    /** Whether this session runs something that may move a robot. */
+    /** Whether this session runs a command that may move a robot. */
     private readonly is_at_work: () => boolean,
     may_ask: () => boolean,
   ) {
@@ -33,7 +33,7 @@ export class RobotsState {
     this.poll = new Poll(environment, period, () => this.ask(), () => may_ask() && this.is_due());
   }
 
-  /** Those of another session may have been elsewhere meanwhile. */
+  /** A new session: positions in between are unknown. */
   forget(): void {
     this.all.clear();
     this.pulse.touch();

@@ -1,4 +1,4 @@
-// What the user has picked, wherever: a panel that shows such things opens it.
+// The user's selection, shared by the panels.
 import { signal } from '@preact/signals';
 
 export class Selection {
@@ -6,8 +6,8 @@ export class Selection {
   readonly component = signal('');
   /** The number of a logged document. */
   readonly document = signal<number | undefined>(undefined);
-  /** One that is to be shown, whatever the filter hides: taken once. */
+  /** A document to show regardless of the filter; reset when shown. */
   readonly wanted = signal<number | undefined>(undefined);
-  /** The id of the subscription whose events are to be listed; empty: none. */
+  /** The id of the subscription whose events to list; empty: none. */
   readonly subscription = signal('');
 }

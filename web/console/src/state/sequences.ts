@@ -1,15 +1,15 @@
-// Command sequences read back from documents: those that were sent as text, and those of recordings.
+// Parses command sequences from documents: sent texts and recordings.
 import { type CommandMessage, type CommandUnit, identifier_of, namespaces, parameter_of, type XmlElement } from 'rois-client';
 
 const { rois, xsi } = namespaces;
 
-/** A command and where it stands: `command_unit_list[2]/branch_list[1]/command_list[1]`, as the engine names places. */
+/** A command and its place, in the engine's notation: `command_unit_list[2]/branch_list[1]/command_list[1]`. */
 export interface PlacedCommand {
   path: string;
   command: CommandMessage;
 }
 
-/** The units of a `CommandUnitSequence`, or of the document that holds one. None when there are none. */
+/** The units of a `CommandUnitSequence` or of a document with one; empty if there is none. */
 export function units_of(element: XmlElement): CommandUnit[] {
   const sequence = element.name === 'CommandUnitSequence' ? element : element.child('CommandUnitSequence');
   return (sequence?.all('command_unit_list') ?? []).map(unit_of);
@@ -45,7 +45,7 @@ function unit_of(element: XmlElement): CommandUnit {
   }
 }
 
-// In the flat form each command is a branch.
+// In the flat form, each command is a branch.
 function branches_of(element: XmlElement): CommandMessage[][] {
   const branches = element.all('branch_list').map((branch) => branch.all('command_list').map(command_of));
   return branches.length > 0 ? branches : element.all('command_list').map((one) => [command_of(one)]);

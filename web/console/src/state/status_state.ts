@@ -1,4 +1,4 @@
-// How each component is: `component_status`, asked again and again while somebody looks.
+// Status of the components: polls `component_status` while watched.
 import { signal } from '@preact/signals';
 import { type Client, component_ref, type ComponentStatus, RoisError } from 'rois-client';
 
@@ -8,9 +8,9 @@ import { Poll } from './poll';
 import type { ComponentView } from './profile_state';
 
 export interface StatusEntry {
-  status: ComponentStatus | 'unknown'; // unknown: it could not be asked, see `trouble`
-  at: number; // when it was asked last, ms since 1970
-  since: number; // since when it is so, as far as we have seen
+  status: ComponentStatus | 'unknown'; // unknown: the query failed, see `trouble`
+  at: number; // last query, ms since 1970
+  since: number; // first seen with this status
   trouble?: string;
 }
 

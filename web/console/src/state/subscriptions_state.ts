@@ -1,4 +1,4 @@
-// What this session has subscribed to.
+// The subscriptions of this session.
 import { signal } from '@preact/signals';
 import { type Client, condition_xml, not, parse_xml, property, type ReceiveEvent, type SubscribeOptions, type Subscription, text_element, request } from 'rois-client';
 
@@ -11,17 +11,17 @@ export interface SubscriptionEntry {
   condition: string; // as XML; empty: none
   inline_results: boolean;
   since: number; // ms since 1970
-  count: number; // events so far
+  count: number; // events received
   last_at?: number;
 }
 
-// Every event meets it. The engine knows a subscription by its type and condition, so the user's are others, with results or without.
+// Matches every event. The engine identifies subscriptions by type and condition, so the console's own differ from the user's.
 const own_condition = not(property('component_ref').is_null());
 
 export class SubscriptionsState {
-  /** By subscribe_id. Counts change in place; the map is a new one when a subscription comes or goes. */
+  /** By subscribe_id. Counts change in place; adding or removing a subscription makes a new map. */
   readonly all = signal<ReadonlyMap<string, SubscriptionEntry>>(new Map());
-  private readonly held = new Map<Subscription, { is_own: boolean }>(); // their ids change with the session
+  private readonly held = new Map<Subscription, { is_own: boolean }>(); // ids change with the session
 
   constructor(
     private readonly environment: Environment,
@@ -30,28 +30,28 @@ export class SubscriptionsState {
     private readonly ended: (event_type: string, error: unknown) => void,
   ) {}
 
-  /** Outlives links and sessions. `ended` of the constructor is called when a new session refuses it. */
+  /** Subscribes across links and sessions. `ended` of the constructor is called if a new session refuses it. */
   subscribe(event_type: string, options: SubscribeOptions = {}): Promise<Subscription> {
     return this.hold(this.client().subscribe(event_type, options), false);
   }
 
-  /** For what the console shows: with results, whatever the user subscribes to and unsubscribes from. */
+  /** Subscribes for the console's own display: with results, independent of the user's subscriptions. */
   subscribe_own(event_type: string): Promise<Subscription> {
     return this.hold(this.documents.as_own(() => this.client().subscribe(event_type, { condition: own_condition })), true);
   }
 
-  /** Whether the console has it for itself: nobody has asked for it. Who asks for the same has the same id. */
+  /** Whether only the console itself uses it. Equal subscriptions share an id. */
   is_own(id: string): boolean {
     const those = this.held_as(id);
     return those.length > 0 && those.every(([, { is_own }]) => is_own);
   }
 
-  /** Whether the events of a type come with their results. */
+  /** Whether events of a type arrive with results. */
   is_fed(event_type: string): boolean {
     return [...this.held].some(([one, { is_own }]) => is_own && one.wanted.event_type === event_type && this.all.value.get(one.subscribe_id)?.inline_results);
   }
 
-  /** Ends it, whoever has made it; the console keeps what it has for itself. */
+  /** Ends the user's subscription. The console keeps its own. */
   async unsubscribe(id: string): Promise<void> {
     const those = this.held_as(id).filter(([, { is_own }]) => !is_own);
     if (those.length === 0) return void (await this.client().send(request('unsubscribe', {}, text_element('subscribe_id', id))));
@@ -60,8 +60,8 @@ export class SubscriptionsState {
     this.all.value = new Map(this.all.value);
   }
 
-  /** Learns from the answers, whoever has sent the requests. */
-  heard({ name, return_code, text, request: asked, at }: LoggedDocument): void {
+  /** Updates from an answer, whether the user or the console sent the request. */
+  on_answer({ name, return_code, text, request: asked, at }: LoggedDocument): void {
     if (return_code !== 'OK' || asked === undefined) return;
     if (name === 'subscribe_response') {
       const id = parse_xml(text).text_of('subscribe_id');
@@ -98,21 +98,21 @@ export class SubscriptionsState {
     return subscription;
   }
 
-  // A document that the user has written may say the same as the console's own request.
+  // The user sent a document equal to the console's own subscription, without results: requests results again.
   private want_results(id: string): void {
     const own = this.own_as(id);
     if (!own) return;
     const text = request('subscribe', { inline_results: true }, text_element('event_type', own.wanted.event_type) + condition_xml(own_condition));
-    this.documents.as_own(() => this.client().send(text)).catch(() => undefined); // the badge of the map says it
+    this.documents.as_own(() => this.client().send(text)).catch(() => undefined); // shown by the map's badge
   }
 
-  // Or it may unsubscribe from it: the engine gives the next one another id.
+  // The user unsubscribed the console's own subscription: makes a new one, which gets another id.
   private make_again(id: string): void {
     const own = this.own_as(id);
     if (!own) return;
     this.held.delete(own);
-    this.documents.as_own(() => own.close()).catch(() => undefined); // the client must not make it again, too
-    this.subscribe_own(own.wanted.event_type).catch(() => undefined); // the badge of the map says it
+    this.documents.as_own(() => own.close()).catch(() => undefined); // so that the client does not repeat it, too
+    this.subscribe_own(own.wanted.event_type).catch(() => undefined); // shown by the map's badge
   }
 
   private own_as(id: string): Subscription | undefined {
@@ -127,7 +127,7 @@ export class SubscriptionsState {
     this.all.value = new Map([...this.all.value].filter(([one]) => one !== id));
   }
 
-  // What it brings is heard as a notification; its own stream must not fill.
+  // Events are processed as notifications; empties the stream so that it does not overflow.
   private async drain(subscription: Subscription): Promise<void> {
     try {
       for await (const _ of subscription);

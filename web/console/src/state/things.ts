@@ -1,4 +1,4 @@
-// Where things are: robots, people, faces and sound sources, each with its last pose and the way that it came.
+// Robots, persons, faces and sound sources with their last pose and trail.
 import type { Located, ReceiveEvent, Results } from 'rois-client';
 
 import { Ring } from './ring';
@@ -8,22 +8,22 @@ export interface TrailPoint {
   x: number;
   y: number;
   at: number;
-  /** Nobody knows the way from the point before it. */
+  /** Whether the path from the previous point is unknown. */
   begins?: true;
 }
 
 export interface Thing {
   ref: string;
   codebook: string; // of the ref
-  component: string; // who told it
+  component: string; // source
   crs: string;
   x: number; // mm
   y: number;
   z: number;
-  th?: number; // degrees counter-clockwise, when it has a direction
+  th?: number; // degrees counter-clockwise, if known
   covariance?: number[]; // as in `Located`
   reliability?: number; // 0 to 1
-  at: number; // when it was told, ms since 1970
+  at: number; // ms since 1970
   trail: Ring<TrailPoint>;
 }
 
@@ -33,19 +33,19 @@ export type EntityKind = 'person' | 'face' | 'sound';
 
 export interface Entity extends Thing {
   kind: EntityKind;
-  /** Whether it was in what its component told last. */
+  /** Whether the component's last event lists it. */
   is_seen: boolean;
-  /** When its component told last without saying whom it sees: unknown since then. Absent while results come. */
+  /** Since when events of its component arrive without results; absent while they have results. */
   unknown_since?: number;
-  /** Who it is, when identification has said so. */
+  /** The identified person, if known. */
   identity?: { ref: string; codebook: string; at: number };
 }
 
 const most_points = 600;
 const trail_step = 50; // mm between two points
-const gap = { ms: 2000, mm: 700 }; // nothing was told for so long, and then from so far away
+const gap = { ms: 2000, mm: 700 }; // no report for this time and then a jump of this distance begins a new trail
 
-/** Sets where a thing is, and makes it when it is new. */
+/** Updates the position of a thing, or creates it. */
 export function placed<T extends Thing>(known: T | undefined, located: Located, told: { codebook: string; component: string; at: number }, make: (thing: Thing) => T): T {
   const [x, y, z] = located.position;
   const is_gap = known !== undefined && told.at - known.at > gap.ms && Math.hypot(known.x - x, known.y - y) > gap.mm;
@@ -69,7 +69,7 @@ function set_or_delete<T extends object, Key extends keyof T>(thing: T, key: Key
   else thing[key] = value;
 }
 
-/** What is located in a result; from the texts `x, y, th` when the engine tells no `located` elements. */
+/** The positions in a result; from texts `x, y, th` if the engine sends no `located` elements. */
 export function located_in(results: Results, refs: string, positions = 'position_data'): Located[] {
   const told = results.located.filter((one) => one.of === positions);
   if (told.length > 0) return told;
@@ -81,13 +81,13 @@ export function located_in(results: Results, refs: string, positions = 'position
   });
 }
 
-/** By the names of the specification's events. */
-export function kind_told_by(event: ReceiveEvent): EntityKind | undefined {
+/** By the event types of the specification. */
+export function kind_of_event(event: ReceiveEvent): EntityKind | undefined {
   const kind = /^(person|face|sound)_localized$/.exec(event.event_type)?.[1];
   return kind as EntityKind | undefined;
 }
 
-/** Half axes in mm and the angle of the first one in degrees, for one standard deviation; undefined when nothing is known. */
+/** One standard deviation as an ellipse: half axes in mm, angle of the first in degrees; undefined if unknown. */
 export function ellipse_of({ covariance }: Pick<Thing, 'covariance'>): { a: number; b: number; angle: number } | undefined {
   const side = covariance === undefined ? 0 : Math.sqrt(covariance.length);
   if (covariance === undefined || side < 2 || !Number.isInteger(side)) return undefined;

@@ -1,4 +1,4 @@
-// How much goes in and out, how long answers take, and what was refused: the last two minutes, second by second.
+// Message counts, response times and refusals of the last two minutes, by second.
 import type { Client } from 'rois-client';
 
 import type { Documents, LoggedDocument } from './documents';
@@ -7,11 +7,11 @@ import { Poll } from './poll';
 import { Ring } from './ring';
 
 export interface Second {
-  at: number; // when it began, ms since 1970
+  at: number; // begin, ms since 1970
   sent: number; // documents
   received: number;
-  tooks: number[]; // ms, of the first answers in it
-  slowest?: LoggedDocument; // the answer that took longest
+  tooks: number[]; // ms, of the first answers
+  slowest?: LoggedDocument; // the slowest answer
 }
 
 const most_seconds = 120;
@@ -20,11 +20,11 @@ const most_refused = 200;
 const most_refused_bytes = 1024 * 1024;
 
 export class Traffic {
-  /** The oldest is first; seconds in which nothing happened are not there. */
+  /** Oldest first; seconds without traffic are missing. */
   readonly seconds = new Ring<Second>(most_seconds);
-  /** Faults, and answers that say no, to what the console has not asked by itself. */
+  /** Faults and refusals, except for the console's own requests. */
   readonly refused = new Ring<LoggedDocument>(most_refused, most_refused_bytes, (one) => 2 * one.text.length + 200);
-  /** While somebody looks, and nothing else is said, something light is asked each second: so the latency is always known. */
+  /** While watched and without other traffic, sends a light request each second to measure the response time. */
   readonly ping: Poll;
   private answered_at = 0;
 
@@ -35,16 +35,16 @@ export class Traffic {
     may_ask: () => boolean,
     private readonly period = 1000, // ms
   ) {
-    documents.listen((document) => this.heard(document));
+    documents.listen((document) => this.on_document(document));
     this.ping = new Poll(environment, period, () => this.ask(), may_ask);
   }
 
-  /** Takes what was refused to the page that was here before. */
+  /** Adds the refusals of this page before its reload. */
   recall(refused: readonly LoggedDocument[]): void {
     for (const one of refused) this.refused.push(one);
   }
 
-  private heard(document: LoggedDocument): void {
+  private on_document(document: LoggedDocument): void {
     const second = this.second_of(document.at);
     if (document.direction === 'out') {
       second.sent += 1;
@@ -63,13 +63,13 @@ export class Traffic {
   private second_of(at: number): Second {
     const begun = Math.floor(at / 1000) * 1000;
     const last = this.seconds.at(-1);
-    if (last && last.at >= begun) return last; // a clock that was set back counts for the same second
+    if (last && last.at >= begun) return last; // after the clock was set back
     const second: Second = { at: begun, sent: 0, received: 0, tooks: [] };
     this.seconds.push(second);
     return second;
   }
 
-  // `search` is answered by the engine itself; components are asked often enough by others.
+  // The engine itself answers `search`; queries to components would add load there.
   private async ask(): Promise<void> {
     const client = this.client();
     if (!client || this.environment.now() - this.answered_at < 0.9 * this.period) return;
@@ -77,7 +77,7 @@ export class Traffic {
   }
 }
 
-/** The middle one of some numbers; undefined of none. */
+/** The median; undefined if empty. */
 export function median(numbers: readonly number[]): number | undefined {
   const sorted = [...numbers].sort((a, b) => a - b);
   const half = sorted.length >> 1;

@@ -1,4 +1,4 @@
-// The lanes, drawn: what points at them, and the keys that work them.
+// The drawn lanes with pointer and keyboard input.
 import { effect, untracked, useComputed, useSignal } from '@preact/signals';
 import { useCallback, useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 
@@ -22,8 +22,8 @@ export interface ChartProps {
 }
 
 const zoom_step = 1.5;
-const look_every = 50; // ms: a live chart is drawn no more often because time passes; at rest, once a second
-const longest_rest = 10_000; // ms that a pointer may rest before the time goes on under it
+const look_every = 50; // ms, shortest period of redrawing a live chart; once a second at rest
+const longest_rest = 10_000; // ms that a resting pointer holds the time
 
 export function Chart({ view, opened, open }: ChartProps) {
   const console = useConsole();
@@ -33,8 +33,8 @@ export function Chart({ view, opened, open }: ChartProps) {
   const hovered = useSignal<{ thing: Thing; x: number; y: number } | undefined>(undefined);
   const focused = useSignal<Placed | undefined>(undefined);
   const choice = useSignal<{ from: number; to: number } | undefined>(undefined);
-  const drawn = useRef(0); // until when the last picture showed; for the step of a pixel
-  void shown_theme.value; // its colours are read anew
+  const drawn = useRef(0); // time of the last frame, to detect a step of one pixel
+  void shown_theme.value; // reads the colours again
 
   const place = (width: number): Layout => {
     const { sources } = view;
@@ -46,7 +46,7 @@ export function Chart({ view, opened, open }: ChartProps) {
     const at = view.sources.at;
     drawn.current = at;
     if (shape_of(next.lanes) !== shape_of(lanes.peek())) lanes.value = next.lanes;
-    // For whoever wants to know where a time is: tests, say.
+    // The shown range, for tests.
     Object.assign(sheet.pen.canvas.dataset, { from: String(next.range.from), to: String(next.range.to) });
     const under = hovered.peek();
     paint(sheet, {
@@ -66,7 +66,7 @@ export function Chart({ view, opened, open }: ChartProps) {
     void console.commands.pulse.beat.value;
     return console.commands.open().length > 0;
   });
-  // What has changed is drawn; while it is live also when the time has gone on by a pixel.
+  // Redraws after changes, and when live time has moved by a pixel.
   useEffect(
     () =>
       effect(() => {
@@ -81,7 +81,7 @@ export function Chart({ view, opened, open }: ChartProps) {
     const look = () => {
       if (!view.is_live || console.environment.now() - drawn.current < view.stretch.peek().span / Math.max(1, layout.current?.width ?? 1)) return;
       redraw();
-      if (pointer.current) hover(pointer.current); // what is under it moves away
+      if (pointer.current) hover(pointer.current); // other things move under it
     };
     const stop_looking = effect(() => (is_at_work.value && !is_calm.matches ? console.environment.every(look_every, look) : undefined));
     const stop = effect(() => {
@@ -110,11 +110,11 @@ export function Chart({ view, opened, open }: ChartProps) {
       const { placed } = found(event);
       if (!placed) return;
       open(placed.thing);
-      pointer.current = hovered.value = undefined; // its card would lie over the details
+      pointer.current = hovered.value = undefined; // its tooltip would cover the details
     },
   });
   const pointer = useRef<{ clientX: number; clientY: number }>();
-  // What is live waits under a pointer that moves, and goes on when that is gone or has rested.
+  // Live time is held while the pointer moves over the chart, until it leaves or rests.
   const resting = useRef(0);
   const release = () => {
     clearTimeout(resting.current);
@@ -147,11 +147,11 @@ export function Chart({ view, opened, open }: ChartProps) {
     if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) view.move((((event.deltaX || event.deltaY) * far) / width) * view.stretch.peek().span);
     else view.zoom(Math.exp((event.deltaY * far) / 400), time_at(found(event).x));
   }, []);
-  // Preact's own listeners are passive, and then the page would scroll.
+  // Preact's own listeners are passive: the page would scroll.
   useEffect(() => {
     canvas.current!.addEventListener('wheel', wheel, { passive: false });
   }, []);
-  // The canvas is as high as what is seen of the lanes, and stays there while they scroll.
+  // The canvas has the height of the visible part and stays while the lanes scroll.
   useLayoutEffect(() => watch_size(frame.current!, () => (canvas.current!.style.height = `${frame.current!.clientHeight}px`)), []);
 
   const go = (key: 'ArrowLeft' | 'ArrowRight' | 'ArrowUp' | 'ArrowDown') => {
@@ -241,7 +241,7 @@ interface TipProps {
   focused: Placed | undefined;
 }
 
-// Beside the pointer, or where the thing stands that the keys have chosen.
+// Beside the pointer or the focused thing.
 function Tip({ view, layout, frame, hovered, focused }: TipProps) {
   const console = useConsole();
   const at = view.sources.at;

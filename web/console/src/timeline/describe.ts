@@ -1,4 +1,4 @@
-// Things of the time line in words: for what hovers, for tables, for screen readers.
+// Descriptions of things on the time line, for tooltips, tables and screen readers.
 import { parse_xml } from 'rois-client';
 
 import { why } from '../forms/why';
@@ -13,29 +13,29 @@ import { began_at, has_failed, type Mark, mark_ref, opened_by, type Thing } from
 import * as t from './texts';
 
 export interface Description {
-  at: number; // for the order
+  at: number; // for sorting
   kind: string; // in the user's language
   title: string;
   component: string;
-  /** A name of the specification: status, state, error type; empty when there is none. */
+  /** A name of the specification: status, state, error type; may be empty. */
   state: string;
-  /** What else there is: names and values. */
+  /** Additional names and values. */
   facts: [name: string, value: string][];
 }
 
-/** How the link is, in the words of the header. */
+/** The link's state as in the header. */
 export function phase_text(phase: string): string {
   return shell.phase(phase as Phase);
 }
 
-/** `at`: until when anything is known. */
+/** `at`: the end of the known time. */
 export function describe(thing: Thing, at: number): Description {
   if (thing.kind === 'span') return of_span(thing.span, at);
   if (thing.kind === 'command') return of_command(thing.entry, at);
   return thing.marks.length === 1 ? of_mark(thing.marks[0]!) : of_many(thing.marks);
 }
 
-/** With the reason why it failed, as far as that is known. */
+/** Includes why it failed, as far as known. */
 export function describe_whole(console: Console, thing: Thing, at: number): Description {
   const told = describe(thing, at);
   const opened = opened_by(thing);
@@ -92,7 +92,7 @@ export function of_mark(mark: Mark): Description {
   return { at, kind: t.event(), title: mark.entry.event.event_type, component, state: '', facts: [...facts, ...located(mark.entry)] };
 }
 
-/** Who is where, as an event tells it. */
+/** Positions reported by an event. */
 export function located({ event: { results } }: EventEntry): Description['facts'] {
   return results.located.slice(0, most_located).map(({ ref, position: [x, y] }) => [ref, `${(x / 1000).toFixed(2)}, ${(y / 1000).toFixed(2)} m`]);
 }

@@ -1,4 +1,4 @@
-// What is known of one thing, beside the lanes.
+// Details of the selected thing, beside the lanes.
 import { useEffect, useRef } from 'preact/hooks';
 import { Results } from 'rois-client';
 
@@ -27,7 +27,7 @@ export function DetailsPane({ view, thing, open, close }: DetailsProps) {
   const heading = useRef<HTMLHeadingElement>(null);
   const key = key_of(thing);
   useEffect(() => heading.current?.focus(), [key]);
-  void console.events.pulse.beat.value; // details come, commands end
+  void console.events.pulse.beat.value; // details arrive, commands end
   void console.commands.pulse.beat.value;
   if (thing.kind === 'span') void console.now.value;
   const { kind, title, component, state, facts } = describe(thing, view.sources.at);

@@ -1,11 +1,11 @@
-// Where everything stands: from what there is and what is shown to lanes and boxes. Draws nothing.
+// Computes lanes and boxes from the sources and the shown range. Draws nothing.
 import type { CommandEntry } from '../state/commands_state';
 import type { Span } from '../state/history';
 import { end_of, first_since, oldest_of, type Rows, type Sources } from './sources';
 import { has_failed, key_of, type Mark, mark_ref, type Thing } from './things';
 import type { Range } from './view';
 
-/** In CSS pixels: x from the left edge of what is drawn, y from the top of all lanes. */
+/** In CSS pixels: x from the left edge of the chart, y from the top of all lanes. */
 export interface Box {
   x: number;
   y: number;
@@ -16,7 +16,7 @@ export interface Box {
 export interface Placed {
   thing: Thing;
   key: string; // of the thing
-  spot: string; // of the thing in its lane: a command stands in two
+  spot: string; // of the thing in its lane: a command is in two lanes
   lane: number; // index
   box: Box;
 }
@@ -32,25 +32,25 @@ export interface Lane {
 
 export interface Layout {
   range: Range;
-  oldest: number; // before it nothing is known
+  oldest: number; // nothing is known before
   width: number;
   height: number; // of all lanes
   lanes: Lane[];
-  /** What lies above comes later. */
+  /** Later ones lie on top. */
   placed: Placed[];
 }
 
 export interface LayoutOptions {
   width: number;
-  /** Leaves out components of which nothing is shown but that they are there. */
+  /** Omits components that only exist. */
   hides_quiet: boolean;
-  /** With the events that the console listens for by itself. */
+  /** Includes events of the console's own subscriptions. */
   with_own: boolean;
 }
 
 const heights = { link: 20, row: 18, events: 32, component: 30 };
-const most_rows = 6; // of commands at once; what is more lies in the last one
-/** Marks nearer to each other than this are one. Where the borders are depends on the time alone, so that nothing flickers while it moves. */
+const most_rows = 6; // rows of simultaneous commands; the last row takes the rest
+/** Nearer marks are combined. The boundaries depend only on time, so that nothing flickers while the chart moves. */
 const together = { events: 34, component: 7 }; // px
 
 export function x_of(at: number, { from, to }: Range, width: number): number {
@@ -98,13 +98,13 @@ export function lay_out(sources: Sources, range: Range, { width, hides_quiet, wi
   const put_marks = (those: Mark[], lane: number | undefined, most: number, top: number, height: number, side: number) => {
     const length = ((range.to - range.from) / width) * most;
     for (const { marks: one, from, to } of clusters(those, length)) {
-      // A number stands in the middle of its stretch, so that it does not lie on its neighbour's.
+      // A number stands in the middle of its time bin, so that it does not overlap its neighbour.
       const middle = x_of(lane === events_lane && one.length > 1 ? (Math.floor(from / length) + 0.5) * length : (from + to) / 2, range, width);
       const wide = one.length === 1 ? side : Math.max(side, x_of(to, range, width) - x_of(from, range, width));
       if (lane !== undefined) place({ kind: 'marks', marks: one }, lane, { x: middle - wide / 2, y: lanes[lane]!.y + top, width: wide, height });
     }
   };
-  // Of a command that has failed its bar tells in the component's lane.
+  // A failed command already has its bar in the component's lane.
   for (const [ref, those] of grouped(marks.filter((one) => one.kind !== 'failed'), mark_ref)) if (ref !== '') put_marks(those, by_ref.get(ref), together.component, 19, 9, 3);
   const [events, troubles] = [marks.filter((one) => one.kind === 'event'), marks.filter((one) => one.kind !== 'event')];
   put_marks(events, events_lane, together.events, 1, 14, 12);
@@ -168,7 +168,7 @@ export interface Cluster {
   to: number;
 }
 
-/** Marks, in order, by stretches of time of a length in ms. */
+/** Groups marks, which are in order, by time bins of `length` ms. */
 export function clusters(marks: readonly Mark[], length: number): Cluster[] {
   const found: Cluster[] = [];
   let bin = NaN;
@@ -185,7 +185,7 @@ export function clusters(marks: readonly Mark[], length: number): Cluster[] {
   return found;
 }
 
-/** In which row each command stands, so that none lies on another; the same whatever is shown, as long as they are known. */
+/** The row of each command, without overlaps and independent of the shown range. */
 export function rows_of(commands: Rows<CommandEntry>): { of: Map<CommandEntry, number>; count: number } {
   const of = new Map<CommandEntry, number>();
   const last: CommandEntry[] = [];
@@ -198,7 +198,7 @@ export function rows_of(commands: Rows<CommandEntry>): { of: Map<CommandEntry, n
   return { of, count: Math.max(1, last.length) };
 }
 
-/** The components of which there is more to tell than that they are ready. */
+/** Components with more than the status READY. */
 function loud(spans: Lasting[], commands: CommandEntry[], marks: Mark[]): ReadonlySet<string> {
   const spoken = spans.filter(({ span }) => span.kind === 'holder' || !/^(READY|UNINITIALIZED)$/.test(span.value)).map(({ span }) => span.ref);
   return new Set([...spoken, ...commands.map((one) => one.component), ...marks.map(mark_ref)]);
@@ -214,9 +214,9 @@ function grouped<T>(list: readonly T[], key_of_one: (one: T) => string): Map<str
   return groups;
 }
 
-const least_hit = 12; // px, on both sides together
+const least_hit = 12; // px, both sides together
 
-/** What is at a point; the topmost counts. What is small is met from a little farther, unless something else stands there. */
+/** The topmost thing at a point. Small things have a margin, unless another thing is there. */
 export function thing_at({ placed }: Layout, x: number, y: number): Placed | undefined {
   const hit = (least: number, counts: (one: Placed) => boolean) => {
     for (let i = placed.length - 1; i >= 0; --i) {
@@ -231,7 +231,7 @@ export function thing_at({ placed }: Layout, x: number, y: number): Placed | und
   return hit(0, (one) => !is_span(one)) ?? hit(least_hit, (one) => !is_span(one) && one.box.width < least_hit) ?? hit(0, is_span);
 }
 
-/** What an arrow leads to: along its lane, or into the next lane that has something, to what is nearest in time. */
+/** The target of an arrow key: along the lane, or the nearest in time in the next lane with things. */
 export function next_thing({ lanes, placed }: Layout, from: Placed | undefined, key: 'ArrowLeft' | 'ArrowRight' | 'ArrowUp' | 'ArrowDown'): Placed | undefined {
   const in_lane = (lane: number) => placed.filter((one) => one.lane === lane).sort((a, b) => a.box.x - b.box.x || a.box.y - b.box.y);
   if (!from) return placed.length === 0 ? undefined : in_lane(Math.min(...placed.map((one) => one.lane))).at(-1);

@@ -1,4 +1,4 @@
-// The time line a second time, as a table: for those who do not see the lanes, and for reading off.
+// The time line as a table, for screen readers and for reading values.
 import { clock_time, duration } from '../i18n/i18n';
 import { useConsole } from '../shell/context';
 import { EmptyState, StatusBadge, Table } from '../ui';
@@ -14,12 +14,12 @@ interface Row extends Description {
   thing: Thing;
   key: string;
   lasted: string;
-  where: string; // of an event: who is where
+  where: string; // positions of an event
 }
 
 export function Listing({ view, open }: { view: TimeView; open: (thing: Thing) => void }) {
   const console = useConsole();
-  if (view.is_live) void console.now.value; // once a second is enough to read
+  if (view.is_live) void console.now.value; // once a second
   const { at } = view.sources;
   const { rows, count } = rows_of(view, at);
   if (count === 0) return <EmptyState icon="timeline" title={t.nothing()} />;
@@ -50,7 +50,7 @@ export function Listing({ view, open }: { view: TimeView; open: (thing: Thing) =
   );
 }
 
-// Each thing once, each mark by itself, the newest first.
+// Each thing once, marks separately, newest first.
 function rows_of(view: TimeView, at: number): { rows: Row[]; count: number } {
   const { placed } = lay_out(view.sources, view.range(at), { width: 1000, hides_quiet: view.hides_quiet.value, with_own: view.with_own.value });
   const things = new Map<string, Thing>();

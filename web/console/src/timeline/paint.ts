@@ -1,4 +1,4 @@
-// Draws what has been laid out.
+// Draws the layout.
 import type { Sheet } from '../ui/drawing';
 import { time_marks } from '../ui/scales';
 import type { Tone } from '../ui/states';
@@ -7,18 +7,18 @@ import { type Box, type Layout, type Placed, x_of } from './layout';
 import { began_at, has_failed, marks_tone, span_tone } from './things';
 import type { Range } from './view';
 
-/** Of the axis at the top. */
+/** Of the time axis. */
 export const axis_height = 22;
-const least_mark = 74; // px between two times of the axis
+const least_mark = 74; // px between two times
 
 export interface Look {
   layout: Layout;
-  scroll: number; // px that the lanes are moved up
-  at: number; // until when anything is known: now, or when time was stopped
+  scroll: number; // px, scroll position of the lanes
+  at: number; // end of the known time: now, or when it was paused
   hovered: string | undefined; // keys
   opened: string | undefined;
-  focused: string | undefined; // a spot
-  choice: Range | undefined; // a stretch that is being chosen
+  focused: string | undefined; // spot of the thing
+  choice: Range | undefined; // range being selected
   phase_text: (phase: string) => string; // of the link
 }
 
@@ -53,7 +53,7 @@ export function paint(sheet: Sheet, look: Look): void {
   paint_axis(pen, look, ink, width, height);
 }
 
-// Marks lie above bars, bars above spans: as they are hit.
+// Marks lie above commands, commands above spans, as in hit tests.
 function order({ thing }: Placed): number {
   return ['span', 'command', 'marks'].indexOf(thing.kind);
 }
@@ -63,7 +63,7 @@ function paint_ground(pen: CanvasRenderingContext2D, { layout, at, scroll }: Loo
   for (const { at: mark } of time_marks(range.from, range.to, marks_apart(layout))) line(pen, x_of(mark, range, width), scroll, height, ink.grid);
   pen.fillStyle = ink.line;
   for (const lane of lanes) pen.fillRect(0, lane.y + lane.height - 1, width, 1);
-  // While the link was away nothing was heard of anybody.
+  // Hatches the times without a link, in which nothing was received.
   for (const { thing, box } of layout.placed)
     if (thing.kind === 'span' && thing.span.kind === 'link' && !/^(open|resumed)$/.test(thing.span.value)) hatch(pen, { x: box.x, y: scroll, width: box.width, height }, ink.line);
   const [begin, end] = [x_of(layout.oldest, range, width), x_of(at, range, width)];
@@ -83,7 +83,7 @@ function paint_thing(pen: CanvasRenderingContext2D, placed: Placed, look: Look, 
     text_in(pen, thing.span.kind === 'link' ? look.phase_text(thing.span.value) : thing.span.value, box, full, ink.sans);
   } else if (thing.kind === 'command') paint_command(pen, placed, look, ink);
   else if (look.layout.lanes[placed.lane]!.kind === 'component') {
-    // The more there are, the higher it stands.
+    // Higher for more marks.
     const high = Math.min(box.height, 4 + 2 * Math.log2(thing.marks.length));
     const tone = marks_tone(thing.marks);
     pen.fillStyle = tone === 'busy' ? ink.event : ink.tones[tone].full;
@@ -97,7 +97,7 @@ function paint_holder(pen: CanvasRenderingContext2D, box: Box, value: string, in
   for (let x = box.x; x < box.x + box.width; x += 8) pen.fillRect(x, box.y, Math.min(5, box.x + box.width - x), 2);
 }
 
-// A thin line while it waits, a bar while it runs, a sign of how it ended.
+// A thin line while it waits, a bar while it runs, a sign for how it ended.
 function paint_command(pen: CanvasRenderingContext2D, { thing, box, lane }: Placed, { layout, at }: Look, ink: Ink): void {
   if (thing.kind !== 'command') return;
   const { entry } = thing;
@@ -106,7 +106,7 @@ function paint_command(pen: CanvasRenderingContext2D, { thing, box, lane }: Plac
   const start = began === undefined || began > at ? box.x + box.width : Math.max(box.x, Math.min(box.x + box.width - 2, x_of(began, layout.range, layout.width)));
   const { soft, full } = ink.tones[has_ended ? tone_of(entry.state) : began === undefined ? 'calm' : 'busy'];
   pen.fillStyle = full;
-  const has_text = layout.lanes[lane]!.kind !== 'component'; // which stands above the line
+  const has_text = layout.lanes[lane]!.kind !== 'component'; // drawn above the line
   pen.fillRect(box.x, has_text ? box.y + box.height - 3 : box.y + box.height / 2 - 1, Math.max(0, start - box.x), 2);
   pen.fillRect(box.x, box.y + 1, 1, box.height - 2);
   const bar = { ...box, x: start, width: box.x + box.width - start };
@@ -115,7 +115,7 @@ function paint_command(pen: CanvasRenderingContext2D, { thing, box, lane }: Plac
   pen.strokeStyle = full;
   if (bar.width > 2) pen.strokeRect(bar.x + 0.5, bar.y + 0.5, bar.width - 1, bar.height - 1);
   const sign = has_ended ? entry.state : '';
-  // What failed at once has its sign beside it.
+  // A command that failed at once has its sign beside it.
   if (sign !== '' && (bar.width > 14 || has_failed(entry))) sign_of_end(pen, sign, bar.x + bar.width + (bar.width > 14 ? -8 : 6), bar.y + bar.height / 2, full);
   const room = { ...box, width: box.width - (sign === '' ? 0 : 12) };
   text_in(pen, `${entry.component} ${entry.command_type}`, start - box.x > box.width / 2 ? { ...room, y: box.y - 1 } : { ...bar, width: room.x + room.width - bar.x }, full, ink.sans);
@@ -135,7 +135,7 @@ function sign_of_end(pen: CanvasRenderingContext2D, state: string, x: number, y:
   pen.lineWidth = 1;
 }
 
-// One: a diamond, or a triangle for what is not well. Many: a pill with their number.
+// One mark: a diamond, or a triangle for a problem. Several: a pill with their number.
 function paint_marks(pen: CanvasRenderingContext2D, { thing, box }: Placed, ink: Ink): void {
   if (thing.kind !== 'marks') return;
   const { marks } = thing;
@@ -231,7 +231,7 @@ function path(pen: CanvasRenderingContext2D, points: number[]): void {
   for (let i = 0; i < points.length; i += 2) pen[i === 0 ? 'moveTo' : 'lineTo'](points[i]!, points[i + 1]!);
 }
 
-// Only if it is seen whole, or nearly; it stays at the left edge while what it belongs to moves out.
+// Only if it fits, or nearly. Stays at the left edge while its box moves out.
 function text_in(pen: CanvasRenderingContext2D, text: string, box: Box, color: string, family: string): void {
   const x = Math.max(box.x, 0) + 5;
   const room = box.x + box.width - x - 2;

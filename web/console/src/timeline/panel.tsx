@@ -1,4 +1,4 @@
-// What happened and when: lanes in time for the link, the commands, the events and each component.
+// The Time line panel: lanes for the link, commands, events and each component.
 import './timeline.css';
 
 import { useSignal } from '@preact/signals';

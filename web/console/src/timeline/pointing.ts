@@ -1,4 +1,5 @@
-// Pointers on the time line: dragging chooses a stretch of time, or moves it (on the axis, with Shift, with a finger); two fingers zoom; a click opens.
+// Pointers on the time line: dragging selects a range or moves the time (on the axis, with Shift, by touch); two fingers zoom; a click
+// opens.
 import { axis_height } from './paint';
 import type { Range, TimeView } from './view';
 
@@ -13,7 +14,7 @@ export interface PointingHost {
 const least_drag = 5; // px; less is a click
 
 export class Pointing {
-  private readonly fingers = new Map<number, number>(); // x by pointer
+  private readonly fingers = new Map<number, number>(); // x by pointer id
   private begun: { x: number; at: number; moves: boolean; is_drag: boolean } | undefined;
 
   constructor(private readonly host: PointingHost) {}
@@ -29,7 +30,7 @@ export class Pointing {
     this.begun = { x, at: this.host.time_at(x), moves: is_second || event.pointerType === 'touch' || event.shiftKey || event.offsetY < axis_height, is_drag: is_second };
   }
 
-  /** Whether it is a drag. */
+  /** Returns whether it is a drag. */
   move(event: PointerEvent): boolean {
     const { begun, host } = this;
     const before = this.fingers.get(event.pointerId);

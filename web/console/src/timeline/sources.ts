@@ -1,4 +1,4 @@
-// What there is to draw: as it goes on, or as it was when time was stopped.
+// The data to draw, live or as of a pause.
 import type { CommandEntry } from '../state/commands_state';
 import type { Console } from '../state/console';
 import type { LoggedDocument } from '../state/documents';
@@ -6,21 +6,21 @@ import type { ErrorEntry, EventEntry, GapEntry } from '../state/events_state';
 import { longest_blink, type Span } from '../state/history';
 import type { Ring } from '../state/ring';
 
-/** What a ring and a copy of one have in common. */
+/** Common interface of a ring and its copy. */
 export interface Rows<T> extends Iterable<T> {
   readonly size: number;
   at(index: number): T | undefined;
 }
 
 export interface Sources {
-  at: number; // now, or when time was stopped; ms since 1970
-  refs: readonly string[]; // of components, as they are listed
+  at: number; // now, or the time of the pause; ms since 1970
+  refs: readonly string[]; // of components, in listed order
   commands: Rows<CommandEntry>;
   events: Rows<EventEntry>;
   own_events: Rows<EventEntry>;
   errors: Rows<ErrorEntry>;
   gaps: Rows<GapEntry>;
-  refused: Rows<LoggedDocument>; // answers that say no
+  refused: Rows<LoggedDocument>; // refusals
   past: Rows<Span>;
   present: readonly Span[];
 }
@@ -31,7 +31,7 @@ export function live_sources(console: Console): Sources {
   return { at: console.environment.now(), refs: refs_of(console), ...rings, present: [...history.present.values()] };
 }
 
-/** A copy, which stays as it is; as bounded as what it is a copy of. */
+/** A copy for a pause, as bounded as its source. */
 export function stopped_sources(console: Console): Sources {
   const { commands, events, own_events, errors, gaps, refused, past, present, ...rest } = live_sources(console);
   return { ...rest, commands: copy(commands), events: copy(events), own_events: copy(own_events), errors: copy(errors), gaps: copy(gaps), refused: copy(refused), past: copy(past), present: present.map((one) => ({ ...one })) };
@@ -42,12 +42,12 @@ function copy<T>(rows: Rows<T>): Rows<T> {
   return { size: list.length, at: (index) => list.at(index), [Symbol.iterator]: () => list.values() };
 }
 
-/** Until when a span is drawn: one that goes on is taken to go on until now, unless nobody has looked for long. */
+/** The drawn end of a span: a current one lasts until now, unless it has not been observed for long. */
 export function end_of(span: Span, is_present: boolean, at: number): number {
   return is_present && at - span.to <= longest_blink ? at : span.to;
 }
 
-/** The time of the oldest thing that is known. */
+/** The oldest known time. */
 export function oldest_of(sources: Sources): number {
   let oldest = sources.at;
   for (const from of [sources.commands.at(0)?.sent_at, sources.events.at(0)?.at, sources.errors.at(0)?.at, sources.past.at(0)?.from, ...sources.present.map((one) => one.from)])
@@ -55,7 +55,7 @@ export function oldest_of(sources: Sources): number {
   return oldest;
 }
 
-/** The index of the first entry that is not before a time; entries are in order. */
+/** The index of the first entry at or after a time; entries are sorted. */
 export function first_since<T>(rows: Rows<T>, time_of: (one: T) => number, from: number): number {
   let [low, high] = [0, rows.size];
   while (low < high) {
@@ -66,7 +66,7 @@ export function first_since<T>(rows: Rows<T>, time_of: (one: T) => number, from:
   return low;
 }
 
-// Those of the profile, then those that were there before.
+// Components of the profile, then earlier ones.
 function refs_of({ profile, history }: Console): string[] {
   const refs = new Set(profile.components.value.map((one) => one.ref));
   for (const span of history.past) if (span.ref !== '') refs.add(span.ref);

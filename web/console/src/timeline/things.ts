@@ -1,4 +1,4 @@
-// What stands on the time line, each by itself.
+// The things on the time line.
 import type { CommandEntry } from '../state/commands_state';
 import type { LoggedDocument } from '../state/documents';
 import type { ErrorEntry, EventEntry, GapEntry } from '../state/events_state';
@@ -6,13 +6,13 @@ import type { Span } from '../state/history';
 import type { Tone } from '../ui/states';
 import { tone_of } from '../ui/states';
 
-/** A command that has failed, when it did. */
+/** The time at which a command failed. */
 export interface Failure {
   at: number;
   command: CommandEntry;
 }
 
-/** What happened at one time. `refused`: an answer that says no. */
+/** An event at one time. `refused`: a refusal. */
 export type Mark =
   | { kind: 'event'; entry: EventEntry }
   | { kind: 'error'; entry: ErrorEntry }
@@ -20,10 +20,10 @@ export type Mark =
   | { kind: 'refused'; entry: LoggedDocument }
   | { kind: 'failed'; entry: Failure };
 
-/** What took its time, or happened; several marks when they are too dense to be told apart. */
+/** A span, a command, or marks that are too dense to separate. */
 export type Thing = { kind: 'span'; span: Span } | { kind: 'command'; entry: CommandEntry } | { kind: 'marks'; marks: Mark[] };
 
-/** The same for the same thing, in whatever lane. */
+/** The same for one thing in any lane. */
 export function key_of(thing: Thing): string {
   if (thing.kind === 'span') return `span ${thing.span.number}`;
   if (thing.kind === 'command') return `command ${thing.entry.id} ${thing.entry.sequence.number}`;
@@ -42,7 +42,7 @@ export function mark_ref(mark: Mark): string {
   return mark.kind === 'error' ? (mark.entry.error.component_ref?.code ?? '') : '';
 }
 
-/** The worst that there is among them. */
+/** The worst tone of the marks. */
 export function marks_tone(marks: readonly Mark[]): Tone {
   if (marks.some((one) => is_bad(one))) return 'bad';
   return marks.some((one) => one.kind === 'gap') ? 'warning' : 'busy';
@@ -56,7 +56,7 @@ export function has_failed({ state, ended_at }: CommandEntry): boolean {
   return ended_at !== undefined && tone_of(state) === 'bad';
 }
 
-/** What is opened: of a command that has failed, the command. */
+/** The thing to open: for the mark of a failed command, the command. */
 export function opened_by(thing: Thing): Thing {
   const [mark] = thing.kind === 'marks' ? thing.marks : [];
   return thing.kind === 'marks' && thing.marks.length === 1 && mark?.kind === 'failed' ? { kind: 'command', entry: mark.entry.command } : thing;
@@ -67,7 +67,7 @@ export function span_tone({ kind, value }: Span): Tone {
   return kind === 'link' && value === 'lost' ? 'bad' : tone_of(value);
 }
 
-/** When it began to run, as far as is known: it may have ended before anybody looked. */
+/** When it began to run, as far as known: it may have ended before a check. */
 export function began_at({ sent_at, started_at, ended_at }: CommandEntry): number | undefined {
   return started_at ?? (ended_at === undefined ? undefined : sent_at);
 }

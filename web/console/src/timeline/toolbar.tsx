@@ -12,7 +12,7 @@ export function Toolbar({ view, as_table, choose_table }: { view: TimeView; as_t
   const { span, is_all } = view.stretch.value;
   const { is_live } = view;
   const third = span / 3;
-  // Now and then, so that it can be read.
+  // Updated once a second, so that it can be read.
   const { from, to } = view.range(is_live ? console.now.value : view.sources.at);
   const usual = !is_all && spans.includes(span);
   const choices = spans.map((one) => ({ value: String(one), label: duration(one) }));

@@ -3,7 +3,7 @@ import { useLayoutEffect, useRef } from 'preact/hooks';
 import { Fact, StatusBadge } from '../ui';
 import type { Description } from './describe';
 
-/** Beside a point of what it stands in, and inside the window. A screen reader is told elsewhere. */
+/** Beside a point of its container, inside the window. Not for screen readers. */
 export function Tooltip({ description, x, y }: { description: Description; x: number; y: number }) {
   const element = useRef<HTMLDivElement>(null);
   useLayoutEffect(() => {

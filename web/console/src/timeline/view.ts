@@ -1,4 +1,4 @@
-// Which stretch of time is shown, and how one moves in it.
+// The shown time range and its changes.
 import { signal } from '@preact/signals';
 
 import type { Console } from '../state/console';
@@ -10,45 +10,45 @@ export interface Range {
   to: number;
 }
 
-/** How much is shown, and until when: without an end, until now. */
+/** Length and end of the shown range; without `end`, until now. */
 export interface Stretch {
   span: number; // ms
   end?: number; // ms since 1970
-  /** From what is known first on, however long that is by now. */
+  /** From the oldest known time. */
   is_all?: true;
 }
 
 export const usual_span = 60_000; // ms
 const least_span = 50;
-const always_allowed = 15 * 60_000; // even when less is known
+const always_allowed = 15 * 60_000; // even if less is known
 const most_undone = 30;
 
-/** Between what is known first and now, or as far `ahead` of it; not shorter than what can be told apart. */
+/** Limited to the known time, or `ahead` beyond now; not shorter than `least_span`. */
 export function within(stretch: Stretch, oldest: number, now: number, ahead = 0): Stretch {
   const span = Math.min(Math.max(stretch.span, least_span), Math.max(always_allowed, (now - oldest) * 1.1));
   if (stretch.end === undefined) return { span };
   return { span, end: Math.min(now + ahead * span, Math.max(stretch.end, Math.min(oldest + span * 0.25, now))) };
 }
 
-/** More or less of the time, where `at` stays in its place. What is live stays live. */
+/** Zooms around `at`. A live range stays live. */
 export function zoomed(stretch: Stretch, factor: number, at: number): Stretch {
   const span = Math.max(least_span, stretch.span * factor);
   return stretch.end === undefined ? { span } : { span, end: at + ((stretch.end - at) * span) / stretch.span };
 }
 
-/** What a panel of the time line looks at. It stays when the panel is taken down. */
+/** View state of the time line, kept while another panel is shown. */
 export class TimeView {
   readonly stretch = signal<Stretch>({ span: usual_span });
   readonly hides_quiet = signal(false);
   readonly with_own = signal(false);
-  /** A time at which what is live waits, so that it does not move away under the pointer. */
+  /** The time at which a live range is held, so that things stay under the pointer. */
   readonly held = signal<number | undefined>(undefined);
   private readonly stopped = signal<Sources | undefined>(undefined);
   private readonly before: Stretch[] = [];
 
   constructor(private readonly console: Console) {}
 
-  /** Whether it goes with the time. */
+  /** Whether the range follows the time. */
   get is_live(): boolean {
     return this.stretch.value.end === undefined;
   }
@@ -66,7 +66,7 @@ export class TimeView {
     this.stretch.value = { span: Math.min(this.stretch.value.span, always_allowed) };
   }
 
-  /** Stops time where it is. */
+  /** Pauses at the present time. */
   pause(): void {
     if (!this.is_live) return;
     const sources = stopped_sources(this.console);
@@ -75,10 +75,10 @@ export class TimeView {
     this.stretch.value = { span: to - from, end: to };
   }
 
-  /** `at`: the time that stays in its place. */
+  /** `at`: the time that keeps its place. */
   zoom(factor: number, at?: number): void {
     const { from, to } = this.range(this.sources.at);
-    this.put(zoomed({ ...this.stretch.value, span: to - from }, factor, at ?? this.middle), 0.5); // or what is pointed at could not stay in its place
+    this.put(zoomed({ ...this.stretch.value, span: to - from }, factor, at ?? this.middle), 0.5); // so that the time under the pointer keeps its place
   }
   move(ms: number): void {
     this.pause();
@@ -107,7 +107,7 @@ export class TimeView {
     this.put(end === undefined ? { span } : { span, end: this.middle + span / 2 });
   }
 
-  /** Back to what was shown before the last choice of a stretch. */
+  /** Returns to the range before the last selection. */
   undo(): void {
     const before = this.before.pop();
     if (!before) return;
@@ -133,7 +133,7 @@ export class TimeView {
   }
 }
 
-// ms; a little more than is known.
+// ms; slightly more than the known time.
 function whole_of(sources: Sources, end: number): number {
   return Math.max(least_span, (end - oldest_of(sources)) * 1.02);
 }

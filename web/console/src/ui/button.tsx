@@ -6,11 +6,11 @@ import { joined } from './joined';
 type Native = Omit<JSX.IntrinsicElements['button'], 'icon' | 'label'>;
 
 export interface ButtonProps extends Native {
-  /** `primary`: the one thing to do here; `danger`: what stops or destroys; `quiet`: without a frame. */
+  /** `primary`: the main action; `danger`: stops or destroys; `quiet`: without a frame. */
   look?: 'primary' | 'danger' | 'quiet';
   icon?: IconName;
   small?: boolean;
-  /** Whether it is at work: it cannot be pressed then. */
+  /** Working; the button is disabled. */
   busy?: boolean;
   children?: ComponentChildren;
 }
@@ -25,7 +25,7 @@ export function Button({ look, icon, small, busy, children, disabled, class: mor
   );
 }
 
-/** A button that shows a sign alone; its label is what a screen reader says and what hovering shows. */
+/** A button with only an icon. The label is its tooltip and its name for screen readers. */
 export function IconButton({ label, icon, ...rest }: Omit<ButtonProps, 'children' | 'icon'> & { label: string; icon: IconName }) {
   return <Button look="quiet" {...rest} icon={icon} class={`button-icon ${rest.class ?? ''}`} aria-label={label} title={label} />;
 }

@@ -29,14 +29,14 @@ export function CopyButton({ text, label, ...rest }: CopyProps) {
   );
 }
 
-/** Copies a request as a line for a shell. The session's id is in it: whoever has the line acts as this console. */
+/** Copies a request as a curl line. It contains the session id: anyone with it can act as this console. */
 export function CurlButton({ request, ...rest }: Omit<CopyProps, 'text' | 'label'> & { request: string }) {
   const console = useConsole();
   const line = () => curl_of(request, { origin: console.environment.origin, session: console.link.session.value, token: console.current_token });
   return <CopyButton {...rest} text={line} label={texts.copy_as_curl()} />;
 }
 
-// The clipboard's own interface exists only on pages that came by https or from this machine.
+// The clipboard API exists only on pages from https or localhost.
 async function write_to_clipboard(text: string): Promise<void> {
   if (navigator.clipboard) return navigator.clipboard.writeText(text);
   const area = document.createElement('textarea');

@@ -13,7 +13,7 @@ export function curl_of(request: string, { origin, session, token }: CurlOptions
   return ['curl -s', ...headers.map((one) => `-H ${quoted(one)}`), `-d ${quoted(without_id(request))}`, quoted(`${origin}/rois`)].join(' ');
 }
 
-// The number by which the console finds the answer is no part of what is asked.
+// The request_id only pairs the console's own answers.
 function without_id(request: string): string {
   return request.replace(/^(\s*<[^\s<>/]+[^<>]*?)\srequest_id="[^"]*"/, '$1');
 }

@@ -1,4 +1,4 @@
-// The browser's own dialog: it keeps the focus, closes with Escape and gives the focus back.
+// A native dialog: it traps the focus, closes with Escape and restores the focus.
 import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useRef } from 'preact/hooks';
 
@@ -9,9 +9,9 @@ import * as texts from './texts';
 export interface DialogProps {
   title: string;
   open: boolean;
-  /** Called when the user closes it, by whatever way. */
+  /** Called when the user closes it in any way. */
   close: () => void;
-  /** Without it there is no way to close it but to do what it asks for. */
+  /** If false, only its actions close it. */
   closable?: boolean;
   /** Buttons at the bottom. */
   actions?: ComponentChildren;

@@ -1,15 +1,15 @@
-// A canvas that fills its frame: sharp on every screen, drawn before a picture is shown, and only when something has asked for it.
+// A canvas that fills its frame: sharp on every screen, and drawn at most once a frame, on request.
 import { type RefObject } from 'preact';
 import { useCallback, useLayoutEffect, useRef } from 'preact/hooks';
 
 import { watch_size } from './use_width';
 
-/** What is drawn on; lengths in CSS pixels. */
+/** The drawing surface; lengths in CSS pixels. */
 export interface Sheet {
   pen: CanvasRenderingContext2D;
   width: number;
   height: number;
-  /** A custom property of tokens.css, as it is in the theme that is shown. */
+  /** A custom property of tokens.css in the current theme. */
   color: (name: `--${string}`) => string;
 }
 
@@ -18,7 +18,7 @@ export interface Drawing {
   redraw: () => void;
 }
 
-/** Draws again after each rendering of the component that uses it, when the size changes, and when `redraw` is called. */
+/** Redraws after each render of the component, when the size changes, and on `redraw`. */
 export function useDrawing(draw: (sheet: Sheet) => void): Drawing {
   const canvas = useRef<HTMLCanvasElement>(null);
   const latest = useRef(draw);

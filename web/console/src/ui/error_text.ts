@@ -4,7 +4,7 @@ import type { useConsole } from '../shell/context';
 import { reason_of } from '../state/reason_of';
 import * as t from './texts';
 
-/** Tells when it fails; when it succeeds, what was told of an earlier failure `about` the same is over. */
+/** Shows a notice if it fails. Success removes an earlier notice `about` the same. */
 export function tried({ notices }: Pick<ReturnType<typeof useConsole>, 'notices'>, about: string, done: Promise<unknown>): void {
   done.then(
     () => notices.dismiss(about),
@@ -12,7 +12,7 @@ export function tried({ notices }: Pick<ReturnType<typeof useConsole>, 'notices'
   );
 }
 
-/** What went wrong with a call, in the user's language; the engine's own reason, which is English, comes after it. */
+/** Why a call failed, in the user's language; followed by the engine's reason in English. */
 export function error_text(error: unknown): string {
   if (!(error instanceof RoisError)) return reason_of(error);
   switch (error.failure) {

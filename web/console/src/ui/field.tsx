@@ -1,4 +1,4 @@
-// A control with its label, a hint, and what is wrong with what stands in it.
+// A control with label, hint and error.
 import type { ComponentChildren, JSX } from 'preact';
 import { useId } from 'preact/hooks';
 
@@ -8,15 +8,15 @@ import * as texts from './texts';
 export interface FieldProps {
   label: string;
   hint?: string | undefined;
-  /** Empty or left out: nothing is wrong. */
+  /** Empty or missing: valid. */
   error?: string | undefined;
   unit?: string | undefined; // `mm`, shown after the control
   required?: boolean;
-  /** The label is read aloud and not shown. */
+  /** Only for screen readers. */
   hide_label?: boolean;
 }
 
-/** What a control has to take over so that it belongs to its label, hint and error. */
+/** The attributes that connect a control with its label, hint and error. */
 export interface ControlProps {
   id: string;
   'aria-describedby': string | undefined;
@@ -50,7 +50,7 @@ export interface TextFieldProps extends FieldProps {
   value: string;
   change: (value: string) => void;
   input?: Input;
-  /** Suggestions; anything else may be typed as well. */
+  /** Suggestions; other texts may be typed. */
   options?: readonly string[] | undefined;
 }
 

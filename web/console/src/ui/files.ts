@@ -1,6 +1,6 @@
-// Files of the user's own machine.
+// Files of the user's machine.
 
-/** Asks for one; undefined when the user thinks better of it. */
+/** Lets the user choose a file; undefined if cancelled. */
 export function chosen_file(types: string): Promise<File | undefined> {
   const input = document.createElement('input');
   input.type = 'file';
@@ -12,11 +12,11 @@ export function chosen_file(types: string): Promise<File | undefined> {
   });
 }
 
-/** Has the browser save one. */
+/** Saves a file by download. */
 export function save_file(name: string, pieces: string[]): void {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(new Blob(pieces));
   link.download = name;
   link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000); // the browser has begun to read it by then
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000); // the download has started by then
 }

@@ -1,6 +1,6 @@
 import type { JSX } from 'preact';
 
-/** A form of the page: what stands in it is sent by `submit`, if by anything, and never by the browser. */
+/** A form that `submit` handles and the browser never sends. */
 export function Form({ submit, ...native }: Omit<JSX.IntrinsicElements['form'], 'onSubmit'> & { submit?: (() => void) | undefined }) {
   return (
     <form

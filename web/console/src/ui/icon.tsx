@@ -1,4 +1,4 @@
-// Signs, drawn with lines on a grid of 16.
+// Icons drawn on a grid of 16.
 const paths = {
   map: 'M1.5 3.5 6 2l4 1.5L14.5 2v10.5L10 14l-4-1.5L1.5 14zM6 2v10.5M10 3.5V14',
   timeline: 'M2 4h7M5 8h9M2 12h5M11 3v2M9 11v2',
@@ -40,7 +40,7 @@ const paths = {
 
 export type IconName = keyof typeof paths;
 
-/** Says nothing to screen readers: what it means stands beside it, or is the name of its button. */
+/** Hidden from screen readers: a text or the button's name gives its meaning. */
 export function Icon({ name, size = 16 }: { name: IconName; size?: number }) {
   return (
     <svg class="icon" width={size} height={size} viewBox="0 0 16 16" aria-hidden="true" focusable="false">

@@ -1,4 +1,4 @@
-// The widgets that all panels share.
+// Widgets shared by all panels.
 export * from './button';
 export * from './copy';
 export * from './curl';

@@ -1,4 +1,4 @@
-/** What there is of it, with blanks between: names of classes, sentences. */
+/** Joins the non-empty texts with spaces: class names, sentences. */
 export function joined(...all: (string | false | undefined)[]): string {
   return all.filter(Boolean).join(' ');
 }

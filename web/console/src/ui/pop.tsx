@@ -1,4 +1,4 @@
-// A button that opens a box below it; Escape, and a focus that goes elsewhere, close it.
+// A button that opens a box below it. Escape or moving the focus out closes it.
 import type { ComponentChildren } from 'preact';
 import { useRef } from 'preact/hooks';
 

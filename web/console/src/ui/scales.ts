@@ -1,4 +1,4 @@
-// Where the marks of an axis stand.
+// Marks of an axis.
 import { clock_time } from '../i18n/i18n';
 
 export interface AxisMark {
@@ -14,7 +14,7 @@ const steps = [
   minute, 2 * minute, 5 * minute, 10 * minute, 15 * minute, 30 * minute, hour, 2 * hour, 3 * hour, 6 * hour, 12 * hour, 24 * hour,
 ];
 
-/** Round times between two, in the time zone of the browser, at least so many ms apart; ms since 1970. */
+/** Round times in the browser's time zone, at least `least` ms apart; ms since 1970. */
 export function time_marks(from: number, to: number, least: number): AxisMark[] {
   const step = steps.find((one) => one >= least) ?? Math.ceil(least / (24 * hour)) * 24 * hour;
   const zone = new Date(from).getTimezoneOffset() * minute;
@@ -29,7 +29,7 @@ function time_text(at: number, step: number): string {
   return clock_time(at).slice(3, step < 100 ? 11 : 10);
 }
 
-/** Round values from 0 to the first one that is not below `most`, `count` of them or a few more. */
+/** Round values from 0 to at least `most`; `count` or a few more. */
 export function value_marks(most: number, count: number): number[] {
   const rough = (most > 0 ? most : 1) / count;
   const power = 10 ** Math.floor(Math.log10(rough));

@@ -1,4 +1,4 @@
-// A small map of the floor in SVG, to point at. What stands inside it counts in mm, as the map does, with its y downwards.
+// A small SVG floor map to point at. Its content is in mm with y downwards.
 import type { ComponentChildren, JSX, Ref } from 'preact';
 
 import { ground_of, type Point } from '../state/floor';
@@ -33,13 +33,13 @@ export function SmallFloor({ svg, bounds, map, children, ...more }: SmallFloorPr
   );
 }
 
-/** Where a pointer is on the floor. */
+/** The position of a pointer on the floor. */
 export function floor_point(svg: SVGSVGElement, { clientX, clientY }: MouseEvent): Point {
   const { x, y } = new DOMPoint(clientX, clientY).matrixTransform(svg.getScreenCTM()!.inverse());
   return { x, y: -y };
 }
 
-/** A box as the attributes of a `rect`. */
+/** A box as attributes of a `rect`. */
 export function rect({ x, y, width, depth }: Bounds) {
   return { x, y, width, height: depth };
 }

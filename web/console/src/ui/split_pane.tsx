@@ -1,4 +1,4 @@
-// Two panes and a bar between them, which is dragged or moved by arrow keys. Where it stands is remembered.
+// Two panes with a divider that is dragged or moved by arrow keys. Its position is stored.
 import type { ComponentChildren } from 'preact';
 import { useRef, useState } from 'preact/hooks';
 
@@ -6,10 +6,10 @@ import { useConsole } from '../shell/context';
 import * as texts from './texts';
 
 export interface SplitPaneProps {
-  /** By which its place is remembered. */
+  /** Key of the stored position. */
   id: string;
   direction: 'row' | 'column';
-  /** The share of the first pane at first, 0 to 1. */
+  /** Initial share of the first pane, 0 to 1. */
   share?: number;
   label?: string;
   first: ComponentChildren;

@@ -1,4 +1,4 @@
-// What stands where there is nothing, or nothing yet; and small marks of how things are.
+// Placeholders and badges.
 import type { ComponentChildren } from 'preact';
 
 import { Icon, type IconName } from './icon';
@@ -22,7 +22,7 @@ export function Loading() {
   );
 }
 
-/** `calm`: nothing to see; `good`, `busy` (at work), `warning`, `bad`. Never by colour alone: the text says it, too. */
+/** `calm`: nothing to see; `good`, `busy` (working), `warning`, `bad`. The text says it too, not only the colour. */
 export type Tone = 'calm' | 'good' | 'busy' | 'warning' | 'bad';
 
 export function Badge({ tone = 'calm', title, children }: { tone?: Tone; title?: string | undefined; children: ComponentChildren }) {
@@ -40,12 +40,12 @@ const tones: Record<string, Tone> = {
   TIMEOUT: 'bad', ERROR: 'bad', OUT_OF_RESOURCES: 'bad', BAD_PARAMETER: 'bad', UNSUPPORTED: 'bad', lost: 'bad', refused: 'bad',
 };
 
-/** The tone of a status or return code of the specification, of a command's state, or of the link's phase. */
+/** The tone of a status or return code, a command's state, or a link phase. */
 export function tone_of(code: string): Tone {
   return tones[code] ?? 'calm';
 }
 
-/** A component's status, a command's state or a return code, as the specification names it. */
+/** A component's status, a command's state or a return code. */
 export function StatusBadge({ status, title }: { status: string; title?: string | undefined }) {
   return (
     <Badge tone={tone_of(status)} title={title}>

@@ -1,4 +1,4 @@
-// Stops everything with one press. It stands in the header and in every dialog, since a dialog lets nothing else be pressed.
+// Stops everything with one press. It is in the header and in every dialog, because a dialog blocks the page.
 import { useConsole } from '../shell/context';
 import { Button } from './button';
 import * as t from './texts';

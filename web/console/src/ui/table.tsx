@@ -12,11 +12,11 @@ export interface TableProps<Row> {
   columns: readonly Column<Row>[];
   rows: readonly Row[];
   key_of: (row: Row) => string | number;
-  /** What is shown in place of rows when there are none. */
+  /** Shown if there are no rows. */
   empty?: ComponentChildren;
 }
 
-/** For some dozens of rows; for thousands there is VirtualList. */
+/** For some dozens of rows; use VirtualList for thousands. */
 export function Table<Row>({ label, columns, rows, key_of, empty }: TableProps<Row>) {
   if (rows.length === 0 && empty !== undefined) return <>{empty}</>;
   return (

@@ -1,4 +1,4 @@
-// Tabs as the ARIA practices have them: arrows move and choose, Home and End go to the ends.
+// Tabs following the ARIA pattern: arrows move and select, Home and End go to the ends.
 import type { ComponentChildren } from 'preact';
 import { useEffect, useId, useRef } from 'preact/hooks';
 
@@ -8,7 +8,7 @@ export interface Tab<Id extends string = string> {
   id: Id;
   title: string;
   icon?: IconName;
-  /** A number beside the title: how much is new, say. */
+  /** A number beside the title, such as the new items. */
   badge?: string | undefined;
 }
 
@@ -17,7 +17,7 @@ export interface TabsProps<Id extends string> {
   tabs: readonly Tab<Id>[];
   chosen: Id;
   choose: (id: Id) => void;
-  /** What stands at the end of the row. */
+  /** Content at the end of the row. */
   end?: ComponentChildren;
   children: ComponentChildren;
 }

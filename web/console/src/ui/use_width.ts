@@ -1,14 +1,14 @@
 import type { RefObject } from 'preact';
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 
-/** Tells now and whenever the size of the element changes; gives the function that ends it. */
+/** Calls `changed` now and whenever the size changes. Returns a function that stops it. */
 export function watch_size(element: Element, changed: () => void): () => void {
   const observer = new ResizeObserver(changed);
   observer.observe(element);
   return () => observer.disconnect();
 }
 
-/** Whether an element is at least so wide: panels stand in narrow places on wide screens. */
+/** Whether an element has at least this width. Panels may be narrow on wide screens. */
 export function useIsWide(least: number): [RefObject<HTMLDivElement>, boolean] {
   const frame = useRef<HTMLDivElement>(null);
   const [is_wide, set_wide] = useState(false);

@@ -1,4 +1,5 @@
-// A list of thousands of rows, of which only those in sight are made. One row is chosen; arrows, Page keys, Home and End move the choice.
+// A list of thousands of rows that renders only the visible ones. One row is selected; arrows, Page keys, Home and End move the
+// selection.
 import type { ComponentChildren } from 'preact';
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 
@@ -12,11 +13,11 @@ export interface VirtualListProps<Row> {
   render: (row: Row) => ComponentChildren;
   chosen?: string | number | undefined;
   choose: (row: Row) => void;
-  /** Stays at the end while rows come, unless the user has scrolled away from it. */
+  /** Stays at the end when rows are added, unless the user has scrolled away. */
   follow?: boolean;
 }
 
-const spare = 6; // rows beyond either edge
+const spare = 6; // rows rendered beyond each edge
 
 export function VirtualList<Row>({ label, rows, row_height, key_of, render, chosen, choose, follow = false }: VirtualListProps<Row>) {
   const frame = useRef<HTMLDivElement>(null);
@@ -36,7 +37,7 @@ export function VirtualList<Row>({ label, rows, row_height, key_of, render, chos
 
   const scrolled = () => {
     const element = frame.current;
-    if (!element) return; // it goes, and its last scrolling is told all the same
+    if (!element) return; // unmounted, but its last scroll event still arrives
     at_end.current = element.scrollTop + element.clientHeight >= element.scrollHeight - row_height;
     set_top(element.scrollTop);
   };

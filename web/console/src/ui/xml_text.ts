@@ -1,4 +1,4 @@
-// XML as it is shown: split into coloured pieces, and laid out with one element a line. Any text is taken; what is no XML stays plain.
+// XML for display: coloured pieces, one element on each line. Accepts any text; invalid XML stays plain.
 
 export type PieceKind = 'mark' | 'name' | 'attribute' | 'value' | 'text' | 'comment';
 
@@ -10,7 +10,7 @@ export interface Piece {
 const markup = /<!--[^]*?-->|<!\[CDATA\[[^]*?\]\]>|<\?[^]*?\?>|<\/?[^\s<>/="']+(?:\s+[^\s<>/="']+\s*=\s*(?:"[^"]*"|'[^']*'))*\s*\/?>/g;
 const inside = /(^<\/?|^<\?)([^\s<>/="'?]+)|([^\s<>/="'?]+)(\s*=\s*)("[^"]*"|'[^']*')|\/?>$|\?>$|\s+/g;
 
-/** The pieces of a text, in order; together they are the text. */
+/** The pieces of a text in order; joined, they are the text. */
 export function pieces_of(text: string): Piece[] {
   const pieces: Piece[] = [];
   const add = (kind: PieceKind, piece: string | undefined) => {
@@ -49,7 +49,7 @@ function add_tag(tag: string, add: (kind: PieceKind, piece: string | undefined) 
   add('mark', tag.slice(end));
 }
 
-/** With one element a line, indented; elements that hold a text alone stay on one. The text is given back as it is when it is no XML. */
+/** One element on each line, indented; elements with only text stay on one line. Text that is not XML is returned unchanged. */
 export function laid_out(text: string): string {
   const lines: string[] = [];
   let depth = 0;
@@ -81,7 +81,7 @@ export function laid_out(text: string): string {
 
 const entities: Record<string, string> = { lt: '<', gt: '>', quot: '"', apos: "'", amp: '&' };
 
-/** What a written text means. */
+/** Resolves the predefined entities. */
 export function unescaped(text: string): string {
   return text.replace(/&(lt|gt|quot|apos|amp);/g, (_, name: string) => entities[name]!).trim();
 }

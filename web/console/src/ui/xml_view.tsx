@@ -7,9 +7,9 @@ import { laid_out, pieces_of } from './xml_text';
 export interface XmlViewProps {
   text: string;
   label?: string;
-  /** As it was on the wire, rather than with one element a line. */
+  /** Show the document unformatted. */
   raw?: boolean;
-  /** A line that is marked, from 1: where a fault is. */
+  /** The line to mark, from 1: the place of a fault. */
   marked_line?: number | undefined;
 }
 

@@ -1,4 +1,4 @@
-// A small map of the hall on which visitors are dragged to where they shall go.
+// A small map of the hall on which visitors are dragged to their targets.
 import { useSignal } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 
@@ -14,13 +14,13 @@ import * as w from './texts';
 
 interface Aim extends Point {
   ref: string;
-  /** Held by a pointer, rather than moved by keys. */
+  /** The dragging pointer; undefined: moved by keys. */
   pointer?: number;
   has_moved: boolean;
 }
 
 const person_radius = 260; // mm
-const slop = 5; // px that a click may move
+const slop = 5; // px, tolerance of a click
 const steps = { fine: 250, coarse: 1000 }; // mm
 
 export function Floor({ map }: { map: FloorMap | undefined }) {
@@ -58,7 +58,7 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
     aim.value = undefined;
     if (now.has_moved) send(now);
   };
-  // On the floor: whoever is chosen walks there.
+  // A click on the floor sends the selected visitor there.
   const clicked = (event: MouseEvent) => {
     const chosen = hall.visitors.get(steering.chosen.value);
     if (chosen?.steered && !(event.target as Element).closest('[data-visitor]')) send({ ref: chosen.ref, has_moved: true, ...nearest_of(bounds, floor_point(svg.current!, event)) });
@@ -121,10 +121,10 @@ export function Floor({ map }: { map: FloorMap | undefined }) {
   }
 }
 
-const noise = 4; // standard deviations that a robot at rest may seem to move
+const noise = 4; // standard deviations of a resting robot's position that are not drawn
 const least_turn = 6; // degrees
 
-// Where it was drawn, until it is farther from there than the noise of its position.
+// The drawn pose, until the robot is farther away than its position's noise.
 function steady(drawn: Map<string, FloorPose>, robot: Robot): FloorPose {
   const before = drawn.get(robot.ref);
   const slack = noise * (ellipse_of(robot)?.a ?? 0);
@@ -135,7 +135,7 @@ function steady(drawn: Map<string, FloorPose>, robot: Robot): FloorPose {
   return now;
 }
 
-// A disc, and a nose where it looks.
+// A disc with a nose in the viewing direction.
 function Body({ at, radius, kind, name }: { at: FloorPose; radius: number; kind: 'robot' | 'person'; name: string }) {
   const turn = ((at.th ?? 0) * Math.PI) / 180;
   const nose = { x: at.x + Math.cos(turn) * radius * 1.7, y: at.y + Math.sin(turn) * radius * 1.7 };
@@ -157,7 +157,7 @@ function Goal({ from, to }: { from: Point | undefined; to: Point }) {
   );
 }
 
-// Where somebody is going now.
+// The way to a visitor's current target.
 function Way({ visitor, map }: { visitor: Visitor; map: FloorMap | undefined }) {
   const { hall } = useConsole();
   const walk = hall.orders_of(visitor.ref).filter((one) => one.command_type === 'walk').at(-1);

@@ -1,4 +1,4 @@
-// People in the simulated hall: let in, sent about, given words and gestures; and time, in a world that stands still.
+// The Visitors panel: lets simulated persons in, moves them, makes them speak and gesture; and lets simulated time pass.
 import './visitors.css';
 
 import { duration } from '../i18n/i18n';
@@ -99,7 +99,7 @@ function Orders({ steering, visitor: { ref } }: { steering: Steering; visitor: V
     const text = steering.words.value.trim();
     if (text === '') return;
     void steering.order(ref, 'say', hall.say(ref, text, steering.spoken.value));
-    steering.words.value = steering.spoken.value = ''; // the language is that of one speech
+    steering.words.value = steering.spoken.value = ''; // the language applies to one speech
   };
   return (
     <section class="visitors-orders" aria-label={ref}>

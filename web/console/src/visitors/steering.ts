@@ -1,4 +1,4 @@
-// Who is steered, and what is typed for them. One for each console: it outlives the panel that shows it, and so does time that flows.
+// Selection and input of the Visitors panel. Kept while another panel is shown, as is running time.
 import { signal } from '@preact/signals';
 
 import type { Console } from '../state/console';
@@ -8,23 +8,23 @@ import * as words from './texts';
 
 export const languages = ['de', 'en', 'es', 'fr', 'it', 'ja', 'ko', 'zh'] as const;
 const names = ['anna', 'ben', 'chika', 'daniel', 'emi', 'farid', 'grace', 'hiro'];
-const flow_step = 100; // ms of the world, and of the clock
+const flow_step = 100; // ms, both simulated and real
 
 export class Steering {
-  /** Ref of the visitor that orders are for. */
+  /** Ref of the selected visitor. */
   readonly chosen = signal('');
   readonly language = signal<string>('en');
   readonly is_known = signal(false);
-  /** As typed; empty: the next name that nobody has. */
+  /** As typed; empty: the next free name. */
   readonly name = signal('');
   readonly words = signal('');
-  readonly spoken = signal(''); // language; empty: their own
+  readonly spoken = signal(''); // language; empty: the visitor's own
   readonly place = signal('');
   readonly flows = signal(false);
 
   constructor(private readonly console: Console) {}
 
-  /** A name that nobody in the hall has. */
+  /** A name that is not used in the hall. */
   next_name(): string {
     for (let round = 1; ; ++round) {
       const free = names.map((one) => (round === 1 ? one : `${one}${round}`)).find((one) => !this.console.hall.is_taken(one));
@@ -32,7 +32,7 @@ export class Steering {
     }
   }
 
-  /** Carries out an order, and tells when it was not done. `replaced` orders end with ABORT; that is no trouble. */
+  /** Waits for an order and shows a notice if it fails. `replaced` orders end with ABORT, which is not a failure. */
   async order(ref: string, what: string, ordered: Promise<Outcome>): Promise<boolean> {
     const { notices } = this.console;
     const about = `${ref} ${what}`;
@@ -63,7 +63,7 @@ export class Steering {
     }
   }
 
-  /** Time passes as fast as the clock until `halt`. */
+  /** Lets time pass at real speed until `halt`. */
   async flow(): Promise<void> {
     const { environment } = this.console;
     this.flows.value = true;

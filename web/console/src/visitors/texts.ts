@@ -11,47 +11,47 @@ const gestures_ja: Record<string, string> = {
   wave: '手を振る', nod: 'うなずく', shake_head: '首を振る', bow: 'お辞儀', point: '指さす', raise_hand: '手を挙げる', clap: '拍手', thumbs_up: '親指を立てる',
 };
 
-export const none_here = text('This engine has no visitors to steer', 'このエンジンには動かせる来訪者がいません');
-export const none_here_hint = text('People can be steered in the simulated hall. Start the gateway with', 'シミュレーションのホールでは人を動かせます。次を付けてゲートウェイを起動してください:');
-export const nobody = text('Nobody is in the hall. Let somebody in.', 'ホールには誰もいません。誰かを入れてください。');
+export const none_here = text('This engine has no visitors to control', 'このエンジンには動かせる来訪者がいません');
+export const none_here_hint = text('Visitors can be controlled in the simulated hall. Start the gateway with', 'シミュレーションのホールでは人を動かせます。次を付けてゲートウェイを起動してください:');
+export const nobody = text('The hall is empty. Let a visitor in.', 'ホールには誰もいません。誰かを入れてください。');
 export const in_hall = text_of((n: number) => [n === 1 ? '1 person in the hall' : `${n} people in the hall`, `ホールに ${n} 人`]);
-export const not_known = text('Who is in the hall is not known yet', 'ホールに誰がいるかはまだ分かりません');
+export const not_known = text('The people in the hall are not known yet', 'ホールに誰がいるかはまだ分かりません');
 export const as_it_was = text_of((age: string) => [`Not connected: as it was ${age} ago`, `接続していません: ${age}前の様子`]);
 
 // Coming in
 export const let_in = text('Let in', '入れる');
 export const name = text('Name', '名前');
 export const language = text('Language', '言語');
-export const known = text('Identification knows them', '人物同定に登録済み');
-export const name_taken = text('Somebody has this name already.', '同じ名前の人がいます。');
-export const name_wrong = text('A name without blanks, dots and colons.', '空白・ピリオド・コロンを含まない名前にしてください。');
+export const known = text('Known to identification', '人物同定に登録済み');
+export const name_taken = text('This name is already used.', '同じ名前の人がいます。');
+export const name_wrong = text('Use a name without spaces, dots and colons.', '空白・ピリオド・コロンを含まない名前にしてください。');
 
 // The map
-export const map = text('The hall. Visitors can be dragged to where they shall go.', 'ホール。来訪者をドラッグして行き先を決められます。');
+export const map = text('The hall. Drag visitors to their targets.', 'ホール。来訪者をドラッグして行き先を決められます。');
 export const map_hint = text(
-  'Arrows choose where to, Shift with arrows farther, Enter sends them, Escape thinks better of it.',
+  'Arrows choose the target, with Shift in larger steps. Enter confirms, Escape cancels.',
   '矢印キーで行き先を選び、Shift で大きく動かし、Enter で決定、Escape で取り消します。',
 );
 export const visitor = text_of((ref: string, at: string) => [`${ref}, at ${at}`, `${ref}、位置 ${at}`]);
 export const robot = text_of((ref: string) => [`Robot ${ref}`, `ロボット ${ref}`]);
-export const click_hint = text_of((ref: string) => [`Drag ${ref}, or click where to go`, `${ref} をドラッグするか、行き先をクリック`]);
+export const click_hint = text_of((ref: string) => [`Drag ${ref}, or click the target`, `${ref} をドラッグするか、行き先をクリック`]);
 export const sends = text_of((ref: string, at: string) => [`${ref} goes to ${at}`, `${ref} は ${at} へ行きます`]);
 export const metres = text_of((x: string, y: string) => `${x} m, ${y} m`);
 
-// Who
-export const who = text('Who is in the hall', 'ホールにいる人');
+// People
+export const who = text('People in the hall', 'ホールにいる人');
 export const is_known = text('known', '登録済み');
-export const of_scenario = text('goes their own way', '自分で行動');
-export const of_scenario_hint = text('Somebody of the engine’s own scenario: they cannot be steered.', 'エンジンのシナリオの人物なので動かせません。');
+export const of_scenario = text('follows the scenario', '自分で行動');
+export const of_scenario_hint = text('A person of the engine’s scenario, who cannot be controlled.', 'エンジンのシナリオの人物なので動かせません。');
 export const doing = text_of((what: string) => doings[what] ?? what);
 export const waits = text('comes in when the entrance is free', '入口が空いたら入ります');
-export const choose_somebody = text('Choose somebody in the hall, or let somebody in.', 'ホールの誰かを選ぶか、誰かを入れてください。');
+export const choose_somebody = text('Choose a person in the hall, or let a visitor in.', 'ホールの誰かを選ぶか、誰かを入れてください。');
 
-// What they do
+// Actions
 export const walk_to = text('Walk to', '行き先');
 export const go = text('Go', '行く');
 export const say = text('Say', '話す');
-export const say_hint = text('What they say', '話す内容');
+export const say_hint = text('Text to say', '話す内容');
 export const speak = text('Speak', '話す');
 export const own_language = text('their own', '本人の言語');
 export const gestures = text('Gestures', '身振り');
@@ -61,10 +61,10 @@ export const not_done = text_of((ref: string, what: string) => [`${ref} could no
 
 // Time
 export const time = text('Time', '時間');
-export const stands_still = text('The world stands still.', '世界は止まっています。');
-export const stands_still_hint = text('What people and robots do goes on only while time passes.', '時間を進めている間だけ、人もロボットも動きます。');
+export const stands_still = text('Time is stopped.', '世界は止まっています。');
+export const stands_still_hint = text('People and robots move only while time passes.', '時間を進めている間だけ、人もロボットも動きます。');
 export const pass = text_of((seconds: string) => [`${seconds} s`, `${seconds} 秒`]);
 export const pass_label = text_of((seconds: number) => [seconds === 1 ? 'Let 1 second pass' : `Let ${seconds} seconds pass`, `${seconds} 秒進める`]);
-export const flow = text('Let it flow', '流す');
+export const flow = text('Let time run', '流す');
 export const halt = text('Halt', '止める');
 

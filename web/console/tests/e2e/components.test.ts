@@ -1,4 +1,4 @@
-// The components panel: the tree, forms for commands, parameters, queries and events, and what comes of them.
+// The Components panel: tree, forms and outcomes of commands, parameters, queries and events.
 import type { Page } from 'playwright-core';
 import { connect } from 'rois-client';
 import { describe, expect, test } from 'vitest';
@@ -24,24 +24,24 @@ const answer = (page: Page) => page.locator('.exchange-came');
 const is_told = (page: Page, text: string) => hall.pass_until(page, answer(page).getByText(text), 200);
 
 describe('components', () => {
-  test('a command is sent as the form has it, with its XML and its answer, and ends', () =>
+  test('a command is sent with its XML and its answer, and ends', () =>
     stage.page(async (page) => {
       await open(page, 'speech_synthesis');
       await page.getByText(/Type string\. Default en\./).waitFor();
       await page.getByLabel('speech_text', { exact: true }).fill('Good morning.');
       await page.getByLabel('volume', { exact: true }).fill('loud');
-      await page.getByText('This has to be a whole number.').waitFor();
+      await page.getByText('Enter a whole number.').waitFor();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
       await page.locator('input[aria-invalid="true"]:focus').waitFor();
       await page.getByLabel('volume', { exact: true }).fill('70');
       const request = page.getByRole('region', { name: 'Request: speech_synthesis start' });
       expect(await request.textContent()).toMatch(/<rois:value>Good morning\.<\/rois:value>[^]*<rois:value>70<\/rois:value>/);
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await is_told(page, 'It is done.');
+      await is_told(page, 'Done.');
       expect(await item(page, 'speech_synthesis').getByText('running').count()).toBe(0);
       expect(await page.getByRole('region', { name: 'Answer: speech_synthesis start' }).textContent()).toContain('execute_response');
       await picture(page, 'components-command');
-      // It was released, so its parameters are not there for the next speech.
+      // It was released, so its parameters do not apply to the next speech.
       expect(await page.getByLabel(/^Release the component when/).isChecked()).toBe(true);
       await page.getByText('0 bound').waitFor();
       await open(page, 'person_detection');
@@ -49,19 +49,19 @@ describe('components', () => {
       expect(await violations(page)).toBe('');
     }));
 
-  test('a command that is refused, and one that fails, say why', () =>
+  test('a refused and a failed command show their reasons', () =>
     stage.page(async (page) => {
       await open(page, 'navigation');
       const target = page.getByLabel('target_position, item 1');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await page.getByText('This is needed.').waitFor();
+      await page.getByText('Required.').waitFor();
       await target.fill('nowhere');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
       await answer(page).getByText(/nowhere' is neither "x, y" nor .* one of the places/).first().waitFor();
       await expect.poll(() => is_in_view(answer(page).locator('p').first())).toBe(true);
       await target.fill('100000, 2000');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await is_told(page, 'The component could not do it.');
+      await is_told(page, 'The component failed.');
       expect(await violations(page)).toBe('');
       await target.fill('17500, 7000');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
@@ -75,19 +75,19 @@ describe('components', () => {
       await page.getByRole('button', { name: 'Add to target_position' }).click();
       await page.getByLabel('target_position, item 2').fill('desk');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await answer(page).getByText('It is running.').waitFor();
+      await answer(page).getByText('Running.').waitFor();
       await open(page, 'follow');
       await page.getByLabel('target_object_ref').fill('nobody');
       await page.getByLabel('distance').fill('500');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await answer(page).getByText('Something that it needs is in use.').waitFor();
+      await answer(page).getByText('A required resource is in use.').waitFor();
       await answer(page).getByText('Running on the same robot: navigation start.').waitFor();
       await picture(page, 'components-failed');
 
-      // What was typed is still there.
+      // Entered values are kept.
       await open(page, 'navigation');
       expect(await page.getByLabel('target_position, item 2').inputValue()).toBe('desk');
-      await answer(page).getByText('It is running.').waitFor();
+      await answer(page).getByText('Running.').waitFor();
       await page.getByRole('button', { name: 'Release navigation' }).click();
       await item(page, 'navigation').getByText('bound by me').waitFor({ state: 'detached' });
     }, sizes.low));
@@ -99,26 +99,26 @@ describe('components', () => {
       await page.getByLabel('distance').fill('500');
       await page.getByLabel(/^Release the component when/).check();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await answer(page).getByText('It is running.').waitFor();
+      await answer(page).getByText('Running.').waitFor();
       await item(page, 'follow').getByText('running').waitFor();
-      // It is seen from another form, too.
+      // Another form shows it, too.
       await page.getByRole('button', { name: 'resume', exact: true }).click();
-      await page.locator('.panel-components').getByText('The answer will stand here.').waitFor();
+      await page.locator('.panel-components').getByText('The answer appears here.').waitFor();
       await page.getByRole('button', { name: 'Stop follow start' }).click();
       await page.getByRole('button', { name: 'Stop follow start' }).waitFor({ state: 'detached' });
       await page.getByRole('button', { name: 'start', exact: true }).click();
-      await is_told(page, 'It is done.');
+      await is_told(page, 'Done.');
       await item(page, 'follow').getByText('bound by me').waitFor({ state: 'detached' });
     }));
 
-  test('parameters are shown as they are, and set', () =>
+  test('current parameters are shown, and set', () =>
     stage.page(async (page) => {
       await open(page, 'reaction');
       await page.getByRole('tab', { name: /^Parameters/ }).click();
-      const now = page.getByRole('region', { name: 'As they are now' });
+      const now = page.getByRole('region', { name: 'Current values' });
       await now.getByText('available_reactions').waitFor();
       await page.getByRole('button', { name: 'Set', exact: true }).click();
-      await page.getByText('Nothing has been typed yet.').waitFor();
+      await page.getByText('Nothing entered yet.').waitFor();
       expect(await page.getByLabel('reaction_ref', { exact: true }).evaluate((one: HTMLInputElement) => one.list?.options.length)).toBe(50);
       await page.getByLabel('reaction_ref', { exact: true }).fill('28');
       expect(await page.getByRole('region', { name: 'Request: reaction set_parameter' }).textContent()).toContain('rois:codebook_ref="urn:x-rois:def:codebook:simulation::reaction"');
@@ -131,7 +131,7 @@ describe('components', () => {
       expect(await violations(page)).toBe('');
     }));
 
-  test('a query is answered with its values', () =>
+  test('a query shows its results', () =>
     stage.page(async (page) => {
       await open(page, 'system_information');
       await page.getByRole('tab', { name: /^Queries/ }).click();
@@ -142,49 +142,49 @@ describe('components', () => {
       expect(await violations(page)).toBe('');
     }));
 
-  test('an event is subscribed to, comes, and is left', () =>
+  test('an event is subscribed to, arrives, and is unsubscribed', () =>
     stage.page(async (page) => {
       await open(page, 'person_detection');
       await page.getByRole('tab', { name: /^Events(?! and)/ }).click();
       await page.getByLabel(/^Further condition/).fill('<fes:PropertyIs');
-      await page.getByText(/This is no XML/).waitFor();
+      await page.getByText(/Invalid XML/).waitFor();
       await page.getByLabel(/^Further condition/).fill('<fes:PropertyIsLessThan><fes:ValueReference>number</fes:ValueReference><fes:Literal>100</fes:Literal></fes:PropertyIsLessThan>');
       await page.getByRole('button', { name: 'Subscribe', exact: true }).click();
       await answer(page).getByText('OK', { exact: true }).waitFor();
       await page.getByRole('tab', { name: /^Commands/ }).click();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await is_told(page, 'It is done.');
+      await is_told(page, 'Done.');
       await page.getByRole('tab', { name: /^Events(?! and)/ }).click();
       await hall.pass_until(page, page.locator('.component-list').getByText('number: 0'), 200);
       await page.getByText('1 event', { exact: false }).first().waitFor();
       await picture(page, 'components-events');
       expect(await violations(page)).toBe('');
       await page.getByRole('button', { name: /^Unsubscribe / }).click();
-      await page.getByText('Subscriptions to it').waitFor({ state: 'detached' });
+      await page.getByText('Active subscriptions').waitFor({ state: 'detached' });
     }));
 
-  test('a command of a profile of its own has its own form; a request is copied for a shell', () =>
+  test('a command of a custom profile has a form; a request is copied for a shell', () =>
     stage.page(async (page) => {
       await open(page, 'wheelchair_robot');
       expect(await page.getByRole('button', { name: 'brake', exact: true }).first().getAttribute('aria-pressed')).toBe('true');
       await page.getByRole('button', { name: 'brake', exact: true }).last().click();
-      await page.getByText('This is needed.').waitFor();
+      await page.getByText('Required.').waitFor();
       await page.getByLabel('status').selectOption('true');
       await page.getByRole('button', { name: 'brake', exact: true }).last().click();
-      await is_told(page, 'It is done.');
+      await is_told(page, 'Done.');
       await page.getByRole('button', { name: 'Copy as curl' }).click();
       await page.getByRole('button', { name: 'Copied' }).waitFor();
       expect(await page.evaluate(() => navigator.clipboard.readText())).toMatch(/^curl -s -H 'Content-Type: application\/xml' -H 'RoIS-Session: [^']+' -d '<execute [^]*http:\/\/127\.0\.0\.1:\d+\/rois$/);
     }));
 
-  test('who has a component is told, and that it cannot be had', async () => {
+  test('the owner of a component is shown, and that it cannot be bound', async () => {
     const other = await connect(stage.gateway.url);
     await other.bind('reaction');
     await stage.page(async (page) => {
       await open(page, 'reaction');
       await item(page, 'reaction').getByText(/bound by (another )?session/).waitFor();
       await page.getByRole('button', { name: 'Bind reaction' }).click();
-      await page.getByRole('alert').getByText(/Another application has it/).waitFor();
+      await page.getByRole('alert').getByText(/Another application has bound it/).waitFor();
       await other.release('reaction');
       await item(page, 'reaction').getByText(/bound by/).waitFor({ state: 'detached' });
       await page.getByRole('button', { name: 'Bind reaction' }).click();
@@ -193,12 +193,12 @@ describe('components', () => {
     await other.close();
   });
 
-  test('whom to follow is chosen from who is there', async () => {
+  test('the person to follow is chosen from those present', async () => {
     await hall.visit('tanaka', '9000, 4500, 180', { known: true });
     await stage.page(async (page) => {
       await open(page, 'person_localization');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await is_told(page, 'It is done.');
+      await is_told(page, 'Done.');
       await open(page, 'follow');
       await hall.pass_until(page, page.locator('datalist option[value="person-1"]'));
       await page.getByLabel('target_object_ref').fill('person-1');
@@ -206,12 +206,12 @@ describe('components', () => {
       await page.getByLabel('distance').fill('800');
       await page.locator('.field', { has: page.getByLabel('distance') }).getByText('mm', { exact: true }).waitFor();
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await answer(page).getByText('It is running.').waitFor();
+      await answer(page).getByText('Running.').waitFor();
     });
     await hall.leave('tanaka');
   });
 
-  test('the list has the room until something is chosen, which is seen in it then; nothing is out of reach, however long its name', () =>
+  test('the list takes the room until something is selected, which stays visible in it; everything is reachable despite long names', () =>
     stage.page(async (page) => {
       await item(page, 'wheelchair_robot').waitFor();
       const [list, panel] = await Promise.all([page.getByRole('tree'), page.locator('.panel-components')].map((one) => one.locator('xpath=..').evaluate((frame) => frame.clientHeight)));
@@ -222,7 +222,7 @@ describe('components', () => {
       expect(await is_in_view(page.getByRole('button', { name: 'Bind wheelchair_robot' }))).toBe(true);
     }, sizes.laptop));
 
-  test('the tree is walked with the keyboard, and says who has what', () =>
+  test('the tree is operated by keyboard, and shows the owners', () =>
     stage.page(async (page) => {
       await item(page, 'face_detection').waitFor();
       await page.getByRole('treeitem', { name: 'reception', exact: true }).focus();
@@ -239,7 +239,7 @@ describe('components', () => {
       await page.keyboard.press('End');
       await page.keyboard.press(' ');
       await page.getByRole('heading', { name: 'wheelchair_robot' }).waitFor();
-      // Tab leads from the tree over the bar to the component.
+      // Tab leads from the tree over the divider to the component.
       await page.keyboard.press('Tab');
       await page.keyboard.press('Tab');
       expect(await page.evaluate(() => document.activeElement?.getAttribute('aria-label'))).toBe('Bind wheelchair_robot');

@@ -1,4 +1,4 @@
-// The conditions panel: filters that are built, what they match now, and what is done with them.
+// The Conditions panel: building filters, their present matches, and their use.
 import type { Page } from 'playwright-core';
 import { describe, expect, test } from 'vitest';
 
@@ -21,21 +21,21 @@ const request = (page: Page, operation: string) => panel(page).getByRole('region
 const count = (page: Page, text: string | RegExp) => panel(page).locator('.conditions-count').filter({ hasText: text }).waitFor();
 
 describe('conditions', () => {
-  test('subscribes to persons within a box that is picked on the map', () =>
+  test('subscribes to persons in a box picked on the map', () =>
     stage.page(
       async (page) => {
         await panel(page).getByRole('radio', { name: 'Subscribe' }).click();
         expect(await panel(page).getByLabel('Event', { exact: true }).inputValue()).toBe('person_localized');
         await panel(page).getByRole('button', { name: 'position_data within a box' }).click();
         await panel(page).getByLabel('Corner 1, x').fill('abc');
-        await panel(page).getByText('This is no number').waitFor();
+        await panel(page).getByText('Not a number').waitFor();
         await panel(page).getByLabel('Corner 1, x').fill('');
         await count(page, '1 component can send it');
         await drag_area(page, { x: 500, y: 11_500 }, { x: 19_500, y: 500 });
         expect(Number(await panel(page).getByLabel('Corner 1, x').inputValue())).toBeLessThan(1000);
         expect(await request(page, 'subscribe').textContent()).toMatch(/<fes:Within>[^]*position_data[^]*<gml:lowerCorner>/);
         await panel(page).getByRole('button', { name: 'Subscribe', exact: true }).click();
-        await panel(page).getByText('Nothing has come yet.').waitFor();
+        await panel(page).getByText('No events yet.').waitFor();
         await panel(page).getByRole('button', { name: 'Start person_localization' }).click();
         await hall.pass_until(page, panel(page).locator('.conditions-subscription').getByText(/^[1-9]\d* events?$/), 200);
         await picture(page, 'conditions-box');
@@ -50,7 +50,7 @@ describe('conditions', () => {
       path,
     ));
 
-  test('says how many components it matches now, with the keyboard alone', () =>
+  test('shows the number of matching components, by keyboard alone', () =>
     stage.page(
       async (page) => {
         await count(page, /^(\d+) of \1 components$/);
@@ -65,13 +65,13 @@ describe('conditions', () => {
         const what = panel(page).getByLabel('What', { exact: true }).nth(1);
         await what.selectOption('status');
         await panel(page).getByLabel('Value', { exact: true }).nth(1).selectOption('READY');
-        await panel(page).getByLabel('Which of these must hold').nth(1).selectOption('none of');
+        await panel(page).getByLabel('Which of these must be true').nth(1).selectOption('none of');
         expect(await request(page, 'search').textContent()).toMatch(/<fes:And>[^]*<fes:Not>[^]*READY/);
         await count(page, /^0 of \d+ components$/);
         await panel(page).getByRole('button', { name: 'Remove the group' }).press('Enter');
         await count(page, /^1 of \d+ components$/);
 
-        // It outlives the panel, and the page.
+        // It is kept across panels and visits.
         await page.getByRole('tab', { name: 'Sequences' }).click();
         await page.getByRole('tab', { name: 'Conditions' }).click();
         await page.reload();
@@ -82,7 +82,7 @@ describe('conditions', () => {
       path,
     ));
 
-  test('binds any, the nearest first, and asks', () =>
+  test('binds any, the nearest first, and queries', () =>
     stage.page(
       async (page) => {
         await panel(page).getByRole('radio', { name: 'Bind any' }).click();
@@ -110,14 +110,14 @@ describe('conditions', () => {
       path,
     ));
 
-  test('says what is missing, and what the engine refuses', () =>
+  test("shows missing values, and the engine's refusal", () =>
     stage.page(
       async (page) => {
         await panel(page).getByRole('button', { name: 'Condition', exact: true }).click();
-        await panel(page).getByText('One thing is missing').or(panel(page).getByText('2 things are missing')).waitFor();
-        await panel(page).getByText('Choose what it is about').first().waitFor();
+        await panel(page).getByText('One condition is incomplete').or(panel(page).getByText('2 conditions are incomplete')).waitFor();
+        await panel(page).getByText('Choose a property').first().waitFor();
         expect(await panel(page).getByRole('button', { name: 'Search', exact: true }).isDisabled()).toBe(true);
-        await panel(page).getByText('Something is still missing above.').waitFor();
+        await panel(page).getByText('Something is missing above.').waitFor();
         await panel(page).getByLabel('What', { exact: true }).selectOption('location');
         await panel(page).getByLabel('How', { exact: true }).selectOption('is within a place');
         await panel(page).getByLabel('Place', { exact: true }).fill('nowhere');
@@ -130,21 +130,21 @@ describe('conditions', () => {
       path,
     ));
 
-  test('takes over a condition that is pasted', () =>
+  test('imports a pasted condition', () =>
     stage.page(
       async (page) => {
         await panel(page).getByRole('button', { name: 'Paste XML' }).click();
         const area = panel(page).getByRole('textbox', { name: 'As XML' });
         await area.fill('<fes:Filter><nonsense');
-        await panel(page).getByRole('button', { name: 'Take over' }).click();
-        await panel(page).getByText(/This cannot be read/).waitFor();
+        await panel(page).getByRole('button', { name: 'Import' }).click();
+        await panel(page).getByText(/Invalid: /).waitFor();
         await area.fill(`<subscribe xmlns="urn:x-rois:psm:xml:message:1" xmlns:fes="http://www.opengis.net/fes/2.0"><event_type>person_detected</event_type><condition>
           <fes:Filter><fes:PropertyIsGreaterThan><fes:ValueReference>number</fes:ValueReference><fes:Literal>1</fes:Literal></fes:PropertyIsGreaterThan></fes:Filter></condition></subscribe>`);
-        await panel(page).getByRole('button', { name: 'Take over' }).click();
+        await panel(page).getByRole('button', { name: 'Import' }).click();
         expect(await panel(page).getByLabel('Event', { exact: true }).inputValue()).toBe('person_detected');
         expect(await panel(page).getByLabel('What', { exact: true }).inputValue()).toBe('number');
         await panel(page).getByLabel('Value', { exact: true }).fill('many');
-        await panel(page).getByText('This is no number').waitFor();
+        await panel(page).getByText('Not a number').waitFor();
       },
       {},
       path,

@@ -1,11 +1,11 @@
-// Points of the reception hall's floor, in mm, on the page.
+// Points of the reception hall's floor in mm, converted to the page.
 import type { Page } from 'playwright-core';
 
 import { fitted, margin_of, type Point, to_screen } from '../../src/map/view';
 
 const bounds = { x: 0, y: 0, width: 20_000, depth: 12_000 };
 
-/** Where a point is on the floor map, while all of the floor is shown. */
+/** The position of a point on the floor map, which shows the whole floor. */
 export async function on_map(page: Page, at: Point): Promise<Point> {
   const box = (await page.locator('.map-canvas').boundingBox())!;
   const point = to_screen(fitted(bounds, box, margin_of(box)), box, at);
@@ -17,7 +17,7 @@ export async function click_map(page: Page, at: Point): Promise<void> {
   await page.mouse.click(point.x, point.y);
 }
 
-/** Drags on the map of a condition from one point to another. */
+/** Drags on the map of a condition. */
 export async function drag_area(page: Page, from: Point, to: Point): Promise<void> {
   const svg = page.locator('.conditions-picker svg');
   await svg.scrollIntoViewIfNeeded();

@@ -1,4 +1,4 @@
-// The simulated hall in the hands of a test: visitors who do what they are told, in a world that stands still but for the time that is let pass.
+// The simulated hall controlled by a test: visitors take orders, and time passes only on request.
 import type { Locator, Page } from 'playwright-core';
 import { type Arguments, type Client, command, connect, type CompletedStatus, value } from 'rois-client';
 import { afterAll, beforeAll } from 'vitest';
@@ -8,12 +8,12 @@ import { root, Stage } from './harness';
 
 const component = 'simulated_hall';
 
-/** Pictures for docs/ are taken (docs/console.md): then the world goes as fast as the clock, so that the time line shows what took how long. */
+/** Pictures for docs/ are taken (docs/console.md): time then runs at real speed, so that the time line shows real durations. */
 export const takes_pictures = process.env['ROIS_PICTURES'] === 'docs';
 
-/** Flags of a gateway whose hall is empty and stands still. */
+/** Flags of a gateway with an empty hall and stopped time. */
 export const still_hall = ['--scenario', `${root}/tests/server/data/empty_hall.xml`, '--sim-speed', '0', '--seed', '7'];
-/** The robots of Annex C beside the usual one. */
+/** The robots of Annex C in addition to the usual one. */
 export const more_profiles = ['--profiles', `${root}/components/simulation/profiles`];
 
 /**
@@ -43,24 +43,24 @@ export class Hall {
     return new Hall(client);
   }
 
-  /** Of the world; all of it has passed when this resolves. */
+  /** In ms of simulated time, which have passed when this resolves. */
   async pass(ms: number): Promise<void> {
     const status = await (await this.client.execute([command(component, 'let_pass', { time: value.int(ms) })])).status();
     if (status !== 'OK') throw new Error(`let_pass: ${status}`);
     if (takes_pictures) await new Promise((passed) => setTimeout(passed, ms));
   }
 
-  /** Lets the world go on, so many ms at a time, until the page has something. */
+  /** Lets time pass in steps until the page shows something. */
   async pass_until(page: Page, shown: Locator, step = 500, most = 240 * step): Promise<void> {
     for (let passed = 0; passed < most; passed += step) {
       if ((await shown.count()) > 0) return;
       await this.pass(step);
-      await page.evaluate(heard);
+      await page.evaluate(all_drawn);
     }
     await shown.first().waitFor({ state: 'attached', timeout: 1 });
   }
 
-  /** Lets the world go on until something else has come about. */
+  /** Lets time pass in steps until a promise is settled. */
   async pass_while<T>(pending: Promise<T>, step = 500): Promise<T> {
     let is_pending = true;
     const over = () => (is_pending = false);
@@ -69,12 +69,12 @@ export class Hall {
     return pending;
   }
 
-  /** The page's console runs a command, and the world goes on until it has ended: how. */
+  /** Runs a command in the page's console and lets time pass until it has ended. Returns its status. */
   run(page: Page, ref: string, command_type: string, named: Arguments = {}): Promise<string> {
     return this.pass_while(page.evaluate(run_there, [ref, command_type, named] as const));
   }
 
-  /** A visitor comes in and walks there, `x, y, th` or a place, within so many ms of the world. */
+  /** A visitor comes in and walks to `x, y, th` or a place, within this simulated time. */
   async visit(visitor_ref: string, target_position: string, { known = false, within = 40_000 } = {}): Promise<void> {
     await this.enter(visitor_ref, { known, within });
     await this.walk(visitor_ref, target_position, within);
@@ -88,7 +88,7 @@ export class Hall {
     await this.done('walk', { visitor_ref, target_position: value.strings([target_position]) }, within);
   }
 
-  /** Begins to walk; goes on while time passes. */
+  /** Starts walking; continues while time passes. */
   async sets_out(visitor_ref: string, target_position: string): Promise<void> {
     await this.client.execute([command(component, 'walk', { visitor_ref, target_position: value.strings([target_position]) })]);
   }
@@ -105,7 +105,7 @@ export class Hall {
     return this.client.close();
   }
 
-  // Half a second of the world after the other, until it is done.
+  // In steps of half a second, until it is done.
   private async done(what: string, named: Parameters<typeof command>[2], within: number): Promise<void> {
     let status: CompletedStatus | undefined;
     const execution = await this.client.execute([command(component, what, named)]);
@@ -115,8 +115,8 @@ export class Hall {
   }
 }
 
-// Runs in the page: notifications come in order, so an answer comes after all that was told before. What came has been drawn then.
-async function heard(): Promise<void> {
+// Runs in the page: notifications arrive in order, so after an answer all earlier ones have arrived and been drawn.
+async function all_drawn(): Promise<void> {
   const { rois } = window as unknown as { rois: Console };
   await rois.documents.as_own(() => rois.search());
   await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));

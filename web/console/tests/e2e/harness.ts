@@ -1,4 +1,4 @@
-// The built console in Chromium, before the real gateway.
+// The built console in Chromium with the real gateway.
 import { existsSync } from 'node:fs';
 import { mkdir, readFile } from 'node:fs/promises';
 import { createServer, type IncomingMessage, request as http_request, type Server } from 'node:http';
@@ -14,24 +14,24 @@ export { Gateway, root };
 
 const program = process.env['CHROMIUM'] ?? '/usr/bin/chromium';
 const dist = `${root}/web/console/dist`;
-/** Where pictures land. */
+/** Folder of the pictures. */
 export const pictures = `${root}/web/console/build/pictures`;
 
-/** What the gateway says of the page: nothing inline, nothing from elsewhere. */
+/** The gateway's content security policy: nothing inline, nothing external. */
 const policy =
   "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; connect-src 'self' ws: wss:; " +
   "font-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 const types: Record<string, string> = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.svg': 'image/svg+xml' };
 
-/** The built files and, behind them, a gateway: as the gateway serves them that has them inside. `gateway` may be another one later. */
+/** Serves the built files and forwards to a gateway, as a gateway with the console inside. `gateway` may be changed later. */
 export class Front {
-  /** Connections to the gateway are refused while this is set. */
+  /** Refuse connections to the gateway. */
   is_cut = false;
-  /** Plain requests still pass while it is cut. */
+  /** Let plain requests pass while it is cut. */
   lets_requests_pass = false;
-  /** Demanded of everybody while it is set, as a proxy before a gateway may. */
+  /** If set, required from every client, as by a proxy before a gateway. */
   token: string | undefined;
-  /** Who asks in vain is told that the gateway is shutting down, while this is set: of a real one that takes but a moment. */
+  /** Answer that the gateway is shutting down: a real one does so only for a moment. */
   is_draining = false;
 
   private constructor(
@@ -70,7 +70,7 @@ export class Front {
     return `http://127.0.0.1:${(this.server.address() as { port: number }).port}`;
   }
 
-  /** Breaks every WebSocket, and lets no new one come about until `mend`. */
+  /** Breaks every WebSocket and refuses new ones until `mend`. */
   cut(): void {
     this.is_cut = true;
     for (const end of this.tunnels) end();
@@ -126,27 +126,27 @@ export interface PageOptions {
   language?: 'en' | 'ja';
   motion?: 'reduce' | 'no-preference';
   touch?: boolean;
-  /** Complaints of the page that are expected, since the test provokes them. */
+  /** Expected errors of the page. */
   may_complain?: RegExp;
 }
 
 export const sizes = { wide: { width: 1600, height: 900 }, tablet: { width: 1024, height: 768 }, small: { width: 768, height: 1024 }, phone: { width: 390, height: 844 }, laptop: { width: 1280, height: 720 }, low: { width: 1366, height: 700 } } as const;
 
-/** In which each panel is judged, beside the wide, dark and English one of all other tests; not wide is touched by fingers. */
+/** The looks tested for each panel, in addition to the wide, dark, English one of the other tests. Other sizes use touch. */
 export const looks = [
   ['wide', 'light', 'en'],
   ['tablet', 'dark', 'ja'],
 ] as const;
 
-/** What a page may complain of while a test breaks the link. */
+/** Errors of a page while a test breaks the link. */
 export const broken_link = /WebSocket|Failed to load resource|ERR_/;
 
-// One browser serves all stages that stand at the same time.
+// One browser serves all stages that exist at the same time.
 let browser: Promise<Browser> | undefined;
 let standing = 0;
 
 async function launched(): Promise<Browser> {
-  if (!existsSync(program)) throw new Error(`${program} is not there: install chromium, or say in CHROMIUM where one is`);
+  if (!existsSync(program)) throw new Error(`${program} is missing: install chromium, or set CHROMIUM to its path`);
   standing += 1;
   return (browser ??= chromium.launch({ executablePath: program, args: ['--disable-dev-shm-usage'] }));
 }
@@ -158,7 +158,7 @@ async function left(): Promise<void> {
 
 /** One gateway, one front, and the browser. */
 export class Stage {
-  /** Where a page begins that does not say. */
+  /** Default path of a page. */
   path = '/';
 
   private constructor(
@@ -167,7 +167,7 @@ export class Stage {
     private readonly browser: Browser,
   ) {}
 
-  /** `flags` are the gateway's. For histories that are always the same: `--sim-speed 0` and steps, or a scenario and a seed. */
+  /** `flags` are the gateway's. For reproducible histories: `--sim-speed 0` and steps, or a scenario and a seed. */
   static async set(...flags: string[]): Promise<Stage> {
     const browser = await launched();
     const gateway = await Gateway.start(...flags);
@@ -181,7 +181,7 @@ export class Stage {
     await this.gateway.stop();
   }
 
-  /** A page that shows the console. What it complains of (an exception, a policy that is violated) fails the test at the end of `act`. */
+  /** Opens a page with the console. Its errors (exceptions, policy violations) fail the test at the end of `act`. */
   async page(act: (page: Page) => Promise<void>, options: PageOptions = {}, path = this.path): Promise<void> {
     const { width = sizes.wide.width, height = sizes.wide.height, look = 'dark', language = 'en', motion = 'reduce', touch = false } = options;
     const context = await this.browser.newContext({
@@ -213,13 +213,13 @@ export class Stage {
   }
 }
 
-/** A picture of the page in `pictures`. */
+/** Saves a picture of the page to `pictures`. */
 export async function picture(page: Page, name: string): Promise<void> {
   await mkdir(pictures, { recursive: true });
   await page.screenshot({ path: `${pictures}/${name}.png` });
 }
 
-/** Whether all of it is seen: neither cut off nor below something else. */
+/** Whether an element is completely visible. */
 export function is_in_view(one: Locator): Promise<boolean> {
   return one.evaluate((part) => {
     const { left, right, top, bottom } = part.getBoundingClientRect();
@@ -230,7 +230,7 @@ export function is_in_view(one: Locator): Promise<boolean> {
 
 const axe = createRequire(import.meta.url).resolve('axe-core/axe.min.js');
 
-/** What axe-core has to say against the page as it is now, one rule a line; empty when all is well. */
+/** The violations that axe-core finds, one rule on each line; empty if none. */
 export async function violations(page: Page): Promise<string> {
   await page.evaluate(await readFile(axe, 'utf8'));
   const { violations: found } = await page.evaluate(() => (window as unknown as { axe: { run(): Promise<{ violations: { id: string; nodes: { html: string; failureSummary?: string }[] }[] }> } }).axe.run());

@@ -1,4 +1,4 @@
-// The health panel: numbers, plots, sessions, limits, the log, and how it looks.
+// The Health panel: numbers, plots, sessions, limits, error log, and accessibility.
 import type { Page } from 'playwright-core';
 import { connect, type Client } from 'rois-client';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
@@ -25,7 +25,7 @@ const table = (page: Page, name: string) => page.getByRole('region', { name, exa
 const row = (page: Page, name: string, text: RegExp) => table(page, name).locator('tbody tr').filter({ hasText: text });
 const log = (page: Page) => page.locator('.health-log li');
 
-/** Another application, which has bound something. */
+/** Another application with a binding. */
 async function with_other(act: (other: Client) => Promise<void>): Promise<void> {
   const other = await connect(stage.gateway.url);
   try {
@@ -38,18 +38,18 @@ async function with_other(act: (other: Client) => Promise<void>): Promise<void> 
 }
 
 describe('health', () => {
-  test('tells how the link and the gateway are, in numbers and plots', () =>
+  test('shows the state of link and gateway, in numbers and plots', () =>
     stage.page(
       async (page) => {
         await figure(page, 'Link').getByText('Connected').waitFor();
         for (const [name, text] of [['Round trip', /\d ms/], ['Requests', /\d \/s/], ['Sessions', /^1$/], ['Components', /^16$/], ['Memory', /MiB/], ['Processor', /\d %/], ['Open files', /\d/]] as const)
           await figure(page, name).locator('dd').getByText(text).waitFor();
-        const latency = plot(page, /^How long answers take/);
+        const latency = plot(page, /^Response time/);
         await latency.locator('.health-legend li').filter({ hasText: /In the gateway\s*[\d.]+ ms/ }).waitFor();
         await page.getByText(/^Slowest in the last minute: \w+/).waitFor();
         await plot(page, /^The gateway/).locator('.health-legend li').filter({ hasText: /Requests\s*[1-9][\d.]* \/s/ }).waitFor();
         await plot(page, /^This console/).locator('.health-legend li').filter({ hasText: /Received\s*[1-9][\d.]* \/s/ }).waitFor();
-        // The lines are drawn once a second: with the clock, not with each answer.
+        // The lines are drawn once a second, not with each answer.
         const drawn = await page.locator('.health-plot canvas').first().evaluate(async (canvas: HTMLCanvasElement) => {
           const pen = canvas.getContext('2d')!;
           let n = 0;
@@ -60,9 +60,9 @@ describe('health', () => {
         });
         expect(drawn).toBeLessThanOrEqual(5);
         expect(drawn).toBeGreaterThan(1);
-        // Once more as a table, and by keys.
+        // Also as a table and by keys.
         await latency.getByText('As a table').click();
-        await expect.poll(() => table(page, 'How long answers take, ms: values').locator('tbody tr').first().innerText()).toMatch(/^[\d:]+\s+[\d.]+ ms\s+[\d.]+ ms/);
+        await expect.poll(() => table(page, 'Response time, ms: values').locator('tbody tr').first().innerText()).toMatch(/^[\d:]+\s+[\d.]+ ms\s+[\d.]+ ms/);
         const slider = latency.getByRole('slider');
         await slider.focus();
         await page.keyboard.press('ArrowLeft');
@@ -75,7 +75,7 @@ describe('health', () => {
       '/#health',
     ));
 
-  test('tells who has bound what, and which limit is reached', () =>
+  test('shows bindings and reached limits', () =>
     stage.page(
       (page) =>
         with_other(async () => {
@@ -89,7 +89,7 @@ describe('health', () => {
           expect(refused.status).toBe(429);
           await row(page, 'Limits', /^Sessions33/).waitFor();
           await row(page, 'Limits', /^Sessions331 time 1 lately$/).waitFor();
-          await row(page, 'What went wrong since the gateway began', /too_many11$/).waitFor();
+          await row(page, 'Problems since the gateway started', /too_many11$/).waitFor();
           await third.close();
           await row(page, 'Limits', /^Sessions23/).waitFor();
           expect(await violations(page)).toBe('');
@@ -99,12 +99,12 @@ describe('health', () => {
       '/#health',
     ));
 
-  test('has a log of errors with their details, and of what was refused', () =>
+  test('has a log of errors with details and of refusals', () =>
     stage.page(
       (page) =>
         with_other(async () => {
           await figure(page, 'Link').getByText('Connected').waitFor();
-          await page.getByText('This session was told of no error.').waitFor();
+          await page.getByText('No errors in this session.').waitFor();
           await page.evaluate(async () => {
             const { rois } = window as unknown as Page_;
             await rois.bindings.bind('move').catch(() => undefined);
@@ -125,9 +125,9 @@ describe('health', () => {
           await refused.getByRole('button', { name: 'Show in messages' }).click();
           const chosen = page.locator('.panel-messages').getByRole('option', { selected: true }).getByText('bind').first();
           await chosen.waitFor();
-          // The same document once more, while the filter hides it.
+          // The same document again, while the filter hides it.
           await page.getByLabel('Search in the text').fill('nothing has this text');
-          await page.getByText('Nothing passes the filter').waitFor();
+          await page.getByText('No document matches the filter').waitFor();
           await refused.getByRole('button', { name: 'Show in messages' }).click();
           await chosen.waitFor();
           expect(await page.getByLabel('Search in the text').inputValue()).toBe('');
@@ -136,20 +136,20 @@ describe('health', () => {
       '/#health',
     ));
 
-  test('says that the link is lost, when it was, and what it can no longer tell', () =>
+  test('shows that and when the link was lost, and which values are unknown', () =>
     stage.page(
       async (page) => {
         await figure(page, 'Round trip').getByText(/ms$/).waitFor();
         stage.front.cut();
         await figure(page, 'Link').getByText('Connection lost').waitFor();
-        await page.getByText(/^The gateway's numbers are .* old/).waitFor();
+        await page.getByText(/^The gateway's metrics are .* old/).waitFor();
         await figure(page, 'Round trip').getByText('–').waitFor();
         expect(await violations(page)).toBe('');
         await picture(page, 'health-lost');
         stage.front.mend();
         await figure(page, 'Link').getByText('Connected again').waitFor();
         await log(page).filter({ hasText: 'Connection lost' }).waitFor();
-        await page.getByText(/^The gateway's numbers are .* old/).waitFor({ state: 'detached' });
+        await page.getByText(/^The gateway's metrics are .* old/).waitFor({ state: 'detached' });
       },
       { ...wide, may_complain: broken_link },
       '/#health',

@@ -1,4 +1,4 @@
-// The states of the link, each provoked with the real gateway, as the user is told of them.
+// The states of the link as shown to the user, each provoked with the real gateway.
 import { rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { resolve } from 'node:path';
@@ -13,7 +13,7 @@ import { replayed } from './replay';
 
 const expected = { may_complain: broken_link };
 
-let browser: Stage; // stands all the time, so that one browser serves all
+let browser: Stage; // exists all the time, so that one browser serves all tests
 let stage: Stage;
 beforeAll(async () => {
   browser = await Stage.set(...still_hall);
@@ -55,7 +55,7 @@ describe('the link', () => {
       await page.locator('.exchange-came').getByText('OK', { exact: true }).waitFor();
       stage.front.cut();
       await mark(page, 'Connection lost').waitFor();
-      await said(page, /What you see is .* old/).waitFor();
+      await said(page, /The data is .* old/).waitFor();
       await is_told(page, 'lost');
 
       await other.bind('person_detection');
@@ -63,8 +63,8 @@ describe('the link', () => {
         for (const type of ['start', 'stop']) await hall.pass_while((await other.execute([command('person_detection', type)])).status(), 100);
       stage.front.mend();
       await mark(page, 'Connected again').waitFor();
-      await said(page, /\d notifications were missed while the connection was away\./).waitFor();
-      await page.getByText(/dropped by the engine/).first().waitFor();
+      await said(page, /\d notifications were missed while disconnected\./).waitFor();
+      await page.getByText(/The engine dropped/).first().waitFor();
       await is_told(page, 'gap');
       await page.getByRole('button', { name: 'Seen' }).click();
       await said(page, /were missed/).waitFor({ state: 'detached' });
@@ -78,18 +78,18 @@ describe('the link', () => {
     const other = await connect(stage.gateway.url);
     await stage.page(async (page) => {
       await mark(page, 'Refused').waitFor();
-      await said(page, /does not let this console in/).waitFor();
+      await said(page, /refuses this console/).waitFor();
       await is_told(page, 'refused');
       await other.close();
       await mark(page, 'Connected').waitFor();
     }, expected);
   });
 
-  test('a token is asked for, and asked for again when it is wrong', async () => {
+  test('a token is requested, and requested again if it is wrong', async () => {
     stage = await Stage.set(...still_hall);
     stage.front.token = 'open sesame';
     await stage.page(async (page) => {
-      const dialog = page.getByRole('dialog', { name: 'This gateway wants a token' });
+      const dialog = page.getByRole('dialog', { name: 'This gateway requires a token' });
       await dialog.waitFor();
       await is_told(page, 'token');
       await page.getByRole('textbox', { name: 'Token' }).fill('sesame');
@@ -103,21 +103,21 @@ describe('the link', () => {
     }, expected);
   });
 
-  test('draining: the gateway shuts down with a command that runs', async () => {
+  test('draining: the gateway shuts down during a command', async () => {
     stage = await Stage.set(...still_hall);
     await stage.page(async (page) => {
       await page.getByRole('treeitem', { name: /^navigation / }).click();
       await page.getByLabel('target_position, item 1').fill('exit');
       await page.getByRole('button', { name: 'start', exact: true }).last().click();
-      await page.locator('.exchange-came').getByText('It is running.').waitFor();
+      await page.locator('.exchange-came').getByText('Running.').waitFor();
       stage.front.is_draining = true;
       const stopped = stage.gateway.stop();
       await mark(page, 'Starting or stopping').waitFor();
       await said(page, 'The gateway is starting or shutting down.').waitFor();
-      await page.locator('.exchange-came').getByText(/^It was stopped/).waitFor();
+      await page.locator('.exchange-came').getByText(/^Aborted: /).waitFor();
       await stopped;
       await is_told(page, 'draining');
-      // As soon as nobody is there, it is lost; what is shown does not look alive, and nobody has to wait for the next try.
+      // When the gateway is gone, the link is lost; old data does not look live, and the user need not wait for the next retry.
       stage.front.is_draining = false;
       await page.getByRole('button', { name: 'Try now' }).click();
       await mark(page, 'Connection lost').waitFor();

@@ -1,4 +1,4 @@
-// The floor map: what is drawn, sending and stopping the robot, following, observing; by mouse, fingers and keys.
+// The floor map: drawing, sending and stopping the robot, following, observing; by mouse, touch and keyboard.
 import type { Locator, Page } from 'playwright-core';
 import { connect } from 'rois-client';
 import { beforeEach, describe, expect, test } from 'vitest';
@@ -16,14 +16,14 @@ set_still_hall(async (...both) => {
   await hall.pass(1000);
 });
 
-/** The row of a thing in the table that screen readers find. */
+/** The row of a thing in the table for screen readers. */
 const row = (page: Page, name: string | RegExp) => page.locator('.map table tbody tr').filter({ has: page.getByRole('rowheader', { name }) });
 const scale = (page: Page) => page.locator('.map-scale').getAttribute('aria-label');
 const ready = (page: Page) => row(page, 'robot1').getByText('Now').waitFor();
 
 async function observe(page: Page): Promise<void> {
   await page.getByRole('switch', { name: 'Observe' }).click();
-  await page.getByText('5 components look').waitFor();
+  await page.getByText('5 components work').waitFor();
   await page.locator('.map-switch[aria-busy="false"]').waitFor();
 }
 const pass_until = (page: Page, shown: Locator, step?: number) => hall.pass_until(page, shown, step);
@@ -47,7 +47,7 @@ describe('the map', () => {
     ),
   );
 
-  test('is not drawn at rest, and the time line once a second, while positions come in', () =>
+  test('is not drawn at rest, and the time line once a second, while positions arrive', () =>
     stage.page(
       async (page) => {
         await ready(page);
@@ -78,17 +78,17 @@ describe('the map', () => {
       { motion: 'no-preference' },
     ));
 
-  test('is a plain grid when the engine has none', () =>
+  test('is an empty grid if the engine has no map', () =>
     stage.page(async (page) => {
       await page.route('**/rois/map', (route) => route.fulfill({ status: 404, body: '' }));
       await page.reload();
-      await page.getByText('This engine has no map: a plain grid is shown').waitFor();
+      await page.getByText('This engine has no map; showing an empty grid').waitFor();
       await ready(page);
       expect(await scale(page)).toMatch(/m$/);
       await picture(page, 'map-none');
     }));
 
-  test('tells that it is not live when the link is lost, and how old it is', () =>
+  test('shows that it is not live when the link is lost, and its age', () =>
     stage.page(
       async (page) => {
         await ready(page);
@@ -112,13 +112,13 @@ describe('the map', () => {
       await page.mouse.move(desk.x, desk.y);
       await page.mouse.wheel(0, -900);
       await page.waitForFunction((before) => document.querySelector('.map-scale')!.getAttribute('aria-label') !== before, whole);
-      await page.locator('.map-pointer', { hasText: /x 9\.(49|50) m, y 9\.(29|30) m|x 9\.5\d? m, y 9\.3/ }).waitFor(); // what is under the pointer stays there
+      await page.locator('.map-pointer', { hasText: /x 9\.(49|50) m, y 9\.(29|30) m|x 9\.5\d? m, y 9\.3/ }).waitFor(); // the point under the pointer stays
       await page.mouse.down();
       await page.mouse.move(desk.x - 150, desk.y + 60, { steps: 4 });
       await page.mouse.up();
       await page.locator('.map-pointer', { hasText: /x 9\.(49|5\d?) m, y 9\.(29|3\d?) m/ }).waitFor();
       expect(await page.getByText('Send robot1').count()).toBe(0);
-      await page.getByRole('button', { name: 'Show all of the floor' }).click();
+      await page.getByRole('button', { name: 'Show the whole floor' }).click();
       await page.waitForFunction((before) => document.querySelector('.map-scale')!.getAttribute('aria-label') === before, whole);
       await page.getByRole('button', { name: 'Larger' }).click({ clickCount: 4 });
       await page.waitForFunction((before) => document.querySelector('.map-scale')!.getAttribute('aria-label') !== before, whole);
@@ -139,11 +139,11 @@ describe('the map', () => {
         await touch('touchEnd');
         await page.waitForFunction((before) => document.querySelector('.map-scale')!.getAttribute('aria-label') !== before, whole);
         expect(await page.getByRole('heading', { name: 'Send robot1' }).count()).toBe(0);
-        await page.getByRole('button', { name: 'Show all of the floor' }).click();
+        await page.getByRole('button', { name: 'Show the whole floor' }).click();
         await touch('touchStart', 0);
         for (const moved of [20, 40, 60]) await touch('touchMove', moved);
         await touch('touchEnd');
-        await page.touchscreen.tap(at.x + 60, at.y); // the floor has gone with the finger
+        await page.touchscreen.tap(at.x + 60, at.y); // the floor has moved with the finger
         await page.getByRole('heading', { name: 'Send robot1' }).waitFor();
         expect(await page.locator('.map-fact code').textContent()).toMatch(/^(89[5-9]\d|90[0-4]\d|9000), (49[5-9]\d|50[0-4]\d|5000)$/);
         expect(await violations(page)).toBe('');
@@ -154,7 +154,7 @@ describe('the map', () => {
 });
 
 describe('the robot', () => {
-  test('is sent to a point with a direction, which is shown before, and arrives', () =>
+  test('is sent to a point with a direction, which is previewed, and arrives', () =>
     stage.page(async (page) => {
       await ready(page);
       await click_map(page, { x: 4000, y: 4000 });
@@ -168,7 +168,7 @@ describe('the robot', () => {
       await picture(page, 'map-preview');
       expect(await violations(page)).toBe('');
       await page.getByRole('button', { name: 'Cancel', exact: true }).click();
-      // Both in one go.
+      // Both at once.
       await page.keyboard.down('Shift');
       await page.mouse.move(from.x, from.y);
       await page.mouse.down();
@@ -187,7 +187,7 @@ describe('the robot', () => {
       await page.getByText('0 bound').waitFor();
     }));
 
-  test('is stopped by the button beside its way', () =>
+  test('is stopped by the button beside its motion', () =>
     stage.page(async (page) => {
       await ready(page);
       await page.getByLabel('Place to go to').selectOption('exhibit');
@@ -199,13 +199,13 @@ describe('the robot', () => {
       await page.getByText('0 bound').waitFor();
     }));
 
-  test('says a sentence from its card, and leads to what else it can do', () =>
+  test('speaks a sentence from its card, which leads to its other commands', () =>
     stage.page(async (page) => {
       await ready(page);
       await page.getByRole('button', { name: 'Table' }).click();
       await page.getByRole('button', { name: 'Choose: robot1' }).click();
       const card = page.getByRole('region', { name: 'Robot robot1' });
-      // Another language was chosen for an earlier speech, and the component is still bound.
+      // Another language was set for an earlier speech, and the component is still bound.
       await page.evaluate(async () => {
         const { rois } = window as unknown as { rois: Console };
         await rois.set_parameter('speech_synthesis', { language: 'ja' });
@@ -219,14 +219,14 @@ describe('the robot', () => {
       await expect.poll(() => page.evaluate(() => (window as unknown as { rois: Console }).rois.commands.all.list().filter((one) => one.command_type === 'start').map((one) => `${one.component} ${one.state}`))).toEqual(['speech_synthesis OK']);
       await page.evaluate(() => (window as unknown as { rois: Console }).rois.bindings.release('speech_synthesis'));
       await page.getByText('0 bound').waitFor();
-      await card.getByText('All that it can do').click();
+      await card.getByText('All commands').click();
       await card.getByRole('button', { name: 'reaction', exact: true }).click();
       await page.getByRole('heading', { name: 'reaction', exact: true }).waitFor();
       expect(await violations(page)).toBe('');
       await page.getByRole('button', { name: 'Table' }).click();
     }));
 
-  test('is sent to a place by its name', () =>
+  test('is sent to a place by name', () =>
     stage.page(async (page) => {
       await ready(page);
       await page.getByLabel('Place to go to').selectOption('desk');
@@ -237,7 +237,7 @@ describe('the robot', () => {
       await row(page, 'robot1').getByText(/x 9\.[45]\d m, y 9\.[23]\d m/).waitFor();
     }));
 
-  test('is not sent to where it cannot be without a word; what the engine says is shown', () =>
+  test("is not sent to an impossible place without a warning; the engine's reason is shown", () =>
     stage.page(async (page) => {
       await ready(page);
       await click_map(page, { x: 9000, y: 10_600 });
@@ -251,7 +251,7 @@ describe('the robot', () => {
       await page.locator('.panel-messages').getByRole('option', { selected: true }).getByText('completed').waitFor();
     }));
 
-  test('is sent with keys alone', () =>
+  test('is sent by keyboard alone', () =>
     stage.page(async (page) => {
       await ready(page);
       await page.getByRole('application', { name: /^Floor map/ }).focus();
@@ -270,7 +270,7 @@ describe('the robot', () => {
 });
 
 describe('the card of a target', () => {
-  test.each(['wide', 'small', 'phone'] as const)('leaves the target and its button in view, and gives the focus back: %s', (size) =>
+  test.each(['wide', 'small', 'phone'] as const)('leaves the target and its button visible, and restores the focus: %s', (size) =>
     stage.page(
       async (page) => {
         await ready(page);
@@ -300,13 +300,13 @@ describe('people', () => {
     is_there = true;
   });
 
-  test('appear when the engine observes for the console, with who they are, and it gives back what it bound', () =>
+  test('appear with their identity while the engine observes, and components are released afterwards', () =>
     stage.page(async (page) => {
       await ready(page);
       expect(await row(page, /tanaka|person-/).count()).toBe(0);
       await observe(page);
       await page.getByText('5 bound').waitFor();
-      // Somebody is identified who is near and turned to the robot.
+      // Identification needs a person who is near and faces the robot.
       await page.getByLabel('Place to go to').selectOption('start');
       await page.getByRole('button', { name: 'Send here' }).click();
       await pass_until(page, page.getByText('robot1 has reached start'));
@@ -327,27 +327,27 @@ describe('people', () => {
       await page.getByText('0 bound').waitFor();
     }));
 
-  test('stay on the map when the user subscribes to them without results, and the badge is right', () =>
+  test('stay on the map when the user subscribes to them without results, and the badge is correct', () =>
     stage.page(async (page) => {
       await ready(page);
       await observe(page);
       await pass_until(page, row(page, /tanaka|person-/), 200);
       await page.getByRole('treeitem', { name: /^person_localization / }).click();
       await page.getByRole('tab', { name: /^Events(?! and)/ }).click();
-      await page.getByLabel('Bring the values along').uncheck();
+      await page.getByLabel('Include results').uncheck();
       await page.getByRole('button', { name: 'Subscribe', exact: true }).click();
       await page.locator('.exchange-came').getByText('OK', { exact: true }).waitFor();
       for (const x of [9, 8]) {
         await hall.walk('tanaka', `${x}000, 6000, 180`);
         await row(page, /tanaka|person-/).getByText(new RegExp(`x (${x}\\.[0-3]|${x - 1}\\.[6-9])\\d m`)).waitFor();
       }
-      await page.locator('.map').getByText(/5 components look, news 1 s ago/).waitFor();
-      expect(await page.locator('.map').getByText('their results do not arrive').count()).toBe(0);
+      await page.locator('.map').getByText(/5 components work, news 1 s ago/).waitFor();
+      expect(await page.locator('.map').getByText('results do not arrive').count()).toBe(0);
       await page.getByRole('switch', { name: 'Observe' }).click();
       await page.getByText('0 bound').waitFor();
     }));
 
-  test('are gone to from their card: the focus goes to the button that sends, and then to the map', () =>
+  test('can be visited from their card: the focus goes to the send button, and then to the map', () =>
     stage.page(async (page) => {
       await ready(page);
       await observe(page);
@@ -366,7 +366,7 @@ describe('people', () => {
       await page.getByText('0 bound').waitFor();
     }));
 
-  test('are followed, until it is stopped', () =>
+  test('are followed until it is stopped', () =>
     stage.page(
       async (page) => {
         await ready(page);
@@ -377,12 +377,12 @@ describe('people', () => {
         await page.keyboard.press('n');
         const person = page.getByRole('region', { name: /^Person/ });
         await person.waitFor();
-        await page.getByLabel('How near it comes').fill('-1');
-        await page.getByText('A number above 0, please').waitFor();
-        await page.getByLabel('How near it comes').fill('1.5');
+        await page.getByLabel('Distance to keep').fill('-1');
+        await page.getByText('Enter a number above 0').waitFor();
+        await page.getByLabel('Distance to keep').fill('1.5');
         await person.getByRole('button', { name: 'Follow' }).click();
         await page.locator('.map-motion', { hasText: /robot1 follows/ }).waitFor();
-        await person.waitFor({ state: 'detached' }); // it hides nothing any more
+        await person.waitFor({ state: 'detached' }); // it no longer covers anything
         await page.getByRole('application', { name: /^Floor map/ }).focus();
         await page.keyboard.press('n');
         await pass_until(page, person.getByText(/robot1 1\.[3-7] m away/));
@@ -395,12 +395,12 @@ describe('people', () => {
       { look: 'light' },
     ));
 
-  test('are looked for again when the page is loaded again, until that is switched off', () =>
+  test('are observed again after a reload, until that is switched off', () =>
     stage.page(async (page) => {
       await ready(page);
       await observe(page);
       await page.reload();
-      await page.getByText('5 components look').waitFor();
+      await page.getByText('5 components work').waitFor();
       await page.locator('.map-switch[aria-busy="false"]').waitFor();
       await page.getByRole('switch', { name: 'Observe' }).click();
       await page.getByText('0 bound').waitFor();
@@ -409,7 +409,7 @@ describe('people', () => {
       expect(await page.getByRole('switch', { name: 'Observe' }).getAttribute('aria-checked')).toBe('false');
     }));
 
-  test('who have left are drawn as gone, and then no more', () =>
+  test('who have left are drawn as gone, and then removed', () =>
     stage.page(async (page) => {
       await ready(page);
       await observe(page);
@@ -419,7 +419,7 @@ describe('people', () => {
       await pass_until(page, row(page, /tanaka|person-/).getByText('Out of sight'), 500);
     }));
 
-  test('are unknown, not out of sight, while the link is lost and when nobody observes', () =>
+  test('are unknown, not out of sight, while the link is lost and when nothing observes', () =>
     stage.page(
       async (page) => {
         await ready(page);
@@ -430,10 +430,10 @@ describe('people', () => {
         stage.front.cut();
         await anybody.getByText('Unknown').waitFor();
         await page.locator('.map-bar').getByText('not connected', { exact: true }).waitFor();
-        expect(await page.locator('.map-bar').getByText(/components look/).count()).toBe(0);
+        expect(await page.locator('.map-bar').getByText(/components work/).count()).toBe(0);
         stage.front.mend();
         await ready(page);
-        await page.getByText('5 components look').waitFor();
+        await page.getByText('5 components work').waitFor();
         await page.getByRole('switch', { name: 'Observe' }).click();
         await anybody.getByText('Unknown').waitFor();
         expect(await page.getByText('Out of sight').count()).toBe(0);
@@ -442,15 +442,15 @@ describe('people', () => {
       { may_complain: broken_link },
     ));
 
-  test('are looked for as far as other applications let it', async () => {
+  test('are observed as far as other applications allow', async () => {
     const other = await connect(stage.gateway.url);
     await other.bind('person_localization');
     await stage.page(async (page) => {
       await ready(page);
       await page.getByRole('switch', { name: 'Observe' }).click();
-      await page.getByText('4 of 5 components look').waitFor();
-      await page.getByText('Not everything can be observed').click();
-      await page.getByText(/person_localization: .*Another application has it/).waitFor();
+      await page.getByText('4 of 5 components work').waitFor();
+      await page.getByText('Some things cannot be observed').click();
+      await page.getByText(/person_localization: .*Another application has bound it/).waitFor();
       expect(await violations(page)).toBe('');
     });
     await other.close();

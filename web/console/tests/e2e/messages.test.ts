@@ -1,4 +1,4 @@
-// Events and messages: every document, filtered and read; details; gaps; recordings that `rois replay` serves.
+// Events and messages: listing, filtering, reading, details, gaps, and recordings for `rois replay`.
 import { writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { resolve } from 'node:path';
@@ -28,14 +28,14 @@ async function command(page: Page, ref: string, world = hall): Promise<void> {
   await page.getByRole('heading', { name: ref, exact: true }).waitFor();
   await page.getByRole('tab', { name: /^Commands/ }).click();
   await page.getByRole('button', { name: 'start', exact: true }).last().click();
-  await world.pass_until(page, page.locator('.exchange-came').getByText('It is done.'), 200);
+  await world.pass_until(page, page.locator('.exchange-came').getByText('Done.'), 200);
 }
 
-// Subscribes to person_detected without its values, and makes it come.
+// Subscribes to person_detected without results, and causes an event.
 async function event_comes(page: Page, world = hall): Promise<void> {
   await page.getByRole('treeitem', { name: /^person_detection / }).click();
   await page.getByRole('tab', { name: /^Events(?! and)/ }).click();
-  await page.getByLabel('Bring the values along').uncheck();
+  await page.getByLabel('Include results').uncheck();
   await page.getByRole('button', { name: 'Subscribe', exact: true }).click();
   await page.locator('.exchange-came').getByText('OK', { exact: true }).waitFor();
   await command(page, 'person_detection', world);
@@ -50,21 +50,21 @@ describe('events and messages', () => {
       await row(page, 'execute_response').waitFor();
       await row(page, 'bind_response').getByText('person_detection', { exact: true }).waitFor();
       await page.getByLabel('Search in the text').fill('component_status');
-      await page.getByText('Nothing passes the filter').waitFor();
-      await page.getByLabel('Also what the console asks by itself').check();
+      await page.getByText('No document matches the filter').waitFor();
+      await page.getByLabel("Show the console's own requests").check();
       await row(page, 'query_response').first().waitFor();
-      await page.getByLabel('Also what the console asks by itself').uncheck();
+      await page.getByLabel("Show the console's own requests").uncheck();
       await page.getByLabel('Search in the text').fill('');
 
       await row(page, /execute(?!_)/).click();
       const reader = page.getByRole('region', { name: 'Document: execute', exact: true });
       expect(await reader.textContent()).toContain('person_detection');
-      expect(await reader.locator('.xml-name').count()).toBeGreaterThan(3); // highlighted
-      await page.getByRole('button', { name: 'Its answer' }).click();
+      expect(await reader.locator('.xml-name').count()).toBeGreaterThan(3); // coloured
+      await page.getByRole('button', { name: 'Show answer' }).click();
       await page.getByRole('heading', { name: 'execute_response' }).waitFor();
-      await page.getByRole('button', { name: 'Its request' }).click();
+      await page.getByRole('button', { name: 'Show request' }).click();
       await page.getByRole('heading', { name: 'execute', exact: true }).waitFor();
-      await page.getByLabel('As it was on the wire').check();
+      await page.getByLabel('As transmitted').check();
       expect(await page.getByRole('region', { name: 'Document: execute', exact: true }).locator('.xml-line').count()).toBe(1);
       await picture(page, 'messages');
       expect(await violations(page)).toBe('');
@@ -73,23 +73,23 @@ describe('events and messages', () => {
       expect(await row(page, /execute(?!_)/).count()).toBe(0);
       await kind(page, 'Requests').click();
       await page.getByLabel('Component', { exact: true }).selectOption('navigation');
-      await page.getByText('Nothing passes the filter').waitFor();
+      await page.getByText('No document matches the filter').waitFor();
       await page.getByRole('button', { name: 'Show all', exact: true }).click();
       await page.getByLabel('Search in the text').fill('command_id');
       await row(page, 'completed').waitFor();
       await page.getByLabel('Search in the text').fill('');
 
-      // With the keyboard.
+      // By keyboard.
       await page.getByRole('listbox').focus();
       await page.keyboard.press('End');
       await page.keyboard.press('ArrowUp');
       await page.locator('.messages .virtual-list-row[aria-selected=true]').waitFor();
     }));
 
-  test('"Why" of a drive that failed shows its end, though the filter hides it', () =>
+  test('"Why" of a failed drive shows its end, even if the filter hides it', () =>
     stage.page(async (page) => {
       await page.getByLabel('Search in the text').fill('nothing has this text');
-      await page.getByText('Nothing passes the filter').waitFor();
+      await page.getByText('No document matches the filter').waitFor();
       await page.getByLabel('Place to go to').selectOption('desk');
       await page.getByLabel('Place', { exact: true }).selectOption('Point on the floor');
       await page.getByLabel('x', { exact: true }).fill('17.5');
@@ -103,7 +103,7 @@ describe('events and messages', () => {
       expect(await page.getByLabel('Search in the text').inputValue()).toBe('');
     }));
 
-  test('an event without its values has its details fetched', () =>
+  test('an event without results has its details fetched', () =>
     stage.page(async (page) => {
       await event_comes(page);
       await event_row(page).first().click();
@@ -113,7 +113,7 @@ describe('events and messages', () => {
       expect(await violations(page)).toBe('');
     }));
 
-  test('an event that has expired is marked, its details are gone, and it says so', async () => {
+  test('an expired event is marked, and its details are no longer available', async () => {
     const forgetful = await Stage.set(...still_hall, '--event-details', '0.1');
     const world = await Hall.of(forgetful);
     await forgetful.page(
@@ -122,7 +122,7 @@ describe('events and messages', () => {
         await event_row(page).first().getByText('expired').waitFor();
         await event_row(page).first().click();
         await page.getByRole('button', { name: 'Fetch the details' }).click();
-        await page.getByText('The details are gone.').waitFor();
+        await page.getByText('The details are no longer available.').waitFor();
         await page.getByText(/expired/, { exact: false }).first().waitFor();
         await picture(page, 'messages-expired');
         expect(await violations(page)).toBe('');
@@ -134,10 +134,10 @@ describe('events and messages', () => {
     await forgetful.strike();
   });
 
-  test('its list may go while it is scrolled', () =>
+  test('its list may be removed while scrolling', () =>
     stage.page(
       async (page) => {
-        await page.getByLabel('Also what the console asks by itself').check();
+        await page.getByLabel("Show the console's own requests").check();
         await page.locator('.virtual-list').evaluate((list) => list.dispatchEvent(new Event('scroll')));
         await page.evaluate(() => {
           const list = document.querySelector('.virtual-list')!;
@@ -151,24 +151,24 @@ describe('events and messages', () => {
       sizes.tablet,
     ));
 
-  test('time stands still on demand', () =>
+  test('the list can be paused', () =>
     stage.page(async (page) => {
-      await page.getByText('So far only the console has asked, by itself').waitFor();
+      await page.getByText("Only the console's own requests so far").waitFor();
       await page.getByRole('button', { name: 'Pause', exact: true }).click();
       await command(page, 'person_detection');
       expect(await row(page, 'completed').count()).toBe(0);
-      await page.getByRole('button', { name: /^Go on \(\d+ new\)$/ }).click();
+      await page.getByRole('button', { name: /^Continue \(\d+ new\)$/ }).click();
       await row(page, 'completed').waitFor();
     }));
 
-  test('a gap is shown where it is', () =>
+  test('a gap is shown at its place', () =>
     stage.page(
       async (page) => {
         await command(page, 'person_detection');
         stage.front.cut(); // for longer than the session is kept
         await page.getByText('Connection lost', { exact: true }).waitFor();
         stage.front.mend();
-        await page.getByText('The session was lost and another one began.', { exact: false }).waitFor();
+        await page.getByText('The session was lost and a new one began.', { exact: false }).waitFor();
         await page.getByText('The old session was lost', { exact: false }).waitFor();
         await picture(page, 'messages-gap');
         expect(await violations(page)).toBe('');
@@ -195,18 +195,18 @@ describe('events and messages', () => {
       expect(await page.getByRole('button', { name: 'Pause' }).count()).toBe(0);
       await picture(page, 'messages-recording');
       expect(await violations(page)).toBe('');
-      await page.getByRole('button', { name: 'Back to what happens now' }).click();
+      await page.getByRole('button', { name: 'Back to live' }).click();
       await page.getByRole('button', { name: 'Pause' }).waitFor();
 
       await writeFile(file, '{"recording":"rois-recording-1"}\n{"at":0}\n');
       await page.getByLabel('Open a recording').last().setInputFiles(file);
-      const trouble = page.getByText("line 2: 'at' and 'document' are needed");
+      const trouble = page.getByText("line 2: 'at' (a number) or 'document' (a text) is missing");
       await trouble.waitFor();
       const [below, above] = await Promise.all([page.getByRole('alert').boundingBox(), page.locator('#panels').boundingBox()]);
       expect(below!.y + below!.height, 'covers nothing').toBeLessThanOrEqual(above!.y);
       await writeFile(file, '{"recording":"rois-recording-1"}\n{"at":0,"direction":"out","document":"<connect/>"}\n{"at":1,"dire');
       await page.getByLabel('Open a recording').last().setInputFiles(file);
-      await page.getByText('The last line of the recording was cut off; it is left out.').waitFor();
+      await page.getByText('The last line of the recording is incomplete and was ignored.').waitFor();
       expect(await trouble.count()).toBe(0);
     }));
 
@@ -214,7 +214,7 @@ describe('events and messages', () => {
     stage.page(
       async (page) => {
         await page.locator('.messages input[type=checkbox]').first().check();
-        await page.locator('.messages input[type=search]').fill('get_profile'); // however much came since
+        await page.locator('.messages input[type=search]').fill('get_profile'); // however many documents have arrived
         await row(page, 'get_profile').first().click();
         await page.getByRole('heading', { name: /get_profile/ }).waitFor();
         expect(await violations(page)).toBe('');
@@ -225,7 +225,7 @@ describe('events and messages', () => {
   );
 });
 
-// The file as an engine: what was commanded is answered as it was, and completes.
+// The file as an engine: recorded commands are answered and completed as before.
 function answers_as_recorded(file: string): Promise<void> {
   return replayed(file, async (url) => {
     const client = await connect(url);

@@ -1,4 +1,4 @@
-// What the page keeps of a robot that drives: its trail while another panel is shown, its time line when it is loaded again.
+// What the page keeps of a moving robot: its trail across panels, its time line across a reload.
 import type { Page } from 'playwright-core';
 import { describe, expect, test } from 'vitest';
 
@@ -17,7 +17,7 @@ set_still_hall(async (...both) => {
 const ready = (page: Page) => page.locator('.map table tbody tr').filter({ has: page.getByRole('rowheader', { name: 'robot1' }) }).getByText('Now').waitFor();
 
 describe('the trail of the robot', () => {
-  test('goes on while another panel is shown in place of the map', () =>
+  test('continues while another panel is shown instead of the map', () =>
     stage.page(async (page) => {
       await ready(page);
       const robot = () => page.evaluate(() => {
@@ -44,8 +44,8 @@ describe('the trail of the robot', () => {
     }));
 });
 
-describe('a page that is loaded again', () => {
-  test('asks before while the robot drives, and has its time line afterwards', () =>
+describe('a reloaded page', () => {
+  test('asks before leaving while the robot drives, and keeps its time line', () =>
     stage.page(async (page) => {
       await ready(page);
       await page.getByLabel('Place to go to').selectOption('desk');

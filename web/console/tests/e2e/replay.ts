@@ -1,4 +1,4 @@
-// A recording served as an engine, by the real command.
+// A recording served as an engine by the real command.
 import { spawn } from 'node:child_process';
 import { resolve } from 'node:path';
 
@@ -6,7 +6,7 @@ import { root } from './harness';
 
 const program = resolve(process.env['ROIS_BINARY_DIR'] ?? `${root}/build/release`, 'bin/rois');
 
-/** `act` gets the URL on which `rois replay` serves the file. */
+/** Calls `act` with the URL on which `rois replay` serves the file. */
 export async function replayed(file: string, act: (url: string) => Promise<void>): Promise<void> {
   const replay = spawn(program, ['replay', file, '--listen', '127.0.0.1:0', '--speed', '0'], { stdio: ['ignore', 'pipe', 'pipe'] });
   const ended = new Promise((resolve) => replay.once('exit', resolve));
@@ -14,13 +14,13 @@ export async function replayed(file: string, act: (url: string) => Promise<void>
     await act(
       await new Promise<string>((listens, failed) => {
         let said = '';
-        const heard = (text: Buffer) => {
+        const on_output = (text: Buffer) => {
           said += String(text);
           const found = /http:\/\/127\.0\.0\.1:\d+/.exec(said);
           if (found) listens(found[0]);
         };
-        replay.stdout.on('data', heard);
-        replay.stderr.on('data', heard);
+        replay.stdout.on('data', on_output);
+        replay.stderr.on('data', on_output);
         void ended.then(() => failed(new Error(`rois replay ended: ${said}`)));
       }),
     );

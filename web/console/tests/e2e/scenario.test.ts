@@ -1,4 +1,4 @@
-// The panel Scenario: figure 1 runs, and is changed, in the browser as it does with `rois scenario`.
+// The Scenario panel: figure 1 runs and is edited in the browser, as with `rois scenario`.
 import { execFile } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { resolve } from 'node:path';
@@ -48,7 +48,7 @@ async function open_file(page: Page, name: string, text: string): Promise<void> 
 }
 
 describe('the reception of figure 1', () => {
-  test('tells in the browser what `rois scenario` tells, on the same day', async () => {
+  test('prints in the browser what `rois scenario` prints, on the same day', async () => {
     const history = readFileSync(`${data}/three_visitors.txt`, 'utf8').trim().split('\n');
     const same_day = await Stage.set(...day);
     const world = await Hall.of(same_day);
@@ -61,7 +61,7 @@ describe('the reception of figure 1', () => {
     await stage.page(
       async (page) => {
         await page.getByText('Connected', { exact: true }).waitFor();
-        for (const [name, value] of Object.entries(wanted)) await page.getByLabel(`What ${name} begins with`).fill(value);
+        for (const [name, value] of Object.entries(wanted)) await page.getByLabel(`Initial value of ${name}`).fill(value);
         await start(page).click();
         await page.getByText('Running', { exact: true }).waitFor();
         await hall.pass_until(page, page.locator('.scenario-printed'), 500, an_hour);
@@ -82,7 +82,7 @@ describe('the reception of figure 1', () => {
     );
   });
 
-  test('is stopped from the page, and everything is given back', () =>
+  test('is stopped from the page, and everything is released', () =>
     stage.page(
       async (page) => {
         await open_file(page, 'greeting.xml', greeting);
@@ -90,7 +90,7 @@ describe('the reception of figure 1', () => {
         await in_diagram(page, 'wait').and(page.locator('[aria-current]')).waitFor();
         await page.getByText('1 bound').waitFor();
         await page.getByRole('tab', { name: 'Edit' }).click();
-        await page.getByText('It runs. Stop it to change it.').waitFor();
+        await page.getByText('Running. Stop it to edit.').waitFor();
         await page.getByRole('button', { name: 'Stop', exact: true }).click();
         await page.getByText('Stopped', { exact: true }).waitFor();
         await page.getByText('0 bound').waitFor();
@@ -101,7 +101,7 @@ describe('the reception of figure 1', () => {
 });
 
 describe('a scenario', () => {
-  test('is changed in forms, checked before it runs, and saved as it was written', () =>
+  test('is edited in forms, validated before it runs, and saved with its layout', () =>
     stage.page(
       async (page) => {
         await page.getByRole('tab', { name: 'Edit' }).click();
@@ -134,28 +134,28 @@ describe('a scenario', () => {
         await page.getByText('Failed in nobody', { exact: true }).waitFor();
         expect(await page.locator('.scenario-printed').allTextContents()).toEqual(['nobody heard Welcome.']);
 
-        await page.reload(); // it is remembered
+        await page.reload(); // it is stored
         await page.getByText('greeting.xml', { exact: true }).waitFor();
-        await page.getByRole('button', { name: 'Reception as shipped' }).click();
+        await page.getByRole('button', { name: 'Reception example' }).click();
         await in_diagram(page, 'all_received').waitFor();
       },
       {},
       '/#scenario',
     ));
 
-  test('of which this engine cannot do all says so before it runs', () =>
+  test('that this engine does not support completely shows warnings before it runs', () =>
     stage.page(
       async (page) => {
         await open_file(page, 'odd.xml', greeting.replace('</state>', '<leaving><command component="speech_synthesis" type="sing"/></leaving></state>').replace('<after', '<event type="unheard_of" to="wait"/><after'));
-        await page.getByText('What this engine cannot do (2)').click();
+        await page.getByText('Not supported by this engine (2)').click();
         await page.getByText("speech_synthesis has no command 'sing'").waitFor();
-        await page.getByText("no component that is meant tells the event 'unheard_of'").waitFor();
+        await page.getByText("no matching component sends the event 'unheard_of'").waitFor();
       },
       {},
       '/#scenario',
     ));
 
-  test('is walked through with the keyboard', () =>
+  test('is operated by keyboard', () =>
     stage.page(
       async (page) => {
         await in_diagram(page, 'look_where_the_start_is').focus();

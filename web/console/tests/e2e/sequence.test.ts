@@ -1,4 +1,4 @@
-// The sequence editor: drawn, checked, run and shown while it runs.
+// The sequence editor: drawing, validation, running and progress.
 import type { Page } from 'playwright-core';
 import { describe, expect, test } from 'vitest';
 
@@ -19,7 +19,7 @@ const box = (page: Page, text: string) => panel(page).locator('.sequence-box', {
 const component = (page: Page) => panel(page).getByLabel('Component', { exact: true });
 const open_library = (page: Page) => panel(page).getByRole('button', { name: 'Open or save …' }).click();
 
-/** Two branches: speech, and a way. */
+/** Two parallel branches: speech and navigation. */
 async function greeting(page: Page, target = 'desk'): Promise<void> {
   expect(await panel(page).getByRole('button', { name: 'Run', exact: true }).isDisabled()).toBe(true);
   await panel(page).getByRole('button', { name: 'Two at the same time' }).click();
@@ -35,9 +35,9 @@ describe('sequences', () => {
     stage.page(
       async (page) => {
         await greeting(page, 'exit');
-        // Behind both: a wait, and a reaction.
+        // After both: a wait and a reaction.
         await panel(page).locator('.sequence-whole > .sequence-lane > .sequence-last').hover();
-        expect(await panel(page).locator('.sequence-add').evaluateAll((all) => all.every((one) => Number(getComputedStyle(one).opacity) >= 0.5)), 'seen without hovering').toBe(true);
+        expect(await panel(page).locator('.sequence-add').evaluateAll((all) => all.every((one) => Number(getComputedStyle(one).opacity) >= 0.5)), 'visible without hovering').toBe(true);
         await panel(page).locator('.sequence-whole > .sequence-lane > .sequence-last').getByRole('button', { name: 'Add a step here' }).click();
         await panel(page).getByRole('button', { name: 'Wait', exact: true }).click();
         await expect.poll(() => panel(page).getByLabel('How long').evaluate((one) => one === document.activeElement)).toBe(true);
@@ -55,7 +55,7 @@ describe('sequences', () => {
         await box(page, 'navigation').getByText('running').waitFor();
         await box(page, 'branches at once').getByText('running').waitFor();
         await picture(page, 'sequence-running');
-        await hall.pass_until(page, panel(page).getByText(/^All is done, after/));
+        await hall.pass_until(page, panel(page).getByText(/^Completed after/));
         await box(page, 'reaction').getByText('OK').waitFor();
         await page.getByText('0 bound').waitFor();
         expect(await violations(page)).toBe('');
@@ -89,7 +89,7 @@ describe('sequences', () => {
       path,
     ));
 
-  test('all of it is done with the keyboard', () =>
+  test('everything works by keyboard', () =>
     stage.page(
       async (page) => {
         await panel(page).getByRole('button', { name: 'A command', exact: true }).press('Enter');
@@ -119,14 +119,14 @@ describe('sequences', () => {
         await page.keyboard.press('Enter');
         await page.waitForFunction(() => document.activeElement?.tagName === 'SELECT');
         await panel(page).getByRole('button', { name: 'Run', exact: true }).press('Enter');
-        await hall.pass_until(page, panel(page).getByText(/^All is done, after/));
+        await hall.pass_until(page, panel(page).getByText(/^Completed after/));
         expect(await violations(page)).toBe('');
       },
       {},
       path,
     ));
 
-  test('what is missing, what is refused and what fails is shown where it is', () =>
+  test('missing values, refusals and failures are shown at their steps', () =>
     stage.page(
       async (page) => {
         await greeting(page, 'nowhere');
@@ -134,7 +134,7 @@ describe('sequences', () => {
         await panel(page).getByRole('button', { name: 'Command', exact: true }).click();
         await component(page).selectOption('follow');
         await panel(page).getByRole('button', { name: 'Run', exact: true }).click();
-        await panel(page).getByText('This is needed.').first().waitFor();
+        await panel(page).getByText('Required.').first().waitFor();
         await box(page, 'follow').getByText('not complete').waitFor();
         await box(page, 'follow').press('Delete');
         await panel(page).getByRole('button', { name: 'Run', exact: true }).click();
@@ -146,7 +146,7 @@ describe('sequences', () => {
         await hall.pass_until(page, box(page, 'speech_synthesis').getByText('OK'), 200);
         await panel(page).getByText('navigation start ended with ERROR.').waitFor();
         await panel(page).getByRole('button', { name: 'Show the step' }).click();
-        await panel(page).getByText('The component could not do it.').waitFor();
+        await panel(page).getByText('The component failed.').waitFor();
         await picture(page, 'sequence-failed');
         expect(await violations(page)).toBe('');
       },
@@ -154,7 +154,7 @@ describe('sequences', () => {
       path,
     ));
 
-  test('what runs is stopped, and so is what waits', () =>
+  test('running and waiting commands are stopped', () =>
     stage.page(
       async (page) => {
         await greeting(page);
@@ -166,11 +166,11 @@ describe('sequences', () => {
         await panel(page).getByRole('button', { name: 'Run', exact: true }).click();
         await box(page, 'follow').getByText('running').waitFor();
         await panel(page).getByRole('button', { name: 'Stop', exact: true }).click();
-        await hall.pass_until(page, box(page, 'follow').getByText('OK'), 200); // that is how it ends
+        await hall.pass_until(page, box(page, 'follow').getByText('OK'), 200); // its end after stop
         await panel(page).getByText('Released: speech_synthesis.').waitFor();
         await page.getByText('0 bound').waitFor();
         const run = panel(page).getByRole('button', { name: 'Run', exact: true });
-        expect(await run.isEnabled()).toBe(false); // what waits would run, too
+        expect(await run.isEnabled()).toBe(false); // waiting commands would run, too
         await page.getByRole('button', { name: 'Disconnect' }).click();
         await page.getByRole('dialog', { name: 'Disconnect?' }).getByRole('button', { name: 'Disconnect' }).click();
         await page.getByRole('button', { name: 'Connect', exact: true }).click();
@@ -181,7 +181,7 @@ describe('sequences', () => {
       path,
     ));
 
-  test('sequences are kept by name, exported, and taken in again', () =>
+  test('sequences are stored by name, exported and imported', () =>
     stage.page(
       async (page) => {
         await greeting(page);
@@ -203,9 +203,9 @@ describe('sequences', () => {
         await panel(page).getByRole('button', { name: 'Forget Greeting' }).click();
         await panel(page).getByRole('button', { name: 'New', exact: true }).click();
         await open_library(page);
-        await panel(page).getByLabel('Or its text').fill('<a/>');
-        await panel(page).getByRole('button', { name: 'Take over' }).click();
-        await panel(page).getByText('There is no CommandUnitSequence with commands in it').waitFor();
+        await panel(page).getByLabel('Or XML text').fill('<a/>');
+        await panel(page).getByRole('button', { name: 'Import' }).click();
+        await panel(page).getByText('It has no CommandUnitSequence with commands').waitFor();
         await panel(page).getByLabel('An XML file').setInputFiles({ name: 'Other.xml', mimeType: 'text/xml', buffer: await import('node:fs/promises').then(({ readFile }) => readFile(file)) });
         await box(page, 'speech_synthesis').getByText('This way, please.').waitFor();
         await panel(page).getByText('Other', { exact: true }).waitFor();

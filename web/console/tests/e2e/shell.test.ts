@@ -1,4 +1,4 @@
-// The page as a whole: what stands where, how the link is told, themes, languages, keyboard, screen readers.
+// The whole page: layout, link, themes, languages, keyboard, screen readers.
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
 import { still_hall } from './hall';
@@ -12,7 +12,7 @@ beforeAll(async () => {
 afterAll(() => stage.strike());
 
 describe('the page', () => {
-  test('connects by itself and shows what the engine has', () =>
+  test('connects by itself and shows the engine', () =>
     stage.page(async (page) => {
       await page.getByText('Connected', { exact: true }).waitFor();
       await page.getByRole('treeitem', { name: /^speech_synthesis / }).waitFor();
@@ -27,14 +27,14 @@ describe('the page', () => {
       await page.locator('.map-canvas').waitFor();
       await page.locator('.timeline-canvas').waitFor();
       const files = await page.evaluate(() => performance.getEntriesByType('resource').map(({ name }) => new URL(name).pathname).filter((path) => path.startsWith('/assets/')));
-      expect(files.filter((path) => /panel-.*js$/.test(path)).length, 'other panels are fetched when they are shown').toBe(3);
+      expect(files.filter((path) => /panel-.*js$/.test(path)).length, 'other panels are fetched when first shown').toBe(3);
       let bytes = 0;
       for (const path of ['/', ...files]) bytes += Number((await fetch(stage.gateway.url + path, { headers: { 'Accept-Encoding': 'gzip' } })).headers.get('Content-Length'));
       expect(bytes).toBeGreaterThan(50 * 1024);
       expect(bytes).toBeLessThan(120 * 1024);
     }));
 
-  test('a panel that could not be fetched says so, and is fetched again', () =>
+  test('a panel that could not be fetched shows the error, and is fetched on retry', () =>
     stage.page(
       async (page) => {
         await page.getByText('Connected', { exact: true }).waitFor();
@@ -62,7 +62,7 @@ describe('the page', () => {
         expect(await page.evaluate(() => document.documentElement.lang)).toBe(language);
         const tabs = page.locator('.app-main .tabs-row').first().getByRole('tab');
         const boxes = await tabs.evaluateAll((all) => all.map((one) => one.getBoundingClientRect()));
-        if (sizes[size].width > 1099) expect(Math.max(...boxes.map((one) => one.right)), 'all tabs are seen').toBeLessThanOrEqual(sizes[size].width);
+        if (sizes[size].width > 1099) expect(Math.max(...boxes.map((one) => one.right)), 'all tabs are visible').toBeLessThanOrEqual(sizes[size].width);
         else expect(new Set(boxes.map((one) => one.top)).size, 'one row of tabs, which scrolls').toBe(1);
         await tabs.last().click();
         expect(await is_in_view(tabs.last())).toBe(true);
@@ -89,7 +89,7 @@ describe('the page', () => {
     expect(page.indexOf('<a href="/plain">')).toBeLessThan(page.indexOf('id="console"'));
   });
 
-  test('is accessible in a low window, panel by panel, with nothing in them', () =>
+  test('is accessible in a low window, panel by panel, without content', () =>
     stage.page(async (page) => {
       await page.getByRole('treeitem', { name: /^speech_synthesis / }).waitFor();
       for (const name of await page.getByRole('tab').allTextContents()) {
@@ -121,13 +121,13 @@ describe('the page', () => {
       { ...sizes.phone, touch: true },
     ), 180_000);
 
-  test('tells that the link is lost, what is stale, and that it is there again', () =>
+  test('shows the lost link, stale data, and the reconnection', () =>
     stage.page(
       async (page) => {
         await page.getByText('Connected', { exact: true }).waitFor();
         stage.front.cut();
         await page.getByText('Connection lost', { exact: true }).waitFor();
-        await page.getByText(/What you see is .* old/).waitFor();
+        await page.getByText(/The data is .* old/).waitFor();
         await page.getByText('Not live', { exact: true }).waitFor();
         expect(await violations(page)).toBe('');
         await picture(page, 'shell-lost');
@@ -137,7 +137,7 @@ describe('the page', () => {
       { may_complain: broken_link },
     ));
 
-  test('moves nothing by itself for who does not want that', () =>
+  test('does not animate with reduced motion', () =>
     stage.page(
       async (page) => {
         const moving = () => page.evaluate(() => [...document.querySelectorAll('*')].filter((one) => /[1-9]/.test(getComputedStyle(one).transitionDuration + getComputedStyle(one).animationDuration)).length);
@@ -161,29 +161,29 @@ describe('the page', () => {
       expect(await page.evaluate(() => document.documentElement.dataset['theme'])).toBe('light');
     }));
 
-  test('ends its session when the user says so, and begins a new one', () =>
+  test('ends its session on request, and begins a new one', () =>
     stage.page(async (page) => {
       await page.getByRole('treeitem', { name: /^person_detection / }).click();
       await page.getByRole('button', { name: 'Bind person_detection' }).click();
       await page.getByText('1 bound').waitFor();
       await page.getByRole('button', { name: 'Disconnect' }).click();
       const question = page.getByRole('dialog', { name: 'Disconnect?' });
-      await question.getByText('The session ends: 1 bound component is released.').waitFor();
+      await question.getByText('This ends the session and releases 1 bound component.').waitFor();
       expect(await violations(page)).toBe('');
       await question.getByRole('button', { name: 'Disconnect' }).click();
       await page.getByText('Disconnected', { exact: true }).waitFor();
       await page.getByText('0 bound').waitFor();
-      expect(await page.getByRole('treeitem').getByText('READY').count()).toBe(0); // nobody knows
+      expect(await page.getByRole('treeitem').getByText('READY').count()).toBe(0); // unknown
       await page.getByRole('button', { name: 'Connect', exact: true }).click();
       await page.getByText('Connected', { exact: true }).waitFor();
     }));
 
-  test('is walked with the keyboard alone: nothing is left out, nothing holds the focus, all of it is seen and named', () =>
+  test('is operated by keyboard alone: everything is reachable, visible and named, and the focus is never trapped', () =>
     stage.page(async (page) => {
       await page.getByRole('treeitem', { name: /^navigation / }).click();
       await page.getByRole('heading', { name: 'navigation', exact: true }).waitFor();
       await page.evaluate(() => {
-        document.body.tabIndex = -1; // so that the walk begins at the top
+        document.body.tabIndex = -1; // starts at the top
         document.body.focus();
       });
       const walked: string[] = [];
@@ -195,7 +195,7 @@ describe('the page', () => {
       }
       await picture(page, 'shell-focus');
       expect(walked[0]).toBe('Skip to the panels');
-      for (const name of ['Colours', 'Language', 'Place to go to', 'Larger', 'Stop time', 'Stretch of time', 'navigation', 'Release navigation|Bind navigation', 'Commands', 'start', 'target_position, item 1', 'Copy as curl', 'Request: navigation start'])
+      for (const name of ['Colours', 'Language', 'Place to go to', 'Larger', 'Stop time', 'Time range', 'navigation', 'Release navigation|Bind navigation', 'Commands', 'start', 'target_position, item 1', 'Copy as curl', 'Request: navigation start'])
         expect(walked.some((one) => new RegExp(`^(${name})`).test(one)), `${name} in ${walked.join(' | ')}`).toBe(true);
       expect(walked.filter((one) => one.startsWith('!'))).toEqual([]);
 
@@ -206,7 +206,7 @@ describe('the page', () => {
     }));
 });
 
-// The name of what has the focus; with a ! before it when it is not seen, or has no name. Runs in the page.
+// The name of the focused element, with a leading ! if it is not visible or has no name. Runs in the page.
 function focused(): string | undefined {
   const at = document.activeElement as HTMLElement | null;
   if (!at || at === document.body) return undefined;

@@ -1,4 +1,4 @@
-// Screens of several sizes: what has to be seen on each of them, and what must not move.
+// Screens of several sizes: elements that must be visible and must not move.
 import type { Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
@@ -21,7 +21,7 @@ const options = (size: (typeof named)[number]) => ({ ...sizes[size], touch: size
 const tab = (page: Page, name: string) => page.getByRole('tab', { name, exact: true }).click();
 const top_of = (page: Page, selector: string) => page.locator(selector).evaluate((one) => one.getBoundingClientRect().top);
 
-test.each(named)('rows of events say who is where: %s', (size) =>
+test.each(named)('rows of events show the positions of persons: %s', (size) =>
   stage.page(async (page) => {
     await page.getByText('Connected', { exact: true }).waitFor();
     await page.evaluate(() => (window as unknown as Page_).rois.subscribe('person_localized').then(() => undefined));
@@ -42,7 +42,7 @@ test.each(named)('rows of events say who is where: %s', (size) =>
   }, options(size)));
 
 describe('on a phone', () => {
-  test('the target is not covered while the robot drives, and the map says to whom', () =>
+  test('the target is not covered while the robot drives, and the map shows the person', () =>
     stage.page(async (page) => {
       await page.getByRole('heading', { name: 'Reception hall' }).waitFor();
       await hall.run(page, 'person_localization', 'start');
@@ -71,7 +71,7 @@ describe('on a phone', () => {
       expect(await is_in_view(page.getByText('Menu', { exact: true }))).toBe(true);
     }, options('phone')));
 
-  test.each(['en', 'ja'] as const)('the header is as high with any age of the data: %s', (language) =>
+  test.each(['en', 'ja'] as const)('the height of the header does not depend on the age of the data: %s', (language) =>
     stage.page(async (page) => {
       await page.locator('.link-age').waitFor();
       const heights = await page.locator('.link-age').evaluate((age) => {
@@ -94,7 +94,7 @@ describe('with two robots', () => {
   const cut = (page: Page, selector: string) =>
     page.locator(selector).evaluateAll((those) => those.filter((one) => one.scrollWidth > one.clientWidth + 1 || one.getBoundingClientRect().height > one.parentElement!.clientHeight).map((one) => one.textContent));
 
-  test('names of components are read whole on a phone', () =>
+  test('names of components are readable on a phone', () =>
     two.page(async (page) => {
       await page.getByRole('heading', { name: 'Reception hall' }).waitFor();
       await page.evaluate(() => (window as unknown as Page_).rois.run('robot2.person_identification', 'start').then(() => undefined));
@@ -110,7 +110,7 @@ describe('with two robots', () => {
       await picture(page, 'timeline-two-phone');
     }, options('phone')));
 
-  test('a click on the floor sends the one whose card is open; its card has a way to send it, too', () =>
+  test('a click on the floor sends the robot whose card is open; its card can send it, too', () =>
     two.page(async (page) => {
       await page.getByRole('button', { name: 'Table' }).click();
       await page.getByRole('button', { name: 'Choose: robot2' }).click();

@@ -145,7 +145,7 @@ test('is there before there is a session', () =>
       stage.front.token = 'a secret';
       await page.reload();
       const dialog = page.getByRole('dialog');
-      await dialog.getByText('This gateway wants a token').waitFor();
+      await dialog.getByText('This gateway requires a token').waitFor();
       await dialog.getByRole('button', { name: /^STOP everything/ }).click();
       await dialog.getByRole('alert').getByText('Not stopped: status 401').waitFor();
       stage.front.token = undefined;

@@ -1,4 +1,4 @@
-// The time line: what stands on it, what points at it and the keys say, going back in time, and how it looks.
+// The time line: content, pointer and keys, going back in time, and accessibility.
 import type { Page } from 'playwright-core';
 import { command, connect, value } from 'rois-client';
 import { describe, expect, test } from 'vitest';
@@ -21,7 +21,7 @@ const lane = (page: Page, name: string) => page.locator('.timeline-name', { hasT
 const rows = (page: Page, text: RegExp) => page.locator('.timeline-listing tbody tr').filter({ hasText: text });
 const details = (page: Page) => page.getByRole('region', { name: 'Details', exact: true });
 
-/** Two commands on the way to the desk, one that fails; somebody else has bound `follow`. */
+/** Two commands on the way to the desk, one of which fails; another session has bound `follow`. */
 async function day(page: Page): Promise<void> {
   await lane(page, 'navigation').waitFor();
   await page.evaluate(() => (window as unknown as Page_).rois.subscribe('person_detected', { inline_results: true }).then(() => undefined));
@@ -31,7 +31,7 @@ async function day(page: Page): Promise<void> {
   await hall.run(page, 'navigation', 'start', { target_position: ['100000, 4'] });
 }
 
-/** Where a time is in a lane; time has been stopped. */
+/** The position of a time in a lane; time is stopped. */
 async function point(page: Page, name: string, at: number, below = 0.8): Promise<{ x: number; y: number }> {
   await lane(page, name).scrollIntoViewIfNeeded();
   const label = (await lane(page, name).boundingBox())!;
@@ -52,9 +52,9 @@ async function stop_time(page: Page): Promise<void> {
   await page.getByText('Stopped', { exact: true }).waitFor();
   await drawn(page);
 }
-/** What has been clicked is drawn a frame later. */
+/** A click is drawn a frame later. */
 const drawn = (page: Page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-/** Drags over a stretch of time, which is shown alone then. */
+/** Selects a range by dragging. */
 async function zoom(page: Page, from: number, to: number): Promise<void> {
   const [begin, end] = [await point(page, 'navigation', from), await point(page, 'navigation', to)];
   await page.mouse.move(begin.x, begin.y);
@@ -67,7 +67,7 @@ async function zoom(page: Page, from: number, to: number): Promise<void> {
 const span = (page: Page) => page.locator('.timeline-canvas').evaluate(({ dataset }) => Number(dataset['to']) - Number(dataset['from']));
 
 describe('the time line', () => {
-  test('tells of the link, components, who has them, commands and events: as a table, too', () =>
+  test('shows the link, components, owners, commands and events, also as a table', () =>
     stage.page(
       async (page) => {
         const other = await connect(stage.gateway.url);
@@ -87,21 +87,21 @@ describe('the time line', () => {
         await rows(page, /Refused executespeech_synthesisBAD_PARAMETER/).waitFor();
         expect(await violations(page)).toBe('');
         await picture(page, 'timeline-table');
-        // One that runs, and one that waits for it.
+        // One runs, and one waits for it.
         const units = [command('navigation', 'start', { target_position: value.strings(['exit']) }), command('speech_synthesis', 'start', { speech_text: 'Here we are.' })];
         await page.evaluate((those) => (window as unknown as Page_).rois.execute(those).then(() => undefined), units);
         await rows(page, /Command startnavigationrunning/).waitFor();
         await rows(page, /Command startspeech_synthesiswaiting/).waitFor();
         await page.getByRole('button', { name: 'Stop time' }).click();
         await rows(page, /Command startnavigationERROR/).getByRole('button').click();
-        await details(page).getByText('The component could not do it.').waitFor();
+        await details(page).getByText('The component failed.').waitFor();
         await other.close();
       },
       wide,
       '/#timeline',
     ));
 
-  test('keeps what the console listens for by itself apart, until somebody wants to see it', () =>
+  test("hides events of the console's own subscriptions until requested", () =>
     stage.page(
       async (page) => {
         await page.getByLabel('As a table').check();
@@ -120,26 +120,26 @@ describe('the time line', () => {
       '/#timeline',
     ));
 
-  test('shows values under the pointer, and opens what is clicked', () =>
+  test('shows values under the pointer, and opens the clicked thing', () =>
     stage.page(
       async (page) => {
         await day(page);
-        await page.getByLabel('Stretch of time').selectOption('10 s');
+        await page.getByLabel('Time range').selectOption('10 s');
         await expect.poll(() => span(page)).toBe(10_000);
-        await page.getByLabel('Stretch of time').selectOption('1 min');
+        await page.getByLabel('Time range').selectOption('1 min');
         await stop_time(page);
-        await zoom(page, (await sent_at(page, -2)) - 1500, (await ended_at(page, -1)) + 100); // the time was stopped later than that
+        await zoom(page, (await sent_at(page, -2)) - 1500, (await ended_at(page, -1)) + 100); // time was stopped later
         const walk = await point(page, 'navigation', await middle_of(page, -2));
         await page.mouse.move(walk.x, walk.y);
         const tip = page.locator('.timeline-tip');
         await tip.getByText('navigation').waitFor();
         expect(await tip.innerText()).toMatch(/Command start[^]*OK[^]*Sent[^]*Ran/);
-        await zoom(page, (await sent_at(page, -1)) - 100, (await ended_at(page, -1)) + 50); // it has failed at once
+        await zoom(page, (await sent_at(page, -1)) - 100, (await ended_at(page, -1)) + 50); // it failed at once
         const failed = await point(page, 'navigation', await middle_of(page, -1));
         await page.mouse.move(failed.x, failed.y);
-        await tip.getByText(/100000, 4 is outside of the map/).waitFor();
+        await tip.getByText(/100000, 4 is outside the map/).waitFor();
         await page.mouse.click(failed.x, failed.y);
-        await details(page).getByText('The component could not do it.').waitFor();
+        await details(page).getByText('The component failed.').waitFor();
         await details(page).getByRole('region', { name: 'Arguments' }).getByText('100000, 4').waitFor();
         await details(page).getByText('The request').click();
         expect(await details(page).getByRole('region', { name: 'The request' }).textContent()).toContain('100000, 4');
@@ -152,7 +152,7 @@ describe('the time line', () => {
       '/#timeline',
     ));
 
-  test('is worked with keys alone', () =>
+  test('is operated by keyboard alone', () =>
     stage.page(
       async (page) => {
         await day(page);
@@ -167,7 +167,7 @@ describe('the time line', () => {
         await told.getByText(/^Command, start, navigation, ERROR, Sent .* Ran /).waitFor({ state: 'attached' });
         await page.locator('.timeline-tip').getByText('ERROR').waitFor();
         await page.keyboard.press('Enter');
-        await details(page).getByText('The component could not do it.').waitFor();
+        await details(page).getByText('The component failed.').waitFor();
         await page.keyboard.press('Escape');
         await details(page).waitFor({ state: 'detached' });
         expect(await chart.evaluate((one) => one === document.activeElement)).toBe(true);
@@ -184,7 +184,7 @@ describe('the time line', () => {
       '/#timeline',
     ));
 
-  test('zooms by dragging and with the wheel, goes back in time, and on live', () =>
+  test('zooms by dragging and with the wheel, goes back in time, and returns to live', () =>
     stage.page(
       async (page) => {
         await day(page);
@@ -198,17 +198,17 @@ describe('the time line', () => {
         await page.mouse.move(middle.x, middle.y);
         await page.mouse.wheel(0, 200);
         await expect.poll(() => span(page)).toBeGreaterThan(chosen * 1.2);
-        expect(Math.abs((await under()) - middle.x)).toBeLessThan(2); // what was under the pointer is still there
-        await page.getByRole('button', { name: 'Back to the stretch before' }).click();
+        expect(Math.abs((await under()) - middle.x)).toBeLessThan(2); // the time under the pointer stays
+        await page.getByRole('button', { name: 'Previous range' }).click();
         await expect.poll(() => span(page)).toBe(60_000);
         await page.getByRole('button', { name: 'Earlier' }).click();
         await page.getByText('Stopped', { exact: true }).waitFor();
         await drawn(page);
-        // What happens meanwhile is not lost, and does not move what is looked at.
+        // Later events are kept, and do not move the shown range.
         const still = await page.locator('.timeline-canvas').getAttribute('data-to');
         await hall.run(page, 'speech_synthesis', 'start', { speech_text: 'Good bye.' });
         expect(await page.locator('.timeline-canvas').getAttribute('data-to')).toBe(still);
-        await page.getByRole('button', { name: 'Go on live' }).click();
+        await page.getByRole('button', { name: 'Go live' }).click();
         await page.getByLabel('As a table').check();
         await expect.poll(() => rows(page, /Command startspeech_synthesisOK/).count()).toBe(2);
       },
@@ -216,7 +216,7 @@ describe('the time line', () => {
       '/#timeline',
     ));
 
-  test('does not say that anything went on while the link was away', () =>
+  test('does not show spans through a lost link', () =>
     stage.page(
       async (page) => {
         await lane(page, 'navigation').waitFor();

@@ -13,7 +13,7 @@ import { picture, pictures, root, sizes, Stage } from './harness';
 const data = `${root}/tests/server/data`;
 const size = { width: 1360, height: 850 };
 
-/** A picture that docs/ show. It is put there, made small, when that is asked for. */
+/** A picture for docs/. Saved there, reduced, on request. */
 async function shown(page: Page, name: string): Promise<void> {
   await picture(page, name);
   if (!takes_pictures) return;
@@ -34,12 +34,12 @@ const row = (page: Page, name: RegExp) => page.locator('.map table tbody tr').fi
 const tab = (page: Page, name: string) => page.getByRole('tab', { name, exact: true }).click();
 
 describe('a new user', () => {
-  test('sends the robot to a visitor, makes it speak, hears of persons within a box, has two things done at once, and finds out why a command failed', () =>
+  test('sends the robot to a visitor, makes it speak, receives events of persons in a box, runs two commands at once, and finds out why a command failed', () =>
     stage.page(
       async (page) => {
-        // To a visitor: who is there is seen when somebody looks.
+        // To a visitor, who appears when the robot looks.
         await row(page, /robot1/).getByText('Now').waitFor();
-        await page.getByLabel('Stretch of time').selectOption('30 s');
+        await page.getByLabel('Time range').selectOption('30 s');
         await page.getByRole('switch', { name: 'Observe' }).click();
         await hall.pass_until(page, row(page, /tanaka|person-/).getByText(/x 12/), 200);
         await click_map(page, { x: 12_500, y: 5500 });
@@ -51,13 +51,13 @@ describe('a new user', () => {
         await shown(page, 'map');
         await hall.pass_until(page, page.getByText(/^robot1 has reached/));
 
-        // It speaks.
+        // Speech.
         await page.getByRole('treeitem', { name: /^speech_synthesis / }).click();
         await page.getByLabel('speech_text', { exact: true }).fill('Good morning. How can I help you?');
         await page.getByRole('button', { name: 'start', exact: true }).last().click();
-        await hall.pass_until(page, page.locator('.exchange-came').getByText('It is done.'), 200);
+        await hall.pass_until(page, page.locator('.exchange-came').getByText('Done.'), 200);
 
-        // Persons within a box, and one who walks in.
+        // Persons in a box; one walks in.
         await tab(page, 'Conditions');
         const conditions = page.locator('.panel-conditions');
         await conditions.getByRole('radio', { name: 'Subscribe' }).click();
@@ -68,7 +68,7 @@ describe('a new user', () => {
         await hall.pass_until(page, conditions.locator('.conditions-subscription').getByText(/^[1-9]\d* events?$/), 200);
         await shown(page, 'conditions');
 
-        // Two things at once.
+        // Two commands at once.
         await tab(page, 'Sequences');
         const sequences = page.locator('.panel-sequence');
         const component = sequences.getByLabel('Component', { exact: true });
@@ -87,14 +87,14 @@ describe('a new user', () => {
         await sequences.getByRole('button', { name: 'Run', exact: true }).click();
         await hall.pass_until(page, sequences.locator('.sequence-box', { hasText: 'speech_synthesis' }).getByText('OK'), 200);
         await shown(page, 'sequence');
-        await hall.pass_until(page, sequences.getByText(/^All is done, after/));
+        await hall.pass_until(page, sequences.getByText(/^Completed after/));
 
         // Why a command failed.
         await tab(page, 'Floor map');
         await page.getByRole('treeitem', { name: /^navigation / }).click();
         await page.getByLabel('target_position, item 1').fill('17500, 7000');
         await page.getByRole('button', { name: 'start', exact: true }).last().click();
-        await hall.pass_until(page, page.locator('.exchange-came').getByText('The component could not do it.'), 200);
+        await hall.pass_until(page, page.locator('.exchange-came').getByText('The component failed.'), 200);
         await page.locator('.exchange-came').getByText(/is outside of the hall, in a wall or in furniture/).first().scrollIntoViewIfNeeded();
         await shown(page, 'failed');
 

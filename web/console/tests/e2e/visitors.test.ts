@@ -1,5 +1,4 @@
-// The panel Visitors: people in the simulated hall who are let in, sent about, given words, and gone again; in a world that stands still,
-// so that it is the same each time.
+// The Visitors panel: simulated people come in, walk, speak and leave; with stopped time, so that every run is the same.
 import type { Locator, Page } from 'playwright-core';
 import { afterAll, beforeAll, describe, expect, test } from 'vitest';
 
@@ -15,16 +14,16 @@ beforeAll(async () => {
 afterAll(() => stage.strike());
 
 const visitor = (page: Page, ref: string) => page.locator(`[data-visitor="${ref}"]`);
-const at_desk = /^9\.[3-7] m, 9\.[1-4] m$/; // people stop as soon as they are there
+const at_desk = /^9\.[3-7] m, 9\.[1-4] m$/; // people stop as soon as they arrive
 const row = (page: Page, ref: string) => page.locator('.visitors-one', { hasText: ref });
 
 async function let_in(page: Page, name: string, known = false): Promise<void> {
   await page.getByLabel('Name', { exact: true }).fill(name);
-  if (known) await page.getByLabel('Identification knows them').check();
+  if (known) await page.getByLabel('Known to identification').check();
   await page.getByRole('button', { name: 'Let in' }).click();
 }
 
-/** Lets time pass until there are so many of something; through the page, which has the hall. */
+/** Lets time pass until there are `count` of something; through the page, which has bound the hall. */
 async function pass_until(page: Page, shown: Locator, count = 1): Promise<void> {
   while ((await shown.count()) !== count) await page.evaluate(() => (window as unknown as { rois: Console }).rois.hall.let_pass(1000).then(() => undefined));
 }
@@ -35,30 +34,30 @@ async function leaves(page: Page, name: string): Promise<void> {
   await pass_until(page, visitor(page, name), 0);
 }
 
-test('who is there is not known before the engine has said it, and has its age while the link is lost', () =>
+test('visitors are unknown until the engine has answered, and have their age while the link is lost', () =>
   stage.page(
     async (page) => {
       await page.getByText('0 people in the hall').waitFor();
       stage.front.cut();
       await page.getByText(/^Not connected: as it was \d.* ago$/).waitFor();
-      expect(await page.getByText('Nobody is in the hall').count()).toBe(0);
+      expect(await page.getByText('The hall is empty').count()).toBe(0);
       expect(await page.getByRole('button', { name: 'Let in' }).isDisabled()).toBe(true);
       expect(await page.getByRole('button', { name: 'Let 1 second pass' }).isDisabled()).toBe(true);
       expect(await violations(page)).toBe('');
       stage.front.mend();
-      await page.getByText('Nobody is in the hall').waitFor();
+      await page.getByText('The hall is empty').waitFor();
       await page.getByText('Disconnect', { exact: true }).click();
-      await page.getByText('Who is in the hall is not known yet').waitFor();
+      await page.getByText('The people in the hall are not known yet').waitFor();
     },
     { may_complain: broken_link },
     '/#visitors',
   ));
 
-describe('in a world that stands still', () => {
-  test('somebody comes in, is dragged, says and waves, and time is let pass', () =>
+describe('with stopped time', () => {
+  test('a visitor comes in, is dragged, speaks and waves, and time passes on request', () =>
     stage.page(
       async (page) => {
-        await page.getByText('The world stands still.').waitFor();
+        await page.getByText('Time is stopped.').waitFor();
         await let_in(page, 'anna', true);
         await page.getByRole('listitem').filter({ hasText: 'anna' }).getByText('comes in when the entrance is free').waitFor();
         await page.getByRole('button', { name: 'Let 1 second pass' }).click();
@@ -68,7 +67,7 @@ describe('in a world that stands still', () => {
 
         const from = (await visitor(page, 'anna').locator('.visitors-body').boundingBox())!;
         const hall = (await page.locator('.floor-ground').boundingBox())!;
-        const mm = hall.width / 20_000; // px; the hall is 20 m wide
+        const mm = hall.width / 20_000; // px per mm; the hall is 20 m wide
         await page.mouse.move(from.x + from.width / 2, from.y + from.height - 260 * mm);
         await page.mouse.down();
         await page.mouse.move(hall.x + 9000 * mm, hall.y + hall.height - 4500 * mm, { steps: 5 });
@@ -81,7 +80,7 @@ describe('in a world that stands still', () => {
         await language.selectOption('ja');
         await page.getByLabel('Say', { exact: true }).fill('Good morning');
         await page.keyboard.press('Enter');
-        expect(await language.inputValue()).toBe(''); // the next speech is in their own again
+        expect(await language.inputValue()).toBe(''); // the next speech is in the visitor's own language again
         await page.getByRole('button', { name: 'wave' }).click();
         await row(page, 'anna').getByText('walking, saying, gesture').waitFor();
         await picture(page, 'visitors-wide-dark');
@@ -91,7 +90,7 @@ describe('in a world that stands still', () => {
         await row(page, 'anna').getByText(/^(8\.9|9\.[01]) m, 4\.[3-6] m$/).waitFor();
         await page.getByLabel('Walk to').selectOption('desk');
         await page.getByRole('button', { name: 'Go', exact: true }).click();
-        await page.getByRole('button', { name: 'Let it flow' }).click();
+        await page.getByRole('button', { name: 'Let time run' }).click();
         await row(page, 'anna').getByText(/, 5\.\d m$/).waitFor();
         await page.getByRole('button', { name: 'Halt' }).click();
         await leaves(page, 'anna');
@@ -101,7 +100,7 @@ describe('in a world that stands still', () => {
       '/#visitors',
     ));
 
-  test('several are sent to places, by the keyboard, too; what cannot be is told', () =>
+  test('several are sent to places, also by keyboard; failures are reported', () =>
     stage.page(
       async (page) => {
         await let_in(page, 'ben');
@@ -109,11 +108,11 @@ describe('in a world that stands still', () => {
         await page.getByLabel('Walk to').selectOption('desk');
         await page.getByRole('button', { name: 'Go', exact: true }).click();
         await pass_until(page, row(page, 'ben').getByText(at_desk));
-        await page.getByRole('button', { name: 'Let in' }).click(); // by the name that is proposed
+        await page.getByRole('button', { name: 'Let in' }).click(); // with the proposed name
         await pass_until(page, row(page, 'anna'));
 
-        // The floor sends whoever is chosen.
-        await page.getByText('Drag anna, or click where to go').waitFor();
+        // A click on the floor sends the selected visitor.
+        await page.getByText('Drag anna, or click the target').waitFor();
         await page.locator('.visitors-floor .floor-ground').click({ position: { x: 40, y: 40 } });
         await row(page, 'anna').getByText('walking').waitFor();
 
@@ -124,7 +123,7 @@ describe('in a world that stands still', () => {
         await pass_until(page, row(page, 'anna').getByText(/^9\.[78] m, 2\.[678] m$/));
 
         await page.getByLabel('Name', { exact: true }).fill('ben');
-        await page.getByText('Somebody has this name already.').waitFor();
+        await page.getByText('This name is already used.').waitFor();
         expect(await page.getByRole('button', { name: 'Let in' }).isDisabled()).toBe(true);
         await page.getByLabel('Name', { exact: true }).fill('');
         await visitor(page, 'anna').focus();
@@ -153,7 +152,7 @@ describe('in a world that stands still', () => {
   );
 });
 
-test('a robot receives somebody who was let in: nothing but a browser is needed to try it', async () => {
+test('a robot receives a visitor who was let in: a browser is enough to try it', async () => {
   const watchful = await Stage.set(...still_hall, '--floor-plan', `${data}/watchful_hall.xml`);
   try {
     await watchful.page(
@@ -177,12 +176,12 @@ test('a robot receives somebody who was let in: nothing but a browser is needed 
   }
 });
 
-test('an engine without a simulated hall says how one comes by visitors', async () => {
+test('an engine without a simulated hall explains how to get visitors', async () => {
   const unsteered = await Stage.set('--scenario', `${data}/empty_hall.xml`, '--seed', '7');
   try {
     await unsteered.page(
       async (page) => {
-        await page.getByText('This engine has no visitors to steer').waitFor();
+        await page.getByText('This engine has no visitors to control').waitFor();
         await page.getByText('--steering on').waitFor();
         expect(await violations(page)).toBe('');
         await picture(page, 'visitors-none');

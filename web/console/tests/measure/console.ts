@@ -1,9 +1,8 @@
-// What the console costs, from the real gateway, in Chromium; a line of JSON for each of its rows in `./dev bench console`:
-//   first view: when something is painted and when the map stands (ms after the page was asked for), what came over the wire (KiB),
-//     and what all files of the console are together;
-//   20 people at 20 Hz: pictures a second, the longest time between two (ms), the share of a core that the page's thread works;
-//   at rest: the share of a core that the page's process and the GPU process take, all threads, while two robots and three people stand still; with
-//     these panels in front.
+// Measures the console in Chromium with the real gateway; prints a line of JSON for each row of `./dev bench console`:
+//   first view: ms until something is painted and until the map is shown, KiB transferred, and KiB of all files;
+//   20 people at 20 Hz: frames per second, longest time between two (ms), share of a core used by the page's thread;
+//   at rest: share of a core used by all threads of the page's process and the GPU process, with two robots and three standing people and
+// each of these panels in front.
 // cd web/console && npm run build && ROIS_BINARY_DIR=../../build/release npx vite-node tests/measure/console.ts [SECONDS [PANEL...]]
 import { execFileSync } from 'node:child_process';
 import { existsSync, readdirSync } from 'node:fs';
@@ -18,12 +17,12 @@ const seconds = Number(process.argv[2] ?? 8);
 const panels = process.argv.length > 3 ? process.argv.slice(3) : ['map'];
 const here = `${root}/web/console/tests/measure`;
 const size = { width: 1600, height: 900 };
-const things = '.map table tbody tr'; // what is on the map, in words
+const things = '.map table tbody tr'; // the things on the map
 
 const gateway = await Gateway.start('--floor-plan', `${here}/crowd_hall.xml`, '--scenario', `${here}/crowd.xml`, '--sim-speed', '0', '--steering', 'on', '--seed', '7');
 const browser = await chromium.launch({ executablePath: process.env['CHROMIUM'] ?? '/usr/bin/chromium', args: ['--disable-dev-shm-usage'] });
 try {
-  await view(browser, 'about:blank'); // the browser's own first steps
+  await view(browser, 'about:blank'); // the browser's own start
   console.log(JSON.stringify({ row: 'first view', ...(await view(browser, gateway.url)), all_kib: kib(weight(`${root}/web/console/dist`)) }));
   console.log(JSON.stringify({ row: `${people} people at 20 Hz`, ...(await crowd(browser)) }));
 } finally {
@@ -32,7 +31,7 @@ try {
 }
 for (const panel of panels) console.log(JSON.stringify({ row: panel === 'map' ? 'at rest' : `at rest, ${panel}`, ...(await rest(panel)) }));
 
-/** Of a browser that has nothing of it in store. */
+/** With an empty cache. */
 async function view(browser: Browser, url: string) {
   const context = await browser.newContext({ viewport: size });
   try {
@@ -58,7 +57,7 @@ async function view(browser: Browser, url: string) {
   }
 }
 
-/** Everybody strolls about, and is told of 20 times a second. */
+/** All people wander and are reported 20 times a second. */
 async function crowd(browser: Browser) {
   const hall = await connect(gateway.url);
   await hall.bind('simulated_hall');
@@ -74,7 +73,7 @@ async function crowd(browser: Browser) {
     await page.goto(gateway.url);
     await page.locator(things).first().waitFor({ state: 'attached' });
 
-    // The world's clock: 60 ms, after which there is something to tell of again, in 50 ms of ours.
+    // Simulated time: 60 ms, after which there are new reports, in 50 ms of real time.
     let is_over = false;
     const clock = (async () => {
       const began = Date.now();
@@ -85,7 +84,7 @@ async function crowd(browser: Browser) {
     })();
     await page.locator(things).nth(people).waitFor({ state: 'attached' });
     const inside = await page.context().newCDPSession(page);
-    await inside.send('Performance.enable', { timeDomain: 'threadTicks' }); // work, not waiting for others' work
+    await inside.send('Performance.enable', { timeDomain: 'threadTicks' }); // excludes waiting
     const busy = async () => (await inside.send('Performance.getMetrics')).metrics.find(({ name }) => name === 'TaskDuration')!.value;
     const [busy_before, events_before, began] = [await busy(), events, Date.now()];
     const frames = await page.evaluate(
@@ -122,7 +121,7 @@ async function crowd(browser: Browser) {
   }
 }
 
-/** A browser of its own, which nothing looks into but for the time that its processes have taken. */
+/** A separate browser that is not instrumented, except for its processes' CPU time. */
 async function rest(panel: string) {
   const hall = await Gateway.start('--scenario', `${here}/rest.xml`, '--floor-plan', `${root}/components/simulation/data/two-robots.xml`, '--steering', 'on', '--seed', '7');
   const sensing = await connect(hall.url);
@@ -134,7 +133,7 @@ async function rest(panel: string) {
   try {
     const page = await window.newPage({ viewport: size, reducedMotion: 'no-preference' });
     await page.goto(`${hall.url}/#${panel}`);
-    await new Promise((passed) => setTimeout(passed, 40_000)); // everybody has come in and stands
+    await new Promise((passed) => setTimeout(passed, 40_000)); // all people have arrived and stand
     const inside = await window.newBrowserCDPSession();
     const taken = async () => {
       const sums = { renderer: 0, GPU: 0 };

@@ -1,4 +1,4 @@
-// Conditions: what can be referred to, what is written and read, what is missing, and how many components match.
+// Conditions: references, writing and reading, validation, and matching components.
 import { describe, expect, test } from 'vitest';
 
 import { is_complete, problems_of } from '../../src/conditions/checking';
@@ -33,11 +33,11 @@ async function connected(): Promise<{ world: World; console: Console; store: Con
 
 const of = (draft: Partial<Draft>, ...nodes: Node[]): Draft => ({ ...new_draft(), root: new_group(nodes), ...draft });
 const names = (list: readonly { path: string }[]) => list.map((one) => one.path);
-// Ids are new each time, and do not matter.
+// Without ids, which are new each time.
 const plain = (value: unknown): unknown => JSON.parse(JSON.stringify(value, (key, one: unknown) => (key === 'id' ? undefined : one)));
 
 describe('the vocabulary', () => {
-  test('has the words, the parameters, and the results of what is asked for', async () => {
+  test('has properties, parameters, and the results of the event or query', async () => {
     const { store } = await connected();
     const known = store.known.value;
     expect(names(references_of(known, of({})))).toEqual(['component_ref', 'component_type', 'status', 'bound', 'location', 'engine', 'RobotId', 'Property/volume']);
@@ -52,7 +52,7 @@ describe('the vocabulary', () => {
     expect(resolved('component_type', events)?.options).toContain('urn:x-rois:def:component:OMG::PersonLocalization');
   });
 
-  test('offers what can be said of a type, and what is about something else begins anew', async () => {
+  test('offers operators by type, and resets them for another reference', async () => {
     const { store } = await connected();
     const references = references_of(store.known.value, of({ purpose: 'subscribe', event_type: 'person_localized' }));
     expect(operators_for('bool')).not.toContain('LessThan');
@@ -80,7 +80,7 @@ const predicates: [string, Partial<Predicate>][] = [
 ];
 
 describe('XML', () => {
-  test.each(predicates)('%s is written, and read back', async (expected, given) => {
+  test.each(predicates)('%s is written and read back', async (expected, given) => {
     const { store } = await connected();
     const draft = of({ purpose: 'subscribe', event_type: 'person_localized' }, new_predicate(given));
     const references = references_of(store.known.value, draft);
@@ -90,7 +90,7 @@ describe('XML', () => {
     expect(plain(draft_read(request))).toEqual(plain(draft));
   });
 
-  test('groups, negation and order are written, and read back', async () => {
+  test('groups, negation and order are written and read back', async () => {
     const { store } = await connected();
     const ready = () => new_predicate({ reference: 'status', value: 'READY' });
     const draft = of(
@@ -102,11 +102,11 @@ describe('XML', () => {
     const request = request_of(draft, condition_of(draft, references));
     expect(request).toMatch(/^<bind_any [^>]*><condition><fes:Filter><fes:And><fes:Or>.*<fes:Not><fes:And>.*<fes:Not><fes:PropertyIsEqualTo>.*<\/fes:Filter><fes:SortBy>.*name="distance".*DESC/);
     expect(plain(draft_read(request))).toEqual(plain(draft));
-    // Events come in their own order.
+    // Events are not sorted.
     expect(request_of({ ...draft, purpose: 'subscribe' }, condition_of({ ...draft, purpose: 'subscribe' }, references))).not.toContain('SortBy');
   });
 
-  test('what is not complete is left out; whichever corners were given, the lower one comes first', async () => {
+  test('incomplete parts are omitted, and corners are sorted', async () => {
     const { store } = await connected();
     const draft = of({}, new_predicate(), new_predicate({ reference: 'location', operator: 'Within', area: { ...area.box, x: '11500', x2: '7500' } }), new_group());
     const condition = condition_of(draft, references_of(store.known.value, draft));
@@ -114,7 +114,7 @@ describe('XML', () => {
     expect(request_of(of({}), condition_of(of({}), []))).toMatch(/^<search [^>]*\/>$/);
   });
 
-  test('fragments are read, and what the form has no fields for stays as it was written', async () => {
+  test('fragments are read, and predicates without fields in the form stay XML', async () => {
     const { store } = await connected();
     const draft = draft_read(`<?xml version="1.0"?>
       <fes:Filter><fes:And><fes:BBOX><fes:ValueReference>position_data</fes:ValueReference><gml:Envelope><gml:pos>1 2</gml:pos><gml:pos>3 4</gml:pos></gml:Envelope></fes:BBOX>
@@ -133,7 +133,7 @@ describe('XML', () => {
   });
 });
 
-test('what is missing or wrong is found', async () => {
+test('missing and wrong values are reported', async () => {
   const { store } = await connected();
   const draft = of({ purpose: 'subscribe', event_type: 'person_detected' });
   const references = references_of(store.known.value, draft);
@@ -150,7 +150,7 @@ test('what is missing or wrong is found', async () => {
   expect(is_complete({ ...draft, event_type: '' }, references)).toBe(false);
 });
 
-test('the tree is changed without touching what was', () => {
+test('edits do not change the old tree', () => {
   const [a, b] = [new_predicate({ reference: 'a' }), new_predicate({ reference: 'b' })];
   const root = new_group([a, new_group([b], 'Or')]);
   const shape = (node: Node): unknown => (node.kind === 'group' ? node.members.map(shape) : node.kind === 'predicate' ? node.reference : 'xml');
@@ -161,8 +161,8 @@ test('the tree is changed without touching what was', () => {
   expect(shape(root)).toEqual(['a', ['b']]);
 });
 
-describe('what matches now', () => {
-  test('of an event is asked what can be known before it comes', async () => {
+describe('the present matches', () => {
+  test('for an event, only the part that is known before is searched', async () => {
     const { store } = await connected();
     const inside = () => new_predicate({ reference: 'position_data', operator: 'Within', area: area.place });
     const ready = (is_not = false) => new_predicate({ reference: 'status', value: 'READY', is_not });
@@ -180,7 +180,7 @@ describe('what matches now', () => {
     expect(waits_for_results(draft, references_of(store.known.value, draft))).toBe(true);
   });
 
-  test('is asked when the condition has stood for a moment, and again while somebody looks', async () => {
+  test('is searched after a delay, and polled while watched', async () => {
     const { world, console, store } = await connected();
     world.answers.set('search', () => '<component_ref_list><component_ref rois:code="person_localization"/><component_ref rois:code="speech_synthesis"/></component_ref_list>');
     const stop = store.matches.watch();
@@ -204,7 +204,7 @@ describe('what matches now', () => {
   });
 });
 
-test('a draft is kept from visit to visit, and nonsense is not taken for one', async () => {
+test('a draft is stored across visits, and invalid data is ignored', async () => {
   const { console, store } = await connected();
   store.change_root((root) => with_added(root, root.id, new_predicate({ reference: 'status', value: 'READY' })));
   expect(plain(new ConditionStore(console).draft.value)).toEqual(plain(store.draft.value));
@@ -212,7 +212,7 @@ test('a draft is kept from visit to visit, and nonsense is not taken for one', a
   expect(plain(draft_of(draft_text(store.draft.value)))).toEqual(plain(store.draft.value));
 });
 
-test('a subscription that was made here is ended here', async () => {
+test('a subscription made here is ended here', async () => {
   const { world, store } = await connected();
   world.answers.set('subscribe', () => '<subscribe_id>s-9</subscribe_id>');
   await store.subscribe('person_localized', condition_of(of({}), []), true);

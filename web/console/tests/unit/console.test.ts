@@ -1,4 +1,4 @@
-// What the state knows and does, with an engine that answers as the test says.
+// State and operations, with a scripted engine.
 import { command, request, text_element, type XmlElement } from 'rois-client';
 import { beforeEach, describe, expect, test, vi } from 'vitest';
 
@@ -37,14 +37,14 @@ function localized(...people: [ref: string, x: number, y: number][]): string {
 }
 
 describe('the link', () => {
-  test('is open when there is a session, and the profile is read', () => {
+  test('is open with a session, and the profile is fetched', () => {
     expect(console.link.view.value.phase).toBe('open');
     expect(console.link.session.value).toBe('session-1');
     expect(console.profile.components.value.map((one) => one.ref)).toEqual(['navigation', 'person_localization']);
     expect(console.map.view.value).toEqual({ state: 'none' });
   });
 
-  test('is lost when it breaks, and goes on with the session', async () => {
+  test('is lost when it breaks, and resumes the session', async () => {
     world.breaks();
     expect(console.link.view.value).toMatchObject({ phase: 'lost', reason: 'the WebSocket was closed with 1006' });
     await world.tries_again();
@@ -65,12 +65,12 @@ describe('the link', () => {
     if (phase !== 'lost') expect(console.link.view.value.reason).toBe('so it is');
   });
 
-  test('a gateway that goes away says so when it closes', () => {
+  test('a gateway that shuts down gives the reason when it closes', () => {
     world.breaks('the WebSocket was closed with 1001, shutting down');
     expect(console.link.view.value.phase).toBe('draining');
   });
 
-  test('a gateway that goes away is lost as soon as nobody is there', async () => {
+  test('a gateway that shuts down is lost as soon as it is gone', async () => {
     world.pages.set('/rois', { status: 503, text: '<fault code="shutting_down"><reason>so it is</reason></fault>' });
     world.breaks('the WebSocket was closed with 1001, shutting down');
     await settled();
@@ -86,7 +86,7 @@ describe('the link', () => {
     expect(console.link.view.value.phase).toBe('lost');
   });
 
-  test('that is away is tried at once when the user says so, and nothing else is asked meanwhile', async () => {
+  test('that is lost is retried at once on request, without polling meanwhile', async () => {
     const stop = console.metrics.poll.watch();
     world.breaks();
     await settled();
@@ -99,12 +99,12 @@ describe('the link', () => {
     await world.opens();
     expect(console.link.view.value.phase).toBe('resumed');
     expect(fetched.mock.calls.map(([path]) => path)).toContain('/metrics');
-    console.retry(); // nothing to do
+    console.retry(); // has no effect
     expect(console.link.view.value.phase).toBe('resumed');
     stop();
   });
 
-  test('nothing is left of a session that the user has ended', async () => {
+  test('nothing remains of a session that the user has ended', async () => {
     await console.bindings.bind('navigation');
     await world.notifies('receive_event', localized(['a', 1, 2]));
     await console.close();
@@ -113,7 +113,7 @@ describe('the link', () => {
     expect(console.metrics.latest.value).toBeUndefined();
   });
 
-  test('a gateway that refused, and then is not there, is lost', async () => {
+  test('a gateway that refused and is gone then is lost', async () => {
     world.pages.set('/rois', { status: 429, text: '<fault code="too_many"><reason>so it is</reason></fault>' });
     world.breaks();
     await settled();
@@ -125,7 +125,7 @@ describe('the link', () => {
     expect(console.link.view.value.phase).toBe('lost');
   });
 
-  test('asks for a token when the gateway wants one, and tries with it', async () => {
+  test('asks for a token if the gateway requires one, and connects with it', async () => {
     const shy = new World();
     shy.pages.set('/rois', { status: 401, text: '<fault code="unauthorized"><reason>no token</reason></fault>' });
     const { Console: Made } = await import('../../src/state/console');
@@ -141,7 +141,7 @@ describe('the link', () => {
     expect(closed.current_token).toBe('a secret');
   });
 
-  test('what was missed is told until it is seen', async () => {
+  test('a gap is shown until it is acknowledged', async () => {
     await world.notifies('profile_changed');
     world.says('<profile_changed xmlns="urn:x-rois:psm:xml:message:1" sequence="5"/>');
     await settled();
@@ -153,19 +153,19 @@ describe('the link', () => {
 });
 
 describe('documents', () => {
-  test('answers know what they answer, and how long it took', async () => {
+  test('answers have their request and their time', async () => {
     await console.client.search();
     const answer = console.documents.ring.last!;
     expect(answer).toMatchObject({ direction: 'in', kind: 'answer', name: 'search_response', return_code: 'OK', took: 0, is_own: false });
     expect(answer.request?.name).toBe('search');
   });
 
-  test('what the console asks by itself is marked', () => {
+  test("the console's own requests are marked", () => {
     const asked = console.documents.ring.list().filter((one) => one.name === 'get_profile');
     expect(asked.map((one) => one.is_own)).toEqual([true]);
   });
 
-  test('changes are told once a picture', async () => {
+  test('changes are notified once a frame', async () => {
     world.draws();
     const before = console.events.pulse.beat.value;
     for (let i = 0; i < 5; ++i) await world.notifies('receive_event', localized(['a', i, 0]));
@@ -174,7 +174,7 @@ describe('documents', () => {
     expect(console.events.pulse.beat.value).toBe(before + 1);
   });
 
-  test('a text is sent as it is, and its answer found', async () => {
+  test('a text is sent unchanged, and its answer is found', async () => {
     const { answer, document } = await console.send('<search xmlns="urn:x-rois:psm:xml:message:1"/>');
     expect(answer.name).toBe('search_response');
     expect(document?.request?.text).toBe('<search xmlns="urn:x-rois:psm:xml:message:1"/>');
@@ -182,7 +182,7 @@ describe('documents', () => {
 });
 
 describe('commands', () => {
-  test('bind what they need, run, and end', async () => {
+  test('bind their components, run, and end', async () => {
     const { command_ids, ends } = await console.run('navigation', 'start', { target_position: ['desk'] });
     expect(world.names().slice(-2)).not.toContain('release');
     expect(console.bindings.holder_of('navigation')).toEqual({ who: 'me' });
@@ -195,7 +195,7 @@ describe('commands', () => {
     expect(console.commands.open()).toEqual([]);
   });
 
-  test('what was bound for them is given back when they have ended', async () => {
+  test('components bound for them are released when they have ended', async () => {
     const { command_ids, ends } = await console.run('navigation', 'start', {}, { give_back: true });
     await world.notifies('completed', `<command_id>${command_ids[0]}</command_id><status>ABORT</status>`);
     await ends;
@@ -204,7 +204,7 @@ describe('commands', () => {
     expect(console.bindings.mine.value.size).toBe(0);
   });
 
-  test('a component that was bound on purpose is not given back', async () => {
+  test('a component that the user has bound is not released', async () => {
     await console.bindings.bind('navigation');
     const { command_ids, ends } = await console.run('navigation', 'start', {}, { give_back: true });
     await world.notifies('completed', `<command_id>${command_ids[0]}</command_id><status>OK</status>`);
@@ -213,7 +213,7 @@ describe('commands', () => {
     expect(world.names()).not.toContain('release');
   });
 
-  test('two that borrow the same at once give it back once', async () => {
+  test('two borrowers at once release once', async () => {
     const [one, other] = await Promise.all([console.bindings.borrow(['navigation']), console.bindings.borrow(['navigation'])]);
     await one();
     expect(world.names()).not.toContain('release');
@@ -221,7 +221,7 @@ describe('commands', () => {
     expect(world.names().filter((name) => name === 'release')).toHaveLength(1);
   });
 
-  test('one that is borrowed while it is being given back is bound anew', async () => {
+  test('a component borrowed during its release is bound again', async () => {
     const giving = (await console.bindings.borrow(['navigation']))();
     await console.bindings.borrow(['navigation']);
     await giving;
@@ -229,14 +229,14 @@ describe('commands', () => {
     expect(console.bindings.mine.value).toContain('navigation');
   });
 
-  test('nothing is bound when one of them cannot be', async () => {
+  test('nothing is bound if one cannot be', async () => {
     world.answers.set('bind', (request) => (request.child('component_ref')!.attributes[0]!.value === 'move' ? 'OUT_OF_RESOURCES' : ''));
     await expect(console.execute([command('navigation', 'start'), command('move', 'start')], { give_back: true })).rejects.toMatchObject({ return_code: 'OUT_OF_RESOURCES' });
     expect(console.bindings.mine.value.size).toBe(0);
     expect(world.names()).not.toContain('execute');
   });
 
-  test('the results of one that has failed are fetched by themselves', async () => {
+  test('results of a failed command are fetched automatically', async () => {
     const { command_ids } = await console.run('navigation', 'start');
     world.answers.set('get_command_result', () => result('status', 'ERROR'));
     await world.notifies('completed', `<command_id>${command_ids[0]}</command_id><status>ERROR</status>`);
@@ -244,7 +244,7 @@ describe('commands', () => {
     expect(console.commands.find(command_ids[0]!)?.results?.text('status')).toBe('ERROR');
   });
 
-  test('what detects or localizes goes on when its start has completed; what drives does not', async () => {
+  test('detection and localization continue after start has completed; driving does not', async () => {
     for (const ref of ['navigation', 'person_localization']) {
       const { command_ids } = await console.run(ref, 'start');
       await world.notifies('completed', `<command_id>${command_ids[0]}</command_id><status>OK</status>`);
@@ -256,7 +256,7 @@ describe('commands', () => {
     expect(console.commands.goes_on('person_localization')).toBe(false);
   });
 
-  test('a lost session leaves them unknown', async () => {
+  test('a lost session makes them unknown', async () => {
     const { command_ids, ends } = await console.run('navigation', 'start');
     const entry = console.commands.find(command_ids[0]!)!;
     world.answers.set('resume', () => 'ERROR');
@@ -272,7 +272,7 @@ describe('commands', () => {
 });
 
 describe('people', () => {
-  test('are subscribed to while somebody looks', async () => {
+  test('are subscribed to while watched', async () => {
     world.answers.set('subscribe', () => '<subscribe_id>s-1</subscribe_id>');
     const stop = console.entities.watch();
     await settled();
@@ -282,7 +282,7 @@ describe('people', () => {
     expect(console.subscriptions.all.value.size).toBe(0);
   });
 
-  test('are told by events that nobody has asked for, also in a session that is made anew', async () => {
+  test('are known from events without watchers, also in a new session', async () => {
     let next = 1;
     world.answers.set('subscribe', () => `<subscribe_id>s-${next++}</subscribe_id>`);
     console.entities.watch();
@@ -303,8 +303,8 @@ describe('people', () => {
     expect([...console.subscriptions.all.value.keys()]).toEqual(['s-3']);
   });
 
-  // The engine knows a subscription by its type and condition, and the last inline_results counts (decision 20).
-  describe('while the user subscribes to the same', () => {
+  // The engine identifies subscriptions by type and condition, and the last inline_results counts (decision 20).
+  describe('while the user has the same subscription', () => {
     const asked_with = (name: string) => world.requests.filter((one) => one.name === name).map((one) => [one.attribute('inline_results'), one.children.some(({ name }) => name === 'condition')]);
 
     beforeEach(async () => {
@@ -313,7 +313,7 @@ describe('people', () => {
       await settled();
     });
 
-    test('without results, the console has a subscription of its own with results', async () => {
+    test('without results, the console has its own subscription with results', async () => {
       await console.subscribe('person_localized', { inline_results: false });
       expect(asked_with('subscribe').filter(([, has_condition]) => has_condition).every(([inline]) => inline === 'true')).toBe(true);
       expect(console.subscriptions.all.value.get('own')!.inline_results).toBe(true);
@@ -323,7 +323,7 @@ describe('people', () => {
       expect([...console.subscriptions.all.value.keys()]).toEqual(['own']);
     });
 
-    test('by a document with the same condition and without results, the console asks again with results', async () => {
+    test('by a document with the same condition and without results, the console requests results again', async () => {
       const [first] = world.requests.filter((one) => one.name === 'subscribe');
       const before = asked_with('subscribe').length;
       await console.send(request('subscribe', { inline_results: false }, text_element('event_type', first!.text_of('event_type')) + '<condition/>'));
@@ -333,7 +333,7 @@ describe('people', () => {
       expect(console.entities.is_blind()).toBe(false);
     });
 
-    test('and unsubscribes from the id by hand, the console subscribes again', async () => {
+    test('and unsubscribes that id by a document, the console subscribes again', async () => {
       const before = asked_with('subscribe').length;
       world.answers.set('subscribe', () => '<subscribe_id>another</subscribe_id>');
       await console.send(request('unsubscribe', {}, text_element('subscribe_id', 'own')));
@@ -345,7 +345,7 @@ describe('people', () => {
     });
   });
 
-  test('have a trail that begins anew where nobody knows the way', async () => {
+  test('have a trail that starts again after an unknown path', async () => {
     for (const [x, ms] of [[1000, 100], [1500, 9000], [2000, 100], [5000, 3000], [5500, 0]] as const) {
       await world.notifies('receive_event', localized(['a', x, 0]));
       await world.passes(ms);
@@ -357,7 +357,7 @@ describe('people', () => {
     expect(console.entities.all.get('person a')!.trail.at(-1)).toMatchObject({ x: 9000, begins: true });
   });
 
-  test('have a place, a trail and a certainty, and go out of sight', async () => {
+  test('have a position, a trail and a certainty, and go out of sight', async () => {
     await world.notifies('receive_event', localized(['person-1', 1000, 2000], ['person-2', 0, 0]));
     await world.notifies('receive_event', localized(['person-1', 1500, 2000]));
     const one = console.entities.all.get('person person-1')!;
@@ -366,7 +366,7 @@ describe('people', () => {
     expect(console.entities.all.get('person person-2')!.is_seen).toBe(false);
   });
 
-  test('are who identification says that stands where they stand', async () => {
+  test('get the identity of an identified person at their place', async () => {
     await world.notifies('receive_event', localized(['person-1', 1000, 2000], ['person-2', 0, 0]));
     const identified = `<event_id>f</event_id><event_type>person_identified</event_type><subscribe_id>s-2</subscribe_id><expire>2026-11-20T12:01:00Z</expire><component_ref rois:code="person_identification"/><results><result rois:name="person_ref"><rois:data_type_ref rois:code="RoISIdentifier[]" rois:codebook_ref="visitors"/><rois:value>ms-a</rois:value></result><located of="person_ref" ref="ms-a" crs="hall"><position>1100 2050 0</position></located></results>`;
     await world.notifies('receive_event', identified);
@@ -376,7 +376,7 @@ describe('people', () => {
 });
 
 describe('polls', () => {
-  test('the status of each component is asked while somebody looks', async () => {
+  test('the status of each component is polled while watched', async () => {
     world.answers.set('query', () => `<component_ref rois:code="navigation"/>${result('status', 'READY')}`);
     const stop = console.status.poll.watch();
     await settled();
@@ -389,14 +389,14 @@ describe('polls', () => {
     expect(world.names().length).toBe(asked + 2);
   });
 
-  test('who has bound what comes from the metrics', async () => {
+  test('owners are known from the metrics', async () => {
     world.pages.set('/metrics', { status: 200, text: '# HELP x\nrois_component_bound{component_ref="move",session="3"} 1\nrois_sessions 2\n' });
     const stop = console.metrics.poll.watch();
     await settled();
     expect(console.bindings.holder_of('move')).toEqual({ who: 'other', session: '3' });
     expect(console.metrics.latest.value?.value('rois_sessions')).toBe(2);
     await console.bindings.bind('move');
-    await console.bindings.release('move'); // it was this session
+    await console.bindings.release('move'); // it was bound by this session
     expect(console.bindings.holder_of('move')).toEqual({ who: 'nobody' });
     await world.passes(2000);
     expect(console.bindings.holder_of('move')).toEqual({ who: 'other', session: '3' });

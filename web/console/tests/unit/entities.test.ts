@@ -1,4 +1,4 @@
-// When nobody is there any more: localization is silent then.
+// The end of a person's presence, which localization does not report.
 import { expect, test } from 'vitest';
 
 import { profile_xml, World } from './world';
@@ -18,14 +18,14 @@ function number(component: string, n: number): string {
   return told('person_detected', component, `<result rois:name="number"><rois:data_type_ref rois:code="int"/><rois:value>${n}</rois:value></result>`);
 }
 
-test('people of whom events without results tell are unknown, not out of sight, until results come', async () => {
+test('events without results make people unknown, not out of sight, until results arrive', async () => {
   const world = new World();
   world.answers.set('get_profile', () => profile_xml({ localization: { type: 'PersonLocalization', messages: event('person_localized') } }));
   const console = await world.console();
   console.entities.watch();
   await world.notifies('receive_event', people('localization', 'person-1'));
   const bare = told('person_localized', 'localization', '');
-  await world.notifies('receive_event', bare); // the same event once more, for somebody who wants no results
+  await world.notifies('receive_event', bare); // the same event again, for a subscriber without results
   const person = () => console.entities.all.get('person person-1')!;
   expect([person().is_seen, person().unknown_since]).toEqual([true, undefined]);
   await world.passes(2000);
@@ -36,7 +36,7 @@ test('people of whom events without results tell are unknown, not out of sight, 
   expect(person().unknown_since).toBeUndefined();
 });
 
-test('those are out of sight of whom detection says that nobody is there, each robot for itself', async () => {
+test('when detection reports no persons, those of the same robot are out of sight', async () => {
   const world = new World();
   const parts = { PersonDetection: event('person_detected'), PersonLocalization: event('person_localized') };
   const components = Object.entries(parts).flatMap(([type, messages]) => ['', 'robot2.'].map((prefix) => [prefix + type, { type, messages, engine: prefix === '' ? 'hall' : 'robot2' }] as const));

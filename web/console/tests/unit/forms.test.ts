@@ -1,4 +1,4 @@
-// Forms from profiles: types, descriptions, checks, and the arguments that come of what is typed.
+// Forms from profiles: types, descriptions, validation and arguments.
 import { type ParameterProfile, Results, value } from 'rois-client';
 import { describe, expect, test } from 'vitest';
 
@@ -75,7 +75,7 @@ describe('descriptions', () => {
     expect(units_of()).toEqual([]);
   });
 
-  test('name choices, and what must be given', () => {
+  test('name choices and needs', () => {
     expect(choices_of('What the route saves: `time` or `distance`. Optional.')).toEqual(['time', 'distance']);
     expect(choices_of('As in `target_position`.')).toEqual([]);
     const told = (description: string, default_value?: string): ParameterProfile => ({ ...asked('a', 'int', { description }), ...(default_value !== undefined && { default_value }) });
@@ -92,7 +92,7 @@ describe('descriptions', () => {
     expect(fixed_length(asked('target', 'string[]', { description: '"x, y, th" in millimetre, millimetre, degree.' }))).toBe(0);
   });
 
-  test('start asks for the parameters, a command of its own for its arguments', async () => {
+  test("start takes the component's parameters, another command its own arguments", async () => {
     const world = new World();
     world.answers.set('get_profile', () =>
       profile_xml({
@@ -113,14 +113,14 @@ describe('descriptions', () => {
   });
 });
 
-describe('what is typed', () => {
+describe('input', () => {
   const speech: Asked[] = [
     asked('speech_text', 'string', { need: { kind: 'either', other: 'SSML_text' } }),
     asked('SSML_text', 'string', { need: { kind: 'either', other: 'speech_text' } }),
     asked('volume', 'int'),
   ];
 
-  test('is checked', () => {
+  test('is validated', () => {
     expect(problems_of(speech, {})).toEqual({ speech_text: { what: 'either', other: 'SSML_text' }, SSML_text: { what: 'either', other: 'speech_text' } });
     expect(problems_of(speech, { speech_text: { texts: ['Hello'] }, volume: { texts: ['loud'] } })).toEqual({ volume: { what: 'not_of_kind', kind: 'integer' } });
     expect(problems_of(speech, { SSML_text: { texts: [''], is_empty: true } })).toEqual({});
@@ -131,7 +131,7 @@ describe('what is typed', () => {
     expect(problems_of([line], { line: { texts: ['1000', '90'] } })).toEqual({});
   });
 
-  test('becomes parameters, with the types of the profile', () => {
+  test('becomes parameters with the types of the profile', () => {
     const all = [asked('text', 'string'), asked('line', 'int[]'), asked('to', 'string[]'), asked('who', 'RoISIdentifier'), asked('none', 'urn:x-rois:def:DataType:ATR::Integer')];
     const inputs = { text: { texts: [' Hello '] }, line: { texts: ['1000 ', '-90'] }, to: { texts: ['desk', '', '1, 2'] }, who: { texts: ['person-1'] } };
     const parameters = parameters_from(all, inputs, (_, code) => (code === 'person-1' ? 'urn:track' : undefined));
@@ -151,7 +151,7 @@ describe('what is typed', () => {
     expect(inputs_of(parameters_from(all, empty))).toEqual(empty);
   });
 
-  test('is forgotten when it is deleted', () => {
+  test('is dropped when it is deleted', () => {
     const inputs = with_input({}, 'a', { texts: ['1'] });
     expect(inputs).toEqual({ a: { texts: ['1'] } });
     expect(with_input(inputs, 'a', { texts: [''] })).toEqual({});
@@ -160,7 +160,7 @@ describe('what is typed', () => {
   });
 });
 
-describe('what can be chosen', () => {
+describe('the list of choices', () => {
   const at = { codebook: 'urn:track', component: 'c', crs: '', x: 0, y: 0, z: 0, at: 0 } as const;
   const person = { ...at, ref: 'person-1', kind: 'person', is_seen: true, identity: { ref: 'tanaka', codebook: 'urn:visitor', at: 0 } };
   const things = {
@@ -173,7 +173,7 @@ describe('what can be chosen', () => {
       { name: 'available_reactions', data_type_ref: { code: 'RoISIdentifier[]', codebook_ref: 'urn:reaction' }, values: ['1', '2'] },
     ]),
   } as unknown as Things;
-  test('is named, where the names of a codebook are known', () => {
+  test('has names if the codebook is known', () => {
     const codebook = 'urn:x-rois:def:codebook:simulation::reaction';
     const told = new Results([{ name: 'available_reactions', data_type_ref: { code: 'RoISIdentifier[]', codebook_ref: codebook }, values: ['9', '51'] }]);
     expect(options_for(asked('reaction_ref', 'RoISIdentifier'), { ...things, told }).list).toEqual([{ value: '9', codebook, label: 'bow the head' }, { value: '51', codebook }]);
@@ -183,7 +183,7 @@ describe('what can be chosen', () => {
 
   const chosen = (one: Asked) => options_for(one, things).list.map((option) => option.value);
 
-  test('is what there is', () => {
+  test('are the known things', () => {
     expect(chosen(asked('target_position', 'string[]'))).toEqual(['desk', 'exit']);
     expect(chosen(asked('target_object_ref', 'RoISIdentifier'))).toEqual(['person-1', 'tanaka', 'robot1']);
     expect(chosen(asked('person_ref', 'RoISIdentifier'))).toEqual(['person-1', 'tanaka']);
@@ -196,7 +196,7 @@ describe('what can be chosen', () => {
     expect(chosen(asked('volume', 'int'))).toEqual([]);
   });
 
-  test('is closed where there is nothing else', () => {
+  test('is closed if no other values are valid', () => {
     expect(options_for(asked('on', 'bool'), things)).toEqual({ list: [{ value: 'true' }, { value: 'false' }], is_closed: true });
     expect(options_for(asked('policy', 'string', { description: '`time` or `distance`.' }), things).is_closed).toBe(true);
     expect(options_for(asked('language', 'string'), things).is_closed).toBe(false);

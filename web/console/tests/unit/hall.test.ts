@@ -1,4 +1,4 @@
-// People of the simulated hall who are steered: what is said to the engine, and what is learnt from it.
+// Simulated visitors: commands to the engine and its answers.
 import type { XmlElement } from 'rois-client';
 import { beforeEach, describe, expect, test } from 'vitest';
 
@@ -49,7 +49,7 @@ async function completes(status = 'OK', nth = -1): Promise<void> {
 }
 
 describe('the hall', () => {
-  test('is known by the type of its component', async () => {
+  test('is found by the type of its component', async () => {
     expect(console.hall.component.value?.ref).toBe('simulated_hall');
     const other = new World();
     other.answers.set('get_profile', () => profile_xml({ navigation: { type: 'Navigation' } }));
@@ -62,7 +62,7 @@ describe('the hall', () => {
     stop();
   });
 
-  test('tells visitors what they are told, and has them bound while they do it', async () => {
+  test('sends orders to visitors, and binds the component during them', async () => {
     const { hall } = console;
     const all = [
       hall.enter('anna', { language: 'ja', known: true }), hall.enter('ben'), hall.walk('anna', 'desk'), hall.walk('anna', { x: 1000, y: 2000 }), hall.walk('anna', { x: 1, y: 2, th: 90 }),
@@ -83,7 +83,7 @@ describe('the hall', () => {
     expect([...console.bindings.mine.value]).toEqual([]);
   });
 
-  test('says why an order was not done', async () => {
+  test('reports why an order failed', async () => {
     const ordered = console.hall.walk('anna', 'desk');
     await settled();
     world.answers.set('get_command_result', () => `<results>${result('status', 'string', 'ERROR')}${result('reason', 'string', 'there is no way there')}</results>`);
@@ -91,7 +91,7 @@ describe('the hall', () => {
     expect(await ordered).toEqual({ status: 'ERROR', reason: 'there is no way there' });
   });
 
-  test('is looked at while somebody looks', async () => {
+  test('is polled while watched', async () => {
     world.answers.set('query', () => `<component_ref rois:code="simulated_hall"/><results>${result('visitor_ref', 'string[]', 'anna', 'tanaka')}${result('position_data', 'string[]', '1000, 2000, 90', '5, 6, -90')}${result('known', 'bool[]', 'false true')}${result('steered', 'bool[]', 'true false')}</results>`);
     expect(console.hall.told_at).toBe(0);
     const stop = console.hall.poll.watch();
@@ -106,11 +106,11 @@ describe('the hall', () => {
     const before = beat.value;
     await world.passes(300);
     world.draws();
-    expect(beat.value).toBe(before); // nobody has moved
+    expect(beat.value).toBe(before); // nothing has moved
     stop();
   });
 
-  test('is looked at less often while nobody moves and nobody has been told anything', async () => {
+  test('is polled less often at rest', async () => {
     let x = 1000;
     world.answers.set('query', () => `<component_ref rois:code="simulated_hall"/><results>${result('visitor_ref', 'string[]', 'anna')}${result('position_data', 'string[]', `${x}, 2000, 90`)}</results>`);
     const stop = console.hall.poll.watch();
@@ -132,7 +132,7 @@ describe('the hall', () => {
     stop();
   });
 
-  test('whether the world stands still is in the profile of the engine', () => {
+  test("the engine's profile states whether time is stopped", () => {
     const profile = console.profile.profile.value!;
     const told = (speed: string) => {
       const parameters = [{ name: 'sim_speed', data_type_ref: { code: 'double' }, default_value: speed, description: '' }];
@@ -141,6 +141,6 @@ describe('the hall', () => {
     };
     expect(console.hall.stands_still.value).toBe(false);
     expect([told('0'), told('1'), told('0.5')]).toEqual([true, false, false]);
-    expect(units()).toEqual([]); // nothing was tried for it
+    expect(units()).toEqual([]); // no request was sent
   });
 });

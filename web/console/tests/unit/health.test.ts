@@ -1,4 +1,4 @@
-// What the health panel makes of what was measured.
+// Values of the Health panel.
 import { command } from 'rois-client';
 import { beforeEach, describe, expect, test } from 'vitest';
 
@@ -18,22 +18,22 @@ describe('series', () => {
     { at: 3000, sent: 1, received: 0, tooks: [] },
     { at: 4000, sent: 1, received: 1, tooks: [4] },
   ];
-  test('of latency: the middle and the slowest of each second; nothing where nothing was answered', () => {
+  test('of latency: median and maximum of each second; no points without answers', () => {
     const { middle, slowest } = latencies(seconds, 0);
     expect(middle).toEqual([{ at: 1000, value: 2 }, { at: 4000, value: 4 }]);
     expect(slowest).toEqual([{ at: 1000, value: 9 }, { at: 4000, value: 4 }]);
     expect(latencies(seconds, 2000).middle).toHaveLength(1);
   });
-  test('of documents: a second without any is 0, the one that is not over is left out', () => {
+  test('of documents: a second without any is 0, the current second is omitted', () => {
     expect(documents_a_second(seconds, 0, 4500, (one) => one.sent)).toEqual([{ at: 1000, value: 2 }, { at: 2000, value: 0 }, { at: 3000, value: 1 }]);
     expect(documents_a_second([], 0, 4500, (one) => one.sent)).toEqual([]);
   });
-  test('of counters: what they grow in a second; a gateway that was started anew makes a gap', () => {
+  test('of counters: growth per second; a restart of the gateway makes a gap', () => {
     const history = [0, 1000, 2000, 3000, 9000, 10_000].map((at, i) => scrape(at, `n ${[10, 14, 14, 2, 8, 9][i]}\n`));
     expect(growth(history, 0, (one) => one.value('n'))).toEqual([{ at: 1000, value: 4 }, { at: 2000, value: 0 }, { at: 10_000, value: 1 }]);
     expect(growth(history, 0, (one) => one.value('m'))).toEqual([]);
   });
-  test('of what a request took inside', () => {
+  test('of the time inside the gateway', () => {
     const history = [0, 1000, 2000].map((at, i) => scrape(at, `rois_request_duration_seconds_sum ${[0, 0.01, 0.01][i]}\nrois_request_duration_seconds_count ${[0, 5, 5][i]}\n`));
     expect(inside(history, 0)).toEqual([{ at: 1000, value: 2 }]);
   });
@@ -59,7 +59,7 @@ rois_limit{limit="commands"} 1024
 rois_limit_reached_total{limit="sessions"} 5
 rois_limit_reached_total{limit="commands"} 0
 `;
-  test('sessions, in order, with what they have bound', () => {
+  test('sessions, in order, with their bindings', () => {
     const rows = sessions_in(scrape(100_000, text), new Set(), 99_400);
     expect(rows.map(({ number, is_mine, bound }) => [number, is_mine, bound])).toEqual([
       ['2', false, []],
@@ -68,20 +68,20 @@ rois_limit_reached_total{limit="commands"} 0
     ]);
     expect(rows[1]).toMatchObject({ commands: 4, subscriptions: 0, age: 30_000 });
   });
-  test('ours is the one that has bound what we have; it is not guessed', () => {
+  test("the console's own session is found by its bindings, and not guessed", () => {
     const mine = (bound: string[], begun: number) => sessions_in(scrape(100_000, text), new Set(bound), begun).filter((one) => one.is_mine).map((one) => one.number);
     expect(mine(['follow'], 0)).toEqual(['3']);
     expect(mine([], 40_300)).toEqual(['2']);
     expect(mine([], 0)).toEqual([]);
   });
-  test('limits, how near they are, and how often they were reached', () => {
+  test('limits with their use and how often they were reached', () => {
     expect(limits_in(scrape(0, text), scrape(0, 'rois_limit_reached_total{limit="sessions"} 3\n'))).toEqual([
       { name: 'sessions', now: 3, most: 3, reached: 5, lately: 2 },
       { name: 'commands', now: 4, most: 1024, reached: 0, lately: 0 },
     ]);
     expect(limits_in(scrape(0, 'rois_sessions 1\n'), undefined)).toEqual([]);
   });
-  test('troubles: only what there was', () => {
+  test('problems: only those that occurred', () => {
     const now = scrape(0, 'rois_faults_total{code="invalid"} 2\nrois_faults_total{code="too_many"} 0\nrois_requests_total{operation="bind",return_code="OK"} 9\nrois_requests_total{operation="bind",return_code="ERROR"} 1\nrois_notifications_lost_total 4\n');
     expect(troubles_in(now, scrape(0, 'rois_notifications_lost_total 4\n'))).toEqual([
       { name: 'rois_faults_total', detail: 'invalid', count: 2, lately: 2 },
@@ -101,7 +101,7 @@ describe('the log', () => {
     console = await world.console();
   });
 
-  test('has errors with their details, refusals, gaps, and when the link was away; the newest first', async () => {
+  test('has errors with details, refusals, gaps and lost links; newest first', async () => {
     world.answers.set('get_error_detail', () => '<results><result rois:name="text"><rois:data_type_ref rois:code="string"/><rois:value>a wheel is stuck</rois:value></result></results>');
     world.answers.set('bind', () => 'OUT_OF_RESOURCES');
     console.history.record();
@@ -122,7 +122,7 @@ describe('the log', () => {
     expect(new Set(log.map((one) => one.key)).size).toBe(4);
   });
 
-  test('has commands that failed, and says of a refused sequence whom it is about', async () => {
+  test('has failed commands, and the component of a refused sequence', async () => {
     const unit = '<rois:command_unit_list xsi:type="rois:CommandMessageType" rois:command_type="start" rois:command_id="c1"><rois:component_ref rois:code="navigation"/></rois:command_unit_list>';
     world.answers.set('execute', () => `<rois:CommandUnitSequence>${unit}</rois:CommandUnitSequence>`);
     await console.run('navigation', 'start');

@@ -1,4 +1,4 @@
-// What the state remembers of how things were, and of what goes in and out.
+// History and traffic of the state.
 import { beforeEach, describe, expect, test } from 'vitest';
 
 import type { Console } from '../../src/state/console';
@@ -24,7 +24,7 @@ beforeEach(async () => {
   console = await world.console();
 });
 
-/** `READY 0-2000`, times from the world's beginning. */
+/** `READY 0-2000`, in ms from the start. */
 function told(history: History, kind: Span['kind']): string[] {
   const spans = [...history.past, ...history.present.values()].filter((one) => one.kind === kind).sort((a, b) => a.number - b.number);
   return spans.map(({ value, from, to }) => `${value} ${from - began}-${to - began}`);
@@ -32,7 +32,7 @@ function told(history: History, kind: Span['kind']): string[] {
 const began = Date.UTC(2026, 10, 20, 12);
 
 describe('history', () => {
-  test('holds from when to when a component was how', async () => {
+  test('has the periods of each status', async () => {
     const stop = console.history.record();
     await settled();
     await world.passes(2000);
@@ -44,7 +44,7 @@ describe('history', () => {
     expect(told(console.history, 'status')).toEqual(['READY 0-3000', 'BUSY 3000-5000']);
   });
 
-  test('says nothing of the time in which the link was away', async () => {
+  test('has nothing for the time of a lost link', async () => {
     console.history.record();
     await settled();
     await world.passes(2000);
@@ -58,19 +58,19 @@ describe('history', () => {
     expect(told(console.history, 'link')).toEqual(['open 0-2000', 'lost 2000-7000', 'resumed 7000-8000']);
   });
 
-  test('tells of one loss once, and why it came, however often it is tried to come back', async () => {
+  test('reports a loss once with its reason, however many retries fail', async () => {
     console.history.record();
     await world.passes(2000);
     world.breaks();
     await world.passes(40);
     const why = console.link.view.value.reason;
-    console.link.turn('lost', 'the WebSocket could not be opened');
+    console.link.set_phase('lost', 'the WebSocket could not be opened');
     await world.passes(1960);
     expect(told(console.history, 'link')).toEqual(['open 0-2000', 'lost 2000-4000']);
     expect(console.history.present.get('link ')!.note).toBe(why);
   });
 
-  test('holds who had bound what', async () => {
+  test('has the owners of components', async () => {
     const bound = (session: string) => ({ status: 200, text: `rois_component_bound{component_ref="navigation",session="${session}"} 1\n` });
     console.history.record();
     await world.passes(1000);
@@ -86,7 +86,7 @@ describe('history', () => {
     expect([...console.history.present.values()].map((one) => one.kind)).not.toContain('holder');
   });
 
-  test('has a bound', async () => {
+  test('is bounded', async () => {
     const history = new History(world, console, 10);
     history.record();
     for (let i = 0; i < 100; ++i) {
@@ -99,7 +99,7 @@ describe('history', () => {
 });
 
 describe('traffic', () => {
-  test('counts by the second, and knows how long answers took', async () => {
+  test('counts by second, and has the response times', async () => {
     await world.passes(1000);
     for (let i = 0; i < 100; ++i) await console.client.search();
     const second = console.traffic.seconds.at(-1)!;
@@ -108,7 +108,7 @@ describe('traffic', () => {
     expect(second.slowest?.name).toBe('search_response');
   });
 
-  test('asks something light when nothing else is said and somebody looks', async () => {
+  test('sends a light request while watched and idle', async () => {
     await world.passes(3000);
     const before = world.requests.length;
     await world.passes(3000);
@@ -125,7 +125,7 @@ describe('traffic', () => {
     expect(world.names().slice(before + 3).filter((name) => name === 'search')).toEqual([]);
   });
 
-  test('keeps what was refused, but not what the console asked by itself', async () => {
+  test("keeps refusals, except of the console's own requests", async () => {
     world.answers.set('search', () => 'ERROR');
     await console.client.search().catch(() => undefined);
     await console.documents.as_own(() => console.client.search()).catch(() => undefined);
@@ -141,7 +141,7 @@ describe('traffic', () => {
     expect(console.traffic.seconds.size).toBe(120);
   });
 
-  test('the middle of numbers', () => {
+  test('the median', () => {
     expect([[], [3], [5, 1], [9, 1, 2]].map(median)).toEqual([undefined, 3, 3, 2]);
   });
 });
@@ -158,7 +158,7 @@ describe('a reload', () => {
     return another;
   };
 
-  test('leaves gaps, and what was refused and why', async () => {
+  test('leaves gaps and refusals with their reasons', async () => {
     world.answers.set('bind', () => 'ERROR');
     world.reasons.set('bind', 'navigation &lt;is&gt; taken');
     await console.bindings.bind('navigation').catch(() => undefined);
@@ -173,10 +173,10 @@ describe('a reload', () => {
     expect(log_of(after).map((one) => one.kind).sort()).toEqual(['gap', 'refused']);
     expect(after.documents.ring.numbered(refused!.number)).toBeUndefined();
     console = after;
-    expect(reason_of(reloaded().traffic.refused.at(0)!)).toBe('navigation <is> taken'); // once more
+    expect(reason_of(reloaded().traffic.refused.at(0)!)).toBe('navigation <is> taken'); // parsed from XML again
   });
 
-  test('leaves fewer when the browser does not take them all', () => {
+  test('stores fewer rows if the browser refuses more', () => {
     for (let i = 0; i < 500; ++i) console.events.gaps.push({ at: i, gap: { reason: 'lost', first: i, last: i, count: 1 } });
     const sizes: number[] = [];
     keep(console, (text) => sizes.push((JSON.parse(text) as { gaps: unknown[] }).gaps.length) > 2);

@@ -1,4 +1,4 @@
-// The floor map without a canvas: the view, what pointers and keys do, what is on the floor.
+// The floor map without a canvas: view, input and scene.
 import { describe, expect, test } from 'vitest';
 
 import { bearing, obstacle_at, on_map, turned } from '../../src/state/floor';
@@ -29,18 +29,18 @@ const map: FloorMap = {
 };
 
 describe('the view', () => {
-  test('goes from floor to screen and back: y is up', () => {
+  test('converts from floor to screen and back: y points up', () => {
     expect(to_screen(view, size, { x: 5000, y: 3000 })).toEqual({ x: 400, y: 300 });
     expect(to_screen(view, size, { x: 6000, y: 4000 })).toEqual({ x: 500, y: 200 });
     expect(to_floor(view, size, { x: 500, y: 200 })).toEqual({ x: 6000, y: 4000 });
   });
 
-  test('is panned with what is under the pointer', () => {
+  test('is panned with the point under the pointer', () => {
     const to = panned(view, 30, -20);
     expect(to_screen(to, size, { x: 5000, y: 3000 })).toEqual({ x: 430, y: 280 });
   });
 
-  test('is zoomed around a point, and within limits', () => {
+  test('is zoomed around a point, within limits', () => {
     const at = { x: 100, y: 500 };
     const to = zoomed(view, size, at, 2);
     expect(to.scale).toBe(0.2);
@@ -51,7 +51,7 @@ describe('the view', () => {
     expect(zoomed(view, size, at, 1e-9).scale).toBe(0.001);
   });
 
-  test('is pinched: what two fingers hold stays under them', () => {
+  test('is pinched: both points stay under their fingers', () => {
     const [before, after] = [[{ x: 300, y: 300 }, { x: 500, y: 300 }], [{ x: 250, y: 200 }, { x: 650, y: 200 }]] as const;
     const to = pinched(view, size, before, after);
     expect(to.scale).toBeCloseTo(0.2);
@@ -62,20 +62,20 @@ describe('the view', () => {
     }
   });
 
-  test('shows a whole box, with a margin', () => {
+  test('shows a whole box with a margin', () => {
     const whole = fitted(map.bounds, size, 50);
     expect(whole).toEqual({ x: 5000, y: 3000, scale: 0.07 });
     expect(to_screen(whole, size, { x: 0, y: 3000 }).x).toBeCloseTo(50);
     expect(fitted({ x: 0, y: 0, width: 0, depth: 0 }, { width: 0, height: 0 }, 50).scale).toBeLessThanOrEqual(0.5);
   });
 
-  test('is moved only as far as it takes to show a point', () => {
+  test('moves only as far as needed to show a point', () => {
     expect(with_point(view, size, { x: 5000, y: 3000 }, 50)).toEqual(view);
     const to = with_point(view, size, { x: 10_000, y: 3000 }, 50);
     expect(to_screen(to, size, { x: 10_000, y: 3000 }).x).toBeCloseTo(750);
   });
 
-  test('has round steps, and a box in whole 5 m around what there is', () => {
+  test('has round steps, and a box in multiples of 5 m around all points', () => {
     expect([1, 1.5, 3, 70, 200, 501].map(round_step)).toEqual([1, 2, 5, 100, 200, 1000]);
     expect(box_around([])).toEqual({ x: -5000, y: -5000, width: 10_000, depth: 10_000 });
     expect(box_around([{ x: 7000, y: -9000 }])).toEqual({ x: -5000, y: -10_000, width: 15_000, depth: 15_000 });
@@ -83,12 +83,12 @@ describe('the view', () => {
 });
 
 describe('the floor', () => {
-  test('knows directions', () => {
+  test('computes directions', () => {
     expect([190, -190, 180, -180, 720].map(turned)).toEqual([-170, 170, 180, 180, 0]);
     expect(bearing({ x: 0, y: 0 }, { x: 0, y: 5 })).toBe(90);
   });
 
-  test('brings what is told in a robot\'s frame to the map; what nobody has placed is nowhere', () => {
+  test("converts from a robot's frame to the map; frames without a position are unknown", () => {
     const pose = on_map(map, 'URN:OWN', { x: 500, y: 0, th: 120 })!;
     expect([pose.x, pose.y].map(Math.round)).toEqual([1000, 2500]);
     expect(pose.th).toBe(-150);
@@ -104,10 +104,10 @@ describe('the floor', () => {
     [7800, 4200, 'furniture'],
     [5200, 1000, 'wall'],
     [5000, 2300, undefined],
-  ])('at %i, %i a robot of 250 mm has in its way: %s', (x, y, what) => expect(obstacle_at(map, { x, y }, 250)).toBe(what));
+  ])('at %i, %i a robot of 250 mm has this obstacle: %s', (x, y, what) => expect(obstacle_at(map, { x, y }, 250)).toBe(what));
 });
 
-describe('what the user does', () => {
+describe('input', () => {
   const things = [{ key: 'robot robot1', x: 1000, y: 1000 }, { key: 'person person-1', x: 9000, y: 3000 }];
   let hit: Hit = { what: 'floor' };
   const around: Surroundings = { size, whole: view, hit: () => hit, arrival: () => 90, things };
@@ -117,41 +117,41 @@ describe('what the user does', () => {
   const release = (pointer = 1): Input => ({ kind: 'release', pointer, at: { x: 0, y: 0 } });
   const key = (name: string, more = {}): Input => ({ kind: 'key', key: name, shift: false, ctrl: false, ...more });
 
-  test('a click on the floor makes a target there; a hand that trembles is a click', () => {
+  test('a click on the floor sets a target; a small movement is still a click', () => {
     hit = { what: 'floor' };
     expect(after([press(500, 200), move(502, 201), release()])).toMatchObject({ target: { x: 6000, y: 4000 }, view: undefined, gesture: { kind: 'none' } });
   });
 
-  test('a click on a place means it by its name, with its direction', () => {
+  test('a click on a place selects it by name, with its direction', () => {
     hit = { what: 'place', name: 'desk', x: 2000, y: 1000, th: 90 };
     expect(after([press(10, 10), release()]).target).toEqual({ x: 2000, y: 1000, th: 90, place: 'desk' });
   });
 
-  test('a click on a thing chooses it, and drops the target', () => {
+  test('a click on a thing selects it and drops the target', () => {
     hit = { what: 'thing', key: 'person person-1' };
     expect(after([press(10, 10), release()], { ...at_rest, target: { x: 1, y: 1 } })).toMatchObject({ chosen: 'person person-1', target: undefined });
   });
 
-  test('dragging the floor pans, and makes no target', () => {
+  test('dragging the floor pans and sets no target', () => {
     hit = { what: 'floor' };
     const state = after([press(400, 300), move(450, 280), move(460, 280), release()]);
     expect(state.target).toBeUndefined();
     expect(to_screen(state.view!, size, { x: 5000, y: 3000 })).toEqual({ x: 460, y: 280 });
   });
 
-  test('dragging from the target gives its direction; a place that is turned is a point', () => {
+  test('dragging from the target sets its direction; a turned place becomes a point', () => {
     hit = { what: 'target' };
     const state = after([press(500, 200), move(500, 150), release()], { ...at_rest, target: { x: 6000, y: 4000, th: 0, place: 'desk' } });
     expect(state.target).toEqual({ x: 6000, y: 4000, th: 90 });
     expect(state.view).toBeUndefined();
   });
 
-  test('Shift and drag gives place and direction at once', () => {
+  test('Shift and drag sets place and direction at once', () => {
     const state = after([press(500, 200, { aims: true }), move(505, 200), move(400, 200), release()]);
     expect(state.target).toEqual({ x: 6000, y: 4000, th: 180 });
   });
 
-  test('two fingers zoom; when one is lifted the other one pans', () => {
+  test('two fingers zoom; after one is lifted the other pans', () => {
     hit = { what: 'floor' };
     const state = after([press(300, 300), press(500, 300, { pointer: 2 }), move(700, 300, 2), release(1)]);
     expect(state.view!.scale).toBeCloseTo(0.2);
@@ -161,12 +161,12 @@ describe('what the user does', () => {
     expect(end.target).toBeUndefined();
   });
 
-  test('other pointers, and ends of what never began, change nothing', () => {
+  test('other pointers and unknown releases change nothing', () => {
     expect(after([move(1, 1, 7), release(7), { kind: 'cancel', pointer: 7 }])).toBe(at_rest);
     expect(after([press(1, 1), { kind: 'cancel', pointer: 1 }]).gesture.kind).toBe('none');
   });
 
-  test('arrows move a cursor on round numbers, and the view follows it', () => {
+  test('arrows move a cursor in round steps, and the view follows', () => {
     const state = after([key('ArrowRight'), key('ArrowUp', { shift: true })]);
     expect(state.cursor).toEqual({ x: 5000, y: 4000 });
     expect(state.view).toBeUndefined();
@@ -174,7 +174,7 @@ describe('what the user does', () => {
     expect(to_screen(far.view!, size, far.cursor!).x).toBeCloseTo(48);
   });
 
-  test('Enter sets the target at the cursor, Q and E turn it, Escape drops one thing after the other', () => {
+  test('Enter sets the target at the cursor, Q and E turn it, Escape drops one thing at a time', () => {
     hit = { what: 'floor' };
     const set = after([key('ArrowRight'), key('Enter'), key('q')]);
     expect(set).toMatchObject({ cursor: { x: 5250, y: 3000 }, target: { x: 5250, y: 3000, th: 105 } });
@@ -184,7 +184,7 @@ describe('what the user does', () => {
     expect(after([key('Escape')], dropped).cursor).toBeUndefined();
   });
 
-  test('N and P go through all that is there', () => {
+  test('N and P step through all things', () => {
     const first = after([key('n')]);
     expect(first).toMatchObject({ chosen: 'robot robot1', cursor: { x: 1000, y: 1000 } });
     expect(after([key('n')], first).chosen).toBe('person person-1');
@@ -192,7 +192,7 @@ describe('what the user does', () => {
     expect(after([key('n'), key('n')], first).chosen).toBe('robot robot1');
   });
 
-  test('keys zoom, fit and pan; others belong to the page', () => {
+  test("keys zoom, fit and pan; other keys are the page's", () => {
     expect(after([key('+')]).view!.scale).toBeCloseTo(0.125);
     expect(after([key('+'), key('0')]).view).toBeUndefined();
     expect(after([key('ArrowLeft', { ctrl: true })]).view).toEqual({ ...view, x: 4200 });
@@ -202,7 +202,7 @@ describe('what the user does', () => {
   });
 });
 
-describe('what is on the floor', () => {
+describe('the scene', () => {
   const now = 100_000;
   const thing = { codebook: '', component: 'localization', crs: 'urn:hall', x: 1000, y: 2000, z: 0, at: now - 100 };
   const person = (ref: string, more: Partial<Entity> = {}): Entity => ({ ...thing, ref, kind: 'person', is_seen: true, trail: new Ring(9), ...more });
@@ -210,44 +210,44 @@ describe('what is on the floor', () => {
   const told = (more: Partial<Told>): Told => ({ robots: [], entities: [], map, now, is_live: true, senses: () => true, ...more });
   const states = (more: Partial<Told>) => scene_of(told(more)).shown.map((one) => one.freshness);
 
-  test('robots have the size of the map, people the name that was found out', () => {
+  test("robots have the map's size, people their identified name", () => {
     const { shown } = scene_of(told({ robots: [robot('robot1', { th: 30 })], entities: [person('person-1', { identity: { ref: 'tanaka', codebook: 'v', at: 0 } })] }));
     expect(shown).toMatchObject([{ key: 'person person-1', name: 'tanaka' }, { key: 'robot robot1', name: 'robot1', radius: 280, th: 30 }]);
   });
 
-  test('what is told in a robot\'s own frame stands where it is on the map, its ellipse turned with it', () => {
+  test("a thing in a robot's own frame is drawn at its place on the map, with a turned ellipse", () => {
     const { shown, lost } = scene_of(told({ entities: [person('a', { crs: 'urn:own', th: 0, covariance: [400, 0, 0, 100] }), person('b', { crs: 'urn:nowhere' })] }));
     expect(shown).toHaveLength(1);
     expect(shown[0]).toMatchObject({ th: 90, ellipse: { a: 20, b: 10, angle: 90 } });
     expect(lost.map((one) => one.ref)).toEqual(['b']);
   });
 
-  test('people are quiet when they stand, gone when out of sight, unknown when nobody senses and when the link is lost', () => {
+  test('people are quiet when they stand, gone when out of sight, unknown without sensing or link', () => {
     expect(states({ entities: [person('a')] })).toEqual(['live']);
     expect(states({ entities: [person('a', { at: now - 9000 })] })).toEqual(['quiet']);
-    expect(states({ entities: [person('a', { at: now - 31_000 })] })).toEqual(['old']); // whatever is said to sense
+    expect(states({ entities: [person('a', { at: now - 31_000 })] })).toEqual(['old']); // whatever the bindings
     expect(states({ entities: [person('a', { is_seen: false })] })).toEqual(['gone']);
     expect(states({ entities: [person('a', { at: now - 9000 })], senses: () => false })).toEqual(['unknown']);
     expect(states({ entities: [person('a', { at: now - 31_000 })], senses: () => false })).toEqual([]);
     expect(states({ entities: [person('a', { is_seen: false })], is_live: false })).toEqual(['gone']);
     expect(states({ entities: [person('s', { kind: 'sound', at: now - 60_000 })], is_live: false })).toEqual(['unknown']);
-    expect(states({ entities: [person('a')], senses: () => false })).toEqual(['live']); // told just now, whatever is known of bindings
+    expect(states({ entities: [person('a')], senses: () => false })).toEqual(['live']); // reported just now, whatever the bindings
     expect(states({ entities: [person('a')], is_live: false })).toEqual(['unknown']);
     expect(states({ entities: [person('a', { at: now - 9000, unknown_since: now - 50 })] })).toEqual(['unknown']);
   });
 
-  test('the label of who stands still says how long ago they were told of, and grows older', () => {
+  test('the label of a standing person shows the age of the last report', () => {
     const label = (ms: number) => label_of(scene_of(told({ entities: [person('anna', { at: now - ms })] })).shown[0]!, age);
     expect([100, 6000, 7000, 12_000, 14_000, 16_000, 61_000].map(label)).toEqual(['anna', 'anna · 6 s', 'anna · 7 s', 'anna · 10 s', 'anna · 10 s', 'anna · 15 s', 'anna · 1 min']);
   });
 
-  test('who is gone for half a minute is not shown, unless nothing can be told because the link is lost', () => {
+  test('a person is hidden half a minute after leaving, except while the link is lost', () => {
     const old = person('a', { is_seen: false, at: now - 31_000 });
     expect(states({ entities: [old] })).toEqual([]);
     expect(states({ entities: [old], is_live: false })).toEqual(['gone']);
   });
 
-  test('a sound that nobody hears any more fades, since nobody tells of its end', () => {
+  test('a sound that is no longer reported fades, because its end is not reported', () => {
     const sound = (age: number) => person('s', { kind: 'sound', at: now - age, th: 20 });
     expect(states({ entities: [sound(500)] })).toEqual(['live']);
     expect(states({ entities: [sound(3000)] })).toEqual(['gone']);
@@ -255,7 +255,7 @@ describe('what is on the floor', () => {
     expect(scene_of(told({ entities: [sound(500)] })).shown[0]!.th).toBeUndefined();
   });
 
-  test('a face is there as long as somebody is: nobody tells that somebody has looked away', () => {
+  test('a face stays while a person is there, because looking away is not reported', () => {
     const face = (age: number, x = 1000) => person('f', { kind: 'face', at: now - age, x });
     const body = person('a', { at: now - 9000 });
     expect(states({ entities: [body, face(9000)] })).toEqual(['quiet', 'quiet']);
@@ -264,13 +264,13 @@ describe('what is on the floor', () => {
     expect(states({ entities: [face(500)] })).toEqual(['live']);
   });
 
-  test('a robot of which nothing is heard is old', () => {
+  test('a robot without reports is old', () => {
     expect(states({ robots: [robot('robot1', { at: now - 3000 })] })).toEqual(['gone']);
   });
 });
 
 describe('gliding', () => {
-  test('the noise of a thing at rest is not news, neither is it drawn; a movement is', () => {
+  test('noise of a resting thing is not drawn; a movement is', () => {
     const glide = new Glide();
     const slack = 30; // mm
     glide.pose('a', { x: 0, y: 0, th: 0 }, 0, slack);
@@ -286,7 +286,7 @@ describe('gliding', () => {
     expect(glide.is_news('a', { x: 45, y: 0, th: 0 }, 2800, slack)).toBe(false);
   });
 
-  test('goes evenly from one told place to the next, as long as it took to be told', () => {
+  test('moves smoothly from pose to pose in the time between the reports', () => {
     const glide = new Glide();
     expect(glide.pose('a', { x: 0, y: 0, th: 350 }, 1000)).toEqual({ x: 0, y: 0, th: 350 });
     expect(glide.is_moving(1000)).toBe(false);
@@ -297,7 +297,7 @@ describe('gliding', () => {
     expect(glide.is_moving(1400)).toBe(false);
   });
 
-  test('jumps when it must not move, and over what no one walks', () => {
+  test('jumps with reduced motion and over long distances', () => {
     const glide = new Glide();
     glide.pose('a', { x: 0, y: 0 }, 0);
     expect(glide.pose('a', { x: 5000, y: 0 }, 100).x).toBe(5000);
@@ -310,21 +310,21 @@ describe('gliding', () => {
 describe('names', () => {
   const label = (key: string, x: number, y: number, must = false) => ({ key, width: 60, at: { x, y }, radius: 10, must });
 
-  test('stand beside one another, or not at all', () => {
+  test('do not overlap, or are omitted', () => {
     const labels = new Labels();
     const places = labels.placed([label('a', 100, 100), label('b', 102, 100), label('c', 101, 101), label('d', 101, 99), label('e', 100, 100)], size);
     expect([...places.keys()]).toEqual(['a', 'b', 'c', 'd']);
     expect(new Set([...places.values()].map(({ x, y }) => `${Math.sign(x - 70)} ${Math.sign(y - 91)}`)).size).toBe(4);
   });
 
-  test('stay on the side where they were, and within the screen', () => {
+  test('stay on their side and inside the screen', () => {
     const labels = new Labels();
     const at_edge = labels.placed([label('a', 795, 100)], size).get('a')!;
     expect(at_edge.x).toBeLessThan(795);
     expect(labels.placed([label('a', 700, 100)], size).get('a')!.x).toBeLessThan(700);
   });
 
-  test('that must be seen are, and nothing is written over what stands there', () => {
+  test('are shown if they must be, and other boxes are avoided', () => {
     const labels = new Labels();
     const everywhere = { x: 0, y: 0, ...size };
     expect([...labels.placed([label('a', 100, 100), label('b', 300, 300, true)], size, [everywhere]).keys()]).toEqual(['b']);

@@ -1,4 +1,4 @@
-// How much is drawn when: counted, not timed. And what the map does with the engine: sending, following, observing.
+// The amount of drawing, counted rather than timed; and the map's commands: sending, following, observing.
 import type { XmlElement } from 'rois-client';
 import { beforeEach, describe, expect, test, vi } from 'vitest';
 
@@ -25,7 +25,7 @@ let console: Console;
 let session: MapSession;
 let calls = 0;
 
-// A canvas that only counts.
+// A canvas that counts calls.
 function sheet(): Sheet {
   const context = new Proxy({} as Record<string, unknown>, {
     get: (target, name: string) => target[name] ?? ((): unknown => (++calls, name === 'measureText' ? { width: 40 } : undefined)),
@@ -54,7 +54,7 @@ function people(...all: [x: number, y: number][]): string {
   return `<event_id>e</event_id><event_type>person_localized</event_type><subscribe_id>s-1</subscribe_id><expire>2026-11-20T12:01:00Z</expire><component_ref rois:code="person_localization"/><results><result rois:name="person_ref"><rois:data_type_ref rois:code="RoISIdentifier[]" rois:codebook_ref="tracks"/></result>${located.join('')}</results>`;
 }
 
-// Of an execute: the component and what it is to do, with its arguments.
+// The components of an execute with their commands and arguments.
 function asked(request: XmlElement): string[] {
   return request.child('CommandUnitSequence')!.children.map((unit) => {
     const ref = unit.child('component_ref')!.attributes[0]!.value;
@@ -105,7 +105,7 @@ beforeEach(async () => {
 });
 
 describe('drawing', () => {
-  test('happens when something has changed, once a picture, and the ground only when the view changes', async () => {
+  test('happens after changes, once a frame, and for the ground only when the view changes', async () => {
     console.robots.poll.watch();
     await settled();
     world.draws();
@@ -117,7 +117,7 @@ describe('drawing', () => {
     for (let i = 0; i < 10; ++i) world.draws();
     expect(made.counts).toMatchObject({ pictures, grounds });
     for (let i = 0; i < 5; ++i) await world.notifies('receive_event', people([1000 + i * 100, 1000]));
-    world.draws(); // tells those who look
+    world.draws(); // notifies watchers
     world.draws(); // draws
     expect(made.counts).toMatchObject({ pictures: pictures + 1, grounds });
     made.act({ kind: 'zoom', factor: 2 });
@@ -125,7 +125,7 @@ describe('drawing', () => {
     expect(made.counts.grounds).toBe(grounds + 1);
   });
 
-  test('does not happen at rest, however noisy the robot\'s position is, but for the ages; and at once when the robot moves', async () => {
+  test('does not happen at rest despite noise, except for ages; and at once when the robot moves', async () => {
     let n = 0;
     const at = (x: number, y: number) => `<component_ref rois:code="system_information"/>${where(x, y).replace('</results>', '')}<located of="position_data" ref="robot1" crs="hall"><position>${x} ${y} 0</position><orientation>0 0 ${(n % 3) - 1}</orientation><covariance>64 0 0 64</covariance></located></results>`;
     world.answers.set('query', () => at(1000 + 10 * Math.sin((n += 1)), 2000 + 10 * Math.cos(3 * n)));
@@ -149,13 +149,13 @@ describe('drawing', () => {
     await world.notifies('receive_event', people([4000, 4000]));
     await pictures_in(10_000);
     expect(made.counts.pictures).toBeGreaterThan(0);
-    expect(await pictures_in(10_000)).toBeLessThanOrEqual(2); // whoever stands still ages in steps of 5 s
+    expect(await pictures_in(10_000)).toBeLessThanOrEqual(2); // ages of standing persons change in steps of 5 s
     let x = 1000;
     world.answers.set('query', () => at((x += 100), 2000));
     expect(await pictures_in(2000)).toBeGreaterThan(60);
   });
 
-  test('of 20 people who move 20 times a second costs a bounded number of calls, and the ground and the trails once', async () => {
+  test('of 20 people moving at 20 Hz costs a bounded number of calls, and the ground and trails once', async () => {
     const made = drawing();
     made.start();
     world.draws();
@@ -170,13 +170,13 @@ describe('drawing', () => {
       world.draws();
     }
     expect(made.counts.pictures - before.pictures).toBeLessThanOrEqual(60);
-    expect(made.counts.pictures - before.pictures).toBeGreaterThanOrEqual(55); // they glide from one told place to the next
+    expect(made.counts.pictures - before.pictures).toBeGreaterThanOrEqual(55); // they move smoothly between poses
     expect(made.counts.grounds).toBe(before.grounds);
     expect(made.counts.trails).toBe(before.trails);
-    expect(calls / 60 / 20).toBeLessThan(80); // calls of the canvas for a person in a picture
+    expect(calls / 60 / 20).toBeLessThan(80); // canvas calls per person and frame
   });
 
-  test('with reduced motion things jump: one picture for what was told', async () => {
+  test('with reduced motion draws one frame for each report', async () => {
     const made = drawing();
     made.is_still = true;
     made.start();
@@ -189,7 +189,7 @@ describe('drawing', () => {
     expect(made.counts.pictures).toBe(pictures + 1);
   });
 
-  test('ends when it is over', async () => {
+  test('stops when it ends', async () => {
     const made = drawing();
     const end = made.start();
     world.draws();
@@ -201,7 +201,7 @@ describe('drawing', () => {
     expect(made.counts.pictures).toBe(pictures);
   });
 
-  test('knows what is under the pointer', async () => {
+  test('finds the thing under the pointer', async () => {
     console.robots.poll.watch();
     await settled();
     const made = drawing();
@@ -227,19 +227,19 @@ describe('driving', () => {
     await settled();
   });
 
-  test('sends the robot, and tells how it ended', async () => {
+  test('sends the robot and reports how it ended', async () => {
     const [driver] = drivers_of(console);
     expect(driver).toMatchObject({ name: 'robot1', navigation: 'navigation', follow: 'follow' });
     await go(console, driver!, { x: 4000, y: 3000, th: 90 }, 60_000);
     expect(executed()).toEqual(['navigation start target_position=4000, 3000, 90 time_limit=60000']);
-    expect(said()).toEqual([]); // the map says it
+    expect(said()).toEqual([]); // the map shows it
     expect(motions_of(console, driver!)).toHaveLength(1);
     await ends(ids()[0]!, 'OK');
     expect(said()).toEqual(['robot1 has reached x 4.00 m, y 3.00 m']);
     expect(world.names()).toContain('release');
   });
 
-  test('sent to somebody, it arrives at them, by their name', async () => {
+  test("sent to a person, it reports the person's name on arrival", async () => {
     const [driver] = drivers_of(console);
     await go(console, driver!, { x: 4000, y: 3000, whom: 'tanaka' }, 0);
     expect(goals_of(console, [])).toMatchObject([{ kind: 'go', x: 4000, y: 3000, text: 'tanaka' }]);
@@ -247,7 +247,7 @@ describe('driving', () => {
     expect(said()).toEqual(['robot1 has reached tanaka']);
   });
 
-  test('that is stopped says so', async () => {
+  test('reports that it was stopped', async () => {
     const [driver] = drivers_of(console);
     await go(console, driver!, { x: 9500, y: 9300, th: 90, place: 'desk' }, 0);
     expect(executed()[0]).toBe('navigation start target_position=desk time_limit=0');
@@ -259,7 +259,7 @@ describe('driving', () => {
     expect(said()).toEqual(['robot1 was stopped']);
   });
 
-  test('a way that ends badly is told; one that is replaced is not', async () => {
+  test('reports a failure, but not a replaced command', async () => {
     const [driver] = drivers_of(console);
     await go(console, driver!, { x: 1, y: 2 }, 0);
     await go(console, driver!, { x: 3, y: 4 }, 0);
@@ -268,7 +268,7 @@ describe('driving', () => {
     await ends(ids()[1]!, 'TIMEOUT');
     expect(console.notices.list.value).toMatchObject([{ severity: 'error', text: 'Not reached: x 0.00 m, y 0.00 m', detail: 'TIMEOUT' }]);
     world.answers.set('get_command_result', () => '<results><result rois:name="reason"><rois:data_type_ref rois:code="string"/><rois:value>a wall is in the way</rois:value></result></results>');
-    await go(console, driver!, { x: 5, y: 6 }, 0); // what was told of the one before is over
+    await go(console, driver!, { x: 5, y: 6 }, 0); // a new command removes the notice of the last one
     expect(said()).toEqual([]);
     await ends(ids()[2]!, 'ERROR');
     await settled();
@@ -279,7 +279,7 @@ describe('driving', () => {
     expect(console.documents.ring.numbered(console.selection.wanted.value!)).toMatchObject({ name: 'completed' });
   });
 
-  test('follows by the permanent name, after stopping what else moves it', async () => {
+  test('follows by the permanent name, after stopping other motions', async () => {
     const [driver] = drivers_of(console);
     await go(console, driver!, { x: 1, y: 2 }, 0);
     await world.notifies('receive_event', people([5000, 5000]));
@@ -300,7 +300,7 @@ describe('driving', () => {
     expect(motions_of(console, driver!)).toEqual([]);
   });
 
-  test('a goal is where it was sent, by name or by numbers', async () => {
+  test('a goal is the place that was sent, by name or coordinates', async () => {
     const [driver] = drivers_of(console);
     await go(console, driver!, { x: 9500, y: 9300, place: 'desk' }, 0);
     expect(goals_of(console, [])).toMatchObject([{ kind: 'go', x: 9500, y: 9300, th: 90, text: 'desk', is_mine: true }]);
@@ -309,7 +309,7 @@ describe('driving', () => {
     expect(goals_of(console, [])[0]!.th).toBeUndefined();
   });
 
-  test('what is refused rejects, and nothing is left bound', async () => {
+  test('a refused command rejects, and nothing stays bound', async () => {
     world.answers.set('execute', () => 'BAD_PARAMETER');
     const [driver] = drivers_of(console);
     await expect(go(console, driver!, { x: 1, y: 2 }, 0)).rejects.toMatchObject({ return_code: 'BAD_PARAMETER' });
@@ -318,7 +318,7 @@ describe('driving', () => {
   });
 });
 
-test('no name of a person is written over the name of a frame', async () => {
+test("a person's name is not drawn over a frame's name", async () => {
   const boxes: [x: number, y: number, width: number, height: number][] = [];
   const recording = sheet();
   const context = recording.getContext('2d') as unknown as Record<string, unknown>;
@@ -327,7 +327,7 @@ test('no name of a person is written over the name of a frame', async () => {
   const made = new Drawing(console, session, { ...recording, getContext: () => context as never }, { make_sheet: sheet, read_palette: () => palette, theme: () => 'dark', age_text: age, distance_text: String });
   made.resize({ width: 800, height: 600 }, 2);
   await settled();
-  await world.notifies('receive_event', people([100, -300])); // its name would stand where that of the frame does
+  await world.notifies('receive_event', people([100, -300])); // its name would overlap the frame's
   boxes.length = 0;
   made.resize({ width: 800, height: 600 }, 2);
   const pen = new Pen(context as never, made.view, { width: 800, height: 600 }, palette);
@@ -338,7 +338,7 @@ test('no name of a person is written over the name of a frame', async () => {
   expect(is_over).toBe(false);
 });
 
-test('of two robots the one that was chosen is sent', async () => {
+test('of two robots the selected one is sent', async () => {
   const two = (name: string) => ({ [`${name}.system_information`]: { type: 'SystemInformation', engine: name, messages: position_query, includes: [] }, [`${name}.navigation`]: { type: 'Navigation', engine: name } });
   world = new World();
   world.answers.set('get_profile', () => profile_xml({ ...two('robot1'), ...two('robot2') }));
@@ -373,7 +373,7 @@ describe('observing', () => {
     }
   }
 
-  test('binds and starts what looks for people, and gives it back', async () => {
+  test('binds and starts the detecting components, and releases them', async () => {
     const { observer } = session;
     const on = observer.turn_to(true);
     await settled();
@@ -387,7 +387,7 @@ describe('observing', () => {
     expect(observer.state.value).toMatchObject({ is_wanted: false, on: [] });
   });
 
-  test('takes what it can get, and says what it cannot', async () => {
+  test('uses the available components and reports the others', async () => {
     world.answers.set('bind', (request) => (request.child('component_ref')!.attributes[0]!.value.startsWith('person') ? 'OUT_OF_RESOURCES' : ''));
     const on = session.observer.turn_to(true);
     await settled();
@@ -396,7 +396,7 @@ describe('observing', () => {
     expect(session.observer.state.value).toMatchObject({ on: ['sound_localization'], refused: [{ ref: 'person_localization', error: { return_code: 'OUT_OF_RESOURCES' } }] });
   });
 
-  test('leaves running what the user had started, and bound what the user had bound', async () => {
+  test('does not stop what the user had started, or release what the user had bound', async () => {
     const started = console.run('person_localization', 'start');
     await settled();
     await ends(ids()[0]!, 'OK');
@@ -411,7 +411,7 @@ describe('observing', () => {
     expect(executed()).toHaveLength(2);
   });
 
-  test('is off when all of it was released elsewhere', async () => {
+  test('is off when all components were released elsewhere', async () => {
     const on = session.observer.turn_to(true);
     await settled();
     await ending();
@@ -420,12 +420,12 @@ describe('observing', () => {
     expect(session.observer.state.value.is_wanted).toBe(false);
   });
 
-  test('starts again what was stopped for another, and says meanwhile that it does not look', async () => {
+  test('restarts components that were stopped for another user, and shows meanwhile that they do not work', async () => {
     const on = session.observer.turn_to(true);
     await settled();
     await ending();
     await on;
-    const give_back = await console.bindings.borrow(['person_localization']); // by a scenario, say
+    const give_back = await console.bindings.borrow(['person_localization']); // for example by a scenario
     const stopped = await console.run('person_localization', 'stop', {}, { give_back: true });
     await ends(stopped.command_ids[0]!, 'OK');
     await stopped.ends;
@@ -442,7 +442,7 @@ describe('observing', () => {
     expect(console.bindings.mine.value.size).toBe(0);
   });
 
-  test('leaves alone what the user has stopped by hand, and says that it does not look', async () => {
+  test('does not restart what the user has stopped, and shows that it does not work', async () => {
     const on = session.observer.turn_to(true);
     await settled();
     await ending();
@@ -455,7 +455,7 @@ describe('observing', () => {
     expect(session.observer.state.value.on).toEqual(['sound_localization']);
   });
 
-  test('begins again in a new session', async () => {
+  test('restarts in a new session', async () => {
     const on = session.observer.turn_to(true);
     await settled();
     await ending();
@@ -472,10 +472,10 @@ describe('observing', () => {
   });
 });
 
-test('the knob that turns a target is seen whole, also where the floor ends', () => {
+test('the rotation handle of a target is visible, also at the edge of the screen', () => {
   const size = { width: 600, height: 400 };
   expect(knob_distance(15, { x: 300, y: 200 }, -90, size)).toBe(46);
   expect(knob_distance(15, { x: 300, y: 360 }, -90, size)).toBeCloseTo(31); // 9 px from the lower edge
   expect(knob_distance(15, { x: 300, y: 360 }, 90, size)).toBe(46);
-  expect(knob_distance(15, { x: 575, y: 200 }, 0, size)).toBe(20); // never in the middle of the target
+  expect(knob_distance(15, { x: 575, y: 200 }, 0, size)).toBe(20); // never at the centre of the target
 });

@@ -1,4 +1,4 @@
-// The list of documents, what each says in short, and recordings.
+// The list of documents, their summaries, and recordings.
 import { describe, expect, test } from 'vitest';
 
 import { category_of, Feed, type Filter, is_gap, no_filter, type Source } from '../../src/messages/feed';
@@ -24,7 +24,7 @@ function stage(most = 100) {
 }
 
 describe('the list', () => {
-  test('stays bounded with what the console asks itself, which is forgotten before the rest', () => {
+  test("is bounded with the console's own requests, which are dropped first", () => {
     const { documents, source } = stage(1000);
     const feed = new Feed(source, { ...no_filter, with_own: true });
     documents.note('in', event);
@@ -38,7 +38,7 @@ describe('the list', () => {
     expect(oldest && !is_gap(oldest) && oldest.name).toBe('receive_event');
   });
 
-  test('takes what comes, and drops what is forgotten', async () => {
+  test('adds new documents and drops forgotten ones', async () => {
     const { world, documents, gaps, source, names } = stage(3);
     const feed = new Feed(source, no_filter);
     expect(feed.update()).toBe(false);
@@ -63,8 +63,8 @@ describe('the list', () => {
   test.each<[string, Partial<Filter>, string[]]>([
     ['all', {}, ['execute', 'execute_response', 'receive_event', 'completed']],
     ['by kind', { hidden: new Set(['event', 'request']) }, ['execute_response', 'completed']],
-    ['what is refused is an error', { hidden: new Set(['error']) }, ['execute', 'receive_event', 'completed']],
-    ['by component, also of what does not name it', { component: 'navigation' }, ['execute', 'execute_response', 'completed']],
+    ['refusals are errors', { hidden: new Set(['error']) }, ['execute', 'receive_event', 'completed']],
+    ['by component, even if not named in the document', { component: 'navigation' }, ['execute', 'execute_response', 'completed']],
     ['by text', { text: 'PERSON_' }, ['receive_event']],
     ['own ones', { with_own: true }, ['execute', 'execute_response', 'query', 'query_response', 'receive_event', 'completed']],
   ])('is filtered: %s', (_, some, expected) => {
@@ -78,7 +78,7 @@ describe('the list', () => {
     expect(names(new Feed(source, { ...no_filter, ...some }))).toEqual(expected);
   });
 
-  test('says in short what each says', () => {
+  test('summarizes each document', () => {
     const { documents } = stage();
     const said = (direction: 'in' | 'out', text: string) => summary(documents.note(direction, text));
     expect(said('in', event)).toBe('number: 2');
@@ -100,7 +100,7 @@ describe('the list', () => {
 });
 
 describe('recordings', () => {
-  test('are written as rois record writes them', async () => {
+  test('are written in the format of rois record', async () => {
     const { world, documents } = stage();
     documents.note('out', '<connect/>');
     await world.passes(12);
@@ -112,7 +112,7 @@ describe('recordings', () => {
     ]);
   });
 
-  test('tell sessions apart, and are read back', async () => {
+  test('mark sessions, and are read back', async () => {
     const { world, documents } = stage();
     for (const text of ['<connect/>', '<bind/>', '<connect/>', execute]) documents.note('out', text);
     await world.passes(5);
@@ -147,14 +147,14 @@ describe('recordings', () => {
   });
 
   test.each([
-    ['', 'nothing is recorded'],
-    ['hello', 'line 1: this is no JSON object'],
-    ['{"recording":"rois-recording-1"}\n{"at":0,', 'nothing is recorded'],
-    ['{"recording":"rois-recording-1"}\n{"at":0,\n', 'line 2: this is no JSON object'],
-    ['{"recording":"other"}', 'line 1: this is no recording of the format rois-recording-1'],
-    ['{"recording":"rois-recording-1"}\n', 'nothing is recorded'],
-    ['{"recording":"rois-recording-1"}\n{"at":0,"direction":"up","document":""}', 'line 2: the direction has to be "in" or "out"'],
-    ['{"recording":"rois-recording-1"}\n{"at":"0","direction":"in","document":""}', "line 2: 'at' and 'document' are needed"],
-    ['{"recording":"rois-recording-1"}\n7', 'line 2: this is no JSON object'],
-  ])('that are none are refused: %j', (file, why) => expect(() => read_recording(file)).toThrow(why));
+    ['', 'the recording is empty'],
+    ['hello', 'line 1: not a JSON object'],
+    ['{"recording":"rois-recording-1"}\n{"at":0,', 'the recording is empty'],
+    ['{"recording":"rois-recording-1"}\n{"at":0,\n', 'line 2: not a JSON object'],
+    ['{"recording":"other"}', 'line 1: expected a recording of the format rois-recording-1'],
+    ['{"recording":"rois-recording-1"}\n', 'the recording is empty'],
+    ['{"recording":"rois-recording-1"}\n{"at":0,"direction":"up","document":""}', 'line 2: \'direction\' must be "in" or "out"'],
+    ['{"recording":"rois-recording-1"}\n{"at":"0","direction":"in","document":""}', "line 2: 'at' (a number) or 'document' (a text) is missing"],
+    ['{"recording":"rois-recording-1"}\n7', 'line 2: not a JSON object'],
+  ])('that are invalid are rejected: %j', (file, why) => expect(() => read_recording(file)).toThrow(why));
 });

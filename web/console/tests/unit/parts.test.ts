@@ -1,4 +1,4 @@
-// The small parts of state and widgets, each alone.
+// Small parts of state and widgets.
 import { parse_xml } from 'rois-client';
 import { describe, expect, test } from 'vitest';
 
@@ -16,7 +16,7 @@ import { laid_out, pieces_of } from '../../src/ui/xml_text';
 import { World } from './world';
 
 describe('notices', () => {
-  test('are two at most, go by themselves, errors later, and at once when what they are about has come to a good end', async () => {
+  test('are at most two, expire (errors later), and are removed when their subject succeeds', async () => {
     const world = new World();
     const notices = new Notices(world);
     const texts = () => notices.list.value.map((one) => one.text);
@@ -35,13 +35,13 @@ describe('notices', () => {
 });
 
 describe('a ring', () => {
-  test('forgets the oldest by number', () => {
+  test('drops the oldest by number', () => {
     const ring = new Ring<number>(3);
     for (let i = 0; i < 1000; ++i) ring.push(i);
     expect(ring.list()).toEqual([997, 998, 999]);
     expect([ring.size, ring.first, ring.at(0), ring.at(-1), ring.numbered(998), ring.numbered(996)]).toEqual([3, 997, 997, 999, 998, undefined]);
   });
-  test('forgets the oldest by weight, but keeps one', () => {
+  test('drops the oldest by weight, but keeps one', () => {
     const ring = new Ring<string>(100, 10, (one) => one.length);
     for (const one of ['aaaa', 'bbbb', 'cccc', 'd'.repeat(50)]) ring.push(one);
     expect(ring.list()).toEqual(['d'.repeat(50)]);
@@ -49,7 +49,7 @@ describe('a ring', () => {
   });
 });
 
-test('documents stay within their bounds', () => {
+test('documents stay within their limits', () => {
   const documents = new Documents(new World(), { most: 1000, most_bytes: 100_000 });
   for (let i = 0; i < 5000; ++i) documents.note('in', `<receive_event sequence="${i}">${'x'.repeat(500)}</receive_event>`);
   expect(documents.ring.size).toBeLessThan(100);
@@ -57,7 +57,7 @@ test('documents stay within their bounds', () => {
   expect(documents.ring.last).toMatchObject({ kind: 'notification', sequence: 4999 });
 });
 
-test('what the console asks again and again does not push out what others said', () => {
+test("the console's polls do not displace other documents", () => {
   const documents = new Documents(new World(), { most: 100, most_bytes: 1_000_000 });
   for (let i = 0; i < 90; ++i) documents.note('in', `<receive_event sequence="${i}"/>`);
   for (let i = 0; i < 500; ++i) {
@@ -72,7 +72,7 @@ test('what the console asks again and again does not push out what others said',
   expect(numbers).toEqual([...numbers].sort((a, b) => a - b));
 });
 
-test('metrics are read', () => {
+test('metrics are parsed', () => {
   const scrape = new Scrape(0, read_metrics('# TYPE a counter\na{x="1",y="q\\"\\n"} 2\na{x="2"} 3e1\nb +Inf\nnonsense\n'));
   expect(scrape.value('a')).toBe(32);
   expect(scrape.value('a', { x: '2' })).toBe(30);
@@ -81,7 +81,7 @@ test('metrics are read', () => {
   expect(scrape.value('c')).toBeUndefined();
 });
 
-test('a floor map is read', () => {
+test('a floor map is parsed', () => {
   const map = read_floor_map(`<floor_map xmlns="urn:x-rois:map:1" name="Hall" crs="c"><bounds x="0" y="0" width="16000" depth="12000"/>
     <wall x1="1" y1="2" x2="3" y2="4"/><furniture x="5" y="6" width="7" depth="8"/><place name="desk" x="9" y="10" heading="90" width="11" depth="12"/>
     <robot name="robot1" radius="250"><frame crs="d" x="1" y="2" heading="3"/></robot><robot name="robot2" radius="300"/></floor_map>`);
@@ -90,7 +90,7 @@ test('a floor map is read', () => {
   expect(map.robots).toEqual([{ name: 'robot1', radius: 250, frame: { crs: 'd', x: 1, y: 2, heading: 3 } }, { name: 'robot2', radius: 300 }]);
 });
 
-test('a sequence is read back, with the places of its commands', () => {
+test('a sequence is parsed with the paths of its commands', () => {
   const command = (name: string, id: string) =>
     `<rois:${name} xsi:type="rois:CommandMessageType" rois:command_type="start" rois:command_id="${id}" rois:delay_time="5"><rois:component_ref rois:code="c"/></rois:${name}>`;
   const units = units_of(
@@ -110,24 +110,24 @@ test('a sequence is read back, with the places of its commands', () => {
   ]);
 });
 
-test('a covariance is an ellipse', () => {
+test('a covariance becomes an ellipse', () => {
   expect(ellipse_of({ covariance: [2500, 0, 0, 0, 900, 0, 0, 0, 4] })).toEqual({ a: 50, b: 30, angle: 0 });
   expect(ellipse_of({ covariance: [5, 4, 4, 5] })).toEqual({ a: 3, b: 1, angle: 45 });
   expect(ellipse_of({})).toBeUndefined();
 });
 
-describe('XML as it is shown', () => {
+describe('displayed XML', () => {
   const text = '<a x="1"><!-- c --><b>t &amp; u</b><c y=\'>\'/></a>';
-  test('is all there, in colours', () => {
+  test('is complete and coloured', () => {
     expect(pieces_of(text).map((one) => one.text).join('')).toBe(text);
     expect(pieces_of('<a x="1">t</a>').map(({ kind, text: piece }) => `${kind} ${piece}`)).toEqual([
       'mark <', 'name a', 'mark  ', 'attribute x', 'mark =', 'value "1"', 'mark >', 'text t', 'mark </', 'name a', 'mark >',
     ]);
   });
-  test('has one element a line', () => {
+  test('has one element on each line', () => {
     expect(laid_out(text)).toBe('<a x="1">\n  <!-- c -->\n  <b>t &amp; u</b>\n  <c y=\'>\'/>\n</a>');
   });
-  test('stays as it is when it is none', () => {
+  test('stays unchanged if it is invalid', () => {
     for (const odd of ['', 'hello', '<a><b></a>', '<<<', '<a']) {
       expect(laid_out(odd)).toBe(odd);
       expect(pieces_of(odd).map((one) => one.text).join('')).toBe(odd);
@@ -135,7 +135,7 @@ describe('XML as it is shown', () => {
   });
 });
 
-test('a curl line is safe in a shell, and does not name the request', () => {
+test('a curl line is quoted for the shell, and has no request_id', () => {
   expect(curl_of(`<say xmlns="u" request_id="r7"><text>it's</text></say>`, { origin: 'http://h:1', session: 's-1', token: 't' })).toBe(
     `curl -s -H 'Content-Type: application/xml' -H 'RoIS-Session: s-1' -H 'Authorization: Bearer t' -d '<say xmlns="u"><text>it'\\''s</text></say>' http://h:1/rois`,
   );

@@ -1,4 +1,4 @@
-// What the forms of the panel Scenario offer and do.
+// Editing in the Scenario panel's forms.
 import { beforeEach, describe, expect, test } from 'vitest';
 
 import { closed_choices, may_add, relation_of, steps_for, suggestions, unused, with_new, with_relation } from '../../src/scenario/editing';
@@ -32,8 +32,8 @@ beforeEach(() => {
 });
 const first = (name: string, within = root) => [...nodes_in(within)].find((one) => one.name === name)!;
 
-describe('what is new', () => {
-  test.each([...triggers.filter((one) => one !== 'answered'), ...actions, 'command', 'query'])('%s goes where it may stand, and nothing is wrong with it', (name) => {
+describe('a new element', () => {
+  test.each([...triggers.filter((one) => one !== 'answered'), ...actions, 'command', 'query'])('a new %s goes to a valid place and is valid', (name) => {
     const changed = with_new(text, first('state'), name, root, 'a');
     expect(read_scenario(changed).problems).toEqual([]);
     expect(changed.length).toBeGreaterThan(text.length);
@@ -43,20 +43,20 @@ describe('what is new', () => {
     expect(read_scenario(with_new(text, first('event'), name, root, 'a')).problems).toEqual([]);
   });
 
-  test('states, ends, components and variables have names of their own', () => {
+  test('states, ends, components and variables get unused names', () => {
     for (const name of ['state', 'end', 'component', 'variable']) expect(read_scenario(with_new(text, root, name, root, '')).problems).toEqual([]);
     expect(with_new(text, root, 'state', root, '')).toContain('\n  <state name="state_1">\n    <after seconds="5" to="a"/>\n  </state>\n</robot_scenario>');
     expect(unused(['state_1'], 'state')).toBe('state_2');
   });
 
-  test('keeps the prefix that the document has', () => {
+  test("keeps the document's prefix", () => {
     const prefixed = text.replaceAll('</', '</s:').replaceAll(/<(?=\w)/g, '<s:').replace('xmlns=', 'xmlns:s=');
     const own = read_source(prefixed);
     expect(with_new(prefixed, first('leaving', own).parent!, 'after', own, 'a')).toContain('<s:after seconds="5" to="b"/>');
     expect(read_scenario(with_new(prefixed, own, 'state', own, '')).problems).toEqual([]);
   });
 
-  test('is not offered where it may not stand', () => {
+  test('is not offered where it is not allowed', () => {
     expect(may_add(first('state'), 'leaving')).toBe(false);
     expect(may_add(first('state'), 'query')).toBe(true);
     expect(may_add(first('end'), 'command')).toBe(false);
@@ -81,7 +81,7 @@ describe('conditions', () => {
     ['near="0, 0" within="7"', 'is', 'is="0, 0"'],
   ] as const)('%s turned into %s', (from, to, expected) => expect(turned(from, to)).toBe(expected));
 
-  test('know what they say', () => {
+  test('report their relation', () => {
     expect(relation_of(first('when'))).toBe('is');
     expect(relation_of(first('event'))).toBeUndefined();
   });
@@ -99,7 +99,7 @@ describe('choices', () => {
   });
   const meant = (name: string) => (name === 'voice' ? views.find((one) => one.ref === 'speech') : undefined);
 
-  test('are what the scenario has and what the engine has', () => {
+  test("are the scenario's names and the engine's", () => {
     expect(closed_choices('state', root)).toEqual(['a', 'b']);
     expect(closed_choices('variable', root)).toEqual(['x', 'list']);
     expect(closed_choices('text', root)).toBeUndefined();
@@ -113,7 +113,7 @@ describe('choices', () => {
   });
 });
 
-test('arrows lead to the nearest state that lies that way', () => {
+test('arrow keys lead to the nearest state in their direction', () => {
   const box = (x: number, y: number) => ({ x, y, width: 80, height: 30 });
   const boxes = new Map([['top', box(200, 0)], ['left', box(100, 80)], ['right', box(320, 80)], ['bottom', box(200, 160)]]);
   expect(['ArrowDown', 'ArrowUp', 'ArrowLeft', 'Enter'].map((key) => neighbour(boxes, 'top', key))).toEqual(['bottom', undefined, 'left', undefined]);

@@ -1,4 +1,4 @@
-// Scenarios as texts: what is wrong with them, how they are changed, how they are drawn.
+// Scenarios as texts: validation, editing and layout.
 import { readFileSync } from 'node:fs';
 
 import { describe, expect, test } from 'vitest';
@@ -20,7 +20,7 @@ function told(text: string): string[] {
 }
 
 describe('reading', () => {
-  test('takes the shipped reception', () => {
+  test('accepts the included reception', () => {
     const { scenario, problems } = read_scenario(reception);
     expect(problems).toEqual([]);
     expect(scenario!.states.size).toBe(15);
@@ -29,7 +29,7 @@ describe('reading', () => {
     expect(scenario!.variables.get('identifying')).toBe('8');
   });
 
-  // As tests/command/rois_test.cpp has them for `rois scenario`.
+  // The same texts as in tests/command/rois_test.cpp.
   const end = "<end name='b'/>";
   test.each([
     ["<state name='a'><nothing/></state>", "4:17: unknown element 'nothing' inside 'state'"],
@@ -40,25 +40,25 @@ describe('reading', () => {
     ["<state name='a'><completed to='b'/></state>" + end, '4:1: this state waits for the end of its commands, and has none'],
     ["<state name='a'><answered to='b'/></state>" + end, '4:1: this state waits for an answer, and has no query'],
     ["<state name='a'><at_once to='b'><take variable='x' result='r'/></at_once></state>" + end, '4:33: only events and answers have results to take'],
-    ["<state name='a'><at_once to='b'><when variable='x'/></at_once></state>" + end, "4:33: a 'when' has exactly one of is, is_not, in, not_in, empty, near"],
+    ["<state name='a'><at_once to='b'><when variable='x'/></at_once></state>" + end, "4:33: a 'when' needs exactly one of is, is_not, in, not_in, empty, near"],
     ["<state name='a'><at_once to='b'><when variable='x' near='0, 0'/></at_once></state>" + end, "4:33: 'near' and 'within' belong together"],
     ["<state name='a'><event type='e' to='b'><take variable='x' result='r' is='1'/></event></state>" + end, "4:40: 'beside' and 'is' belong together"],
     ["<state name='a'><at_once to='b'/></state><state name='a'><at_once to='b'/></state>" + end, "4:42: a second state 'a'"],
     ["<state name='a'><after seconds='1'/></state>" + end, "4:17: 'after' needs the attribute 'to'"],
     ["<state name='a'><at_once to='b' status='OK'/></state>" + end, "4:17: 'at_once' has no attribute 'status'"],
     ["<state name='a'><command component='move' type='stop'/><completed status='FINE' to='b'/></state>" + end, "4:56: status: 'FINE' is not of the type status"],
-    ["<state name='a'><at_once to='b'/><print/></state>" + end, "4:34: 'print' stands in the wrong place inside 'state'"],
-    ["<state name='a'>hello<at_once to='b'/></state>" + end, "4:1: 'state' holds no text"],
-  ])('complains of %s', (states, says) => expect(told(scenario_with(states))).toEqual([says]));
+    ["<state name='a'><at_once to='b'/><print/></state>" + end, "4:34: 'print' is in the wrong place inside 'state'"],
+    ["<state name='a'>hello<at_once to='b'/></state>" + end, "4:1: 'state' must not have text"],
+  ])('rejects %s', (states, says) => expect(told(scenario_with(states))).toEqual([says]));
 
-  test('tells all that is wrong, and where a text is no document', () => {
+  test('reports all problems, and where a text is not well-formed', () => {
     expect(told(scenario_with("<state name='a'><at_once to='c'/><at_once to='d'/></state>"))).toHaveLength(2);
     expect(told('<robot_scenario>\n <a>')).toEqual(['2:5: <a> is not closed']);
-    expect(told('<scenario xmlns="urn:x-rois:simulation:hall:1" name="x"/>')).toEqual(["1:1: this is no robot scenario: expected the element robot_scenario, not 'scenario'"]);
+    expect(told('<scenario xmlns="urn:x-rois:simulation:hall:1" name="x"/>')).toEqual(["1:1: this is not a robot scenario: expected the element robot_scenario, not 'scenario'"]);
     expect(told(scenario_with("<end name='b'/>"))).toEqual(["1:1: no state 'a'; there are b"]);
   });
 
-  test('says it in Japanese, too', () => {
+  test('reports in Japanese, too', () => {
     language.value = 'ja';
     expect(told(scenario_with("<state name='a'><at_once to='c'/></state>"))).toEqual(["4:17: 状態 'c' はありません。あるもの: a"]);
     language.value = 'en';
@@ -70,13 +70,13 @@ describe('changing', () => {
   const root = read_source(text);
   const state = (name: string) => [...nodes_in(root)].find((one) => one.name === 'state' && one.element.attribute('name') === name)!;
 
-  // The lines that differ.
+  // The changed lines.
   function difference(changed: string): string[] {
     const [before, after] = [text.split('\n'), changed.split('\n')];
     return [...before.filter((line) => !after.includes(line)).map((line) => `- ${line.trim()}`), ...after.filter((line) => !before.includes(line)).map((line) => `+ ${line.trim()}`)];
   }
 
-  test('an attribute touches nothing else', () => {
+  test('changing an attribute changes nothing else', () => {
     const after = state('find').children.find((one) => one.name === 'after')!;
     expect(difference(with_attribute(text, after, 'seconds', '3 & "4"'))).toEqual([
       '- <after seconds="{looking}" to="go_to_start_position"/>  <!-- from where the hall is seen -->',
@@ -88,14 +88,14 @@ describe('changing', () => {
     expect(difference(with_attribute(text, count, 'extra', '1'))).toEqual(['- <count variable="done"/>', '+ <count variable="done" extra="1"/>']);
   });
 
-  test('texts come, change and go', () => {
+  test('texts are added, changed and removed', () => {
     const set = state('identify').children[0]!;
     const filled = with_text(text, set, 'a < b');
     expect(difference(filled)).toEqual(['- <set variable="visitor"/>', '+ <set variable="visitor">a &lt; b</set>']);
     expect(with_text(filled, node_of(read_source(filled), set.path)!, '')).toBe(text);
   });
 
-  test('elements come and go, with their lines', () => {
+  test('elements are added and removed with their lines', () => {
     const find = state('find');
     const added = with_child(text, find, '<after seconds="9" to="find"/>', find.children.at(-1));
     expect(difference(added)).toEqual(['+ <after seconds="9" to="find"/>']);
@@ -106,7 +106,7 @@ describe('changing', () => {
     expect(with_child(text, completed, '<count variable="done"/>')).toContain('    <completed to="bow">\n      <count variable="done"/>\n    </completed>\n');
   });
 
-  test('sisters change places', () => {
+  test('siblings are swapped', () => {
     const approach = state('approach');
     const first = approach.children.findIndex((one) => one.name === 'completed');
     const once = moved(text, approach.children[first]!, 1);
@@ -114,13 +114,13 @@ describe('changing', () => {
     expect(moved(once, node_of(read_source(once), approach.children[first + 1]!.path)!, -1)).toBe(text);
   });
 
-  test('a state that gets another name is still led to', () => {
+  test('renaming a state renames its references', () => {
     const renamed = read_scenario(with_state_renamed(text, root, 'go_to_start_position', 'go_home'));
     expect(renamed.problems).toEqual([]);
     expect(renamed.scenario!.states.get('bow')!.triggers[0]!.to).toBe('go_home');
   });
 
-  test('comments and references are no hindrance', () => {
+  test('comments and references are handled', () => {
     const odd = `<?xml version="1.0"?>\n<!-- <a> --><r a='1>2' b="&lt;">x<![CDATA[<c>]]><d/><!-- - --></r>`;
     const read = read_source(odd);
     expect([...nodes_in(read)].map((one) => odd.slice(one.start, one.end))).toEqual([odd.slice(odd.indexOf('<r')), '<d/>']);
@@ -137,7 +137,7 @@ describe('drawing', () => {
     expect(graph.edges.filter((one) => one.from === 'find').map(label_of_edge)).toEqual(['person_localized', 'after {looking} s']);
   });
 
-  test('nothing lies upon another, and the order is from above', () => {
+  test('nothing overlaps, and the order is from above', () => {
     const { boxes, edges, width, height } = layout_of(graph, sizes);
     const all = [...boxes.values(), ...edges.map((one) => one.label)];
     for (const [i, a] of all.entries())
@@ -151,7 +151,7 @@ describe('drawing', () => {
     expect(rows).toEqual([...rows].sort((a, b) => a - b));
   });
 
-  test('is the same each time, and bears loops and states that nothing leads to', () => {
+  test('is deterministic, and handles loops and unreachable states', () => {
     expect(layout_of(graph, sizes)).toEqual(layout_of(graph, sizes));
     const odd = graph_of(read_scenario(scenario_with("<state name='a'><after seconds='1' to='a'/></state><state name='c'><at_once to='a'/></state><end name='b'/>")).scenario!);
     expect([...layout_of(odd, sizes).boxes.keys()]).toEqual(['a', 'c', 'b']);

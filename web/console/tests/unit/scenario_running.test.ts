@@ -1,4 +1,4 @@
-// How scenarios run: what states, triggers and steps mean, as docs/rois-command.md has them for `rois scenario`.
+// Running scenarios: states, triggers and steps as in docs/rois-command.md.
 import type { XmlElement } from 'rois-client';
 import { beforeEach, describe, expect, test } from 'vitest';
 
@@ -50,7 +50,7 @@ function echo(request: XmlElement): string {
   return `<rois:CommandUnitSequence>${units.join('')}</rois:CommandUnitSequence>`;
 }
 
-// --- What was sent: `move.start(line=1 2)` ---
+// --- Sent commands: `move.start(line=1 2)` ---
 
 function sequences(): string[][] {
   return world.requests
@@ -75,7 +75,7 @@ async function tells(event_type: string, results: string, id = 's-1'): Promise<v
   );
 }
 
-// --- A scenario and what became of it ---
+// --- A scenario and its outcome ---
 
 async function runs(states: string, start = 'a', variables = '<variable name="x"/><variable name="y">7</variable><variable name="list"/>'): Promise<void> {
   desk.open(
@@ -108,7 +108,7 @@ function trouble(): string {
 const end = '<end name="z"><print>x is {x}</print></end>';
 
 describe('a run', () => {
-  test('binds all, subscribes once to each event, and gives everything back', async () => {
+  test('binds all, subscribes once to each event, and releases everything', async () => {
     await runs(`<state name="a"><event type="person_detected" to="z"/><event type="person_detected" component="localization" to="z"/><event type="person_localized" to="z"/></state>${end}`);
     expect(world.names().filter((one) => /bind|subscribe/.test(one))).toEqual(['bind', 'bind_any', 'bind', 'subscribe', 'subscribe']);
     expect([...console.bindings.mine.value].sort()).toEqual(['localization', 'move', 'speech']);
@@ -121,7 +121,7 @@ describe('a run', () => {
     expect(desk.is_running.value).toBe(false);
   });
 
-  test('leaves bound what was bound before, and stops what it does there', async () => {
+  test('leaves earlier bindings, and stops its commands there', async () => {
     await console.bindings.bind('move');
     await runs(`<state name="a"><command component="move" type="start"/><after seconds="100" to="z"/></state>${end}`);
     desk.stop();
@@ -131,7 +131,7 @@ describe('a run', () => {
     expect(sequences()).toEqual([['move.start()'], ['move.stop()']]);
   });
 
-  test('leaves alone what others of the page have a use for', async () => {
+  test('leaves alone components that other parts of the page use', async () => {
     const give_back = await console.bindings.borrow(['move']);
     await runs(`<state name="a"><command component="move" type="start"/><after seconds="100" to="z"/></state>${end}`);
     desk.stop();
@@ -148,7 +148,7 @@ describe('a run', () => {
     expect(history()).toEqual(['a -> b  at once']);
   });
 
-  test('cannot be changed while it goes on, and undo brings back what was before', async () => {
+  test('cannot be edited while it runs, and undo works afterwards', async () => {
     await runs(`<state name="a"><after seconds="100" to="z"/></state>${end}`);
     const text = desk.text.value;
     desk.edit('other', 'x');
@@ -162,21 +162,21 @@ describe('a run', () => {
     expect(world.remembered.get('scenario')).toBe(text);
   });
 
-  test('ends with the session, and with the connection', async () => {
+  test('ends with the session and with the connection', async () => {
     await runs(`<state name="a"><after seconds="100" to="z"/></state>${end}`);
     world.answers.set('resume', () => 'ERROR');
     world.breaks();
     await world.tries_again();
     await world.opens();
     await goes_on();
-    expect(trouble()).toBe('The session has ended, and what the robot did for it.');
+    expect(trouble()).toBe('The session has ended, and its commands with it.');
     await runs(`<state name="a"><after seconds="100" to="z"/></state>${end}`);
     await console.close();
     await goes_on();
     expect(trouble()).toBe('The connection has closed.');
   });
 
-  test('that goes round in a circle can be stopped', async () => {
+  test('that loops can be stopped', async () => {
     await runs('<state name="a"><at_once to="b"/></state><state name="b"><at_once to="a"/></state>');
     await goes_on();
     expect(desk.run!.visits.get('a')).toBe(50);
@@ -188,7 +188,7 @@ describe('a run', () => {
 });
 
 describe('a state', () => {
-  test('does its actions, sends its commands as one sequence, then asks; the answer leads on before anything else', async () => {
+  test('does its actions, sends its commands as one sequence, then queries; the answer triggers before anything else', async () => {
     await runs(
       `<state name="a"><set variable="x">12</set><command component="move" type="start"><argument name="line">{x} {y}</argument><argument name="line">3</argument></command>` +
         `<command component="voice" type="start"><argument name="speech_text">{x}!</argument></command><query type="robot_position"/>` +
@@ -199,7 +199,7 @@ describe('a state', () => {
     expect(history()).toEqual(['a -> z  answered', 'x is 1000, 2000, 90']);
   });
 
-  test('sends what belongs to its leaving, and the next one waits for the end of that', async () => {
+  test('sends its leaving commands, and the next state waits for their end', async () => {
     await runs(
       `<state name="a"><event type="person_detected" to="b"/><leaving><command component="move" type="stop"/></leaving></state>` +
         `<state name="b"><event type="person_detected" to="z"/></state>${end}`,
@@ -207,7 +207,7 @@ describe('a state', () => {
     await tells('person_detected', result('number', '1'));
     expect(sequences()).toEqual([['move.stop()']]);
     expect(desk.run).toMatchObject({ state: 'a', is_leaving: true });
-    await tells('person_detected', result('number', '2')); // came before b was entered: no trigger in it
+    await tells('person_detected', result('number', '2')); // arrived before b was entered: not a trigger there
     await completes();
     await goes_on();
     expect(desk.run).toMatchObject({ state: 'b', is_leaving: false });
@@ -216,7 +216,7 @@ describe('a state', () => {
     expect(history()).toEqual(['a -> b  person_detected number=1', 'b -> z  person_detected number=3', 'x is ']);
   });
 
-  test('ends the scenario when its commands end as nobody expects, unless an event or a time may come', async () => {
+  test('ends the scenario when its commands end without a trigger for it, unless an event or a time may trigger', async () => {
     const command = '<command component="move" type="start"/>';
     await runs(`<state name="a">${command}<completed status="OK" to="z"/></state>${end}`);
     await completes('ERROR');
@@ -233,7 +233,7 @@ describe('a state', () => {
 });
 
 describe('a trigger', () => {
-  test('completed waits for all commands, and is told how the first ended that did not end well', async () => {
+  test('completed waits for all commands and gets the first status that is not OK', async () => {
     const two = '<command component="move" type="start"/><command component="voice" type="start"/>';
     await runs(`<state name="a">${two}<completed status="OK" to="b"/><completed status="ABORT" to="z"/></state><end name="b"/>${end}`);
     await completes('ABORT', 0);
@@ -243,7 +243,7 @@ describe('a trigger', () => {
     expect(history()).toEqual(['a -> z  completed ABORT', 'x is ']);
   });
 
-  test('after fires once in a state, when its time has come, whether it leads on or not', async () => {
+  test('after fires once in a state at its time, whether its conditions hold or not', async () => {
     await runs(
       `<state name="a"><after seconds="1" to="z"><when variable="x" is="1"/></after><after seconds="{y}" to="z"/><event type="person_detected" to="a"><set variable="x">1</set></event></state>${end}`,
     );
@@ -258,12 +258,12 @@ describe('a trigger', () => {
     expect(history()).toEqual(['a -> a  person_detected ', 'a -> z  after 1 s', 'x is 1']);
   });
 
-  test('needs a number of seconds', async () => {
+  test('requires a number of seconds', async () => {
     await runs(`<state name="a"><after seconds="{x}" to="z"/></state>${end}`);
-    expect(trouble()).toBe("a: '' is no number of seconds");
+    expect(trouble()).toBe("a: '' is not a number of seconds");
   });
 
-  test('takes events of the component that it names, and of the subscriptions of its own alone', async () => {
+  test('takes events only of the named component and of its own subscriptions', async () => {
     await runs(`<state name="a"><event type="person_detected" component="move" to="b"/><event type="person_detected" component="localization" to="z"/></state><end name="b"/>${end}`);
     await tells('person_detected', '', 's-77');
     await goes_on();
@@ -273,7 +273,7 @@ describe('a trigger', () => {
     expect(history()).toEqual(['a -> z  person_detected ', 'x is ']);
   });
 
-  test('fires when all its steps hold, in their order; the first one in the document leads on, and what it tried is forgotten', async () => {
+  test('fires when all its steps hold in order; the first in the document is taken, and failed attempts are undone', async () => {
     await runs(
       `<state name="a"><at_once to="b"><set variable="x">5</set><when variable="x" is_not="5"/></at_once><at_once to="z"><when variable="x" empty="true"/><count variable="y"/></at_once></state><end name="b"/>${end}`,
     );
@@ -288,11 +288,11 @@ describe('steps', () => {
 
   test.each([
     ['the first', '<take variable="x" result="person_ref"/>', 'p1'],
-    ['in any case of letters', '<take variable="x" result="Person_Ref"/>', 'p1'],
+    ['case-insensitive', '<take variable="x" result="Person_Ref"/>', 'p1'],
     ['not in a list', '<add variable="list">p1</add><add variable="list">p2</add><take variable="x" result="person_ref" not_in="list"/>', 'p3'],
     ['apart from places', '<add variable="list">0, 0, 0</add><take variable="x" result="position_data" not_in="list" apart="1500"/>', '4000, 0, 0'],
     ['beside another result', '<take variable="x" result="person_ref" beside="position_data" is="1000, 0, 90"/>', 'p2'],
-    ['before somebody', '<set variable="y">1000, 0, 90</set><place variable="x" before="{y}" distance="500"/>', '1000, 500, 270'],
+    ['in front of a person', '<set variable="y">1000, 0, 90</set><place variable="x" before="{y}" distance="500"/>', '1000, 500, 270'],
     ['to their left', '<place variable="x" before="0, 0" distance="1000" turn="90"/>', '0, 1000, 270'],
     ['counted', '<set variable="x">abc</set><count variable="x"/><count variable="x"/>', '2'],
     ['a list', '<add variable="x">1</add><add variable="x">{y}</add>', '1, 7'],
@@ -317,21 +317,21 @@ describe('steps', () => {
     ['near, and nowhere', '<when variable="x" near="300, 400, 0" within="500"/>', false],
     ['a result that is not there', '<take variable="x" result="face_ref"/>', false],
     ['a list that has nothing else', '<add variable="list">p1</add><take variable="x" result="person_ref" not_in="list"/><set variable="x"/><take variable="x" result="person_ref" beside="position_data" is="?"/>', false],
-  ])('hold or not: %s', async (_, steps, holds) => {
+  ])('hold or fail: %s', async (_, steps, holds) => {
     await runs(seen(steps));
     await tells('person_localized', people);
     await goes_on();
     expect(history().length > 0).toBe(holds);
   });
 
-  test('a place that is none ends the scenario', async () => {
+  test('an invalid place ends the scenario', async () => {
     await runs(seen('<place variable="x" before="{y}" distance="1"/>'));
     await tells('person_localized', people);
     await goes_on();
-    expect(trouble()).toBe('\'7\' is no place "x, y, th"');
+    expect(trouble()).toBe('\'7\' is not a place: expected "x, y, th"');
   });
 
-  test('arguments are checked before they are sent', async () => {
+  test('arguments are validated before sending', async () => {
     await runs(`<state name="a"><command component="move" type="start"><argument name="line">{y} far</argument></command><after seconds="1" to="z"/></state>${end}`);
     expect(trouble()).toBe("line: 'far' is not of the type int[]");
     await runs(`<state name="a"><command component="move" type="start"><argument name="width">1</argument></command><after seconds="1" to="z"/></state>${end}`);

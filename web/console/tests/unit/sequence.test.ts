@@ -1,4 +1,4 @@
-// Sequences: the tree of steps, the units that it stands for, what is wrong with it, and how far a run is.
+// Sequences: the tree of steps, units, validation, and progress of a run.
 import { type CommandUnit, concurrently, command, delay, in_parallel, parse_xml, sequence_xml, sequentially, type XmlElement } from 'rois-client';
 import { describe, expect, test } from 'vitest';
 
@@ -25,7 +25,7 @@ const text_of = (step: Step): string => {
 };
 const text_of_lane = (lane: Lane): string => lane.steps.map(text_of).join(' ');
 
-// Annex B.1: A, B, then (C then D) beside E, then F.
+// Annex B.1: A, B, then (C then D) parallel to E, then F.
 function annex_b() {
   const [a, b, c, d, e, f] = ['A', 'B', 'C', 'D', 'E', 'F'].map((one) => run(one)) as [Step, Step, Step, Step, Step, Step];
   const both = new_parallel([new_lane([c, d]), new_lane([e])]);
@@ -33,7 +33,7 @@ function annex_b() {
 }
 
 describe('the tree', () => {
-  test('steps go in and out, and what was stays as it was', () => {
+  test('steps are added and removed without changing the old tree', () => {
     const { root, c, both, e } = annex_b();
     expect(text_of_lane(with_inserted(root, { lane: both.branches[1]!.id, index: 1 }, new_wait('5')))).toBe('A B (C D|E 5) F');
     expect(text_of_lane(without(root, c.id))).toBe('A B (D|E) F');
@@ -48,7 +48,7 @@ describe('the tree', () => {
     expect(steps_of(new_lane([copy])).some((one) => steps_of(root).some(({ id }) => id === one.id))).toBe(false);
   });
 
-  test('steps are dragged to where they are dropped, but not into themselves', () => {
+  test('steps are dropped anywhere, except into themselves', () => {
     const { root, a, both, f } = annex_b();
     const [upper, lower] = both.branches as [Lane, Lane];
     expect(text_of_lane(with_moved(root, a.id, { lane: root.id, index: 2 }))).toBe('B A (C D|E) F');
@@ -76,7 +76,7 @@ describe('the tree', () => {
     expect(text_of_lane(store.root.value)).toBe(expected);
   });
 
-  test('arrows find their way', () => {
+  test('arrow keys select neighbours', () => {
     const { root, a, b, c, d, e, f, both } = annex_b();
     const way = (from: Step, ...keys: Direction[]) => keys.map((key) => (from = steps_of(root).find(({ id }) => id === neighbour(root, from.id, key))!)).map((one) => one.id);
     expect(way(a, 'later', 'later', 'later', 'later', 'later')).toEqual([b, both, c, d, f].map(({ id }) => id));
@@ -90,21 +90,21 @@ describe('units', () => {
   const units = (root: Lane) => units_of_lane(root, () => []);
   const start = (ref: string, delay_time?: number) => command(ref, 'start', {}, delay_time === undefined ? {} : { delay_time });
 
-  test('branches of commands are written as the published specification has them', () => {
+  test('branches of commands are written in the published form', () => {
     expect(units(annex_b().root)).toEqual([start('A'), start('B'), concurrently([start('C'), start('D')], start('E')), start('F')]);
   });
 
-  test('a wait inside a branch is the delay of what follows', () => {
+  test('a wait in a branch becomes the delay of the next command', () => {
     const root = new_lane([new_parallel([new_lane([new_wait('200'), run('A')]), new_lane([run('B')])], '50')]);
     expect(units(root)).toEqual([{ ...concurrently([start('A', 200)], start('B')), delay_time: 50 }]);
   });
 
-  test('what nests deeper is written as in the first specification', () => {
+  test('deeper nesting is written as in RoIS 1.0', () => {
     const root = new_lane([new_parallel([new_lane([run('A'), new_parallel([new_lane([run('B')]), new_lane([run('C')])])]), new_lane([run('D'), new_wait('5')]), new_lane()])]);
     expect(units(root)).toEqual([in_parallel(sequentially(start('A'), concurrently(start('B'), start('C'))), sequentially(start('D'), delay(5)))]);
   });
 
-  test('what was read is written again', () => {
+  test('a parsed sequence is written again', () => {
     const given: CommandUnit[] = [
       start('A', 7), delay(200), concurrently([start('B'), start('C')], start('D')),
       { ...in_parallel(sequentially(start('E'), in_parallel(start('F'), sequentially(start('G'), delay(1)))), start('H')), delay_time: 3 },
@@ -114,7 +114,7 @@ describe('units', () => {
     expect(units(read)).toEqual(given);
   });
 
-  test('a row inside a row is one row', () => {
+  test('a nested sequential unit is flattened', () => {
     expect(text_of_lane(lane_of([sequentially(start('A'), { ...sequentially(start('B')), delay_time: 9 })], () => true))).toBe('A 9 B');
   });
 });
@@ -132,7 +132,7 @@ describe('checks', () => {
   const say = (texts: Record<string, string>, command_type = 'start') =>
     new_command({ component: 'speech', command_type, inputs: Object.fromEntries(Object.entries(texts).map(([name, text]) => [name, { texts: [text] }])) });
 
-  test('find what is missing or wrong', () => {
+  test('missing and wrong values are reported', () => {
     expect(found()).toEqual(['nothing']);
     expect(found(new_wait('1'))).toEqual([]);
     expect(found(new_wait('-1'), new_command(), run('nobody'), run('speech', ''), run('speech', 'sing'))).toEqual(['no_time', 'no_component', 'unknown_component', 'no_command', 'unknown_command']);
@@ -143,7 +143,7 @@ describe('checks', () => {
     expect(found({ ...say({ speech_text: 'a' }), delay: 'soon' })).toEqual(['no_time']);
   });
 
-  test('what an earlier step sets need not be given again', () => {
+  test('values set by an earlier step may be omitted', () => {
     expect(found(say({ speech_text: 'a' }, 'set_parameter'), say({}))).toEqual([]);
     expect(found(say({}), say({ speech_text: 'a' }, 'set_parameter'))).toEqual(['arguments speech_text']);
   });
@@ -156,7 +156,7 @@ describe('a run', () => {
     return steps_of(root).map((one) => view.get(one.id)?.state ?? '-').join(' ');
   };
 
-  test('tells of waits and branches what follows from the commands', () => {
+  test('waits and branches are inferred from the commands', () => {
     const wait = new_wait('500');
     const { root: rest, a, b, c, d, e, f } = annex_b();
     const root = { ...rest, steps: [a, wait, b, ...rest.steps.slice(2)] };
@@ -170,19 +170,19 @@ describe('a run', () => {
     expect(states(root, [[a, entry('ERROR', { ended_at: 1 })], ...[b, c, d, e, f].map((one): [Step, CommandEntry] => [one, entry('ABORT', { ended_at: 1 })])], 1000)).toBe('ERROR ABORT ABORT ABORT ABORT ABORT ABORT ABORT');
   });
 
-  test('does not show what was added since', () => {
+  test('steps added later are not shown', () => {
     const [a, b] = [run('A'), run('B')];
     expect(states(new_lane([a, b]), [[a, entry('OK', { ended_at: 1 })]], 5)).toBe('OK -');
   });
 
-  test('counts the time from when it was its turn, when its beginning was not seen', () => {
+  test('time counts from the end of the step before if the start was not reported', () => {
     const [a, b] = [run('A'), run('B')];
     const view = run_view(new_lane([a, b]), new Map([[a.id, entry('OK', { ended_at: 1000 })], [b.id, entry('ERROR', { ended_at: 1010 })]]), 100, 2000);
     expect([view.get(a.id)?.took, view.get(b.id)?.took]).toEqual([900, 10]);
   });
 });
 
-test('sequences are kept by name, and nonsense in their place does no harm', () => {
+test('sequences are stored by name, and invalid data is ignored', () => {
   const world = new World();
   keep_sequence(world, 'b', '<b/>');
   expect([...keep_sequence(world, 'a', '<a/>')]).toEqual([['a', '<a/>'], ['b', '<b/>']]);
@@ -220,7 +220,7 @@ describe('the store', () => {
   const both = () => new_lane([new_parallel([new_lane([run('navigation')]), new_lane([new_command({ component: 'speech', command_type: 'start', inputs: { speech_text: { texts: ['Hello & welcome'] } } })])])]);
   const ids = (world: World) => world.requests.filter((one) => one.name === 'execute').map((one) => [...JSON.stringify(one).matchAll(/"command_id","namespace":"[^"]*","value":"([^"]*)"/g)].map(([, id]) => id!));
 
-  test('runs what is drawn, shows it, and gives back what was bound for it', async () => {
+  test('runs the drawn sequence, shows it, and releases its components', async () => {
     const { world, console, store } = await connected();
     store.change(both());
     expect(store.problems.value).toEqual([]);
@@ -238,7 +238,7 @@ describe('the store', () => {
     expect(console.bindings.mine.value.size).toBe(0);
   });
 
-  test('keeps bound what goes on after its start', async () => {
+  test('keeps components bound that work on after start', async () => {
     const { world, console, store } = await connected();
     store.change(new_lane([run('detection'), run('navigation')]));
     expect(store.going_on).toEqual(['detection']);
@@ -254,10 +254,10 @@ describe('the store', () => {
     said = 'BAD_PARAMETER';
     await expect(store.execute()).rejects.toThrow('BAD_PARAMETER');
     expect(store.run.value).toMatchObject({ entries: new Map() });
-    expect(store.run.value?.refused_step).toBeUndefined(); // it named none
+    expect(store.run.value?.refused_step).toBeUndefined(); // it did not name a step
   });
 
-  test('stops what runs, and releases what waits on its own', async () => {
+  test('stops running commands, and releases components of delayed ones', async () => {
     const { world, console, store } = await connected();
     await console.bindings.bind('navigation');
     const status = (text: string) => `<results><result rois:name="status"><rois:data_type_ref rois:code="string"/><rois:value>${text}</rois:value></result></results>`;
@@ -273,15 +273,15 @@ describe('the store', () => {
     await world.notifies('completed', `<command_id>${first}</command_id><status>ABORT</status>`);
     for (const id of stops) await world.notifies('completed', `<command_id>${id}</command_id><status>OK</status>`);
     await stopped;
-    // It waits on its own: released, it ends in its turn. Until then it must not be bound again.
+    // Its delayed command is aborted at its turn. Until then it must not be bound again.
     expect(world.requests.filter((one) => one.name === 'release').map((one) => one.child('component_ref')?.attributes[0]?.value)).toEqual(['speech']);
     expect(console.bindings.mine.value).toEqual(new Set(['navigation']));
-    expect([store.is_running, store.waiting_in_vain]).toEqual([false, ['speech']]);
+    expect([store.is_running, store.still_queued]).toEqual([false, ['speech']]);
     await world.notifies('completed', `<command_id>${second}</command_id><status>ABORT</status>`);
-    expect(store.waiting_in_vain).toEqual([]);
+    expect(store.still_queued).toEqual([]);
   });
 
-  test('undoes, keeps, exports and reads back', async () => {
+  test('undoes, stores, exports and imports', async () => {
     const { store } = await connected();
     store.change(both());
     store.rename('Greeting');
@@ -293,7 +293,7 @@ describe('the store', () => {
     expect(store.read(store.request).steps.length).toBe(1);
     expect(() => store.read('<a/>')).toThrow('no CommandUnitSequence');
     store.change(store.read(text.replaceAll('"speech"', '"nobody"')));
-    expect(store.request).toContain('Hello &amp; welcome'); // arguments of components that there are not stay
+    expect(store.request).toContain('Hello &amp; welcome'); // arguments of unknown components stay
     store.undo();
     store.change(new_lane());
     store.undo();

@@ -1,4 +1,4 @@
-// What the panel Visitors does for its user beyond handing orders on.
+// The Visitors panel's own logic.
 import { beforeEach, describe, expect, test, vi } from 'vitest';
 
 import type { Console } from '../../src/state/console';
@@ -20,7 +20,7 @@ function somebody(ref: string): void {
 }
 
 describe('steering', () => {
-  test('proposes names that nobody has', () => {
+  test('proposes unused names', () => {
     const steering = steering_of(console);
     expect(steering_of(console)).toBe(steering);
     expect(steering.next_name()).toBe('anna');
@@ -30,7 +30,7 @@ describe('steering', () => {
     expect(steering.next_name()).toBe('anna2');
   });
 
-  test('lets somebody in under the name that was typed, or the one that was proposed, and chooses them', () => {
+  test('lets a visitor in under the typed or proposed name, and selects the visitor', () => {
     const enter = vi.spyOn(console.hall, 'enter').mockResolvedValue({ status: 'OK', reason: '' });
     const steering = steering_of(console);
     steering.enter();
@@ -44,14 +44,14 @@ describe('steering', () => {
 
   test.each([
     ['OK', '', []],
-    ['ABORT', '', []], // something else was told instead
+    ['ABORT', '', []], // replaced by another order
     ['ERROR', 'there is no way there', [['warning', 'anna could not: walking', 'there is no way there']]],
-  ])('tells of orders that were not done: %s', async (status, reason, told) => {
+  ])('reports failed orders: %s', async (status, reason, told) => {
     await steering_of(console).order('anna', 'walk', Promise.resolve({ status, reason }));
     expect(console.notices.list.value.map((one) => [one.severity, one.text, one.detail])).toEqual(told);
   });
 
-  test('time flows as fast as the clock, until it is halted or the engine refuses', async () => {
+  test('time runs at real speed until it is halted or the engine refuses', async () => {
     const passed: number[] = [];
     const let_pass = vi.spyOn(console.hall, 'let_pass').mockImplementation((ms) => {
       passed.push(ms);

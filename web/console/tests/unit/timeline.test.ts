@@ -1,4 +1,4 @@
-// The time line without its drawing: where things stand, what is at a point, where the keys lead, what stretch is shown.
+// The time line without drawing: layout, hit tests, keys and range.
 import { type ReceiveEvent, Results } from 'rois-client';
 import { beforeEach, describe, expect, test } from 'vitest';
 
@@ -41,19 +41,19 @@ function sources(some: Partial<Sources> = {}): Sources {
   return { at: 100_000, refs: ['follow', 'navigation', 'person_detection'], commands: ring(), events: ring(), own_events: ring(), errors: ring(), gaps: ring(), refused: ring(), past: ring(), present: [], ...some };
 }
 const range = { from: 40_000, to: 100_000 };
-const wide = { width: 600, hides_quiet: false, with_own: false }; // 100 ms a pixel
+const wide = { width: 600, hides_quiet: false, with_own: false }; // 100 ms per pixel
 
 const lanes_of = ({ lanes }: Layout) => lanes.map(({ kind, ref }) => ref || kind);
 const boxes = ({ placed }: Layout, kind: string) => placed.filter((one) => one.thing.kind === kind).map(({ box }) => [box.x, box.x + box.width]);
 
 describe('lanes', () => {
-  test('are the link, commands, events, and each component', () => {
+  test('are the link, commands, events and each component', () => {
     const layout = lay_out(sources(), range, wide);
     expect(lanes_of(layout)).toEqual(['link', 'commands', 'events', 'follow', 'navigation', 'person_detection']);
     expect(layout.height).toBe(layout.lanes.at(-1)!.y + layout.lanes.at(-1)!.height);
   });
 
-  test('of components that only stand there can be left out', () => {
+  test('of quiet components can be hidden', () => {
     const present = [span('status', 'follow', 'READY', 0, 100_000), span('status', 'navigation', 'WARNING', 0, 100_000)];
     const layout = lay_out(sources({ present, events: ring(event(70_000)) }), range, { ...wide, hides_quiet: true });
     expect(lanes_of(layout)).toEqual(['link', 'commands', 'events', 'navigation', 'person_detection']);
@@ -67,8 +67,8 @@ describe('lanes', () => {
   });
 });
 
-describe('what lasts', () => {
-  test('stands where it was', () => {
+describe('a span', () => {
+  test('has its position in time', () => {
     const past = ring(span('status', 'follow', 'READY', 10_000, 30_000), span('status', 'follow', 'ERROR', 50_000, 60_000));
     const present = [span('status', 'follow', 'READY', 60_000, 99_500)];
     expect(boxes(lay_out(sources({ past, present }), range, wide), 'span')).toEqual([
@@ -77,13 +77,13 @@ describe('what lasts', () => {
     ]);
   });
 
-  test('goes on until now, unless nobody has looked for long', () => {
+  test('continues until now, unless it was not observed for long', () => {
     expect(end_of(span('status', 'a', 'READY', 0, 99_000), true, 100_000)).toBe(100_000);
     expect(end_of(span('status', 'a', 'READY', 0, 50_000), true, 100_000)).toBe(50_000);
     expect(end_of(span('status', 'a', 'READY', 0, 99_000), false, 100_000)).toBe(99_000);
   });
 
-  test('a command stands in the lane of its component and in that of commands, from when it was sent', () => {
+  test("a command is in its component's lane and in that of commands, from its sending", () => {
     const layout = lay_out(sources({ commands: ring(command('navigation', 50_000, 52_000, 70_000), command('follow', 0, 0, 30_000)) }), range, wide);
     expect(layout.placed.map(({ lane }) => lanes_of(layout)[lane])).toEqual(['navigation', 'commands']);
     expect(boxes(layout, 'command')).toEqual([
@@ -94,7 +94,7 @@ describe('what lasts', () => {
 });
 
 describe('events', () => {
-  test('that are too dense are one mark, by stretches of time that do not move', () => {
+  test('that are dense are combined in fixed time bins', () => {
     const marks = [1000, 1900, 2000, 2500, 9000].map((at): Mark => ({ kind: 'event', entry: event(at) }));
     expect(clusters(marks, 1000).map((one) => one.marks.length)).toEqual([2, 2, 1]);
     const dense = ring(...Array.from({ length: 5000 }, (_, i) => event(40_000 + i * 12)));
@@ -104,7 +104,7 @@ describe('events', () => {
     expect(counted).toBe(5000);
   });
 
-  test('have numbers that do not lie over one another, nor over those of what went wrong', () => {
+  test('have numbers that do not overlap each other or those of errors', () => {
     const events = ring(...[50_900, 50_990, 51_010, 51_100].map((at) => event(at)));
     const gaps = ring(...[50_950, 50_960].map((at) => ({ number: next++, at, reason: 'LOST', count: 1 }) as unknown as GapEntry));
     const layout = lay_out(sources({ events, gaps }), range, wide);
@@ -114,7 +114,7 @@ describe('events', () => {
     for (const [i, one] of shown.entries()) for (const other of shown.slice(i + 1)) expect(apart(one, other)).toBe(true);
   });
 
-  test('that the console listens for by itself are there when they are wished for', () => {
+  test("of the console's own subscriptions are shown on request", () => {
     const some = sources({ events: ring(event(60_000), event(80_000)), own_events: ring(event(70_000)) });
     const count = (with_own: boolean) => lay_out(some, range, { ...wide, with_own }).placed.length;
     expect([count(false), count(true)]).toEqual([4, 6]);
@@ -126,7 +126,7 @@ describe('events', () => {
   });
 });
 
-describe('what went wrong', () => {
+describe('a failure', () => {
   const failed = command('navigation', 50_000, 50_000, 50_020, 'ERROR');
   const answer = { number: 7, at: 70_000, direction: 'in', kind: 'answer', name: 'execute_response', text: '<a><reason>too loud</reason></a>', return_code: 'BAD_PARAMETER', is_own: false } as const;
   const refused = { ...answer, request: { ...answer, name: 'execute', component: 'speech_synthesis' } };
@@ -134,14 +134,14 @@ describe('what went wrong', () => {
   const layout = lay_out(it, range, wide);
   const marks = layout.placed.filter((one) => one.thing.kind === 'marks' && layout.lanes[one.lane]!.kind === 'events');
 
-  test('stands among events and errors: commands that failed, and refusals', () => {
+  test('is among events and errors: failed commands and refusals', () => {
     expect(marks.map(({ thing }) => thing.kind === 'marks' && thing.marks.map((one) => one.kind))).toEqual([['failed'], ['refused']]);
     expect(sentence(describe_thing(marks[1]!.thing, 100_000))).toMatch(/^Refused, execute, speech_synthesis, BAD_PARAMETER, Time .* Reason too loud$/);
     expect(opened_by(marks[0]!.thing)).toEqual({ kind: 'command', entry: failed });
     expect(opened_by(marks[1]!.thing)).toBe(marks[1]!.thing);
   });
 
-  test('is met within 12 px, however short it was', () => {
+  test('is hit within 12 px, however short', () => {
     const y = layout.lanes.find((one) => one.ref === 'navigation')!.y + 23;
     expect([94, 95.6, 101.5, 107.4, 108.5].map((x) => thing_at(layout, x, y)?.thing.kind)).toEqual([undefined, 'command', 'command', 'command', undefined]);
   });
@@ -160,7 +160,7 @@ describe('pointer and keys', () => {
     );
   const name = (one: Placed | undefined) => one && `${lanes_of(layout())[one.lane]} ${one.thing.kind}`;
 
-  test('the topmost is met, a small one also from beside it', () => {
+  test('the topmost thing is hit, a small one also from beside', () => {
     const it = layout();
     const lane = it.lanes.findIndex((one) => one.ref === 'navigation');
     const { y } = it.lanes[lane]!;
@@ -171,7 +171,7 @@ describe('pointer and keys', () => {
     expect(name(thing_at(it, 204, events.y + 12))).toBe('events marks');
   });
 
-  test('arrows go along a lane and to the next one that has something', () => {
+  test('arrows go along a lane and to the next lane with things', () => {
     const it = layout();
     let at = next_thing(it, undefined, 'ArrowDown');
     expect(name(at)).toBe('commands command');
@@ -186,12 +186,12 @@ describe('pointer and keys', () => {
   });
 });
 
-describe('the stretch of time', () => {
-  test('grows and shrinks around a time, and live to the left alone', () => {
+describe('the shown range', () => {
+  test('grows and shrinks around a time, and to the left if live', () => {
     expect(zoomed({ span: 1000, end: 5000 }, 0.5, 4500)).toEqual({ span: 500, end: 4750 });
     expect(zoomed({ span: 1000 }, 2, 4500)).toEqual({ span: 2000 });
   });
-  test('stays between what is known first and now', () => {
+  test('stays between the oldest known time and now', () => {
     expect(within({ span: 10_000, end: 200_000 }, 0, 100_000)).toEqual({ span: 10_000, end: 100_000 });
     expect(within({ span: 10_000, end: -50_000 }, 0, 100_000)).toEqual({ span: 10_000, end: 2500 });
     expect(within({ span: 1e12 }, 0, 3_600_000).span).toBeCloseTo(3_960_000);
@@ -215,7 +215,7 @@ describe('a view', () => {
     await settled();
   };
 
-  test('goes with the time until it is stopped, and then stays while all goes on', async () => {
+  test('follows the time until it is stopped, and stays then', async () => {
     await happens();
     const before = view.range(view.sources.at);
     await world.passes(5000);
@@ -231,7 +231,7 @@ describe('a view', () => {
     expect(view.sources.events.size).toBe(4);
   });
 
-  test('what is stopped stays though the rings forget it', async () => {
+  test('stays when stopped, even if the rings forget', async () => {
     await happens();
     const held = stopped_sources(console);
     console.events.events.clear();
@@ -239,7 +239,7 @@ describe('a view', () => {
     expect(oldest_of(held)).toBeLessThanOrEqual(held.at);
   });
 
-  test('a stretch that was chosen is gone back from', async () => {
+  test('returns from a selected range', async () => {
     await happens();
     await world.passes(60_000);
     const now = view.sources.at;
@@ -250,7 +250,7 @@ describe('a view', () => {
     expect(view.can_undo).toBe(false);
   });
 
-  test('everything goes on to be everything', async () => {
+  test('the whole range keeps growing', async () => {
     await happens();
     const { from } = view.range(view.sources.at);
     view.show_all();
@@ -264,7 +264,7 @@ describe('a view', () => {
     expect(view.range(view.sources.at)).toEqual(all);
   });
 
-  test('what is live waits while it is pointed at, and is stopped there', async () => {
+  test('is held under the pointer when live, and stops there', async () => {
     await happens();
     const before = view.range(view.sources.at);
     view.held.value = before.to;
@@ -277,7 +277,7 @@ describe('a view', () => {
     expect(view.range(view.sources.at).to).toBe(view.sources.at);
   });
 
-  test('moving stops it', async () => {
+  test('stops when moved', async () => {
     await world.passes(600_000);
     view.move(-30_000);
     expect(view.is_live).toBe(false);
@@ -286,7 +286,7 @@ describe('a view', () => {
   });
 });
 
-test('things are told in a sentence', () => {
+test('things are described in a sentence', () => {
   const told = describe_thing({ kind: 'command', entry: command('navigation', 50_000, 50_400, 52_400, 'ERROR') }, 60_000);
   expect(sentence(told)).toMatch(/^Command, start, navigation, ERROR, Sent [\d:.]+, Began [\d:.]+, Ended [\d:.]+, Waited 400 ms, Ran 2\.0 s$/);
   const many: Mark[] = [event(1000), event(2000), event(3000, 'person_detection', 'other')].map((entry) => ({ kind: 'event', entry }));

@@ -1,4 +1,4 @@
-// Why a command has failed, in words.
+// Explanations of failed commands.
 import { beforeEach, describe, expect, test } from 'vitest';
 
 import { watched } from '../../src/forms/exchange';
@@ -38,41 +38,41 @@ async function ended(ref: string, status: string, result = '', target?: string[]
 }
 
 describe('a command that failed', () => {
-  test('has the reason that the engine tells with its results', async () => {
+  test("has the engine's reason from the results", async () => {
     const entry = await ended('navigation', 'ERROR', '<result rois:name="reason"><rois:data_type_ref rois:code="string"/><rois:value>no way</rois:value></result>');
     expect(why(console, entry)).toEqual(['reason: no way']);
   });
 
-  test('was sent to where nobody can go', async () => {
+  test('was sent to an unreachable place', async () => {
     const entry = await ended('navigation', 'ERROR', '', ['desk', '100, 200, 90', '20000, 5', '1200, 1200']);
-    expect(why(console, entry)).toEqual(['20000, 5 is outside of the map, which goes from x 0 … 16000 and from y 0 … 12000 (mm).', '1200, 1200 is where furniture stands.']);
+    expect(why(console, entry)).toEqual(['20000, 5 is outside the map: x 0 … 16000, y 0 … 12000 (mm).', '1200, 1200 is inside furniture.']);
   });
 
-  test('wants what another component of its robot uses', async () => {
+  test('needs the same wheels as another component of its robot', async () => {
     await ended('navigation', 'RUNNING');
     await ended('other.move', 'RUNNING');
     const entry = await ended('follow', 'OUT_OF_RESOURCES');
     expect(why(console, entry)).toEqual(['Running on the same robot: navigation start.']);
   });
 
-  test('ended while the engine told of an error of its component', async () => {
+  test('ended while the engine reported an error of its component', async () => {
     world.answers.set('get_error_detail', () => '<results><result rois:name="description"><rois:data_type_ref rois:code="string"/><rois:value>the motor is hot</rois:value></result></results>');
     world.answers.set('get_command_result', () => '<results><result rois:name="status"><rois:data_type_ref rois:code="string"/><rois:value>ERROR</rois:value></result></results>');
     const { command_ids } = await console.run('navigation', 'start');
     await world.notifies('receive_error', '<error_id>e-1</error_id><error_type>COMPONENT_INTERNAL_ERROR</error_type><component_ref rois:code="navigation"/>');
     await world.notifies('completed', `<command_id>${command_ids[0]}</command_id><status>ERROR</status>`);
-    expect(why(console, console.commands.find(command_ids[0]!)!)).toEqual(['The engine told of an error meanwhile: COMPONENT_INTERNAL_ERROR. description: the motor is hot']);
+    expect(why(console, console.commands.find(command_ids[0]!)!)).toEqual(['The engine reported an error meanwhile: COMPONENT_INTERNAL_ERROR. description: the motor is hot']);
   });
 });
 
-describe('what is sent', () => {
-  test('is found with its answer, also when something is bound first', async () => {
+describe('a request', () => {
+  test('is found with its answer, even if a component is bound first', async () => {
     const outcome = await watched(console, 'execute', () => console.run('navigation', 'start'));
     expect(world.names().filter((name) => name === 'bind' || name === 'execute')).toEqual(['bind', 'execute']);
     expect([outcome.request?.name, outcome.answer?.name, outcome.error]).toEqual(['execute', 'execute_response', undefined]);
   });
 
-  test('is not there when it was not sent', async () => {
+  test('is missing if it was not sent', async () => {
     world.answers.set('bind', () => 'OUT_OF_RESOURCES');
     const outcome = await watched(console, 'execute', () => console.run('navigation', 'start'));
     expect([outcome.request, outcome.answer]).toEqual([undefined, undefined]);

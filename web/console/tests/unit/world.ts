@@ -1,4 +1,4 @@
-// A world for the state in which nothing happens by itself: a clock that the test moves, and an engine that answers as the test says.
+// A fake world for the state: the test moves the clock and scripts the engine.
 import { namespaces, type OpenSocket, parse_xml, type SocketListener, type XmlElement } from 'rois-client';
 
 import { Console } from '../../src/state/console';
@@ -6,20 +6,20 @@ import type { Environment, Stop } from '../../src/state/environment';
 
 interface Alarm {
   at: number;
-  every: number; // 0: once
+  every: number; // ms; 0: once
   act: () => void;
 }
 
 export class World implements Environment {
   readonly origin = 'http://engine.example';
   readonly remembered = new Map<string, string>();
-  /** What GET gives, by path. */
+  /** Responses of GET, by path. */
   readonly pages = new Map<string, { status: number; text: string }>();
-  /** Answers to requests, by the operation's name; given the request they make the content of the answer, or a whole document. */
+  /** Answers by operation. Given the request, each returns the answer's content or a whole document. */
   readonly answers = new Map<string, (request: XmlElement) => string>();
-  /** Why operations are refused whose answer is a code alone; by name. */
+  /** Reasons of refusals, by operation. */
   readonly reasons = new Map<string, string>();
-  /** The requests that came, in order. */
+  /** Received requests, in order. */
   readonly requests: XmlElement[] = [];
   private time = Date.UTC(2026, 10, 20, 12);
   private alarms = new Set<Alarm>();
@@ -67,9 +67,9 @@ export class World implements Environment {
     return { send: (text) => this.asked(text), close: () => (this.listener = undefined) };
   };
 
-  // --- What a test does ---
+  // --- For tests ---
 
-  /** A console that has connected. */
+  /** A connected console. */
   async console(): Promise<Console> {
     const made = new Console(this);
     made.connect();
@@ -77,23 +77,23 @@ export class World implements Environment {
     return made;
   }
 
-  /** The socket that the client waits for opens. */
+  /** Opens the socket that the client waits for. */
   async opens(): Promise<void> {
     this.listener!.opened();
     await settled();
   }
 
-  /** The link breaks. */
+  /** Breaks the link. */
   breaks(reason = 'the WebSocket was closed with 1006'): void {
     this.listener!.ended({ reason, final: false });
   }
 
-  /** The client opens another socket. */
+  /** Waits for the next attempt to connect. */
   tries_again(): Promise<void> {
     return new Promise((resolve) => (this.tried = resolve));
   }
 
-  /** A notification, with the next sequence number; `content` is what is inside. */
+  /** Sends a notification with the next sequence number. */
   async notifies(name: string, content = '', attributes = ''): Promise<void> {
     this.sequence += 1;
     this.says(`<${name} xmlns="${namespaces.message}" xmlns:rois="${namespaces.rois}" sequence="${this.sequence}" ${attributes}>${content}</${name}>`);
@@ -104,7 +104,7 @@ export class World implements Environment {
     this.listener!.received(text);
   }
 
-  /** Time goes by; what is due happens. */
+  /** Advances the time and fires due timers. */
   async passes(ms: number): Promise<void> {
     const end = this.time + ms;
     for (;;) {
@@ -119,7 +119,7 @@ export class World implements Environment {
     this.time = end;
   }
 
-  /** The next picture is drawn. */
+  /** Draws the next frame. */
   draws(): void {
     for (const act of this.before.splice(0)) act();
   }
@@ -146,7 +146,7 @@ export class World implements Environment {
   }
 }
 
-/** All promises that can go on have gone on. */
+/** Lets all pending promises run. */
 export async function settled(): Promise<void> {
   await new Promise((resolve) => setImmediate(resolve));
 }
