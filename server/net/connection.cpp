@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <boost/asio/post.hpp>
 #include <utility>
 
 #include "net/event_stream.hpp"
@@ -28,7 +29,7 @@ Connection::Connection(Loop& loop, Socket socket, Admission::Place place)
     : loop_{loop},
       place_{std::move(place)},
       opener_{std::make_shared<Opener>(place_.address(), place_.limits(), 0U)},
-      wire_{std::move(socket), loop.poller(), loop.resumptions(), loop.shared().settings.write_timeout, loop.shared().telemetry},
+      wire_{std::move(socket), loop.shared().settings.write_timeout, loop.shared().telemetry},
       counted_{std::in_place, loop.shared().telemetry, Telemetry::Kind::http} {
     loop.add(*this);
     loop.shared().telemetry.accepted();
@@ -102,7 +103,7 @@ Task<Connection::Then> Connection::serve() {
         }
         if (out_.size() > most_to_gather || holds_.size() >= loop_.shared().settings.max_requests_in_flight) co_await flush();
         ++in_a_row;
-        if (in_a_row % most_in_a_row == 0) co_await wire_.next_turn();
+        if (in_a_row % most_in_a_row == 0) co_await asio::post(loop_.executor(), asio::use_awaitable_t<Executor>{});
     }
     co_return then;
 }
@@ -170,11 +171,7 @@ Task<Connection::Then> Connection::receive() {
     if (idle_ && idle_due_ == Steady::max()) idle_due_ = now() + settings.idle_timeout;
     auto const until = idle_ ? idle_due_ : request_due_;
     auto const before = wire_.received().size();
-    auto outcome = wire_.receive_now(until, expected);
-    while (!outcome) {
-        co_await wire_.readable();
-        outcome = wire_.receive_now(until, expected);
-    }
+    auto const outcome = co_await wire_.receive(until, expected);
     if (has_head_) loop_.shared().gateway.memory().took(wire_.received().size() - before);
     bool const silent = std::exchange(idle_, false);
     if (outcome == Wire::Outcome::closed || (outcome == Wire::Outcome::late && silent)) co_return Then::end;

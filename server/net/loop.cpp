@@ -32,9 +32,7 @@ Loop::Loop(Shared& shared)
     : shared_{shared},
       reader_{shared.schemas, shared.settings.document, shared.settings.validation},
       sweeps_for_all_{sweeps_for_all(shared.settings)},
-      wakes_{io_.get_executor(), shared.troubles},
-      poller_{io_.get_executor(), shared.troubles},
-      resumptions_{io_.get_executor(), shared.troubles} {
+      wakes_{io_.get_executor(), shared.troubles} {
     always(Troubles::Where::sweep, [this] { return sweep(); });
 }
 
@@ -71,8 +69,6 @@ void Loop::look_after() {
             throw;
         }
     }
-    resumptions_.look_after();
-    poller_.look_after();
     wakes_.look_after();
 }
 
@@ -120,13 +116,7 @@ Task<> Loop::sweep() {
 }
 
 void Loop::sweep_now() noexcept {
-    try {
-        resumptions_.look_after();
-        wakes_.look_after();
-        poller_.look_after();
-    } catch (...) {
-        shared_.troubles.report(Troubles::Where::poller);
-    }
+    wakes_.look_after();
     sweep_some(std::chrono::steady_clock::now());
     over_ = draining() && connections_.empty();
     if (over_) io_.stop();

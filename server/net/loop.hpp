@@ -11,8 +11,6 @@
 #include "net/documents.hpp"
 #include "net/gateway.hpp"
 #include "net/long_documents.hpp"
-#include "net/poller.hpp"
-#include "net/resumptions.hpp"
 #include "net/settings.hpp"
 #include "net/telemetry.hpp"
 #include "net/troubles.hpp"
@@ -57,8 +55,6 @@ public:
     xml::RequestReader& reader() { return reader_; }
     Executor executor() { return io_.get_executor(); }
     Wakes& wakes() { return wakes_; }
-    Poller& poller() { return poller_; }
-    Resumptions& resumptions() { return resumptions_; }
 
 private:
     friend class Connection;
@@ -87,8 +83,6 @@ private:
     Steady last_moment_ = Steady::max();  // set by shut_down: at that time whoever is still there is cut
     asio::io_context io_{1};
     Wakes wakes_;
-    Poller poller_;
-    Resumptions resumptions_;
 };
 
 }  // namespace rois::net

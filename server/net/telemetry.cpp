@@ -43,7 +43,7 @@ constexpr std::array<char const*, 2> way_names{"fast", "full"};
 constexpr std::array<char const*, 5> limit_names{"connections", "connections_per_address", "sessions_per_address",
                                                  "sessions_per_connection", "streams_per_session"};
 
-constexpr std::array<char const*, 7> where_names{"tick", "sweep", "accept", "wake", "poller", "loop", "connection"};
+constexpr std::array<char const*, 6> where_names{"tick", "sweep", "accept", "wake", "loop", "connection"};
 
 double cpu_seconds() {
     rusage usage{};

@@ -59,7 +59,7 @@ public:
     void reached(Limit limit) { ++limits_[static_cast<std::size_t>(limit)].reached; }
 
     // Where an exception escaped and was survived.
-    enum class Where : std::uint8_t { tick, sweep, accept, wake, poller, loop, connection };
+    enum class Where : std::uint8_t { tick, sweep, accept, wake, loop, connection };
     void survived(Where where) { ++survived_[static_cast<std::size_t>(where)]; }
 
     // The engine has done what was due. Any thread may ask how long ago that was, also while the engine is locked.
@@ -92,7 +92,7 @@ private:
     std::atomic<std::uint64_t> accepted_ = 0;
     std::atomic<std::uint64_t> delivered_ = 0;
     std::atomic<std::uint64_t> cut_ = 0;
-    std::array<std::atomic<std::uint64_t>, 7> survived_{};
+    std::array<std::atomic<std::uint64_t>, 6> survived_{};
     std::atomic<Steady> last_tick_{Steady{}};
     std::shared_ptr<LogQueue const> log_;  // null: none is shown
     struct Reached {

@@ -49,16 +49,12 @@ Task<> WebSocket::run() {
         WebSocket& of;
         ~End() { of.break_off(); }
     } const end{*this};
-    std::optional outcome = Wire::Outcome::done;
+    auto outcome = Wire::Outcome::done;
     while (outcome == Wire::Outcome::done && !broken_) {
         while (!take_frames()) co_await pause();
         flush();
         if (ending_) wire_->use(wire_->received().size());
-        outcome = wire_->receive_now(Steady::max());
-        while (!outcome) {
-            co_await wire_->readable();
-            outcome = wire_->receive_now(Steady::max());
-        }
+        outcome = co_await wire_->receive(Steady::max());
         heard_something_ = true;
         if (wire_->received().size() > longest_negligible) gateway_.memory().took(wire_->received().size());
     }

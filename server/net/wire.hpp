@@ -1,89 +1,74 @@
-// A connection's socket, with what was received and not yet used. Belongs to one thread.
+// A connection's socket, with the bytes that were received and not used yet. Belongs to one thread.
 #pragma once
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 #include "net/asio.hpp"
-#include "net/poller.hpp"
-#include "net/resumptions.hpp"
 #include "net/telemetry.hpp"
 #include "types/instant.hpp"
 
 namespace rois::net {
 
-class Wire final : private Poller::Watcher {
+class Wire {
 public:
-    // The poller and the resumptions are those of the socket's loop, and outlive the wire.
-    Wire(Socket, Poller&, Resumptions&, std::chrono::milliseconds write_timeout, Telemetry&);
-    ~Wire();
+    Wire(Socket, std::chrono::milliseconds write_timeout, Telemetry&);
     Wire(Wire const&) = delete;
     Wire& operator=(Wire const&) = delete;
 
-    Executor const& executor() const { return resumptions_.executor(); }
+    Executor executor() { return socket_.get_executor(); }
 
     // The peer's address and port, for the log.
     std::string peer() const;
 
-    // What was received and not yet used. Good until the next receive.
+    // The bytes that were received and not used yet. Valid until the next receive.
     std::span<char> received() { return {input_.data() + used_, input_.size() - used_}; }
     std::string_view text() { return {input_.data() + used_, input_.size() - used_}; }
     void use(std::size_t bytes);
 
     enum class Outcome : std::uint8_t { done, closed, late };
 
-    // Receives what is there; `expected` says how many bytes are on their way, when that is known. Nothing: await `readable`,
-    // then ask again. Between two of these it receives once: then it is the turn of the loop's other connections, however much is
-    // there.
-    std::optional<Outcome> receive_now(Steady until, std::size_t expected = 0);
-    Task<> readable();
-    // Lets the loop's other connections have a turn.
-    Task<> next_turn();
+    // Waits until there is something to read, and reads it once. `expected` is the number of bytes that the peer will send, if it
+    // is known. Late after `until`, to the precision of sweep().
+    Task<Outcome> receive(Steady until, std::size_t expected = 0);
     // Ends a receive that waits: it is late now.
-    void stop_waiting();
+    void stop_waiting() { input_due_ = Steady::min(); }
 
-    // Hands over what the socket takes at once; says how many bytes those were. Errors show at the next send.
+    // Writes as much as the socket takes without waiting, and returns how many bytes that was. An error shows in the next send.
     std::size_t send_now(std::string_view);
-    // Hands over all; the connection is cut when that takes longer than the write timeout.
+    // Writes everything. The connection is cut if that takes longer than the write timeout.
     Task<Outcome> send(std::string_view);
 
-    // While nothing is received: calls `gone` when the peer closes. Once it has sent something, nothing is watched any more.
-    // While `is_proof`, the peer is probed, and has gone when it does not answer for two seconds (decision 33).
+    // While nothing is received: calls `gone` when the peer closes the connection. If the peer sends something, watching ends.
+    // While `is_proof` returns true, the system probes the peer: without an answer for two seconds it has gone (decision 33).
     class Watch;
     Watch watch(std::function<void()> gone, std::function<bool(Steady now)> is_proof);
 
-    // Whether something was given to `send` that the peer has not taken.
+    // Whether the peer has not taken everything that was given to send().
     bool waits_for_reader() const { return output_due_ != Steady::max(); }
 
-    // Says that nothing more will be sent.
+    // Tells the peer that nothing more will be sent.
     void finish();
-    // Finishes, and reads away what the peer still sends, so that it can read our last words before the connection ends.
+    // Finishes, and discards what the peer still sends, so that it can read our last answer before the connection ends.
     Task<> linger(Steady until);
 
-    // Cuts what is overdue.
+    // Cuts the connection if a write is overdue, and ends an overdue receive. To be called every now and then.
     void sweep(Steady now);
-    void cut() noexcept;
+    void cut();
 
 private:
-    // A coroutine that waits.
-    using Token = Resumptions::Token;
-    using Waiter = std::optional<Resumptions::Handler>;
-    static Task<> until_resumed(Waiter&);
-    static void resume(Waiter&);
-    void resume_later(Waiter&) noexcept;
+    struct Watching {
+        std::function<void()> gone;
+        std::function<bool(Steady now)> is_proof;
+    };
 
-    void changed(std::uint32_t events) override;
-    std::optional<std::size_t> read_some(std::span<char>);
     void look_whether_gone();
     void probe(bool on);
 
-    Poller& poller_;
-    Resumptions& resumptions_;
-    int socket_;  // -1: cut
+    Socket socket_;
     std::chrono::milliseconds write_timeout_;
     Telemetry& telemetry_;
     std::string input_;
@@ -91,25 +76,15 @@ private:
     Steady input_due_ = Steady::max();
     Steady output_due_ = Steady::max();
     bool input_late_ = false;
-    bool readable_ = false;  // nobody has yet read until there was nothing more
-    bool received_ = false;  // since `readable` was awaited
-    bool ended_ = false;     // the peer has said its last: always readable
-    bool failed_ = false;    // nothing can be written any more
-    Waiter reader_;
-    Waiter writer_;
-    std::function<void()> watching_;            // what to call; empty: nobody watches
-    std::function<bool(Steady now)> is_proof_;  // beside it
-    bool probed_ = false;                       // the system probes the peer now
+    bool probed_ = false;                 // the system probes the peer now
+    std::shared_ptr<Watching> watching_;  // null: nobody watches
 };
 
 // Watches as long as it lives.
 class Wire::Watch {
 public:
     explicit Watch(Wire& wire) : wire_{wire} {}
-    ~Watch() {
-        wire_.watching_ = nullptr;
-        wire_.is_proof_ = nullptr;
-    }
+    ~Watch();
     Watch(Watch const&) = delete;
     Watch& operator=(Watch const&) = delete;
 

@@ -27,10 +27,10 @@ struct ATrouble : testing::Test {
 
 TEST_F(ATrouble, IsCounted) {
     after(0ms);
-    after(0ms, Troubles::Where::poller);
+    after(0ms, Troubles::Where::wake);
     auto const text = telemetry.text({});
     EXPECT_NE(text.find("rois_internal_exceptions_total{where=\"tick\"} 1"), std::string::npos);
-    EXPECT_NE(text.find("rois_internal_exceptions_total{where=\"poller\"} 1"), std::string::npos);
+    EXPECT_NE(text.find("rois_internal_exceptions_total{where=\"wake\"} 1"), std::string::npos);
 }
 
 TEST_F(ATrouble, IsTooMuchAtTheThirdIncidentWithinASecond) {
