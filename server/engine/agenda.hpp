@@ -1,4 +1,4 @@
-// What components said, in the order in which they said it, until the engine takes it.
+// A queue of the reports that components made through their ports, in order. The engine handles them at the end of its own step.
 #pragma once
 
 #include <deque>

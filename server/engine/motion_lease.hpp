@@ -10,7 +10,7 @@
 
 namespace rois {
 
-// How a service application is linked to its session (decision 2): by a WebSocket, or by an event stream or a pending long poll.
+// How an application is linked to its session (decision 2): by a WebSocket, or by an event stream or a pending long poll.
 enum class Link : std::uint8_t { websocket, stream };
 
 // How a link ended. `answered`: a long poll was answered, which counts as a request. `lost`: the application closed the link, or
@@ -49,8 +49,8 @@ public:
 
     std::size_t links() const { return websockets_ + streams_; }
 
-    // The time from which its motion is held, if no sign of life comes before. An open stream is a sign of life by itself, because
-    // the system detects when the peer has gone. It is none if the session asked that only its requests count.
+    // The time at which motion is held if no sign of life comes before. An open stream is a permanent sign of life, because the
+    // system detects when the peer is gone, unless the session asked that only its requests count.
     Steady end() const {
         if (streams_ > 0 && terms_.links_count) return Steady::max();
         if (links() > 0) return heard_ + terms_.linked;
@@ -58,7 +58,7 @@ public:
     }
 
 private:
-    // After the last link is lost, a new link or a request must come within this time.
+    // The time for a new link or a request after the last link is lost.
     static constexpr std::chrono::milliseconds for_a_successor{250};
 
     std::size_t& count(Link link) { return link == Link::websocket ? websockets_ : streams_; }
@@ -67,7 +67,7 @@ private:
     Steady heard_;
     std::size_t websockets_ = 0;
     std::size_t streams_ = 0;
-    std::optional<Steady> end_after_link_;  // set when the last link is lost; reset by a new link or a request
+    std::optional<Steady> end_after_link_;  // set when the last link is lost
 };
 
 }  // namespace rois

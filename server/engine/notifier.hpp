@@ -36,29 +36,29 @@ public:
         outbox_.notify(queue);
     }
 
-    // Prefetches, when the queue itself is near, what `tell` needs: first what that points to, then what lies behind that.
+    // Prefetches the memory that `tell` needs, in two steps: what the queue points to, then the readers behind that.
     static void approach(NotificationQueue const& queue) { prefetch(queue.audience().get()); }
     void approach_readers(NotificationQueue const& queue) const { outbox_.approach(queue); }
 
-    // Drops the session's sent notifications, and the oldest waiting events until only `events` are left.
+    // Drops the session's sent notifications, and the oldest waiting events until `events` are left.
     void keep_last(Session& session, std::size_t events) {
         auto const lost = session.notifications->lost();
         session.notifications->keep_last(events);
         lost_ += session.notifications->lost() - lost;
     }
 
-    // Nothing more will be told to this session.
+    // Marks the end of the session's notifications.
     void close(Session& session) {
         session.notifications->close();
         outbox_.notify(*session.notifications);
     }
 
-    // Whether the queue of some session overflowed since the last call (decision 23).
+    // Returns whether a queue overflowed since the last call (decision 23).
     bool take_overflowed() { return std::exchange(overflowed_, false); }
 
     std::uint64_t told() const { return told_; }
     std::uint64_t lost() const { return lost_; }
-    std::uint64_t overflows() const { return overflows_; }  // sessions that had to end
+    std::uint64_t overflows() const { return overflows_; }  // number of sessions that had to end
 
 private:
     Outbox& outbox_;
