@@ -26,7 +26,7 @@ void list(EngineProfile& engine, std::string const& sub_engine, std::string cons
     owner->components.push_back(ref);
 }
 
-// A sub engine without components is none.
+// A sub engine without components is removed.
 void unlist(EngineProfile& engine, std::set<std::string_view> const& refs) {
     auto const goes = [&](std::string const& ref) { return refs.contains(ref); };
     std::erase_if(engine.components, goes);
@@ -39,7 +39,7 @@ void unlist(EngineProfile& engine, std::set<std::string_view> const& refs) {
 Engine::Core::SharedComponent Engine::Core::made(std::unique_ptr<Component> component,
                                                  std::vector<ComponentProfile> const& known) {
     auto const& description = component->description();
-    // Conditions look for refs without it.
+    // Conditions look for refs without surrounding spaces.
     if (trimmed(description.ref.code) != description.ref.code)
         throw std::runtime_error("the ref " + quoted(description.ref.code) + " begins or ends with white space");
     auto whole = flattened(*description.profile, known);

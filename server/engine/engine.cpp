@@ -24,7 +24,7 @@ Engine::Core::Core(EngineProfile profile, std::vector<ComponentProfile> known_pr
 
 namespace {
 
-// A tick asks for pings for this long, so that they go on when the next tick is late.
+// A tick asks for pings for this long, so that they continue if the next tick is late.
 constexpr std::chrono::milliseconds signs_of_life_wanted{1'000};
 
 std::string in_seconds(std::chrono::nanoseconds time) {
@@ -34,7 +34,7 @@ std::string in_seconds(std::chrono::nanoseconds time) {
 
 }  // namespace
 
-// All refusals, before any operation runs; then the one that it is.
+// Checks all reasons to refuse before it performs the operation.
 std::variant<Reply, Refusal> Engine::Core::handle(SessionId const& id, Operation const& operation, Instant now) {
     if (shutting_down_) return Refusal::shutting_down;
     if (auto const* asked = std::get_if<Connect>(&operation)) return connect(id, *asked, now);
@@ -62,13 +62,13 @@ void Engine::Core::begin(Instant now) {
     tick(now);
 }
 
-// A part that fails does not prevent the others. Throws the first failure at the end. A later tick repeats the part that failed.
+// If a part of the tick fails, the others still run. Throws the first failure at the end; a later tick repeats the failed part.
 void Engine::Core::tick(Instant now) {
     Attempts attempts;
     if (unsettled_) attempts.note(std::exchange(unsettled_, nullptr));
     attempts([&] { hold_unproven_motion(now); });
     if (memory_->full()) attempts([&] { save_memory(now); });
-    constexpr int most_turns = 100;  // of devices; what is left waits for the next tick
+    constexpr int most_turns = 100;  // of devices; the rest waits for the next tick
     auto const goes_on = [&](Moved const& moved) {
         bool more = false;
         attempts([&] { more = moved.device->goes_on(); });
@@ -98,8 +98,8 @@ void Engine::Core::forget_what_is_old(Instant now) {
     executor_.forget_old_results(now);
 }
 
-// Decision 33. Asks the sessions that command moving components for signs of life, and holds the motion when they are missing.
-// If no tick came for as long as a motion lease, nobody was asked in that time: the engine holds all motion.
+// Decision 33. Asks the sessions that command moving components for signs of life, and holds the motion if they are missing. If
+// the ticks paused for as long as a motion lease, no session was asked in that time: the engine then holds all motion.
 void Engine::Core::hold_unproven_motion(Instant now) {
     auto const missed = now.steady - last_tick_.value_or(now.steady);
     Attempts attempts;
@@ -120,7 +120,7 @@ void Engine::Core::hold_unproven_motion(Instant now) {
     settle(now);
 }
 
-// Reports a failing device once, until it succeeds. The next tick advances it again: it may have lacked memory.
+// Reports a failing device once, until it succeeds. The next tick advances it again: the cause may have been a lack of memory.
 void Engine::Core::advance_devices(Instant now) {
     Attempts attempts;
     for (auto& [device, failed] : devices_) {
@@ -229,7 +229,7 @@ void Engine::Core::part_with(Session& session, Instant now) {
     executor_.forget(session);
     notifier_.close(session);
     journal_->session_ended(session.number, session.why_it_ends);
-    free_slots_.push_back(session.events.slot);  // does not throw: `connect` reserved the room
+    free_slots_.push_back(session.events.slot);  // cannot throw: `connect` reserved the room
     sessions_.erase(sessions_.find(session.id));
 }
 
@@ -242,7 +242,7 @@ void Engine::Core::stop_everything(Instant now) {
     attempts.rethrow();
 }
 
-// Any client can stop everything, as often as it likes. More errors than this would fill the queues of the sessions.
+// Any client can stop everything, as often as it likes. Reporting each stop would fill the queues of the sessions.
 void Engine::Core::report_stop_of_everything(Instant now) {
     if (stop_reported_ && now.steady - *stop_reported_ < std::chrono::seconds{1}) return;
     agenda_.add(everything_was_stopped());
@@ -279,8 +279,8 @@ void Engine::Core::shut_down(Instant now) {
     attempts.rethrow();
 }
 
-// Drops data that is kept for later only: results, details, sent notifications and waiting events. Runs at most every 100 ms.
-// Keeps the last ones, for an application that is slow for a moment. Then ends the sessions in which too many notifications wait.
+// Drops data that is only kept for later: results, details, sent notifications and waiting events. Keeps the newest ones, for an
+// application that is slow for a moment. Then ends the sessions with too many waiting notifications. Runs at most every 100 ms.
 void Engine::Core::save_memory(Instant now) {
     constexpr std::size_t kept = 64, most_waiting = 256;
     if (now.steady - memory_saved_ < std::chrono::milliseconds{100}) return;
@@ -344,8 +344,8 @@ void Engine::Core::await_end_of_window(Session& session, Steady not_before) {
     session.end_of_window = deadlines_.add(when, [this, id = session.id](Instant then) { end_if_lost(id, then); });
 }
 
-// Checks again later if the session sent something in between (decision 2). Keeps a deadline also while a link is open, so that
-// the end of the link can move it without memory.
+// Checks again later if the session sent something in between (decision 2). Keeps the deadline while a link is open, so that the
+// end of the link can move it without memory.
 void Engine::Core::end_if_lost(SessionId const& id, Instant now) {
     auto* session = find(id);
     if (session == nullptr) return;

@@ -1,4 +1,4 @@
-// Event interface (7.4.2, table 5): subscriptions, and what becomes of events.
+// Event interface (7.4.2, table 5): subscriptions and the delivery of events.
 #include <span>
 #include <utility>
 
@@ -10,8 +10,7 @@ namespace rois {
 
 namespace {
 
-// An event to a thousand sessions finds each one's queue far away in memory, and behind that those who read it: they are called
-// for some turns before their own.
+// Prefetches the queues of the next few subscribers, and their readers: with many sessions, each queue is a cache miss.
 void call_nearer(std::span<Subscription::Hearer const> those_who_follow, Notifier const& notifier) {
     auto const follows = [&](std::size_t turns) { return turns < those_who_follow.size(); };
     if (follows(6)) prefetch<sizeof(NotificationQueue)>(those_who_follow[6].queue);
@@ -40,7 +39,7 @@ Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instan
     return reply;
 }
 
-// Returns why the session may not have one more subscription, or nothing. `shared`: another session has the same subscription.
+// Returns why the session may not have one more subscription, or nullopt. `shared`: another session has the same subscription.
 std::optional<std::string> Engine::Core::no_room_for(Session const& session, Filter const& wanted, bool shared) {
     auto const too_many = [](std::string_view whose, std::size_t most, std::string_view what, std::uint64_t& refused) {
         ++refused;
@@ -80,7 +79,7 @@ Reply Engine::Core::perform(Session& session, GetEventDetail const& get, Instant
 
 namespace {
 
-// The notifications of one event to one subscription: one object for all who want the results inline, one for the others.
+// The notifications of one event for one subscription: one shared by all sessions with inline results, one by the others.
 class EventNotifications {
 public:
     EventNotifications(ReceiveEvent plain, std::shared_ptr<Results const> results)
@@ -107,7 +106,7 @@ private:
 void Engine::Core::publish(EventOccurred const& said, Instant now, Attempts& deliveries) {
     auto const subscriptions = subscriptions_.possible(said.event_type, *said.component);
     auto const& results = said.results;
-    std::string event_id;  // given when somebody hears of it
+    std::string event_id;  // made when a subscriber matches
     Perspective anybodys{registry_, places_, nullptr, Perspective::Of::present};
     ToldCandidate const candidate{anybodys.candidate(*said.component), *results};
     auto const matches = [&](Subscription const& subscription, Session const& asker) {

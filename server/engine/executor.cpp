@@ -13,7 +13,7 @@ namespace rois {
 
 namespace {
 
-// The commands of a session that have not finished yet, in the order in which they were given.
+// The commands of a session that have not finished, in the order in which they were given.
 std::vector<std::shared_ptr<Command>> live_commands(Session const& session) {
     std::vector<std::shared_ptr<Command>> live;
     for (auto const& [id, command] : session.commands)
@@ -27,7 +27,7 @@ bool is_proven_alive(Session const* session, Instant now) { return session != nu
 
 }  // namespace
 
-// A command knows its sequence and its component, which know it: what still runs is parted here.
+// A command and its sequence and component refer to each other. Breaks these cycles for the commands that still run.
 Executor::~Executor() {
     for (auto const& [handle, command] : live_) {
         command->execution.reset();
@@ -62,7 +62,7 @@ Executor::SharedCommand Executor::make(Session& session, CommandMessage const& m
 
 void Executor::execute(Session& session, CommandUnitSequence const& sequence, Instant now) {
     auto const before = last_handle_;
-    // Cancels the delays that are not over when the sequence ends.
+    // When the sequence ends, cancels the delays that are not over.
     auto const give_up = [this](Execution* over) {
         for (auto const& delay : over->delays) deadlines_.cancel(delay);
         delete over;
@@ -114,7 +114,8 @@ void Executor::give_turns(std::shared_ptr<Execution> const& execution, std::vect
     }
 }
 
-// Runs what is ready, and what becomes ready by that; a loop, not a recursion, however long a sequence is.
+// Begins all units whose turn has come, and those whose turn comes thereby. A loop, not a recursion, because sequences can be
+// long.
 void Executor::run_ready(Instant now) {
     if (std::exchange(running_ready_, true)) return;
     Attempts attempts;
@@ -291,7 +292,8 @@ void Executor::completed(CommandEnded& said, Instant now) {
     run_ready(now);
 }
 
-// Nothing was active before a `start`: what was, was halted. Whatever else completes does not touch a `start` that still runs.
+// A `start` halts any running action first, so nothing was active before it. The end of another command does not affect a running
+// `start`.
 void Executor::follow_up(RegisteredComponent& component, SharedCommand const& command, Afterwards afterwards) {
     using Activity = RegisteredComponent::Activity;
     bool const starts = component.start == command;
@@ -330,7 +332,7 @@ void Executor::finish(SharedCommand const& command, Instant now) {
         if (command->session != nullptr) notifier_.tell(*command->session, Completed{command->id, command->status});
         command->told = true;
     }
-    ParameterList{}.swap(command->arguments);  // only its results are asked for from now on
+    ParameterList{}.swap(command->arguments);  // from now on, only its results are needed
     if (command->session != nullptr) remember(command, now);
     if (auto const execution = std::exchange(command->execution, nullptr)) {
         try {

@@ -28,7 +28,7 @@ std::string with_commas(std::string_view text) {
     return commas;
 }
 
-// The total length of a predicate's texts, without those of the predicates in it.
+// The total length of a predicate's texts, without those of nested predicates.
 struct TextBytes {
     std::size_t operator()(PropertyComparison const& p) const { return of(p.left) + of(p.right); }
     std::size_t operator()(PropertyIsLike const& p) const { return of(p.left) + of(p.right); }
@@ -166,7 +166,7 @@ std::optional<Distance> FilterCompiler::distance(Function const& function) {
     return Distance{std::move(both->first), std::move(both->second), &vocabulary_.places->frames};
 }
 
-// Two boxes have to be in one frame: a box that is turned into another frame is not a box there.
+// Two boxes must be in the same frame: a box that is turned into another frame is not a box there.
 std::optional<std::pair<Whereabouts, Whereabouts>> FilterCompiler::related(Expression const& one, Expression const& other) {
     auto first = whereabouts(one);
     auto second = first ? whereabouts(other) : std::nullopt;

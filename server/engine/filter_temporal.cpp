@@ -1,4 +1,4 @@
-// The temporal operators (ISO 19143, Temporal Filter) over moments and periods.
+// Temporal operators (ISO 19143, Temporal Filter) on moments and periods.
 #include <optional>
 #include <variant>
 
@@ -9,7 +9,7 @@ namespace rois {
 
 namespace {
 
-// When something is: known beforehand, or told by a candidate.
+// An operand of a temporal operator: a time of the condition, or a reference to times of the candidate.
 class When {
 public:
     When(Period period) : when_{period} {}
@@ -17,7 +17,7 @@ public:
 
     bool is_known() const { return std::holds_alternative<Period>(when_); }
 
-    // Nothing while open.
+    // nullopt if the value is not known yet.
     std::optional<std::vector<Period>> of(Candidate const& candidate) const {
         if (auto const* known = std::get_if<Period>(&when_)) return std::vector<Period>{*known};
         auto const texts = candidate.texts(std::get<Reference>(when_));
@@ -39,7 +39,7 @@ private:
     std::variant<Period, Reference> when_;
 };
 
-// A relation that is told as its converse: "before" as "after" with the operands exchanged.
+// The relation that holds with the operands exchanged, such as "after" for "before". Only for relations stored as their converse.
 std::optional<TemporalRelation> converse(TemporalRelation relation) {
     switch (relation) {
         case TemporalRelation::before:
@@ -63,7 +63,7 @@ bool is_moment(Period const& period) { return period.begin == period.end; }
 
 bool meets(Period const& a, Period const& b) { return a.end == b.begin && !is_moment(a) && !is_moment(b); }
 
-// ISO 19108, TM_RelativePosition. Never called for a relation that has a converse.
+// ISO 19108, TM_RelativePosition. The relation must not have a converse.
 bool holds(TemporalRelation relation, Period const& a, Period const& b) {
     switch (relation) {
         case TemporalRelation::after:
@@ -86,7 +86,7 @@ bool holds(TemporalRelation relation, Period const& a, Period const& b) {
     return a == b;
 }
 
-// One of several times must meet it.
+// Matches if one of several times meets the relation.
 class Temporal final : public Predicate {
 public:
     Temporal(TemporalRelation relation, When left, When right)
@@ -121,7 +121,7 @@ private:
     When right_;
 };
 
-// Nothing when refused.
+// Returns nullopt if the expression is invalid.
 std::optional<When> when(FilterCompiler& compiler, Expression const& expression) {
     if (auto const* not_understood = std::get_if<NotUnderstood>(&expression.value))
         return compiler.refuse(not_understood->reason);
@@ -141,7 +141,7 @@ std::optional<When> when(FilterCompiler& compiler, Expression const& expression)
 
 }  // namespace
 
-// What is told is during what is known, in whichever order the two stand.
+// For During, the candidate's time must be during the period of the condition, in whichever order the two are given.
 PredicatePtr FilterCompiler::operator()(TemporalComparison const& comparison) {
     auto const own = vocabulary_.own_time();
     if (comparison.operands.size() < 2 && own.empty()) {

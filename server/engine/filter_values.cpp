@@ -38,11 +38,11 @@ private:
     Case letters_;
 };
 
-// Which of those without a value are meant.
+// Which missing values match.
 enum class Without : std::uint8_t {
     any,          // all of them
-    missing,      // those that have such a property, but no value of it
-    inapplicable  // those that have no such property
+    missing,      // the candidate has the property, but no value of it
+    inapplicable  // the candidate does not have the property
 };
 
 class Null final : public Predicate {
@@ -85,7 +85,7 @@ private:
     std::string rid_;
 };
 
-// Nothing is ever nil for these reasons of GML, but they are reasons.
+// For the nilReasons of GML that are valid, but never apply here.
 class Never final : public Predicate {
 public:
     Match match(Candidate const&) const override { return Match::no; }
@@ -146,7 +146,7 @@ PredicatePtr FilterCompiler::operator()(PropertyIsNil const& nil) {
     return nullptr;
 }
 
-// A component's name is its ref.
+// The name of a component is its ref.
 PredicatePtr FilterCompiler::operator()(ResourceId const& id) {
     if (auto problem = why_too_long("the rid of a ResourceId", id.rid)) {
         refuse(*std::move(problem));

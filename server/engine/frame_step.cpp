@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 
 constexpr double degree = std::numbers::pi / 180;
 
-// Where the pitch is nearer to a right angle, roll and yaw are about the same axis.
+// Below this cosine of the pitch, roll and yaw turn about the same axis.
 constexpr double least_cosine = 1e-6;
 
 Vector3d radians(Vector3d const& turned) { return turned * degree; }
@@ -33,7 +33,7 @@ Matrix3d rotation(Vector3d const& turned) {
         .toRotationMatrix();
 }
 
-// Roll, pitch and yaw of a rotation; of those at a right angle of pitch, the one without roll.
+// Roll, pitch and yaw of a rotation. At a pitch of 90 degrees roll is 0.
 Vector3d turned_by(Matrix3d const& r) {
     double const level = std::hypot(r(0, 0), r(1, 0));
     Vector3d angle{0, std::atan2(-r(2, 0), level), 0};
@@ -48,7 +48,7 @@ Vector3d turned_by(Matrix3d const& r) {
 
 bool is_level(Vector3d const& turned) { return turned.x() == 0 && turned.y() == 0; }
 
-// What a small change of roll, pitch and yaw turns by, about the axes of the frame that they are told in.
+// The rotation, about the axes of the outer frame, that a small change of roll, pitch and yaw causes.
 Matrix3d turn_of_change(Vector3d const& turned) {
     Vector3d const angle = radians(turned);
     double const cp = std::cos(angle.y()), sp = std::sin(angle.y()), cy = std::cos(angle.z()), sy = std::sin(angle.z());
@@ -57,7 +57,7 @@ Matrix3d turn_of_change(Vector3d const& turned) {
     return turn;
 }
 
-// The other way round: which change of roll, pitch and yaw a small turn about the axes is.
+// The inverse: the change of roll, pitch and yaw that a small rotation about the axes causes.
 Matrix3d change_of_turn(Vector3d const& turned) {
     Vector3d const angle = radians(turned);
     double const cp = std::cos(angle.y()), sp = std::sin(angle.y()), cy = std::cos(angle.z()), sy = std::sin(angle.z());
@@ -76,7 +76,7 @@ Matrix3d cross_product(Vector3d const& a) {
     return with;
 }
 
-// J C J^T of what is told, and of the placement, to the first order.
+// The covariance of the result, to the first order: J C J^T for the position, and for the placement.
 Covariance6 carried(Covariance6 const& told, Covariance6 const& by_what_is_told, Covariance6 const& placed,
                     Covariance6 const& by_the_placement) {
     Covariance6 const sum =

@@ -18,7 +18,7 @@ namespace {
 
 using Axes = std::span<Eigen::Index const>;
 
-// Which of x, y, z, roll, pitch, yaw a covariance of so many numbers is about; none when it is no such covariance.
+// The axes (x, y, z, roll, pitch, yaw) that a covariance with this many numbers covers; empty if the number is invalid.
 Axes axes_of(std::size_t numbers, bool oriented) {
     static constexpr std::array<Eigen::Index, 6> all{0, 1, 2, 3, 4, 5};
     static constexpr std::array<Eigen::Index, 3> in_plane{0, 1, 5};
@@ -58,7 +58,7 @@ std::vector<double> rows_of(Covariance6 const& covariance, Axes axes) {
 
 double rounded(double value, Frames::Rounding rounding) {
     double const parts = rounding == Frames::Rounding::thousandth ? 1e3 : 1e6;
-    return std::round(value * parts) / parts + 0.0;  // 0 has no sign
+    return std::round(value * parts) / parts + 0.0;  // turns -0 into 0
 }
 
 double rounded_angle(double degrees, Frames::Rounding rounding) { return normal_angle(rounded(normal_angle(degrees), rounding)); }
@@ -126,7 +126,7 @@ Frames::Placed const* Frames::find(std::string_view crs) const {
     return found == placed_.end() ? nullptr : found->second.get();
 }
 
-// The frame, the one it is placed in, and so on, without the engine's own; too many when it comes back to itself.
+// The frame, the frame that it is placed in, and so on, without the engine's own. In a cycle, returns more frames than there are.
 std::vector<Frames::Placed const*> Frames::ancestry(std::string_view crs) const {
     std::vector<Placed const*> all;
     for (auto const* placed = find(crs); placed != nullptr && all.size() <= placed_.size(); placed = find(placed->frame.base))
@@ -134,8 +134,8 @@ std::vector<Frames::Placed const*> Frames::ancestry(std::string_view crs) const 
     return all;
 }
 
-// Up to the frame that both descend from, and down from there: how uncertain the placement of that one is does not matter between
-// the two. Nothing when a frame is not known.
+// The way up to the first common ancestor of the two frames, and down from there. So the uncertainty of the ancestor's own
+// placement does not count. Returns nullopt if a frame is unknown.
 std::optional<std::vector<Frames::Step>> Frames::way(std::string_view from, std::string_view to) const {
     if (!know(from) || !know(to)) return {};
     auto up = ancestry(from), down = ancestry(to);

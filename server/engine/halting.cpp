@@ -27,7 +27,7 @@ void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_st
     attempts.rethrow();
 }
 
-// For a component that failed to begin an action: it may move nevertheless.
+// For a component that failed to begin an action, and may move nevertheless.
 void Executor::halt_what_moves(RegisteredComponent& component, Instant now) {
     if (component.moves()) halt(component, CompletedStatus::abort, "the component failed", now);
 }
@@ -57,7 +57,7 @@ void Executor::await_confirmation(RegisteredComponent& component, Instant now) {
         });
 }
 
-// Only a confirmed halt leads out of this state.
+// Only a confirmed halt ends this state.
 void Executor::halt_failed(RegisteredComponent& component, CompletedStatus status, std::string_view reason, Instant now) {
     if (!component.halting) component.halting.emplace();
     bool const first = !std::exchange(component.halting->failed, true);
@@ -116,7 +116,7 @@ void Executor::wait_for_halt(SharedCommand const& command, Instant now) {
     halting.waiting.push_back(command);
 }
 
-// For a component that leaves: ends the commands that wait for its halt.
+// For a component that leaves the engine: ends the commands that wait for its halt.
 void Executor::forget_halt(RegisteredComponent& component, Instant now) {
     auto const halting = std::exchange(component.halting, {});
     if (!halting) return;

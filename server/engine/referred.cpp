@@ -11,7 +11,7 @@ namespace {
 
 using Part = Reference::Part;
 
-// Null for what is too long to be looked at.
+// Returns null if the values are too long.
 Parameter const* bearable(Parameter const* parameter) {
     if (parameter == nullptr) return nullptr;
     std::size_t length = 0;
@@ -31,7 +31,7 @@ std::vector<Located const*> located_in(Results const& results, Reference const& 
     return meant;
 }
 
-// The values that stand for one entity: at the places at which it is located.
+// The values of one entity: those with the indexes at which it is located.
 Texts texts_of_entity(Texts const& items, Results const& results, Reference const& reference) {
     Texts meant;
     std::size_t at = 0;
@@ -101,7 +101,7 @@ Texts texts_in(Results const& results, Reference const& reference) {
     return at_its_place(texts_of_entity(items_of(*parameter, reference.items), results, reference), reference);
 }
 
-// The structured form where there is one, else the text form.
+// Prefers the structured form to the text form.
 Positions positions_in(Results const& results, Reference const& reference) {
     auto const meant = located_in(results, reference);
     if (meant.empty() && reference.to == Reference::To::result && reference.entity.empty())

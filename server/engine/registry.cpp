@@ -14,7 +14,7 @@ namespace rois {
 
 namespace {
 
-// Those that set_parameter names, and the profile's parameters beside them.
+// The parameters of set_parameter, and further ones of the profile.
 std::vector<ParameterProfile> settable_of(ComponentProfile const& profile) {
     std::vector<ParameterProfile> settable;
     if (auto const* message = find_message(profile, MessageKind::command, "set_parameter")) settable = message->arguments;
@@ -30,15 +30,15 @@ std::vector<ParameterProfile> settable_of(ComponentProfile const& profile) {
     return settable;
 }
 
-// `list`, and what `others` has beside.
+// `list`, and the members of `others` that it lacks.
 std::vector<ParameterProfile> with_others(std::vector<ParameterProfile> list, std::vector<ParameterProfile> const& others) {
     for (auto const& other : others)
         if (find_parameter(list, other.name) == nullptr) list.push_back(other);
     return list;
 }
 
-// Published profiles name the parameters only; the two messages that every component with parameters has go without saying, and
-// so does what one of them leaves out.
+// Published profiles may name only the parameters. Adds the messages set_parameter and get_parameter, which every component with
+// parameters has, or completes them.
 void add_parameter_messages(ComponentProfile& profile, std::vector<ParameterProfile> const& settable) {
     if (settable.empty()) return;
     auto const message = [&](MessageKind kind, std::string_view name) -> MessageProfile& {
@@ -54,7 +54,7 @@ void add_parameter_messages(ComponentProfile& profile, std::vector<ParameterProf
     get.results = with_others(std::move(get.results), settable);
 }
 
-// What the profile's own `start` takes beside the parameters that are stored: what these are not, or not of that type.
+// The arguments of the profile's own `start` that are not stored parameters, or have another type.
 std::vector<ParameterProfile> start_arguments_of(ComponentProfile const& profile, std::vector<ParameterProfile> const& settable) {
     std::vector<ParameterProfile> arguments;
     auto const* message = find_message(profile, MessageKind::command, "start");
@@ -73,7 +73,7 @@ Codebooks const* codebooks_for(std::vector<Codebooks> const& all, std::string_vi
     return found == all.end() ? nullptr : &*found;
 }
 
-// Declares the default codebook of each identifier whose profile declares none.
+// Declares the default codebook of each identifier parameter whose profile declares none.
 void declare_codebooks(std::vector<ParameterProfile>& profiles, std::vector<Codebooks> const& codebooks) {
     for (auto& profile : profiles) {
         auto const* found = codebooks_for(codebooks, profile.name);
@@ -94,7 +94,7 @@ bool is_among(std::vector<std::string> const& known, std::string_view name) {
     return std::ranges::any_of(known, [&](std::string const& each) { return equal_ignoring_case(each, name); });
 }
 
-// The published examples' component_ref names this codebook, whatever the component: "urn:...:ComponentType" (Annex B.2).
+// The published examples' component_ref has this codebook for every component: "urn:...:ComponentType" (Annex B.2).
 bool is_codebook_of_all_components(std::string_view codebook) {
     return equal_ignoring_case(codebook.substr(codebook.rfind(':') + 1), "ComponentType");
 }
@@ -366,7 +366,7 @@ void Registry::remove(RegisteredComponent const& component) {
     parameters_.reset();
 }
 
-// What was gathered of a message is not good any more.
+// The results of the message must be collected again.
 Registry::Tellers& Registry::change(MessageProfile const& message) {
     auto& tellers = by_message_[message.kind][message.name];
     tellers.results.reset();

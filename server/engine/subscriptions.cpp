@@ -17,7 +17,7 @@ void take_out(auto& by_text, std::string_view text, Subscription* subscription) 
     if (found->second.empty()) by_text.erase(found);
 }
 
-// Where the session's hearer is, or would be.
+// The position of the session's entry, or where to insert it.
 auto place_of(Session const& session, Subscription& subscription) {
     return std::ranges::lower_bound(subscription.hearers, session.number, {}, &Subscription::Hearer::number);
 }
@@ -54,7 +54,7 @@ Subscription* Subscriptions::find(std::string_view event_type, Filter const& fil
     return known == alike->second.by_meaning.end() ? nullptr : known->second;
 }
 
-// After the subscription is in the session's own list, no step can throw.
+// Once the subscription is in the session's own list, no step can throw.
 Subscription& Subscriptions::add(Session& session, std::string const& event_type, Filter filter, bool inline_results) {
     auto* subscription = find(event_type, filter);
     if (subscription == nullptr) {

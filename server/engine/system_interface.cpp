@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::chrono::milliseconds shortest_lease{1'000};
 
-// Changes `terms` to the requested leases. Returns why a requested lease is invalid, or nothing.
+// Sets `terms` to the requested leases. Returns why a requested lease is invalid, or nullopt.
 std::optional<std::string> agree(MotionLease::Terms& terms, Connect const& asked, EngineSettings const& most) {
     auto const take = [](std::string_view name, std::optional<std::chrono::milliseconds> wanted,
                          std::chrono::milliseconds longest, std::chrono::milliseconds& lease) -> std::optional<std::string> {
@@ -95,7 +95,7 @@ Reply Engine::Core::perform(Session& session, Disconnect const&, Instant now) {
 
 namespace {
 
-// The profile of the sub engine that has all of these; of the main engine when there is none.
+// The profile of the sub engine that has all of these components, or that of the main engine.
 std::shared_ptr<EngineProfile const> profile_of_those(std::shared_ptr<EngineProfile const> const& main,
                                                       std::vector<ComponentEntry> const& components) {
     if (components.empty()) return main;
@@ -122,7 +122,7 @@ Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
 
 namespace {
 
-// The results that get_error_detail answers.
+// The results of get_error_detail.
 Declarations error_details() {
     Declarations known;
     for (auto const& [name, type] : {std::pair{"component_ref", "RoISIdentifier"}, {"time", "DateTime"}, {"text", "string"}})
@@ -146,7 +146,7 @@ Reply Engine::Core::perform(Session& session, GetErrorDetail const& get, Instant
     return reply;
 }
 
-// Decision 24: the engine's errors go to all sessions, a component's to those who have to do with it.
+// Decision 24: the engine's errors go to all sessions; a component's errors to the sessions that use it.
 void Engine::Core::publish(ErrorOccurred const& said, Instant now, Attempts& deliveries) {
     auto const* const component = said.component;
     std::set<Session*> concerned;

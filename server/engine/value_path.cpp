@@ -29,7 +29,7 @@ public:
         return true;
     }
 
-    // A name, without its prefix; "." and ".." are none.
+    // A name without its prefix; nullopt for "." and "..".
     std::optional<std::string_view> name() {
         auto local = plain_name();
         if (local && rest_.starts_with(':')) {
@@ -39,7 +39,7 @@ public:
         return local;
     }
 
-    // "[2]" or "[@name='volume']", of which the opening bracket was taken.
+    // "[2]" or "[@name='volume']", after the opening bracket.
     bool predicate(PathStep& step) {
         if (!take('@')) return position(step) && take(']');
         auto attribute = name();

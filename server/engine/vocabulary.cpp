@@ -23,7 +23,7 @@ struct Word {
     ValueKind kind;
 };
 
-// Of components. Those after the first seven are the published examples' names for the same.
+// Properties of components. The last two are other names, from the published examples.
 constexpr std::array<Word, 9> words{{{"component_ref", To::component_ref, ValueKind::text},
                                      {"component_type", To::component_type, ValueKind::name},
                                      {"name", To::component_ref, ValueKind::text},
@@ -96,13 +96,13 @@ std::optional<Reference> declared(Declarations const* declarations, To to, std::
     return Reference{.to = to, .name = lower_case(found->name), .entity = {}, .kind = found->kind, .items = found->items};
 }
 
-// The name in `[@name='volume']`; nothing when the step has no such predicate.
+// The name in `[@name='volume']`; nullopt if the step has no such predicate.
 std::optional<std::string_view> name_in(PathStep const& step) {
     if (step.predicates.size() != 1 || !equal_ignoring_case(step.predicates.front().attribute, "name")) return {};
     return step.predicates.front().text;
 }
 
-// Takes `[2]` and `[@ref='person-3']` into the reference; nothing when it has a predicate that it cannot have.
+// Adds `[2]` and `[@ref='person-3']` to the reference. Returns false for other predicates.
 bool restrict(Reference& reference, std::size_t position, std::span<PathStep::Predicate const> predicates) {
     reference.position = position;
     for (auto const& predicate : predicates) {
@@ -156,7 +156,7 @@ std::optional<Reference> word(Vocabulary const& vocabulary, std::string_view nam
     return Reference{.to = found->to, .name = {}, .entity = {}, .kind = found->kind};
 }
 
-// One step, or two of which the first says where to look.
+// One step, or two of which the first is the kind of the second.
 std::optional<Reference> named(Vocabulary const& vocabulary, std::span<PathStep const> steps) {
     auto const& first = steps.front();
     auto const& last = steps.back();
@@ -180,7 +180,7 @@ std::optional<Reference> named(Vocabulary const& vocabulary, std::span<PathStep 
 }  // namespace
 
 std::variant<Reference, std::string> Vocabulary::resolve(std::string_view written, std::span<std::string const> aliases) const {
-    // Nearly all references are one of these words alone.
+    // Most references are a single word.
     if (auto found = word(*this, trimmed(written))) return std::move(*found);
     auto const path = ValuePath::parse(written);
     if (!path)
