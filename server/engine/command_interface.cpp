@@ -163,7 +163,7 @@ Reply Engine::Core::perform(Session& session, Execute const& execute, Instant no
     if (session.live_commands() + check.commands() > most) {
         ++refused_.commands;
         return refused<Execute::Reply>(ReturnCode::out_of_resources,
-                                       "more than " + std::to_string(most) + " commands of this session would wait or run");
+                                       "a session may have at most " + std::to_string(most) + " commands that wait or run");
     }
     Execute::Reply reply;
     reply.command_unit_list = execute.command_unit_list;
@@ -178,7 +178,7 @@ Reply Engine::Core::perform(Session& session, GetCommandResult const& get, Insta
     auto const found = session.commands.find(get.command_id);
     if (found == session.commands.end())
         return refused<GetCommandResult::Reply>(
-            ReturnCode::bad_parameter, "unknown command_id " + quoted(get.command_id.text) + ", or its results have aged out");
+            ReturnCode::bad_parameter, "unknown command_id " + quoted(get.command_id.text) + ", or its results have expired");
     auto const& command = *found->second;
     auto const* message = find_message(command.component->profile(), MessageKind::command, command.type);
     // If the profile has a result of this name, it belongs to the component.

@@ -112,7 +112,7 @@ void Engine::Core::hold_unproven_motion(Instant now) {
             if (missed >= settings_.motion_lease)
                 executor_.hold(*component, "the engine stood still for " + in_seconds(missed), now);
             else if (now.steady >= session->lease.end())
-                executor_.hold(*component, "nothing was heard from its application in time", now);
+                executor_.hold(*component, "its application gave no sign of life in time", now);
         });
     }
     attempts.rethrow();  // before last_tick_ changes: the next tick then holds the components that could not be held
@@ -132,7 +132,7 @@ void Engine::Core::advance_devices(Instant now) {
         } catch (std::exception const& exception) {
             attempts([&] { problem = exception.what(); });
         } catch (...) {
-            attempts([&] { problem = "an unknown exception left a device"; });
+            attempts([&] { problem = "a device threw an unknown exception"; });
         }
         if (std::exchange(failed, true)) continue;
         attempts([&] { agenda_.add(ErrorOccurred{nullptr, ErrorType::engine_internal_error, std::move(problem)}); });

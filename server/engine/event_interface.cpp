@@ -43,8 +43,8 @@ Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instan
 std::optional<std::string> Engine::Core::no_room_for(Session const& session, Filter const& wanted, bool shared) {
     auto const too_many = [](std::string_view whose, std::size_t most, std::string_view what, std::uint64_t& refused) {
         ++refused;
-        return "the conditions of " + std::string{whose} + " may have " + std::to_string(most) + " " + std::string{what} +
-               " together: unsubscribe from what is not needed any more";
+        return "the conditions of " + std::string{whose} + " may have at most " + std::to_string(most) + " " + std::string{what} +
+               " in total: unsubscribe from events that you do not need";
     };
     if (session.predicates + wanted.predicates() > settings_.max_subscribed_predicates)
         return too_many("a session's subscriptions", settings_.max_subscribed_predicates, "predicates", refused_.predicates);

@@ -139,7 +139,7 @@ void Executor::run(SharedCommand const& command, Instant now) {
     command->state = Command::State::running;
     journal_->command_begun(*command);
     if (command->component->moves() && begins_action(command->type) && !is_proven_alive(command->session, now))
-        return end(command, CompletedStatus::abort, "nothing was heard from its application before its turn came", now);
+        return end(command, CompletedStatus::abort, "its application gave no sign of life before its turn came", now);
     if (command->type == "set_parameter") return run_set_parameter(command, now);
     if (command->type == "start") return run_start(command, now);
     if (command->type == "stop") return run_stop(command, now);
@@ -283,7 +283,7 @@ void Executor::completed(CommandEnded& said, Instant now) {
     if (component.check(MessageKind::command, command->type, said.results) == RegisteredComponent::Answer::wrong) {
         said.status = CompletedStatus::error;
         said.results = {};
-        said.reason = "its results are not those of the profile";
+        said.reason = "its results do not fit the profile";
     }
     if (said.status == CompletedStatus::ok) component.succeeded();
     std::erase(component.functions, command);
@@ -404,7 +404,7 @@ void Executor::release(Session& session, RegisteredComponent& component, Instant
 
 void Executor::part(RegisteredComponent& component, Instant now) {
     Attempts attempts;
-    attempts([&] { halt(component, CompletedStatus::abort, "its component has gone", now); });
+    attempts([&] { halt(component, CompletedStatus::abort, "its component was removed", now); });
     attempts([&] { forget_halt(component, now); });
     for (auto const& [handle, command] : live_)
         if (command->component.get() == &component) command->binding_lost = true;

@@ -75,8 +75,7 @@ public:
                    period != nullptr && period->begin == period->end) {
             what_ = Known{.is = Known::Is::time, .value = {.text = to_text(period->begin), .number = {}, .time = period->begin}};
         } else {
-            compiler.refuse(
-                "the condition compares a geometry or a period as if it were a value: operators of space and time do that");
+            compiler.refuse("the condition compares a geometry or a period as a value; use a spatial or temporal operator");
         }
     }
 
@@ -198,7 +197,7 @@ Manner settle(FilterCompiler& compiler, std::span<Side> sides, std::initializer_
     for (auto& each : sides) {
         if (!each.fits(manner.kind)) {
             compiler.refuse("the condition compares a " + name_of(manner.kind) + " with " + quoted(*each.literal()) +
-                            ", which is none");
+                            ", which is not one");
             return manner;
         }
         each.settle(manner);

@@ -222,9 +222,7 @@ private:
 // A group condition is about robots and components, never about results.
 PredicatePtr FilterCompiler::operator()(ComponentGroup const& group) {
     if (vocabulary_.parameters == nullptr) {
-        refuse(
-            "the condition looks for components (ComponentCondition, ComponentGroupCondition), which means nothing where results "
-            "are chosen");
+        refuse("the condition has ComponentCondition or ComponentGroupCondition, which a condition on results does not support");
         return nullptr;
     }
     for (auto const& [what, names] : {std::pair{"the type of a component", &group.types}, {"an alias", &group.aliases}}) {

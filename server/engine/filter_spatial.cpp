@@ -75,7 +75,7 @@ private:
 std::optional<Pair> pair_of(FilterCompiler& compiler, std::vector<Expression> const& operands) {
     auto const own = compiler.vocabulary().own_position();
     if (operands.size() < 2 && own.empty())
-        return compiler.refuse("the condition has a spatial operator with one operand, which means nothing here");
+        return compiler.refuse("the condition has a spatial operator with one operand; expected are two");
     auto const reference = Expression{ValueReference{std::string{own}}};
     return compiler.related(operands.size() < 2 ? reference : operands.front(), operands.back());
 }
@@ -108,7 +108,7 @@ PredicatePtr FilterCompiler::operator()(DistanceComparison const& comparison) {
         return nullptr;
     }
     if (!(comparison.distance >= 0)) {
-        refuse("the condition has a distance that is no number from 0 on");
+        refuse("the condition has a distance that is not a number of at least 0");
         return nullptr;
     }
     auto pair = pair_of(*this, comparison.operands);

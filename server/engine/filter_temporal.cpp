@@ -128,14 +128,14 @@ std::optional<When> when(FilterCompiler& compiler, Expression const& expression)
     if (auto const* period = std::get_if<Period>(&expression.value)) return *period;
     if (auto const* literal = std::get_if<Literal>(&expression.value)) {
         if (auto const period = to_period(literal->text)) return *period;
-        return compiler.refuse("the condition has the time " + quoted(literal->text) + ", which is none");
+        return compiler.refuse("the condition has the time " + quoted(literal->text) + ", which is not a time");
     }
     auto const* reference = std::get_if<ValueReference>(&expression.value);
-    if (reference == nullptr) return compiler.refuse("the condition relates something to a time that is none");
+    if (reference == nullptr) return compiler.refuse("an operand of a temporal operator in the condition is not a time");
     auto resolved = compiler.resolve(reference->path);
     if (!resolved) return {};
     if (resolved->kind != ValueKind::time && resolved->kind != ValueKind::any)
-        return compiler.refuse("the condition takes " + quoted(reference->path) + " for a time, which it is not");
+        return compiler.refuse("the condition uses " + quoted(reference->path) + " as a time, but it is not one");
     return std::move(*resolved);
 }
 
@@ -145,7 +145,7 @@ std::optional<When> when(FilterCompiler& compiler, Expression const& expression)
 PredicatePtr FilterCompiler::operator()(TemporalComparison const& comparison) {
     auto const own = vocabulary_.own_time();
     if (comparison.operands.size() < 2 && own.empty()) {
-        refuse("the condition has a temporal operator with one operand, which means nothing here");
+        refuse("the condition has a temporal operator with one operand; expected are two");
         return nullptr;
     }
     auto const reference = Expression{ValueReference{std::string{own}}};

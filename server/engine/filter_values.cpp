@@ -103,7 +103,7 @@ PredicatePtr FilterCompiler::operator()(PropertyIsLike const& like) {
     auto const* reference = reference_in(reversed ? like.right : like.left);
     auto const* literal = std::get_if<Literal>(&(reversed ? like.left : like.right).value);
     if (reference == nullptr || literal == nullptr) {
-        refuse("PropertyIsLike of the condition is not about a value reference and a literal");
+        refuse("PropertyIsLike in the condition needs a value reference and a literal");
         return nullptr;
     }
     auto resolved = resolve(reference->path);
@@ -131,7 +131,7 @@ PredicatePtr FilterCompiler::operator()(PropertyIsNil const& nil) {
     if (auto const* not_understood = std::get_if<NotUnderstood>(&nil.value.value)) refuse(not_understood->reason);
     auto const* reference = reference_in(nil.value);
     if (reference == nullptr) {
-        refuse("PropertyIsNull or PropertyIsNil of the condition is not about a value reference");
+        refuse("PropertyIsNull or PropertyIsNil in the condition needs a value reference");
         return nullptr;
     }
     auto resolved = resolve(reference->path);

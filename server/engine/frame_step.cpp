@@ -100,7 +100,7 @@ Covariance6 covariance_of(Frame const& frame) {
     auto const size = frame.covariance.size() == 9 ? 3 : 6;
     if (frame.covariance.size() != 9 && frame.covariance.size() != 36)
         refuse(frame, "the covariance of its placement has " + std::to_string(frame.covariance.size()) +
-                          " numbers; it has 9 (x, y, yaw) or 36 (x, y, z, roll, pitch, yaw)");
+                          " numbers; expected are 9 (x, y, yaw) or 36 (x, y, z, roll, pitch, yaw)");
     if (!is_finite(frame.covariance)) refuse(frame, "the covariance of its placement is not finite");
     Eigen::MatrixXd const told = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> const>{
         frame.covariance.data(), size, size};

@@ -70,7 +70,7 @@ std::array<double, 3> array_of(Eigen::Vector3d const& v, Frames::Rounding roundi
 Eigen::Vector3d vector_of(std::span<double const, 3> numbers) { return {numbers[0], numbers[1], numbers[2]}; }
 
 std::string strange(Located const& located, std::string const& what) {
-    return "where " + quoted(located.ref) + " is has " + what;
+    return "the position of " + quoted(located.ref) + " has " + what;
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ struct Frames::Step {
 
 Frames::Frames(std::string own, std::vector<Frame> others) : own_{std::move(own)} {
     for (auto& frame : others) {
-        if (own_.empty() || frame.crs.empty()) throw std::invalid_argument("a frame has no name, or the engine's own has none");
+        if (own_.empty() || frame.crs.empty()) throw std::invalid_argument("a frame, or the engine's own frame, has no name");
         auto const placement = Placement::of(frame);
         auto key = lower_case(frame.crs);
         if (equal_ignoring_case(frame.crs, own_) || placed_.contains(key))
@@ -105,7 +105,7 @@ Frames::Frames(std::string own, std::vector<Frame> others) : own_{std::move(own)
         auto const& [crs, base, position, orientation, covariance] = placed->frame;
         if (base.empty() || !know(base))
             throw std::invalid_argument("the frame " + quoted(crs, 200) + " is placed in " + quoted(base, 200) +
-                                        ", which is not known; known are " + listed(names()));
+                                        ", which is unknown; known are " + listed(names()));
         if (ancestry(crs).size() > placed_.size())
             throw std::invalid_argument("the frame " + quoted(crs, 200) + " is placed in itself, through " + quoted(base, 200));
     }

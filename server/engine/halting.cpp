@@ -121,7 +121,7 @@ void Executor::forget_halt(RegisteredComponent& component, Instant now) {
     auto const halting = std::exchange(component.halting, {});
     if (!halting) return;
     deadlines_.cancel(halting->due);
-    end_each(halting->waiting, CompletedStatus::abort, "its component has gone", now);
+    end_each(halting->waiting, CompletedStatus::abort, "its component was removed", now);
 }
 
 void Executor::hold(RegisteredComponent& component, std::string_view reason, Instant now) {
@@ -132,7 +132,7 @@ void Executor::hold(RegisteredComponent& component, std::string_view reason, Ins
     attempts([&] {
         agenda_.add(ErrorOccurred{&component, ErrorType::user_defined_error,
                                   std::string{held ? "its motion is held: " : "its motion was stopped: "}.append(reason).append(
-                                      held ? "; resume goes on, and so does a new command" : "")});
+                                      held ? "; resume or a new command continues" : "")});
     });
     attempts([&] { run_ready(now); });
     attempts.rethrow();

@@ -124,8 +124,9 @@ private:
 
     // The members are in the order of use: with many sessions, each queue is a cache miss.
     std::shared_ptr<Audience> audience_;
-    mutable std::mutex
-        mutex_;  // guards the members below; a holder of the engine's lock may read without it what only push changes
+    // Guards the members below. last_sequence_, lost_ and overflowed_ change only under the engine's lock as well, so its holder
+    // may read them without this mutex.
+    mutable std::mutex mutex_;
     // Ordered by sequence: forgotten entries, then sent ones, then waiting ones. A `Lost` counts for several. The newest entries
     // are in recent_, which has no `Lost` and no gaps; when it is full, they move to entries_. So a session with few
     // notifications allocates no memory.

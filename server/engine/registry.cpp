@@ -325,7 +325,7 @@ void RegisteredComponent::completed(CommandHandle command, CompletedStatus statu
         auto told_results = told(std::move(results), "a command", Report::each);
         if (!told_results) {
             status = CompletedStatus::error;
-            reason = "its results are in a frame that cannot be told";
+            reason = "its results are in a frame that cannot be converted";
         }
         agenda_.add(CommandEnded{command, status, std::move(told_results).value_or(Results{}), afterwards, std::move(reason)});
     } catch (...) {

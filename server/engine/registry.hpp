@@ -181,7 +181,7 @@ RegisteredComponent::Called RegisteredComponent::call(What const& what, Report r
     } catch (std::exception const& exception) {
         report_failure(exception.what(), report);
     } catch (...) {
-        report_failure("an unknown exception left the component", report);
+        report_failure("the component threw an unknown exception", report);
     }
     return Called::failed;
 }

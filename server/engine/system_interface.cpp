@@ -84,8 +84,9 @@ Reply Engine::Core::perform(Session& session, Resume const& resume, Instant) {
         journal_->session_resumed(session.number);
         return Resume::Reply{};
     }
-    return refused<Resume::Reply>(ReturnCode::bad_parameter, "last_sequence is above the last one that was given, " +
-                                                                 std::to_string(session.notifications->last_sequence()));
+    return refused<Resume::Reply>(ReturnCode::bad_parameter, "last_sequence must be at most " +
+                                                                 std::to_string(session.notifications->last_sequence()) +
+                                                                 ", not " + std::to_string(resume.last_sequence));
 }
 
 Reply Engine::Core::perform(Session& session, Disconnect const&, Instant now) {

@@ -185,7 +185,7 @@ std::variant<Reference, std::string> Vocabulary::resolve(std::string_view writte
     auto const path = ValuePath::parse(written);
     if (!path)
         return "the condition refers to " + quoted(written) +
-               ", which is not of the minimum XPath: steps divided by '/', '@' before an attribute, [n] or [@name='text'] after "
+               ", which is not in the minimum XPath: steps divided by '/', '@' before an attribute, [n] or [@name='text'] after "
                "a step";
     std::span<PathStep const> steps{path->steps};
     auto const alias = std::ranges::find(aliases, steps.front().name);
@@ -199,12 +199,12 @@ std::variant<Reference, std::string> Vocabulary::resolve(std::string_view writte
     auto const& last = steps.back();
     auto const predicates = by_name ? std::span<PathStep::Predicate const>{} : std::span{last.predicates};
     if (!restrict(*reference, last.position, predicates))
-        return "the condition refers to " + quoted(written) + ", whose predicate is not known here";
+        return "the condition refers to " + quoted(written) + ", whose predicate is not supported";
     if (path->attribute.empty()) return std::move(*reference);
     auto const part = std::ranges::find_if(
         identifier_parts, [&](PartWord const& known) { return equal_ignoring_case(known.name, path->attribute); });
     if (part == identifier_parts.end() || !has_part(reference->to, part->part))
-        return "the condition refers to " + quoted(written) + ", whose attribute is not known here";
+        return "the condition refers to " + quoted(written) + ", whose attribute is unknown";
     reference->part = part->part;
     reference->kind = part->part == Part::data_type_ref || part->part == Part::codebook_ref ? ValueKind::name : ValueKind::text;
     reference->items = Reference::Items::one_each;

@@ -91,9 +91,9 @@ TEST_F(Comparisons, TrueIsOneAndFalseIsNought) {
 }
 
 TEST_F(Comparisons, WithALiteralOfAnotherTypeAreRefused) {
-    EXPECT_EQ(reason(less("count", "many")), "the condition compares a number with 'many', which is none");
-    EXPECT_EQ(reason(less("since", "noon")), "the condition compares a time with 'noon', which is none");
-    EXPECT_EQ(reason(equal("lit", "yes")), "the condition compares a true or false with 'yes', which is none");
+    EXPECT_EQ(reason(less("count", "many")), "the condition compares a number with 'many', which is not one");
+    EXPECT_EQ(reason(less("since", "noon")), "the condition compares a time with 'noon', which is not one");
+    EXPECT_EQ(reason(equal("lit", "yes")), "the condition compares a true or false with 'yes', which is not one");
     EXPECT_THAT(reason({PropertyComparison{Comparator::equal, reference("label"), {spot(1, 2)}}}), HasSubstr("geometry"));
 }
 

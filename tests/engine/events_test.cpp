@@ -89,8 +89,8 @@ TEST(ManySubscriptions, HaveTenThousandPredicatesASession) {
     auto const two = desk.subscribe("person_detected", both({equal("name", "detection"), equal("bound", "false")}));
     EXPECT_EQ(two.return_code, ReturnCode::out_of_resources) << "And counts, too";
     EXPECT_EQ(two.reason,
-              "the conditions of a session's subscriptions may have 3 predicates together: unsubscribe from what is not needed "
-              "any more");
+              "the conditions of a session's subscriptions may have at most 3 predicates in total: unsubscribe from events that "
+              "you do not need");
     EXPECT_EQ(desk.subscribe("person_detected").return_code, ReturnCode::ok) << "without a condition there is none";
     EXPECT_EQ(answer(desk, {"detection"}).subscribe_id, one.subscribe_id) << "what is there already costs nothing";
     EXPECT_EQ(answer(hall, {"detection", "a"}).return_code, ReturnCode::ok) << "each session has its own";

@@ -161,7 +161,7 @@ TEST_F(TwoFrames, EventsAreChosenByWhereTheyAreInEach) {
 
 TEST_F(TwoFrames, TwoBoxesOfAConditionAreInOne) {
     EXPECT_THAT(reason(spatial(SpatialRelation::intersects, {{box(0, 0, 1, 1, "map")}, literal("desk")})),
-                HasSubstr("a geometry in the frame 'map' to one in 'hall': tell both in the same frame"));
+                HasSubstr("a geometry in the frame 'map' to one in 'hall': use one frame for both"));
     EXPECT_EQ(reason(spatial(SpatialRelation::intersects, {{box(0, 0, 1, 1)}, literal("desk")})), "");
 }
 

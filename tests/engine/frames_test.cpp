@@ -175,10 +175,10 @@ TEST(Frames, RefuseWhatIsNoCertaintyAndNoOrientation) {
     Frames const frames{"hall", {map()}};
     auto refusal = [&](Located located) { return frames.change(located, "hall").value_or("fine"); };
     EXPECT_EQ(refusal(entity("map", {0, 0, 0}, {}, {1, 2, 3, 4, 5})),
-              "where 'person-1' is has a covariance of 5 numbers without an orientation");
+              "the position of 'person-1' has a covariance of 5 numbers without an orientation");
     EXPECT_EQ(refusal(entity("map", {0, 0, 0}, {}, std::vector<double>(36, 0.0))),
-              "where 'person-1' is has a covariance of 36 numbers without an orientation");
-    EXPECT_EQ(refusal(entity("map", {0, 0, 0}, {1, 2})), "where 'person-1' is has an orientation of 2 numbers");
+              "the position of 'person-1' has a covariance of 36 numbers without an orientation");
+    EXPECT_EQ(refusal(entity("map", {0, 0, 0}, {1, 2})), "the position of 'person-1' has an orientation of 2 numbers");
     EXPECT_EQ(refusal(entity("hall", {0, 0, 0}, {1, 2})), "fine") << "nothing is made of it";
 }
 
@@ -216,7 +216,7 @@ TEST(Frames, MoveAPointButNoBox) {
 
 TEST(Frames, MustBePlaced) {
     EXPECT_EQ(complaint({map(), cart()}), "fine");
-    EXPECT_EQ(complaint({cart()}), "the frame 'cart' is placed in 'map', which is not known; known are hall, cart");
+    EXPECT_EQ(complaint({cart()}), "the frame 'cart' is placed in 'map', which is unknown; known are hall, cart");
     EXPECT_EQ(complaint({map(), map()}), "the frame 'map' is there twice");
     auto hall = map();
     hall.crs = "HALL";
@@ -229,7 +229,7 @@ TEST(Frames, MustBePlaced) {
 
 TEST(Frames, MustHaveAPlacementThatIsOne) {
     auto const with = [](std::vector<double> covariance) { return complaint({map(std::move(covariance))}); };
-    EXPECT_THAT(with({1, 2, 3}), HasSubstr("has 3 numbers; it has 9 (x, y, yaw) or 36"));
+    EXPECT_THAT(with({1, 2, 3}), HasSubstr("has 3 numbers; expected are 9 (x, y, yaw) or 36"));
     EXPECT_THAT(with({1, 5, 0, 0, 1, 0, 0, 0, 1}), HasSubstr("is not symmetric"));
     EXPECT_THAT(with({1, 0, 0, 0, -1, 0, 0, 0, 1}), HasSubstr("is not positive semi-definite"));
     EXPECT_THAT(with({1, 0, 0, 0, HUGE_VAL, 0, 0, 0, 1}), HasSubstr("is not finite"));

@@ -50,7 +50,7 @@ TEST_F(Lease, OfASilentWebSocketHoldsTheMotion) {
     EXPECT_THAT(robot.told, ElementsAre("start", "suspend"));
     EXPECT_THAT(desk.heard(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
     auto const detail = desk.detail_of(desk.last_heard<ReceiveError>().error_id);
-    EXPECT_THAT(in_words(detail.results.parameters), HasSubstr("nothing was heard from its application"));
+    EXPECT_THAT(in_words(detail.results.parameters), HasSubstr("its application gave no sign of life"));
     world.advance(1s);
     EXPECT_THAT(robot.told, ElementsAre("start", "suspend")) << "once is enough";
 }

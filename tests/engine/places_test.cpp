@@ -114,10 +114,10 @@ TEST_F(Hall, AComponentThatFailsToSayWhereItIsHasNoPlace) {
 
 TEST_F(Hall, UnitsAndDistancesMustBeKnown) {
     EXPECT_THAT(reason(near("location", {spot(0, 0)}, 1, "ft")), HasSubstr("'ft'"));
-    EXPECT_THAT(reason(near("location", {spot(0, 0)}, -1)), HasSubstr("a distance that is no number from 0 on"));
+    EXPECT_THAT(reason(near("location", {spot(0, 0)}, -1)), HasSubstr("a distance that is not a number of at least 0"));
     EXPECT_THAT(reason(within("component_ref", {spot(0, 0)})), HasSubstr("'component_ref'"));
     EXPECT_THAT(reason(within("time_limit", {spot(0, 0)})), HasSubstr("'time_limit'"));
-    EXPECT_THAT(reason(within("location", {Period{}})), HasSubstr("place that is none"));
+    EXPECT_THAT(reason(within("location", {Period{}})), HasSubstr("is not a position"));
 }
 
 TEST_F(Hall, ParametersMayBePositions) {
@@ -371,8 +371,7 @@ TEST_F(Times, WhatIsNoTimeIsRefused) {
     EXPECT_THAT(refused(temporal(TemporalRelation::after, {reference("timestamp"), literal("teatime")})), HasSubstr("'teatime'"));
     EXPECT_THAT(refused(temporal(TemporalRelation::after, {reference("person_ref"), literal("2026")})),
                 HasSubstr("'person_ref'"));
-    EXPECT_THAT(refused(temporal(TemporalRelation::after, {reference("timestamp"), {spot(0, 0)}})),
-                HasSubstr("time that is none"));
+    EXPECT_THAT(refused(temporal(TemporalRelation::after, {reference("timestamp"), {spot(0, 0)}})), HasSubstr("is not a time"));
 }
 
 }  // namespace

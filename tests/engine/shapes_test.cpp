@@ -225,7 +225,7 @@ TEST_F(Areas, SayWhatIsWrongWithThem) {
     Geometry::Points many{{0, 0}};
     for (int i = 0; i <= 3'000; ++i) many.push_back({static_cast<double>(i), 1});
     many.push_back({0, 0});
-    EXPECT_THAT(where(polygon(many)), HasSubstr("more than 256 predicates, of which 8 points of a line or polygon count as one"));
+    EXPECT_THAT(where(polygon(many)), HasSubstr("more than 256 predicates; 8 points of a line or polygon count as one"));
     EXPECT_EQ(reason(within("location", literal("14000  5000"))),
               "the condition has the position '14000  5000', which has no commas; write 'x, y' or 'x, y, th'");
 }

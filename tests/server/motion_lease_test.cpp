@@ -66,7 +66,7 @@ TEST_F(Drive, IsHeldAtOnceWhenTheWebSocketIsReset) {
     driver->vanish();
     driver.reset();
     auto const gone_at = Clock::now();
-    EXPECT_THAT(watcher.held(), HasSubstr("its motion is held: nothing was heard from its application"));
+    EXPECT_THAT(watcher.held(), HasSubstr("its motion is held: its application gave no sign of life"));
     EXPECT_LT(watcher.held_at - gone_at, 1s) << "0.3 s, and some for a machine that is busy";
 }
 
