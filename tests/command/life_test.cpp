@@ -111,8 +111,9 @@ TEST_F(RoisAndMotion, ACommandThatIsStoppedLetsTheRobotBeHeldAndSaysSo) {
     walk.signal(SIGSTOP);
     EXPECT_THAT(held(), HasSubstr("its motion is held: its application gave no sign of life"));
     walk.signal(SIGCONT);
-    EXPECT_THAT(walk.error_line(), testing::AllOf(StartsWith("rois: navigation: its motion is held: nothing was heard"),
-                                                  testing::EndsWith("; interrupt this command and give it anew")));
+    EXPECT_THAT(walk.error_line(),
+                testing::AllOf(StartsWith("rois: navigation: its motion is held: its application gave no sign of life"),
+                               testing::EndsWith("; interrupt this command and give it anew")));
 }
 
 TEST_F(RoisAndMotion, AHeldSessionKeepsTheRobotGoingWhileTheShellLives) {

@@ -1,4 +1,4 @@
-// Decisions 8, 9, 16 and 17: what commands do, how they end, and what remains of them.
+// Decisions 8, 9, 16 and 17: the effects of commands, their ends and their results.
 #include <gmock/gmock.h>
 
 #include "world.hpp"
@@ -190,13 +190,13 @@ TEST_F(Commands, AFunctionThatFailsToStartIsNotActive) {
 
 TEST_F(Commands, OfTheComponentsOwnProfileHaveArgumentsAndResults) {
     desk.execute(named("dock", command("dock", "navigation", {text("side", "right")})));
-    EXPECT_EQ(in_words(world["navigation"].started_with), "side=right times=1") << "what is left out has its default value";
+    EXPECT_EQ(in_words(world["navigation"].started_with), "side=right times=1") << "missing arguments have their default values";
     EXPECT_EQ(desk.result_of("dock"), "RUNNING");
     world["navigation"].finishes(CompletedStatus::ok, {{integer("charge", 80)}, {}});
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock OK"));
     EXPECT_EQ(desk.result_of("dock"), "OK charge=80");
     EXPECT_EQ(in_words(desk.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time")
-        << "arguments of a command are no parameters";
+        << "arguments of a command are not parameters";
 }
 
 TEST_F(Commands, OfAnUnknownTypeAreABadParameter) {
@@ -319,7 +319,7 @@ TEST_F(Commands, AreChosenFromByTheirResults) {
 TEST_F(Commands, AreForgottenAfterTenMinutes) {
     desk.execute(go("go"));
     world.advance(11min);
-    EXPECT_EQ(desk.result_of("go"), "RUNNING") << "what runs is never forgotten";
+    EXPECT_EQ(desk.result_of("go"), "RUNNING") << "a running command is never forgotten";
     world["navigation"].finishes();
     world.advance(10min - 50ms);
     EXPECT_EQ(desk.result_of("go"), "OK");
@@ -337,7 +337,7 @@ TEST(Results, OfTheLastThousandAreKept) {
     EXPECT_EQ(desk.result_of("1"), "BAD_PARAMETER");
     EXPECT_EQ(desk.result_of("2"), "OK");
     EXPECT_EQ(desk.result_of("4"), "OK");
-    EXPECT_EQ(desk.execute(named("1", stop("navigation"))).return_code, ReturnCode::ok) << "the name is free again";
+    EXPECT_EQ(desk.execute(named("1", stop("navigation"))).return_code, ReturnCode::ok) << "the command_id is free again";
 }
 
 TEST(Results, ThatHaveAgedOutLeaveTheirNameFree) {
@@ -345,7 +345,7 @@ TEST(Results, ThatHaveAgedOutLeaveTheirNameFree) {
     auto desk = world.connect();
     desk.bind("navigation");
     desk.execute(named("halt", stop("navigation")));
-    world.now = world.now + 10min;  // and nothing has ticked since
+    world.now = world.now + 10min;  // without a tick in between
     EXPECT_EQ(desk.execute(named("halt", stop("navigation"))).return_code, ReturnCode::ok);
 }
 
@@ -366,10 +366,10 @@ TEST(Results, OfEachSessionAgeOutInTheirTurn) {
     halt(hall, "h1", "speech");
     halt(desk, "d2", "navigation");
     world.advance(2s);
-    halt(desk, "d3", "navigation");  // d1 is one too many
+    halt(desk, "d3", "navigation");  // d1 exceeds the limit
     EXPECT_EQ(desk.result_of("d1"), "BAD_PARAMETER");
     world.advance(1s);
-    door.leave();  // before its result has aged out
+    door.leave();  // before its result has expired
     world.advance(8s);
     auto const known = [&] {
         std::string words;

@@ -1,4 +1,4 @@
-// Comparisons of conditions: numbers, times, texts, lists, what is not there; patterns.
+// Comparisons in conditions: numbers, times, texts, lists, missing values and patterns.
 #include <gmock/gmock.h>
 
 #include "conditions.hpp"
@@ -12,7 +12,7 @@ using testing::IsEmpty;
 
 namespace {
 
-// Two lamps whose parameters the test sets, and a component that has none of them.
+// Two lamps with parameters that the test sets, and a component without these parameters.
 struct Comparisons : testing::Test {
     World world{named("dim", desk_lamp), named("bright", desk_lamp), navigation};
     Application desk = world.connect();
@@ -123,7 +123,7 @@ TEST_F(Comparisons, SeveralValuesMatchAnyAllOrOne) {
     EXPECT_THAT(found(below("4", MatchAction::any)), ElementsAre("bright", "dim"));
     EXPECT_THAT(found(below("4", MatchAction::all)), ElementsAre("dim"));
     EXPECT_THAT(found(below("4", MatchAction::one)), ElementsAre("bright"));
-    EXPECT_THAT(found(compared("counts", Comparator::equal, "2", MatchAction::one)), IsEmpty()) << "two of them are 2";
+    EXPECT_THAT(found(compared("counts", Comparator::equal, "2", MatchAction::one)), IsEmpty()) << "two of the values are 2";
 }
 
 TEST_F(Comparisons, OneOfSeveralValuesIsChosenByItsPlace) {
@@ -177,7 +177,7 @@ TEST_F(Comparisons, APatternHasWildCards) {
     EXPECT_THAT(found(like("component_ref", "d?")), IsEmpty());
     EXPECT_THAT(found(like("component_ref", "*")), ElementsAre("bright", "dim", "navigation"));
     EXPECT_THAT(found(like("component_ref", "")), IsEmpty());
-    EXPECT_THAT(found(like("component_ref", "bri*ght*")), ElementsAre("bright")) << "a wild card may stand for nothing";
+    EXPECT_THAT(found(like("component_ref", "bri*ght*")), ElementsAre("bright")) << "a wild card matches an empty text";
     EXPECT_THAT(found({PropertyIsLike{literal("na*"), reference("name"), "*", "?", "!"}}), ElementsAre("navigation"));
     EXPECT_THAT(found({PropertyIsLike{reference("name"), literal("d%"), "%", "_", "\\"}}), ElementsAre("dim"));
 }
@@ -187,7 +187,7 @@ TEST_F(Comparisons, APatternMindsCaseUnlessItIsSaidNotTo) {
     EXPECT_THAT(found(like("label", "*help*")), IsEmpty());
     EXPECT_THAT(found(like("label", "*help*", Letters::ignored)), ElementsAre("dim"));
     EXPECT_THAT(found(like("label", "*éLODIE", Letters::ignored)), ElementsAre("dim"));
-    EXPECT_THAT(found(like("component_type", "*::LAMP")), ElementsAre("bright", "dim")) << "types have no case";
+    EXPECT_THAT(found(like("component_type", "*::LAMP")), ElementsAre("bright", "dim")) << "types are not case-sensitive";
 }
 
 TEST_F(Comparisons, APatternsCharactersMayBeEscaped) {
@@ -197,7 +197,7 @@ TEST_F(Comparisons, APatternsCharactersMayBeEscaped) {
     EXPECT_THAT(found(like("label", "50??")), ElementsAre("bright", "dim"));
     set("bright", "label", "string", {"!"});
     EXPECT_THAT(found(like("label", "!!")), ElementsAre("bright"));
-    EXPECT_THAT(found(like("label", "!")), ElementsAre("bright")) << "at the end, it stands for itself";
+    EXPECT_THAT(found(like("label", "!")), ElementsAre("bright")) << "at the end, it matches itself";
 }
 
 TEST_F(Comparisons, APatternCountsCharactersAndNotBytes) {
@@ -219,7 +219,7 @@ TEST_F(Comparisons, APatternThatIsNoneIsRefused) {
     EXPECT_THAT(reason(like("name", std::string(1'001, 'a'))), HasSubstr("1000"));
 }
 
-// Any way of trying again and again would take for ever here.
+// Backtracking would practically never end here.
 TEST_F(Comparisons, AHostilePatternIsDoneInNoTime) {
     set("dim", "label", "string", {std::string(60'000, 'a')});
     std::string stars;
@@ -245,7 +245,7 @@ TEST_F(Comparisons, ListsOfTooManyPairsMeetNothing) {
     set("dim", "counts", "int[]", {numbers(300)});
     set("bright", "counts", "int[]", {numbers(1'000)});
     EXPECT_THAT(found(with_itself), ElementsAre("dim"));
-    EXPECT_THAT(found(equal("counts", "7")), ElementsAre("bright", "dim")) << "one value with many is well";
+    EXPECT_THAT(found(equal("counts", "7")), ElementsAre("bright", "dim")) << "comparing one value with many is allowed";
 }
 
 TEST_F(Comparisons, TooManyPredicatesAreRefused) {

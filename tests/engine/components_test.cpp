@@ -1,4 +1,4 @@
-// Components come and go while sessions are open; and components that are what a profile of their own says.
+// Components that are added and removed while sessions are open, and user-defined components.
 #include <gmock/gmock.h>
 
 #include <stdexcept>
@@ -13,7 +13,7 @@ using testing::IsEmpty;
 
 namespace {
 
-// A lamp that blinks: a user-defined component with messages of its own.
+// A blinking lamp: a user-defined component with messages of its own.
 Part blinking_lamp() {
     auto const parameter = [](std::string name, std::string type, std::optional<std::string> default_value) {
         return ParameterProfile{.name = std::move(name),
@@ -96,7 +96,7 @@ TEST(UserDefined, StartTakesTheArgumentsOfItsProfile) {
     EXPECT_EQ(desk.execute(start("blinker", {integer("times", 3), value("colours", "string[]", {"blue"})})).return_code,
               ReturnCode::ok);
     EXPECT_EQ(in_words(world["blinker"].started_with), "times=3 slowly=1 colours=blue");
-    EXPECT_EQ(in_words(desk.get_parameter("blinker").parameters), "colours=blue") << "what is no parameter is not stored";
+    EXPECT_EQ(in_words(desk.get_parameter("blinker").parameters), "colours=blue") << "arguments are not stored";
     EXPECT_EQ(desk.set_parameter("blinker", {integer("times", 3)}).return_code, ReturnCode::bad_parameter);
 }
 
@@ -125,7 +125,7 @@ TEST(UserDefined, TellsWhatItReadsAsItsProfileHasIt) {
         desk.bind("speech");
         EXPECT_EQ(in_words(desk.get_parameter("speech").parameters), "Synthesizable_Languages=en|ja");
         desk.set_parameter("speech", {value("synthesizable_languages", "string[]", {"de"})});
-        EXPECT_EQ(in_words(desk.get_parameter("speech").parameters), "Synthesizable_Languages=de") << "what was set, and once";
+        EXPECT_EQ(in_words(desk.get_parameter("speech").parameters), "Synthesizable_Languages=de") << "the stored value, once";
     }
     World world{with("synthesizable_languages", "int", {})};
     auto desk = world.connect();
@@ -173,7 +173,7 @@ TEST_F(ComingAndGoing, IsToldToAllSessionsOnce) {
     auto const profile = desk.ask(GetProfile{}).profile;
     EXPECT_THAT(profile->components, ElementsAre("navigation", "detection", "lamp2"));
     world.change({}, {});
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "nothing came or went";
+    EXPECT_THAT(desk.heard(), IsEmpty()) << "nothing changed";
 }
 
 TEST_F(ComingAndGoing, LeavesTheProfileThatSomebodyReadsAsItWas) {
@@ -200,7 +200,7 @@ TEST_F(ComingAndGoing, EndsWhatRunsAndWhatWaitsWithAbort) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT", "2 completed greet ABORT", "3 profile_changed"));
     world["speech"].finishes();
     EXPECT_THAT(desk.heard(), ElementsAre("4 completed wait OK", "5 completed back ABORT"));
-    EXPECT_EQ(desk.result_of("go"), "ABORT") << "what it did is still known";
+    EXPECT_EQ(desk.result_of("go"), "ABORT") << "its result is still known";
 }
 
 TEST_F(ComingAndGoing, EndsCommandsOfTheComponentsOwnProfileToo) {
@@ -209,7 +209,7 @@ TEST_F(ComingAndGoing, EndsCommandsOfTheComponentsOwnProfileToo) {
     world.change({"navigation"}, {});
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock ABORT", "2 profile_changed"));
     world.advance(std::chrono::seconds{2});
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "nobody waits for it any more";
+    EXPECT_THAT(desk.heard(), IsEmpty()) << "the command has ended";
 }
 
 TEST_F(ComingAndGoing, EndsWhatRunsForNobody) {
@@ -237,7 +237,7 @@ TEST_F(ComingAndGoing, LosesBindingsAndKeepsSubscriptions) {
     EXPECT_EQ(desk.subscribe("person_detected").return_code, ReturnCode::unsupported);
     world.change({}, {detection});
     auto hall = world.connect();
-    EXPECT_EQ(hall.bind("detection"), ReturnCode::ok) << "nobody has it bound";
+    EXPECT_EQ(hall.bind("detection"), ReturnCode::ok) << "it is not bound any more";
     world["detection"].fires("person_detected", one);
     EXPECT_THAT(desk.heard(), ElementsAre("1 profile_changed", "2 person_detected detection", "3 profile_changed",
                                           "4 profile_changed", "5 person_detected detection"));
@@ -290,7 +290,7 @@ TEST_F(ComingAndGoing, EndsWellInTheMiddleOfAll) {
     desk.bind("navigation");
     desk.execute(go("go"));
     world.engine.reset();
-    SUCCEED() << "what runs is freed with the engine";
+    SUCCEED() << "running commands are freed with the engine";
 }
 
 }  // namespace rois

@@ -1,4 +1,4 @@
-// What a condition says (decisions 18 and 19), asked through search.
+// The meaning of conditions (decisions 18 and 19), tested through search.
 #include <gmock/gmock.h>
 
 #include "world.hpp"

@@ -1,5 +1,4 @@
-// Decisions 1 to 9 by number: each rule as one dialogue. What else they mean is in the tests beside, listed in
-// docs/conformance-decisions.md.
+// Decisions 1 to 9 by number: each rule as one dialogue. docs/conformance-decisions.md lists the tests of the details.
 #include <gmock/gmock.h>
 
 #include "world.hpp"
@@ -73,7 +72,7 @@ TEST(Decision02, ALostLinkMayBeResumedForAWhileAndThenEndsTheSession) {
     EXPECT_FALSE(is_open(world, over_http));
 }
 
-// The first look at the end of its window is due before the later request lets it end.
+// The end of its first window is checked before the later request lets the session end.
 TEST(Decision02, ARequestPutsTheEndOffByTheTimeoutAndTheWholeWindow) {
     World world{navigation};
     auto over_http = world.connect_without_link();
@@ -132,14 +131,14 @@ TEST(Decision04, ABindingIsExclusive) {
     World world{named("robot_a", navigation), named("robot_b", navigation)};
     auto desk = world.connect(), hall = world.connect();
     EXPECT_EQ(desk.bind("robot_a"), ReturnCode::ok);
-    EXPECT_EQ(desk.bind("robot_a"), ReturnCode::ok) << "it is mine";
+    EXPECT_EQ(desk.bind("robot_a"), ReturnCode::ok) << "it is bound already";
     EXPECT_EQ(hall.bind("robot_a"), ReturnCode::out_of_resources);
     EXPECT_EQ(hall.bind("robot_c"), ReturnCode::bad_parameter);
     EXPECT_EQ(hall.bind_any(equal("name", "robot_c")), "UNSUPPORTED");
     EXPECT_EQ(hall.bind_any(equal("name", "robot_a")), "OUT_OF_RESOURCES");
     EXPECT_EQ(hall.bind_any(equal("colour", "red")), "BAD_PARAMETER");
     EXPECT_EQ(hall.bind_any(), "robot_b");
-    EXPECT_THAT(hall.search(equal("name", "robot_c")), IsEmpty()) << "no match is no mistake";
+    EXPECT_THAT(hall.search(equal("name", "robot_c")), IsEmpty()) << "no match is not an error";
 }
 
 TEST(Decision05, CommandsNeedTheBindingAndQuestionsDoNot) {
@@ -200,9 +199,10 @@ TEST(Decision08, ParametersAreStoredAndStartActs) {
     for (auto const* ref : {"navigation", "speech", "detection"}) desk.bind(ref);
     auto const stored = desk.set_parameter("speech", {text("speech_text", "hello"), integer("volume", 70)}).command_id;
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed " + stored.text + " OK")) << "stored, and completed at once";
-    EXPECT_THAT(world["speech"].told, ElementsAre("parameters_changed")) << "nobody has spoken";
+    EXPECT_THAT(world["speech"].told, ElementsAre("parameters_changed")) << "it does not speak";
     desk.execute(named("say", start("speech", {integer("volume", 20)})));
-    EXPECT_EQ(in_words(world["speech"].started_with), "speech_text=hello volume=20 language=en") << "arguments are stored first";
+    EXPECT_EQ(in_words(world["speech"].started_with), "speech_text=hello volume=20 language=en")
+        << "arguments of start are stored first";
     EXPECT_THAT(desk.heard(), IsEmpty());
     world["speech"].finishes();
     EXPECT_THAT(desk.heard(), ElementsAre("2 completed say OK")) << "an action completes at its end";
@@ -224,7 +224,7 @@ TEST(Decision08, FollowEndsByStopOrByItsTimeLimit) {
     desk.bind("follow");
     desk.execute(go("follow", "follow"), named("too late", stop("follow")));
     world.advance(1h);
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "a stop behind it never gets its turn";
+    EXPECT_THAT(desk.heard(), IsEmpty()) << "a stop after it in the sequence never runs";
     desk.execute(named("enough", stop("follow")));
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed follow OK", "2 completed enough OK", "3 completed too late OK"));
     desk.execute(go("again", "follow"));

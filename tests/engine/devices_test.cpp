@@ -1,4 +1,4 @@
-// Devices: moved by time, one turn after the other.
+// Devices: advanced by time, in turns.
 #include <gmock/gmock.h>
 
 #include <optional>
@@ -12,7 +12,7 @@ using testing::ElementsAre;
 
 namespace {
 
-// Ends what it was told to start when it is told so.
+// Ends its command when the test says so.
 class Machine final : public Component {
 public:
     explicit Machine(Part const& part) {
@@ -52,7 +52,7 @@ public:
     bool goes_on() const override { return turns % goes_on_until != 0; }
 
     int turns = 0;
-    int goes_on_until = 1;  // a multiple of this
+    int goes_on_until = 1;  // turns, a multiple of this
 
 private:
     Machine& machine_;

@@ -1,4 +1,4 @@
-// Decisions 16 and 24: components that fail, and who hears of it.
+// Decisions 16 and 24: failing components, and the sessions that are notified.
 #include <gmock/gmock.h>
 
 #include "world.hpp"
@@ -162,13 +162,13 @@ TEST_F(Errors, ThatAnybodyCanCauseAreToldOnceUntilItSucceeds) {
     EXPECT_THAT(desk.heard(), ElementsAre("2 COMPONENT_INTERNAL_ERROR navigation"));
 }
 
-// What was told to nobody, or to somebody else, is told to whoever binds it.
+// An error that went to no session, or to another one, is reported again after a binding.
 TEST_F(Errors, ThatAnybodyCanCauseAreToldToWhoeverBindsIt) {
     auto hall = world.connect();
     desk.release("navigation");
     robot.throws_in = {"query"};
     for (int i = 0; i < 2; ++i) EXPECT_EQ(desk.query("route").return_code, ReturnCode::error);
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "it is nobody's";
+    EXPECT_THAT(desk.heard(), IsEmpty()) << "no session has bound it";
     hall.bind("navigation");
     for (int i = 0; i < 3; ++i) desk.query("route");
     EXPECT_THAT(hall.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
@@ -194,7 +194,7 @@ TEST_F(Errors, InTheStatusAreTheStatus) {
     EXPECT_EQ(hall.status_of("navigation"), "BUSY");
     EXPECT_THAT(desk.search(equal("status", "ERROR")), ElementsAre("navigation"));
     EXPECT_THAT(desk.search(equal("status", "READY")), ElementsAre("detection", "speech"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation")) << "asked thrice, told once";
+    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation")) << "asked three times, reported once";
 }
 
 TEST_F(Errors, BeforeAnythingRunsAreTheAnswer) {
@@ -293,7 +293,7 @@ TEST_F(Errors, WrongResultsOfAQueryAreNoAnswer) {
     EXPECT_EQ(desk.status_of("navigation"), "READY");
 }
 
-// --- Answers that nobody waits for ---
+// --- Late and unexpected answers ---
 
 TEST_F(Errors, ADoubleAnswerIsCountedAndDropped) {
     desk.execute(go("go"));

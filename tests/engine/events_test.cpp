@@ -1,4 +1,4 @@
-// Decisions 18 to 21: who hears of which events, and for how long their details are kept.
+// Decisions 18 to 21: the receivers of events, and the life of their details.
 #include <gmock/gmock.h>
 
 #include "world.hpp"
@@ -87,13 +87,13 @@ TEST(ManySubscriptions, HaveTenThousandPredicatesASession) {
     auto const one = answer(desk, {"detection"});
     EXPECT_EQ(answer(desk, {"detection", "a"}).return_code, ReturnCode::out_of_resources);
     auto const two = desk.subscribe("person_detected", both({equal("name", "detection"), equal("bound", "false")}));
-    EXPECT_EQ(two.return_code, ReturnCode::out_of_resources) << "And counts, too";
+    EXPECT_EQ(two.return_code, ReturnCode::out_of_resources) << "the And counts, too";
     EXPECT_EQ(two.reason,
               "the conditions of a session's subscriptions may have at most 3 predicates in total: unsubscribe from events that "
               "you do not need");
-    EXPECT_EQ(desk.subscribe("person_detected").return_code, ReturnCode::ok) << "without a condition there is none";
-    EXPECT_EQ(answer(desk, {"detection"}).subscribe_id, one.subscribe_id) << "what is there already costs nothing";
-    EXPECT_EQ(answer(hall, {"detection", "a"}).return_code, ReturnCode::ok) << "each session has its own";
+    EXPECT_EQ(desk.subscribe("person_detected").return_code, ReturnCode::ok) << "without a condition there are no predicates";
+    EXPECT_EQ(answer(desk, {"detection"}).subscribe_id, one.subscribe_id) << "an existing subscription costs nothing";
+    EXPECT_EQ(answer(hall, {"detection", "a"}).return_code, ReturnCode::ok) << "each session has its own limit";
     desk.unsubscribe(one.subscribe_id);
     EXPECT_EQ(answer(desk, {"detection", "a"}).return_code, ReturnCode::ok);
 }
@@ -176,7 +176,7 @@ TEST_F(Events, CarryTheirResultsWhenAsked) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection number=2"));
     desk.subscribe("person_detected", {}, false);
     world["detection"].fires("person_detected", people(3));
-    EXPECT_THAT(desk.heard(), ElementsAre("2 person_detected detection")) << "the last wish wins";
+    EXPECT_THAT(desk.heard(), ElementsAre("2 person_detected detection")) << "the last inline_results wins";
 }
 
 TEST_F(Events, CarryTheirResultsToThoseWhoAskedOnly) {
@@ -231,7 +231,7 @@ TEST_F(Events, HaveDetailsThatAConditionChoosesFrom) {
     EXPECT_THAT(none.results.parameters, IsEmpty());
     EXPECT_EQ(desk.detail_of(id, equal("colour", "red")).return_code, ReturnCode::bad_parameter);
     EXPECT_EQ(desk.detail_of(id, equal("timestamp", "2026-11-20T12:00:00Z")).return_code, ReturnCode::ok)
-        << "it could have had one";
+        << "it is an id of the right form";
 }
 
 TEST_F(Events, ThatNobodyHearsAreNotKept) {

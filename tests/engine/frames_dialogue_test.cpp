@@ -1,4 +1,4 @@
-// Decision 27 between an application and components that have frames of their own.
+// Decision 27: an application, and components with their own frames.
 #include <gmock/gmock.h>
 
 #include "conditions.hpp"
@@ -37,8 +37,8 @@ Located at(double x, double y, std::string crs, std::vector<double> rows = {}) {
     return made;
 }
 
-// The engine's frame is the hall; robot2 has its own map, whose origin is at (1000, 2000) of the hall and whose x axis is the
-// hall's y axis: (3000, 0) there is (1000, 5000) in the hall.
+// The engine's frame is the hall. The origin of robot2's map is at (1000, 2000) of the hall, and its x axis is the hall's y axis:
+// (3000, 0) in the map is (1000, 5000) in the hall.
 struct TwoFrames : testing::Test {
     World world{driving(navigation), in_engine("robot2", with_map(driving(navigation))),
                 in_engine("robot2", with_map(localization))};

@@ -1,4 +1,4 @@
-// `stop` tells the truth (decision 35): it always reaches the component, and says OK only when that stands still.
+// Decision 35: `stop` always reaches the component, and returns OK only when that stands still.
 #include <gmock/gmock.h>
 
 #include "engine/journal.hpp"
@@ -55,7 +55,7 @@ TEST_F(Halting, StopReachesACommandOfTheComponentsOwn) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock ABORT", "2 completed stop OK"));
     EXPECT_EQ(desk.reason_of("dock"), "it was stopped");
     robot.finishes();
-    EXPECT_EQ(world.stray_answers(), 1) << "it has ended already";
+    EXPECT_EQ(world.stray_answers(), 1) << "the command has ended already";
 }
 
 TEST_F(Halting, SuspendReachesACommandOfTheComponentsOwn) {
@@ -78,7 +78,7 @@ TEST_F(Halting, ThatFailsMakesStopFailAndTheStatusError) {
     EXPECT_THAT(desk.reason_of("stop"), HasSubstr("failed to halt"));
     EXPECT_EQ(desk.status_of("navigation"), "ERROR");
     desk.query("route");
-    EXPECT_EQ(desk.status_of("navigation"), "ERROR") << "a query that succeeds says nothing of motion";
+    EXPECT_EQ(desk.status_of("navigation"), "ERROR") << "a successful query does not clear it";
 }
 
 TEST_F(Halting, ThatFailsIsRepeatedUntilItSucceeds) {
@@ -87,7 +87,7 @@ TEST_F(Halting, ThatFailsIsRepeatedUntilItSucceeds) {
     desk.heard();
     world.advance(1s);
     EXPECT_EQ(halts(), 1 + 5) << "every 0.2 s";
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "it is told once";
+    EXPECT_THAT(desk.heard(), IsEmpty()) << "it is reported once";
     robot.throws_in = {};
     world.advance(200ms);
     EXPECT_EQ(desk.status_of("navigation"), "READY");

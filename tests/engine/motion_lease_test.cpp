@@ -1,4 +1,4 @@
-// The motion lease (decision 33): what moves the robot goes on only while its application gives signs of life.
+// The motion lease (decision 33): the robot moves only while its application gives signs of life.
 #include "engine/motion_lease.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ Part moving(Part part) {
     return part;
 }
 
-// An application on its way to somewhere, which has only sent requests so far.
+// An application whose robot is on its way. It has sent only requests so far.
 class Lease : public testing::Test {
 protected:
     Lease() {
@@ -224,7 +224,7 @@ TEST_F(Lease, ThatHasEndedLetsNothingBeginByItself) {
     world.advance(11s);
     EXPECT_THAT(robot.told, IsEmpty());
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed late ABORT"));
-    EXPECT_THAT(desk.reason_of("late"), HasSubstr("nothing was heard"));
+    EXPECT_THAT(desk.reason_of("late"), HasSubstr("gave no sign of life"));
 }
 
 TEST_F(Lease, AsksForSignsOfLifeWhileSomethingMovesOrWillMove) {

@@ -1,4 +1,4 @@
-// Decisions 22 and 23 in sessions: what an application hears, and what becomes of one that does not listen.
+// Decisions 22 and 23 in sessions: the notifications that an application receives, and sessions that do not read.
 #include <gmock/gmock.h>
 
 #include "world.hpp"
@@ -52,7 +52,7 @@ TEST(Notifications, TellTheOutboxThatThereIsSomething) {
     desk.execute(named("stop", stop("navigation")));
     EXPECT_EQ(world.notified[desk.session], 1);
     desk.leave();
-    EXPECT_EQ(world.notified[desk.session], 2) << "the end is something, too";
+    EXPECT_EQ(world.notified[desk.session], 2) << "also for the end";
     EXPECT_EQ(world.notified[hall.session], 0);
 }
 
@@ -78,14 +78,14 @@ TEST(Notifications, ThatMustBeToldEndASessionThatNeverListens) {
     desk.bind("speech");
     for (auto const* id : {"1", "2", "3"}) desk.execute(named(id, stop("speech")));
     EXPECT_FALSE(desk.told_of_the_end());
-    EXPECT_EQ(desk.execute(named("4", stop("speech"))).return_code, ReturnCode::ok) << "the answer is given still";
+    EXPECT_EQ(desk.execute(named("4", stop("speech"))).return_code, ReturnCode::ok) << "it still gets an answer";
     EXPECT_TRUE(desk.told_of_the_end());
     EXPECT_EQ(desk.refusal_of(Search{}), Refusal::no_session);
     EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
     EXPECT_EQ(hall.bind("navigation"), ReturnCode::ok);
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed 1 OK", "2 completed 2 OK", "3 completed 3 OK", "4 completed 4 OK",
                                           "5 completed go ABORT"))
-        << "each command completes, whoever listens";
+        << "each command completes, read or not";
 }
 
 TEST(Notifications, OfOthersDoNotSufferFromOneThatNeverListens) {

@@ -1,4 +1,4 @@
-// Space and time in conditions: where components are, where and when events happened; and what is nearest.
+// Space and time in conditions: positions of components, positions and times of events, and the nearest one.
 #include <gmock/gmock.h>
 
 #include "conditions.hpp"
@@ -21,7 +21,7 @@ Located at(double x, double y, std::string robot, std::string crs = "hall") {
             .certainty = {}};
 }
 
-// Robots that stand in the hall: `near` at the desk, `far` by the wall; `lost` does not know where it is.
+// Robots in the hall: `near` at the desk, `far` by the wall; the position of `lost` is unknown.
 struct Hall : testing::Test {
     World world{named("far", navigation), named("lost", navigation), named("near", navigation), localization};
     Application desk = world.connect();
@@ -52,7 +52,7 @@ TEST_F(Hall, IntersectsAndDisjointAreContraries) {
                 ElementsAre("far"));
     EXPECT_THAT(found(spatial(SpatialRelation::disjoint, {reference("location"), {box(9'000, 0, 9'500, 7'000)}})),
                 ElementsAre("near"))
-        << "what has no place is neither";
+        << "without a position, neither matches";
 }
 
 TEST_F(Hall, OneOperandIsHeldAgainstThePlaceOfTheComponent) {
@@ -60,7 +60,7 @@ TEST_F(Hall, OneOperandIsHeldAgainstThePlaceOfTheComponent) {
 }
 
 TEST_F(Hall, DistancesAreToTheNearestEdge) {
-    EXPECT_THAT(found(near("location", {spot(4'000, 5'000)}, 5'000)), ElementsAre("near")) << "3, 4, 5";
+    EXPECT_THAT(found(near("location", {spot(4'000, 5'000)}, 5'000)), ElementsAre("near")) << "a triangle with sides 3, 4 and 5";
     EXPECT_THAT(found(near("location", {spot(4'000, 5'000)}, 4'999.9)), IsEmpty());
     EXPECT_THAT(found(near("location", {box(4'000, 0, 5'000, 5'000)}, 3, "m")), ElementsAre("near"));
     EXPECT_THAT(found(beyond("location", {spot(4'000, 5'000)}, 5'000)), ElementsAre("far"));
@@ -87,13 +87,14 @@ TEST_F(Hall, AsATextAPlaceIsTheNamesOfThoseThatItLiesIn) {
     EXPECT_THAT(found(like("location", "ha*")), ElementsAre("far", "near"));
     EXPECT_THAT(found(is_null("location")), ElementsAre("localization", "lost"));
     world["near"].where = at(-1, -1, "robot1");
-    EXPECT_THAT(found(is_null("location")), ElementsAre("localization", "lost")) << "it is somewhere, if nowhere with a name";
+    EXPECT_THAT(found(is_null("location")), ElementsAre("localization", "lost"))
+        << "it has a position, although outside of named places";
 }
 
 TEST_F(Hall, ARobotIsKnownByItsName) {
     EXPECT_THAT(found(equal("RobotId", "robot2")), ElementsAre("far"));
     EXPECT_THAT(found(equal("location/@ref", "robot1")), ElementsAre("near"));
-    EXPECT_THAT(found(equal("RobotId", "main")), ElementsAre("localization", "lost")) << "without a place, it is the engine";
+    EXPECT_THAT(found(equal("RobotId", "main")), ElementsAre("localization", "lost")) << "without a position, it is the engine";
 }
 
 TEST_F(Hall, FramesMustBeKnown) {
@@ -102,7 +103,7 @@ TEST_F(Hall, FramesMustBeKnown) {
               "the condition has the frame 'street', which is not known here; known are hall");
     world["far"].where = at(500, 500, "robot2", "street");
     EXPECT_THAT(found(within("location", {box(0, 0, 1'000, 1'000)})), ElementsAre("near"))
-        << "coordinates of two frames have nothing in common";
+        << "coordinates of two frames cannot be compared";
     EXPECT_THAT(found(spatial(SpatialRelation::disjoint, {reference("location"), {box(0, 0, 1, 1)}})), ElementsAre("near"));
 }
 
@@ -145,7 +146,7 @@ TEST_F(Hall, DistanceIsAlsoAValue) {
 
 TEST_F(Hall, TheNearestComesFirst) {
     EXPECT_THAT(found(sorted(distance("location", {spot(10'000, 10'000)}))), ElementsAre("far", "near", "localization", "lost"))
-        << "what has no place comes last";
+        << "a component without a position comes last";
     EXPECT_THAT(found(sorted(distance("location", {spot(10'000, 10'000)}), SortOrder::descending)),
                 ElementsAre("near", "far", "localization", "lost"));
 }
@@ -155,7 +156,7 @@ TEST_F(Hall, TheNearestFreeOneIsBound) {
     EXPECT_EQ(desk.bind_any(nearest), "near");
     auto hall = world.connect();
     EXPECT_EQ(hall.bind_any(nearest), "far");
-    EXPECT_EQ(hall.bind_any({equal("name", "far"), nearest.sort_by}), "far") << "mine already";
+    EXPECT_EQ(hall.bind_any({equal("name", "far"), nearest.sort_by}), "far") << "bound already";
 }
 
 TEST_F(Hall, SeveralPropertiesSortOneAfterTheOther) {
@@ -200,7 +201,7 @@ Located person(std::string ref, double x, double y) {
 }
 
 struct People : Hall {
-    // Whether an event with these people is told to who subscribed so.
+    // Returns whether a subscriber with this condition receives an event with these results.
     bool told(Condition condition, ParameterList results, std::vector<Located> located = {}) {
         auto const id = desk.subscribe("person_localized", std::move(condition));
         EXPECT_EQ(id.return_code, ReturnCode::ok) << id.reason;
@@ -274,7 +275,7 @@ TEST_F(Times, DuringLeavesTheEndsOut) {
     EXPECT_FALSE(holds(TemporalRelation::during, {morning}, "2026-11-20T12:00:00Z"));
     EXPECT_TRUE(told(temporal(TemporalRelation::during, {{morning}, reference("timestamp")}),
                      found_people("2026-11-20T10:00:00Z", {}, {})))
-        << "the period may stand first";
+        << "the period may be the first operand";
 }
 
 TEST_F(Times, AfterAndBeforeLookBeyondThePeriod) {
@@ -289,11 +290,11 @@ TEST_F(Times, AfterAndBeforeLookBeyondThePeriod) {
 
 TEST_F(Times, TEqualsIsTheSameMoment) {
     EXPECT_TRUE(holds(TemporalRelation::t_equals, literal("2026-11-20T21:00:00+09:00"), noon));
-    EXPECT_FALSE(holds(TemporalRelation::t_equals, literal("2026-11-20"), noon)) << "a day is no moment";
+    EXPECT_FALSE(holds(TemporalRelation::t_equals, literal("2026-11-20"), noon)) << "a day is not a moment";
     EXPECT_TRUE(holds(TemporalRelation::during, literal("2026-11-20"), noon));
 }
 
-// ISO 19108: the one relation of the thirteen that holds, and AnyInteracts beside it.
+// ISO 19108: which of the thirteen relations holds, and AnyInteracts.
 TEST_F(Times, PeriodsAndMomentsHaveOneRelationEach) {
     using enum TemporalRelation;
     static std::vector<std::pair<TemporalRelation, std::string>> const all{{after, "after"},

@@ -58,7 +58,7 @@ TEST(Session, ThereAreNoMoreThanAllowed) {
     auto desk = world.connect();
     auto hall = world.connect();
     EXPECT_EQ(std::get<Refusal>(world.say({}, Connect{})), Refusal::too_many_sessions);
-    EXPECT_EQ(desk.refusal_of(Connect{}), std::nullopt) << "inside a session nothing is opened";
+    EXPECT_EQ(desk.refusal_of(Connect{}), std::nullopt) << "a second connect opens no session";
     hall.leave();
     EXPECT_TRUE(std::holds_alternative<Reply>(world.say({}, Connect{})));
 }
@@ -75,13 +75,13 @@ TEST(Session, ThatIsIdleForLongestMakesRoomForANewOne) {
     world.engine->heard_from(first.session, world.now);
     auto const known = [&](Application& session) { return session.refusal_of(Search{}) == std::nullopt; };
     auto third = world.connect_without_link();
-    EXPECT_FALSE(known(second)) << "the other one was heard from later";
+    EXPECT_FALSE(known(second)) << "the other one was active later";
     EXPECT_TRUE(known(first));
     auto fourth = world.connect();
     EXPECT_FALSE(known(first));
     auto fifth = world.connect();
-    EXPECT_FALSE(known(third)) << "though it is new";
-    EXPECT_EQ(std::get<Refusal>(world.say({}, Connect{})), Refusal::too_many_sessions) << "nobody is idle";
+    EXPECT_FALSE(known(third)) << "although it is new";
+    EXPECT_EQ(std::get<Refusal>(world.say({}, Connect{})), Refusal::too_many_sessions) << "no session is idle";
     for (auto* busy : {&linked, &bound, &subscribed, &fourth, &fifth}) EXPECT_TRUE(known(*busy));
     EXPECT_EQ(world.engine->statistics().sessions_replaced, 3U);
     bound.release("navigation");
@@ -99,7 +99,7 @@ TEST(Session, DisconnectStopsWhatItStarted) {
     desk.heard();
     desk.leave();
     EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
-    EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt")) << "a function that is active counts, too";
+    EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt")) << "an active function counts, too";
     EXPECT_THAT(desk.heard(), ElementsAre("2 completed go ABORT", "3 completed and on ABORT"));
     EXPECT_TRUE(desk.told_of_the_end());
     auto hall = world.connect();
@@ -336,7 +336,7 @@ TEST(ShutDown, AnEngineMayGoWhileItsCommandsRun) {
     auto desk = world.connect();
     desk.bind("navigation");
     desk.execute(go("go"), after(1h, go("later")));
-    world.engine.reset();  // a sanitizer that looks for leaks sees whether all of it went
+    world.engine.reset();  // a leak sanitizer checks that all of it is freed
     EXPECT_THAT(desk.heard(), IsEmpty());
 }
 

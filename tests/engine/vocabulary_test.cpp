@@ -1,4 +1,4 @@
-// What value references may speak of, and how they are written (decision 18; the minimum XPath of ISO 19143).
+// Value references: their syntax, and the names that they can use (decision 18; the minimum XPath of ISO 19143).
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ TEST_F(References, SpeakOfComponents) {
     EXPECT_THAT(found(equal("engine", "sub1")), ElementsAre("sub1.speech"));
     EXPECT_THAT(found(equal("RobotId", "sub1")), ElementsAre("sub1.speech"));
     EXPECT_THAT(found(equal("status", "READY")), SizeIs(4));
-    EXPECT_THAT(found(equal("Property/status", "READY")), SizeIs(4)) << "what is no parameter but a word is the word";
+    EXPECT_THAT(found(equal("Property/status", "READY")), SizeIs(4)) << "a word that is not a parameter keeps its meaning";
 }
 
 TEST_F(References, SpeakOfParameters) {
@@ -143,7 +143,7 @@ TEST_F(References, ToParametersAlsoFilterEvents) {
 
 TEST_F(References, ToWhatACandidateNeverHasNeverMatch) {
     EXPECT_EQ(desk.bind_any(both({equal("component_ref", "navigation"), equal("Property/volume", "50")})), "UNSUPPORTED");
-    EXPECT_EQ(desk.bind_any(equal("Property/volume", "99")), "OUT_OF_RESOURCES") << "somebody may set it";
+    EXPECT_EQ(desk.bind_any(equal("Property/volume", "99")), "OUT_OF_RESOURCES") << "a session may set it";
     EXPECT_EQ(desk.subscribe("reached_target", equal("Property/volume", "50")).return_code, ReturnCode::unsupported);
 }
 
@@ -198,7 +198,7 @@ TEST_F(Groups, HaveAFilterOnTheWholeRobot) {
     auto group = of_types({"Robot"});
     group.filter = {equal("Property/counts", "2")};
     group.members = {drives};
-    EXPECT_THAT(found(group), ElementsAre("sub1.navigation")) << "its lamp counts to 2";
+    EXPECT_THAT(found(group), ElementsAre("sub1.navigation")) << "its lamp has count 2";
 }
 
 TEST_F(Groups, AnAliasStandsForWhatIsOfItsType) {
@@ -207,7 +207,7 @@ TEST_F(Groups, AnAliasStandsForWhatIsOfItsType) {
     group.members = {drives};
     EXPECT_THAT(found(group), ElementsAre("sub1.navigation"));
     group.filter = {equal("b/Identifier", "sub1.navigation")};
-    EXPECT_THAT(found(group), IsEmpty()) << "that one is a";
+    EXPECT_THAT(found(group), IsEmpty()) << "that component is `a`";
     group.filter = {equal("c/Identifier", "sub1.navigation")};
     EXPECT_THAT(desk.ask(Search{Condition{group}}).reason, HasSubstr("'c/Identifier'"));
 }
@@ -264,7 +264,7 @@ TEST_F(Meanings, OfComparisons) {
     auto const more = detected(greater("number", "1"));
     EXPECT_EQ(detected({PropertyComparison{Comparator::less, literal(" 1.0 "), reference("Result/Number")}}), more);
     EXPECT_EQ(detected({PropertyComparison{Comparator::greater, reference("number"), literal("1e0"), false}}), more)
-        << "numbers have no case";
+        << "numbers are not case-sensitive";
     EXPECT_NE(detected(greater("number", "2")), more);
     EXPECT_NE(detected(less("number", "1")), more);
     EXPECT_NE(detected(compared("number", Comparator::greater, "1", MatchAction::all)), more);
@@ -281,7 +281,7 @@ TEST_F(Meanings, OfLogic) {
     auto const all = detected(both({a, b, c}));
     EXPECT_EQ(detected(both({c, both({b, a, a})})), all);
     EXPECT_EQ(detected(contrary(contrary(both({a, b, c})))), all);
-    EXPECT_EQ(detected(both({either({a}), either({both({b, c})})})), all) << "one operand alone is itself";
+    EXPECT_EQ(detected(both({either({a}), either({both({b, c})})})), all) << "a single operand stands for itself";
     EXPECT_NE(detected(either({a, b, c})), all);
     EXPECT_NE(detected(contrary(both({a, b, c}))), all);
     EXPECT_EQ(detected({And{{a}}}), detected(a));

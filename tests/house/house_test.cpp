@@ -1,4 +1,4 @@
-// The project itself keeps the rules of the house.
+// Checks the rules of the house on the project itself.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace rois::house {
 
 namespace {
 
-// One complaint a line.
+// One complaint per line.
 std::string list(Complaints const& complaints) {
     std::string text;
     for (auto const& complaint : complaints) text += complaint + "\n";

@@ -1,4 +1,4 @@
-// Each rule is broken on purpose, and says where.
+// Breaks each rule, and checks the complaint and its place.
 #include <gmock/gmock.h>
 
 #include "house/rules.hpp"
@@ -75,7 +75,7 @@ TEST(Layers, EveryFolderIsInOne) {
 TEST(Layers, AnIncludeThatIsNoFileIsSeen) {
     Tree const tree{{"server/types/ids.cpp", "#include \"ids.hpp\"\n"}, {"server/types/ids.hpp", ""}};
     EXPECT_THAT(against_layers(tree),
-                ElementsAre("server/types/ids.cpp:1: \"ids.hpp\" is no file under server/, components/ or client-cpp/"));
+                ElementsAre("server/types/ids.cpp:1: \"ids.hpp\" is not a file under server/, components/ or client-cpp/"));
 }
 
 TEST(PassedInTime, IsReadByTheNetworkAndMainAlone) {
@@ -192,7 +192,7 @@ TEST(Dependencies, OfJavaScriptAreNamedToo) {
 
 TEST(Dependencies, AreLockedWithoutAHost) {
     Tree const tree{{"web/package-lock.json", "\"resolved\": \"client\",\n\"resolved\": \"https://registry.example/a.tgz\",\n"}};
-    EXPECT_THAT(against_named_dependencies(tree), ElementsAre("web/package-lock.json:2: a lock file names no host"));
+    EXPECT_THAT(against_named_dependencies(tree), ElementsAre("web/package-lock.json:2: a lock file must not name a host"));
 }
 
 TEST(Dependencies, NeedTheDocument) {

@@ -119,7 +119,7 @@ TEST_F(Drive, IsHeldDespiteThePongsWhenOnlyRequestsAreProof) {
         if (frame.kind == client::Kind::text) break;  // receive_error: it was held
         driver.send(frame.payload, client::Kind::pong);
     }
-    EXPECT_THAT(watcher.held(), HasSubstr("nothing was heard"));
+    EXPECT_THAT(watcher.held(), HasSubstr("gave no sign of life"));
 }
 
 TEST_F(Drive, IsHeldWhenRequestsAloneCease) {
