@@ -132,7 +132,7 @@ void Executor::hold(RegisteredComponent& component, std::string_view reason, Ins
     attempts([&] {
         agenda_.add(ErrorOccurred{&component, ErrorType::user_defined_error,
                                   std::string{held ? "its motion is held: " : "its motion was stopped: "}.append(reason).append(
-                                      held ? "; resume or a new command continues" : "")});
+                                      held ? "; to continue, send resume or a new command" : "")});
     });
     attempts([&] { run_ready(now); });
     attempts.rethrow();
