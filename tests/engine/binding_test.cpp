@@ -22,7 +22,7 @@ TEST(Bind, KeepsAComponentForOneSession) {
     EXPECT_EQ(hall.bind("navigation"), ReturnCode::ok);
 }
 
-TEST(Bind, OfWhatIsNotThereIsABadParameter) {
+TEST(Bind, OfAnUnknownComponentIsABadParameter) {
     World world{navigation};
     auto desk = world.connect();
     auto const refused = desk.ask(Bind{Application::identifier("../\r\n<x>")});
@@ -48,7 +48,7 @@ TEST(BindAny, TakesTheLowestFreeMatch) {
     EXPECT_EQ(world.connect().bind_any(speaks), "OUT_OF_RESOURCES");
 }
 
-TEST(BindAny, TakesAFreeOneBeforeOneThatIsMine) {
+TEST(BindAny, PrefersAFreeComponentToOneThatTheSessionHasBound) {
     World world{named("speech_a", speech), named("speech_b", speech)};
     auto desk = world.connect();
     EXPECT_EQ(desk.bind_any(), "speech_a");
@@ -126,7 +126,7 @@ struct GroupsOfTwoRobots : testing::Test {
     Condition drives_and_speaks = group({.types = {"Navigation", "SpeechSynthesis"}, .aliases = {}, .filter = {}, .members = {}});
 };
 
-TEST_F(GroupsOfTwoRobots, AreBoundOfTheOneThatHasAllOfThemFree) {
+TEST_F(GroupsOfTwoRobots, AreBoundFromTheRobotThatHasAllOfThemFree) {
     hall.bind("robot1.speech");
     EXPECT_THAT(desk.search(drives_and_speaks), ElementsAre("robot2.navigation", "robot2.speech")) << "what bind_any takes";
     EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot2.navigation");
@@ -134,7 +134,7 @@ TEST_F(GroupsOfTwoRobots, AreBoundOfTheOneThatHasAllOfThemFree) {
     EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot2.navigation") << "nothing of robot1: the group is complete";
 }
 
-TEST_F(GroupsOfTwoRobots, AreBoundOfOneRobotHoweverOftenTheApplicationAsks) {
+TEST_F(GroupsOfTwoRobots, AreBoundFromOneRobotHoweverOftenTheApplicationAsks) {
     std::vector<std::string> bound;
     for (int i = 0; i < 4; ++i) bound.push_back(desk.bind_any(drives_and_speaks));
     EXPECT_THAT(bound, ElementsAre("robot1.navigation", "robot1.speech", "robot1.navigation", "robot1.navigation"));
@@ -150,7 +150,7 @@ TEST_F(GroupsOfTwoRobots, AreCompletedBeforeThoseOfTheRobotWithMoreOtherComponen
     EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot1.speech") << "one of the group is more than none";
 }
 
-TEST_F(GroupsOfTwoRobots, ThatNoneCanGiveAreRefusedWithTheHolder) {
+TEST_F(GroupsOfTwoRobots, ThatNoRobotCanProvideAreRefusedAndTheReasonNamesTheHolder) {
     hall.bind("robot1.speech");
     hall.bind("robot2.navigation");
     auto const refused = desk.ask(BindAny{drives_and_speaks});
@@ -165,7 +165,7 @@ TEST_F(GroupsOfTwoRobots, ThatNoneCanGiveAreRefusedWithTheHolder) {
     EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot2.navigation");
 }
 
-TEST_F(GroupsOfTwoRobots, BeginAnewWhenARobotCannotGiveTheRest) {
+TEST_F(GroupsOfTwoRobots, StartOverWhenARobotCannotProvideTheRest) {
     EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot1.navigation");
     hall.bind("robot1.speech");
     EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot2.navigation");
@@ -215,7 +215,7 @@ TEST(BindAny, OfAGroupTakesWhatTheSessionLacksFirst) {
         << "others of the same robot, then one that the session has bound";
 }
 
-TEST(BindAny, TellsWhatCanNeverMatchFromWhatIsTaken) {
+TEST(BindAny, DistinguishesImpossibleConditionsFromTakenComponents) {
     World world{navigation, speech};
     auto desk = world.connect(), hall = world.connect();
     EXPECT_EQ(desk.bind_any(equal("component_ref", "gripper")), "UNSUPPORTED");
@@ -243,7 +243,7 @@ TEST(Search, FindsInTheOrderOfRefs) {
     EXPECT_THAT(desk.search(not_understood("what is this")), ElementsAre("BAD_PARAMETER"));
 }
 
-TEST(Binding, IsNeededToCommand) {
+TEST(Binding, IsRequiredForCommands) {
     World world{navigation};
     auto desk = world.connect(), hall = world.connect();
     hall.bind("navigation");
@@ -257,7 +257,7 @@ TEST(Binding, IsNeededToCommand) {
     EXPECT_EQ(desk.set_parameter("gripper", {}).return_code, ReturnCode::bad_parameter);
 }
 
-TEST(Binding, IsNotNeededToAsk) {
+TEST(Binding, IsNotRequiredForQueries) {
     World world{navigation};
     auto desk = world.connect(), hall = world.connect();
     hall.bind("navigation");
@@ -268,7 +268,7 @@ TEST(Binding, IsNotNeededToAsk) {
     EXPECT_EQ(desk.ask(GetProfile{}).components.size(), 1U);
 }
 
-TEST(Release, StopsWhatRunsThere) {
+TEST(Release, StopsTheRunningAction) {
     World world{navigation, speech};
     auto desk = world.connect();
     desk.bind("navigation");
@@ -282,7 +282,7 @@ TEST(Release, StopsWhatRunsThere) {
     EXPECT_EQ(world.connect().bind("navigation"), ReturnCode::ok);
 }
 
-TEST(Release, StopsWhatWasMadeActive) {
+TEST(Release, StopsAnActiveFunction) {
     World world{detection};
     auto desk = world.connect();
     desk.bind("detection");
@@ -302,7 +302,7 @@ TEST(Release, StopsACommandOfTheComponentsOwn) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock ABORT"));
 }
 
-TEST(Release, OfWhatIsNotMineDoesNothing) {
+TEST(Release, OfAComponentThatIsNotBoundHasNoEffect) {
     World world{navigation};
     auto desk = world.connect(), hall = world.connect();
     hall.bind("navigation");

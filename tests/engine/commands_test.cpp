@@ -78,7 +78,7 @@ TEST_F(Commands, ANewStartReplacesTheOld) {
     EXPECT_THAT(desk.heard(), ElementsAre("2 completed there OK"));
 }
 
-TEST_F(Commands, AFunctionThatIsActiveIsStartedAnewAfterAHalt) {
+TEST_F(Commands, AnActiveFunctionIsStartedAgainAfterAHalt) {
     desk.execute(named("look", start("detection")), named("again", start("detection")));
     EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt", "start"));
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed look OK", "2 completed again OK"));
@@ -104,7 +104,7 @@ TEST_F(Commands, SuspendAndResumeInAWrongStateFail) {
     EXPECT_THAT(world["navigation"].told, ElementsAre("start", "suspend"));
 }
 
-TEST_F(Commands, WhatIsSuspendedIsForgottenWithItsAction) {
+TEST_F(Commands, ASuspensionEndsWithItsAction) {
     desk.execute(go("go"));
     desk.execute(named("hold", suspend("navigation")));
     desk.execute(named("halt", stop("navigation")));
@@ -149,7 +149,7 @@ TEST_F(Commands, OfTheProfileMayMakeTheComponentIdle) {
     EXPECT_THAT(desk.heard(), ElementsAre("4 completed idle ERROR"));
 }
 
-TEST_F(Commands, OfTheProfileLeaveWhatIsActiveAsItIs) {
+TEST_F(Commands, OfTheProfileLeaveAnActiveFunctionUnchanged) {
     desk.execute(command("dock", "navigation"));
     world["navigation"].finishes(CompletedStatus::ok, {}, Afterwards::active);
     desk.execute(command("dock", "navigation"));
@@ -173,7 +173,7 @@ TEST_F(Commands, OfTheProfileDoNotEndAStartThatRuns) {
     EXPECT_THAT(desk.heard(), ElementsAre(testing::_, testing::_, "3 completed go OK", "4 completed idle ERROR"));
 }
 
-TEST_F(Commands, WhatOneOfTheProfileMadeActiveEndsWithTheBinding) {
+TEST_F(Commands, AFunctionThatACommandOfTheProfileMadeActiveEndsWithTheBinding) {
     desk.execute(command("dock", "navigation"));
     world["navigation"].finishes(CompletedStatus::ok, {}, Afterwards::active);
     desk.release("navigation");
@@ -280,7 +280,7 @@ TEST_F(Commands, TimeoutsEndWithTheCommand) {
 
 // --- Results (decision 17) ---
 
-TEST_F(Commands, TellWhetherTheyWaitOrRun) {
+TEST_F(Commands, ReportWhetherTheyWaitOrRun) {
     desk.execute(go("go"), say("say"));
     EXPECT_EQ(desk.result_of("go"), "RUNNING");
     EXPECT_EQ(desk.result_of("say"), "WAITING");
@@ -291,7 +291,7 @@ TEST_F(Commands, TellWhetherTheyWaitOrRun) {
     EXPECT_EQ(desk.result_of("say"), "ERROR");
 }
 
-TEST_F(Commands, TellWhyTheyDidNotEndWell) {
+TEST_F(Commands, ReportWhyTheyDidNotEndWithOk) {
     desk.execute(go("first"));
     desk.execute(go("second"));
     EXPECT_EQ(desk.reason_of("first"), "another start took its place");
@@ -308,7 +308,7 @@ TEST_F(Commands, AreKnownInTheirOwnSessionOnly) {
     EXPECT_EQ(world.connect().result_of("go"), "BAD_PARAMETER");
 }
 
-TEST_F(Commands, AreChosenFromByTheirResults) {
+TEST_F(Commands, HaveResultsThatAConditionSelects) {
     desk.execute(named("dock", command("dock", "navigation")));
     world["navigation"].finishes(CompletedStatus::ok, {{integer("charge", 80)}, {}});
     EXPECT_EQ(desk.result_of("dock", equal("charge", "80")), "OK charge=80");
@@ -340,7 +340,7 @@ TEST(Results, OfTheLastThousandAreKept) {
     EXPECT_EQ(desk.execute(named("1", stop("navigation"))).return_code, ReturnCode::ok) << "the command_id is free again";
 }
 
-TEST(Results, ThatHaveAgedOutLeaveTheirNameFree) {
+TEST(Results, ThatHaveExpiredFreeTheirCommandId) {
     World world{navigation};
     auto desk = world.connect();
     desk.bind("navigation");
@@ -349,7 +349,7 @@ TEST(Results, ThatHaveAgedOutLeaveTheirNameFree) {
     EXPECT_EQ(desk.execute(named("halt", stop("navigation"))).return_code, ReturnCode::ok);
 }
 
-TEST(Results, OfEachSessionAgeOutInTheirTurn) {
+TEST(Results, OfEachSessionExpireSeparately) {
     EngineSettings settings;
     settings.max_command_results = 2;
     settings.command_results = 10s;

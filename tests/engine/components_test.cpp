@@ -41,13 +41,13 @@ Parameter pattern(std::string numbers) { return value("pattern", "INT[]", {std::
 
 }  // namespace
 
-TEST(Component, HasARefWithoutWhiteSpaceAtItsEnds) {
+TEST(Component, RefMustNotBeginOrEndWithWhiteSpace) {
     EXPECT_THROW(World({named(" lamp", desk_lamp)}), std::runtime_error);
     EXPECT_THROW(World({named("lamp\n", desk_lamp)}), std::runtime_error);
     EXPECT_NO_THROW(World({named("desk lamp", desk_lamp)}));
 }
 
-TEST(UserDefined, CommandsAreHeldAgainstTheirProfile) {
+TEST(UserDefined, CommandsAreCheckedAgainstTheirProfile) {
     World world{blinking_lamp()};
     auto desk = world.connect();
     desk.bind("blinker");
@@ -100,7 +100,7 @@ TEST(UserDefined, StartTakesTheArgumentsOfItsProfile) {
     EXPECT_EQ(desk.set_parameter("blinker", {integer("times", 3)}).return_code, ReturnCode::bad_parameter);
 }
 
-TEST(UserDefined, TellsWhatItReadsAsItsProfileHasIt) {
+TEST(UserDefined, ReturnsReadableParametersAsItsProfileDeclaresThem) {
     auto const with = [](std::string name, std::string type, std::optional<std::string> default_value) {
         auto part = named("speech", speech);
         part.profile.messages = {
@@ -134,7 +134,7 @@ TEST(UserDefined, TellsWhatItReadsAsItsProfileHasIt) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR speech"));
 }
 
-TEST(UserDefined, EventsAndResultsAreHeldAgainstTheirProfile) {
+TEST(UserDefined, EventsAndResultsAreCheckedAgainstTheirProfile) {
     World world{blinking_lamp()};
     auto desk = world.connect();
     desk.bind("blinker");
@@ -164,7 +164,7 @@ protected:
     Application desk = world.connect();
 };
 
-TEST_F(ComingAndGoing, IsToldToAllSessionsOnce) {
+TEST_F(ComingAndGoing, NotifiesAllSessionsOnce) {
     auto hall = world.connect();
     world.change({"speech"}, {detection, named("lamp2", desk_lamp)});
     EXPECT_THAT(desk.heard(), ElementsAre("1 profile_changed"));
@@ -176,7 +176,7 @@ TEST_F(ComingAndGoing, IsToldToAllSessionsOnce) {
     EXPECT_THAT(desk.heard(), IsEmpty()) << "nothing changed";
 }
 
-TEST_F(ComingAndGoing, LeavesTheProfileThatSomebodyReadsAsItWas) {
+TEST_F(ComingAndGoing, LeavesAProfileThatIsBeingReadUnchanged) {
     auto const before = world.engine->profile();
     world.change({"speech"}, {});
     EXPECT_THAT(before->components, ElementsAre("navigation", "speech"));
@@ -191,7 +191,7 @@ TEST_F(ComingAndGoing, OfTheLastComponentOfASubEngineEndsIt) {
     EXPECT_THAT(world.engine->profile()->sub_profiles, IsEmpty());
 }
 
-TEST_F(ComingAndGoing, EndsWhatRunsAndWhatWaitsWithAbort) {
+TEST_F(ComingAndGoing, AbortsRunningAndWaitingCommands) {
     desk.bind("navigation");
     desk.bind("speech");
     desk.execute(in_parallel({in_sequence({go("go"), say("greet")}), in_sequence({say("wait"), go("back")})}));
@@ -212,7 +212,7 @@ TEST_F(ComingAndGoing, EndsCommandsOfTheComponentsOwnProfileToo) {
     EXPECT_THAT(desk.heard(), IsEmpty()) << "the command has ended";
 }
 
-TEST_F(ComingAndGoing, EndsWhatRunsForNobody) {
+TEST_F(ComingAndGoing, EndsCommandsWithoutASession) {
     EngineSettings settings;
     settings.on_session_end = OnSessionEnd::continue_;
     World lasting{{navigation}, settings};
@@ -244,7 +244,7 @@ TEST_F(ComingAndGoing, LosesBindingsAndKeepsSubscriptions) {
     EXPECT_EQ(desk.last_heard<ReceiveEvent>().subscribe_id, subscription.subscribe_id);
 }
 
-TEST_F(ComingAndGoing, LeavesTheDetailsOfEventsThatWereTold) {
+TEST_F(ComingAndGoing, KeepsTheDetailsOfEarlierEvents) {
     world.change({}, {detection});
     desk.subscribe("person_detected");
     world["detection"].fires("person_detected", {date_time("timestamp", world.now.utc), integer("number", 1)});
@@ -255,7 +255,7 @@ TEST_F(ComingAndGoing, LeavesTheDetailsOfEventsThatWereTold) {
     EXPECT_EQ(desk.detail_of(event, equal("colour", "red")).return_code, ReturnCode::bad_parameter);
 }
 
-TEST_F(ComingAndGoing, GivesACommandOfAnotherTimeNoNewComponent) {
+TEST_F(ComingAndGoing, DoesNotGiveAnOldCommandTheNewComponent) {
     desk.bind("navigation");
     desk.bind("speech");
     desk.execute(in_sequence({say("greet"), go("go")}));

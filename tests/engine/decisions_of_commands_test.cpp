@@ -64,7 +64,7 @@ TEST_F(Decision10, OneBadUnitAndNothingRuns) {
     EXPECT_THAT(desk.heard(), IsEmpty());
 }
 
-TEST_F(Decision11, EveryCommandHasAnIdAndTheAnswerTellsThem) {
+TEST_F(Decision11, EveryCommandHasAnIdThatTheAnswerReturns) {
     auto const reply = desk.execute(go("mine"), in_parallel({say(""), go("")}));
     auto const ids = ids_of(reply.command_unit_list.command_unit_list);
     EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), 3U);
@@ -97,7 +97,7 @@ TEST_F(Decision12, EveryCommandCompletesOnceWhateverHappens) {
     EXPECT_THAT(desk.heard(), ElementsAre("9 completed is left ABORT"));
 }
 
-TEST_F(Decision13, WhatIsNotOkEndsItsSequence) {
+TEST_F(Decision13, ACommandThatIsNotOkEndsItsSequence) {
     desk.execute(branches({{go("a"), go("b")}, {say("c"), say("d")}}), go("e"));
     world["navigation"].finishes(CompletedStatus::timeout);
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed a TIMEOUT", "2 completed b ABORT"));
@@ -117,7 +117,7 @@ TEST_F(Decision13, WhatIsNotOkEndsItsSequence) {
     EXPECT_THAT(desk.heard(), ElementsAre("9 completed i OK", "10 completed j ABORT")) << "a new binding does not change that";
 }
 
-TEST_F(Decision14, AllFormsOfSequencesAreTaken) {
+TEST_F(Decision14, AllFormsOfSequencesAreAccepted) {
     auto const running = [&] {
         std::string all;
         for (auto const* id : {"a", "b", "c", "d"})
@@ -199,7 +199,7 @@ TEST_F(Decision17, ResultsSayHowFarACommandIs) {
     EXPECT_EQ(desk.result_of("say"), "BAD_PARAMETER") << "a thousand commands came after it";
 }
 
-TEST(Decision33, WhatMovesIsHeldWhenItsApplicationIsSilent) {
+TEST(Decision33, MotionIsHeldWhenItsApplicationIsSilent) {
     auto wheels = navigation;
     wheels.moves = true;
     World world{wheels};

@@ -17,7 +17,7 @@ ParameterList people(int number) { return {integer("number", number)}; }
 
 }  // namespace
 
-TEST(Decision18, TheConditionChoosesWhoAnswers) {
+TEST(Decision18, TheConditionSelectsTheComponentThatAnswers) {
     World world{named("robot_b", navigation), named("robot_a", navigation), in_engine("sub1", named("robot_c", navigation)),
                 speech};
     auto desk = world.connect(), hall = world.connect();
@@ -53,7 +53,7 @@ TEST(Decision18, ReferencesAreThoseOfTheVocabulary) {
     EXPECT_THAT(desk.search(equal("colour", "red")), ElementsAre("BAD_PARAMETER"));
 }
 
-TEST(Decision19, OnlyMatchingEventsAndResultsAreTold) {
+TEST(Decision19, OnlyMatchingEventsAndResultsAreReported) {
     World world{detection, localization, navigation};
     auto desk = world.connect();
     desk.bind("navigation");
@@ -77,7 +77,7 @@ TEST(Decision19, OnlyMatchingEventsAndResultsAreTold) {
     EXPECT_THAT(desk.detail_of(error, like("text", "*voice*")).results.parameters, IsEmpty());
 }
 
-TEST(Decision20, TheSameSubscriptionIsOne) {
+TEST(Decision20, EqualSubscriptionsAreOne) {
     World world{detection};
     auto desk = world.connect(), hall = world.connect();
     auto const a = equal("component_ref", "detection"), b = greater("number", "0");
@@ -128,7 +128,7 @@ TEST(Decision22, NotificationsAreNumberedAsThingsHappen) {
                                           "4 USER_DEFINED_ERROR navigation"));
 }
 
-TEST(Decision23, EventsAreDroppedAndWhatMustBeToldIsNot) {
+TEST(Decision23, EventsAreDroppedAndOtherNotificationsAreNot) {
     EngineSettings settings;
     settings.max_waiting_notifications = 4;
     settings.max_sent_notifications = 4;
@@ -179,7 +179,7 @@ TEST(Decision23, APositionOlderThanTheRingBeginsWithWhatIsLost) {
     EXPECT_EQ(std::get<Lost>(again.front().notification->body).count, 3U);
 }
 
-TEST(Decision24, ErrorsGoToThoseWhomTheyConcern) {
+TEST(Decision24, ErrorsGoToTheSessionsThatTheyConcern) {
     struct Floor : Device {
         void advance(Instant) override { throw std::runtime_error("the floor is gone"); }
     };
@@ -288,7 +288,7 @@ TEST(Decision26, ValuesAreOfTheirDeclaredTypes) {
     EXPECT_THAT(set(value("colour", "string", {"red"})), HasSubstr("unknown parameter 'colour'"));
 }
 
-TEST(Decision26, PublishedSpellingsAreTakenAndWrittenAsTheSeedHasThem) {
+TEST(Decision26, PublishedSpellingsAreAcceptedAndReturnedInTheSeedsSpelling) {
     World world{navigation, speech};
     auto desk = world.connect();
     desk.bind("navigation");

@@ -105,7 +105,7 @@ TEST(Decision03, TheEndOfASessionStopsReleasesAndCancels) {
     EXPECT_NE(desk.ask(Connect{}).session, desk.session) << "connect with an ended id opens another session";
 }
 
-TEST(Decision03, WhatTheEngineEndsHearsItsLast) {
+TEST(Decision03, ASessionThatTheEngineEndsReceivesItsLastNotifications) {
     World world{navigation};
     auto desk = world.connect();
     desk.bind("navigation");
@@ -115,7 +115,7 @@ TEST(Decision03, WhatTheEngineEndsHearsItsLast) {
     EXPECT_TRUE(desk.told_of_the_end());
 }
 
-TEST(Decision03, CommandsMayRunOnWhereThatIsWanted) {
+TEST(Decision03, CommandsContinueIfConfigured) {
     EngineSettings settings;
     settings.on_session_end = OnSessionEnd::continue_;
     World world{{navigation}, settings};
@@ -141,7 +141,7 @@ TEST(Decision04, ABindingIsExclusive) {
     EXPECT_THAT(hall.search(equal("name", "robot_c")), IsEmpty()) << "no match is not an error";
 }
 
-TEST(Decision05, CommandsNeedTheBindingAndQuestionsDoNot) {
+TEST(Decision05, CommandsNeedABindingAndQueriesDoNot) {
     World world{navigation};
     auto desk = world.connect();
     EXPECT_EQ(desk.get_parameter("navigation").return_code, ReturnCode::error);
@@ -158,7 +158,7 @@ TEST(Decision05, CommandsNeedTheBindingAndQuestionsDoNot) {
     EXPECT_EQ(desk.execute(go("go")).return_code, ReturnCode::ok);
 }
 
-TEST(Decision06, ReleaseStopsWhatIHaveThere) {
+TEST(Decision06, ReleaseStopsTheCommandsOfTheSession) {
     World world{named("robot_a", navigation), named("robot_b", navigation), detection};
     auto desk = world.connect(), hall = world.connect();
     EXPECT_EQ(desk.bind_any(equal("component_type", "urn:x-rois:def:component:OMG::Navigation")), "robot_a");
@@ -176,7 +176,7 @@ TEST(Decision06, ReleaseStopsWhatIHaveThere) {
     EXPECT_EQ(desk.release("robot_c"), ReturnCode::bad_parameter);
 }
 
-TEST(Decision07, TheStatusIsThatForTheAsker) {
+TEST(Decision07, TheStatusDependsOnTheSessionThatAsks) {
     World world{navigation};
     auto desk = world.connect(), hall = world.connect();
     auto& robot = world["navigation"];

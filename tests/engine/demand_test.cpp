@@ -47,7 +47,7 @@ private:
 
 }  // namespace
 
-TEST_F(Demands, AreRefsAndTypesThatAreSaidToBeEqual) {
+TEST_F(Demands, AreRefsAndTypesInEqualComparisons) {
     EXPECT_EQ(demand(equal("component_ref", " b ")), "b ;");
     EXPECT_EQ(demand(equal_reversed("b", "name")), "b ;");
     EXPECT_EQ(demand(equal("component_ref/@code", "b")), "b ;");
@@ -57,7 +57,7 @@ TEST_F(Demands, AreRefsAndTypesThatAreSaidToBeEqual) {
     EXPECT_EQ(demand(alike("component_type", "Lamp")), "; lamp");
 }
 
-TEST_F(Demands, OfAndAreThoseOfTheOperandThatLeavesLeast) {
+TEST_F(Demands, OfAndAreThoseOfTheNarrowestOperand) {
     EXPECT_EQ(demand(both({equal("engine", "x"), equal("component_type", "Lamp")})), "; lamp");
     EXPECT_EQ(demand(both({equal("component_type", "Lamp"), equal("component_ref", "b")})), "b ;");
     auto const one_of = either({equal("component_type", "Lamp"), equal("component_type", "Clock")});
@@ -70,7 +70,7 @@ TEST_F(Demands, OfOrAreThoseOfAllItsOperands) {
     EXPECT_EQ(demand(either({equal("name", "c"), equal("engine", "x")})), "nothing");
 }
 
-TEST_F(Demands, AreNotWhatIsOnlyLikeThat) {
+TEST_F(Demands, AreNotDerivedFromOtherPredicates) {
     for (auto const& condition :
          {alike("component_ref", "b"), not_equal("component_type", "Lamp"), not_equal("component_ref", "b"),
           like("component_type", "Lamp"), less("component_type", "Lamp"), contrary(equal("component_ref", "b")),
@@ -199,7 +199,7 @@ std::string found_by(Application& desk, QueryExpression const& condition) {
 
 }  // namespace
 
-TEST(LookingUp, FindsWhatLookingAtAllFinds) {
+TEST(LookingUp, FindsTheSameAsASearchOfAll) {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         Changing changing{seed};
         for (int i = 0; i < 40; ++i) {
@@ -255,7 +255,7 @@ private:
 
 }  // namespace
 
-TEST(LookingUp, TellsEventsAndErrorsToWhomLookingAtAllTellsThem) {
+TEST(LookingUp, NotifiesTheSameSessionsAsASearchOfAll) {
     std::size_t heard = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         Changing changing{seed};
@@ -284,7 +284,7 @@ TEST(LookingUp, TellsEventsAndErrorsToWhomLookingAtAllTellsThem) {
     EXPECT_GT(heard, 1'000u) << "otherwise the test proves little";
 }
 
-TEST(Subscriptions, OfOneComponentByRefAndByTypeAreToldInTheirOrder) {
+TEST(Subscriptions, ByRefAndByTypeAreNotifiedInTheOrderOfSubscribing) {
     World world{detection, named("other", detection)};
     Subscriber desk{world};
     desk.subscribe(1, "person_detected", equal("component_ref", "detection"));
@@ -304,7 +304,7 @@ TEST(Subscriptions, OfOneComponentByRefAndByTypeAreToldInTheirOrder) {
     EXPECT_THAT(desk.heard(), IsEmpty());
 }
 
-TEST(BindAny, LooksAtNobodyBehindTheFirstThatIsFree) {
+TEST(BindAny, StopsAtTheFirstFreeComponent) {
     World world{named("a", speech), named("b", speech), named("c", speech)};
     auto desk = world.connect(), hall = world.connect();
     hall.bind("a");

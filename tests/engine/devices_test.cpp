@@ -83,7 +83,7 @@ TEST_F(Devices, HaveATurnInATick) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed one OK"));
 }
 
-TEST_F(Devices, GoOnWhenTheEngineHasTakenInWhatCameOfTheirTurn) {
+TEST_F(Devices, MayHaveAnotherTurnAfterTheirReportsAreHandled) {
     motor->goes_on_until = 3;
     desk.execute(named("one", start("machine")), named("two", start("machine")), named("three", start("machine")));
     world.advance(50ms);
@@ -91,7 +91,7 @@ TEST_F(Devices, GoOnWhenTheEngineHasTakenInWhatCameOfTheirTurn) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed one OK", "2 completed two OK", "3 completed three OK"));
 }
 
-TEST_F(Devices, KeepNobodyWaitingForLong) {
+TEST_F(Devices, HaveALimitedNumberOfTurnsInATick) {
     motor->goes_on_until = 1'000'000;
     world.advance(50ms);
     EXPECT_EQ(motor->turns, 100);

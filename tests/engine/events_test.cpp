@@ -21,7 +21,7 @@ struct Events : testing::Test {
 
 }  // namespace
 
-TEST_F(Events, OfAllComponentsAreHeardWithoutACondition) {
+TEST_F(Events, OfAllComponentsAreReceivedWithoutACondition) {
     desk.subscribe("person_detected");
     world["detection"].fires("person_detected");
     world["navigation"].fires("reached_target");
@@ -29,7 +29,7 @@ TEST_F(Events, OfAllComponentsAreHeardWithoutACondition) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection", "2 person_detected detection_2"));
 }
 
-TEST_F(Events, AreHeardByThoseWhoSubscribedOnly) {
+TEST_F(Events, AreReceivedBySubscribersOnly) {
     auto hall = world.connect();
     desk.subscribe("person_detected");
     world["detection"].fires("person_detected");
@@ -56,7 +56,7 @@ TEST_F(Events, MayBeChosenByTheirResults) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection"));
 }
 
-TEST_F(Events, MayBeChosenByTheStatusThatTheAskerSees) {
+TEST_F(Events, MayBeSelectedByTheStatusThatTheSubscriberSees) {
     auto hall = world.connect();
     desk.bind("detection");
     desk.subscribe("person_detected", equal("status", "BUSY"));
@@ -66,7 +66,7 @@ TEST_F(Events, MayBeChosenByTheStatusThatTheAskerSees) {
     EXPECT_THAT(hall.heard(), ElementsAre("1 person_detected detection"));
 }
 
-TEST_F(Events, ThatNobodyHasAreUnsupported) {
+TEST_F(Events, ThatNoComponentHasAreUnsupported) {
     EXPECT_EQ(desk.subscribe("earthquake").return_code, ReturnCode::unsupported);
     EXPECT_EQ(desk.subscribe("person_detected", equal("component_ref", "navigation")).return_code, ReturnCode::unsupported);
     EXPECT_EQ(desk.subscribe("person_detected", equal("is_final_target", "true")).return_code, ReturnCode::bad_parameter)
@@ -110,20 +110,20 @@ TEST_F(Events, OfTheSameMeaningAreTheSameSubscription) {
     EXPECT_EQ(world.engine->statistics().subscriptions, 4U);
 }
 
-TEST_F(Events, AreTheSameWhenCaseDoesNotMatterAnyway) {
+TEST_F(Events, OfConditionsThatDifferInIgnoredCaseAreTheSameSubscription) {
     auto const id = desk.subscribe("person_detected", alike("component_ref", "Detection")).subscribe_id;
     EXPECT_EQ(desk.subscribe("person_detected", alike("component_ref", "DETECTION")).subscribe_id, id);
     EXPECT_NE(desk.subscribe("person_detected", equal("component_ref", "Detection")).subscribe_id, id);
 }
 
-TEST_F(Events, SubscribedTwiceAreToldOnce) {
+TEST_F(Events, SubscribedTwiceAreReceivedOnce) {
     desk.subscribe("person_detected");
     desk.subscribe("person_detected");
     world["detection"].fires("person_detected");
     EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection"));
 }
 
-TEST_F(Events, OfTwoSubscriptionsAreToldForEachAndAreOneEvent) {
+TEST_F(Events, OfTwoSubscriptionsAreReceivedForEachWithOneEventId) {
     auto const all = desk.subscribe("person_detected").subscribe_id;
     auto const one = desk.subscribe("person_detected", equal("component_ref", "detection")).subscribe_id;
     world["detection"].fires("person_detected");
@@ -135,7 +135,7 @@ TEST_F(Events, OfTwoSubscriptionsAreToldForEachAndAreOneEvent) {
     EXPECT_THAT((std::vector{first.subscribe_id, second.subscribe_id}), testing::UnorderedElementsAre(all, one));
 }
 
-TEST_F(Events, OfASubscriptionSharedByTwoSessionsEndForEachAlone) {
+TEST_F(Events, OfASharedSubscriptionEndForEachSessionSeparately) {
     auto hall = world.connect();
     auto const id = desk.subscribe("person_detected").subscribe_id;
     EXPECT_EQ(hall.subscribe("person_detected").subscribe_id, id);
@@ -145,7 +145,7 @@ TEST_F(Events, OfASubscriptionSharedByTwoSessionsEndForEachAlone) {
     EXPECT_THAT(hall.heard(), ElementsAre("1 person_detected detection"));
 }
 
-TEST_F(Events, AreHeardByThoseWhoAreLeftOfMany) {
+TEST_F(Events, AreReceivedByTheRemainingSubscribers) {
     std::vector<Application> applications;
     for (int i = 0; i < 7; ++i) applications.push_back(world.connect());
     SubscribeId id;
@@ -179,7 +179,7 @@ TEST_F(Events, CarryTheirResultsWhenAsked) {
     EXPECT_THAT(desk.heard(), ElementsAre("2 person_detected detection")) << "the last inline_results wins";
 }
 
-TEST_F(Events, CarryTheirResultsToThoseWhoAskedOnly) {
+TEST_F(Events, CarryTheirResultsOnlyToSessionsThatAskedForThem) {
     auto hall = world.connect();
     desk.subscribe("person_detected", {}, true);
     hall.subscribe("person_detected", {}, false);
@@ -188,7 +188,7 @@ TEST_F(Events, CarryTheirResultsToThoseWhoAskedOnly) {
     EXPECT_THAT(hall.heard(), ElementsAre("1 person_detected detection"));
 }
 
-TEST_F(Events, AreOneNotificationForAllWhoShareASubscription) {
+TEST_F(Events, AreOneNotificationForAllSessionsOfASubscription) {
     auto hall = world.connect();
     desk.subscribe("person_detected");
     hall.subscribe("person_detected");
@@ -234,7 +234,7 @@ TEST_F(Events, HaveDetailsThatAConditionChoosesFrom) {
         << "it is an id of the right form";
 }
 
-TEST_F(Events, ThatNobodyHearsAreNotKept) {
+TEST_F(Events, WithoutSubscribersAreNotKept) {
     world["detection"].fires("person_detected", people(1));
     desk.subscribe("person_detected");
     world["detection"].fires("person_detected", people(2));

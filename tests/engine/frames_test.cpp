@@ -74,7 +74,7 @@ std::string complaint(std::vector<Frame> others, std::string own = "hall") {
 }  // namespace
 
 // 3000 mm along the map's x axis: (1000 - 0, 2000 + 3000); 30 + 90 degrees.
-TEST(Frames, TellTextsInAnother) {
+TEST(Frames, ConvertTexts) {
     Frames const frames{"hall", {map()}};
     EXPECT_EQ(text_in(frames, "3000, 0, 30", "map", "hall"), "1000, 5000, 120");
     EXPECT_EQ(text_in(frames, "3000,0", "MAP", "hall"), "1000, 5000");
@@ -83,7 +83,7 @@ TEST(Frames, TellTextsInAnother) {
     EXPECT_EQ(text_in(frames, "desk", "map", "hall"), "desk") << "a name is not a point";
 }
 
-TEST(Frames, LeaveWhatIsInAFrameThatIsNotKnown) {
+TEST(Frames, LeavePositionsInUnknownFrames) {
     Frames const frames{"hall", {map()}};
     auto parameter = positions("target_position", {"1, 2"}, "street");
     frames.change(parameter, "hall", Frames::Rounding::thousandth);
@@ -106,7 +106,7 @@ TEST(Frames, TurnACovarianceWithThePosition) {
 // The map is uncertain by 2 degrees. A degree moves a point that is 3000 mm away by 3000 * pi / 180 = 52.35988 mm, along the
 // hall's x axis, backwards. var x = 400 + 100 + 52.35988^2 * 4 = 11466.227; var y = 100 + 100; cov(x, yaw) = -52.35988 * 4 =
 // -209.440; var yaw = 9 + 4.
-TEST(Frames, AddHowUncertainTheirPlacementIs) {
+TEST(Frames, AddTheUncertaintyOfTheirPlacement) {
     Frames const frames{"hall", {uncertain_map()}};
     auto const there = changed(frames, entity("map", {3'000, 0, 0}, {0, 0, 30}, {100, 0, 0, 0, 400, 0, 0, 0, 9}), "hall");
     EXPECT_THAT(rows(there), ElementsAre(11'466.227, 0, -209.44, 0, 200, 0, -209.44, 0, 13));
@@ -169,7 +169,7 @@ TEST(Frames, LeaveAReliability) {
     EXPECT_EQ(changed(frames, sure, "hall").certainty, sure.certainty);
 }
 
-TEST(Frames, RefuseWhatIsNoCertaintyAndNoOrientation) {
+TEST(Frames, RefuseAnInvalidCovarianceOrOrientation) {
     Frames const frames{"hall", {map()}};
     auto refusal = [&](Located located) { return frames.change(located, "hall").value_or("fine"); };
     EXPECT_EQ(refusal(entity("map", {0, 0, 0}, {}, {1, 2, 3, 4, 5})),
@@ -181,7 +181,7 @@ TEST(Frames, RefuseWhatIsNoCertaintyAndNoOrientation) {
 }
 
 // Rounding to a thousandth must not make a covariance invalid whose ellipse is a line.
-TEST(Frames, KeepACovarianceOne) {
+TEST(Frames, KeepACovarianceValidWhenRounding) {
     for (int degrees = 1; degrees < 180; ++degrees) {
         Frames const frames{"hall", {{.crs = "map", .base = "hall", .orientation = {0, 0, degrees * 1.0}, .covariance = {}}}};
         auto const there = rows(changed(frames, entity("map", {0, 0, 0}, {}, {1, 0, 0, 0}), "hall"));
@@ -189,7 +189,7 @@ TEST(Frames, KeepACovarianceOne) {
     }
 }
 
-TEST(Frames, GiveBackWhatAnApplicationWrote) {
+TEST(Frames, ConvertBackToTheTextThatAnApplicationWrote) {
     Frames const frames{
         "hall", {{.crs = "map", .base = "hall", .position = {123.4, -56.7, 0}, .orientation = {0, 0, 33.3}, .covariance = {}}}};
     for (auto const* text : {"9500, 6000, 90", "0.125, -7, -179.5", "1, 2"}) {
@@ -201,7 +201,7 @@ TEST(Frames, GiveBackWhatAnApplicationWrote) {
     }
 }
 
-TEST(Frames, MoveAPointButNoBox) {
+TEST(Frames, ConvertPointsButNotBoxes) {
     Frames const frames{"hall", {map()}};
     Geometry const spot{.crs = "map", .low = {3'000, 0, 0}, .high = {3'000, 0, 0}, .dimensions = 2};
     Geometry const there{.crs = "hall", .low = {1'000, 5'000, 0}, .high = {1'000, 5'000, 0}, .dimensions = 2};
@@ -225,7 +225,7 @@ TEST(Frames, MustBePlaced) {
     EXPECT_THAT(complaint({map()}, ""), HasSubstr("no name"));
 }
 
-TEST(Frames, MustHaveAPlacementThatIsOne) {
+TEST(Frames, MustHaveAValidPlacement) {
     auto const with = [](std::vector<double> covariance) { return complaint({map(std::move(covariance))}); };
     EXPECT_THAT(with({1, 2, 3}), HasSubstr("has 3 numbers; expected are 9 (x, y, yaw) or 36"));
     EXPECT_THAT(with({1, 5, 0, 0, 1, 0, 0, 0, 1}), HasSubstr("is not symmetric"));

@@ -26,7 +26,7 @@ protected:
 
 }  // namespace
 
-TEST_F(Halting, IsTheFirstThingThatComponentsAreTold) {
+TEST_F(Halting, IsTheFirstCallToEveryComponent) {
     robot.halts_later = true;
     world.engine->begin(world.now);
     EXPECT_THAT(world["speech"].told, ElementsAre("halt"));
@@ -37,7 +37,7 @@ TEST_F(Halting, IsTheFirstThingThatComponentsAreTold) {
     EXPECT_THAT(robot.told, ElementsAre("halt", "start"));
 }
 
-TEST_F(Halting, IsTheFirstThingThatANewComponentIsTold) {
+TEST_F(Halting, IsTheFirstCallToANewComponent) {
     world.change({}, {named("arm", navigation)});
     EXPECT_THAT(world["arm"].told, ElementsAre("halt"));
 }
@@ -96,7 +96,7 @@ TEST_F(Halting, ThatFailsIsRepeatedUntilItSucceeds) {
     EXPECT_EQ(halts(), 7);
 }
 
-TEST_F(Halting, ThatFailsLetsNothingStart) {
+TEST_F(Halting, ThatFailsPreventsStarts) {
     robot.throws_in = {"halt"};
     desk.execute(named("stop", stop("navigation")));
     desk.execute(go("go"), named("dock", command("dock", "navigation")));
@@ -112,7 +112,7 @@ TEST_F(Halting, ThatFailsLetsNothingStart) {
     EXPECT_EQ(desk.result_of("stop 2"), "OK");
 }
 
-TEST_F(Halting, ThatFailsLetsNobodyBind) {
+TEST_F(Halting, ThatFailsPreventsBinding) {
     robot.throws_in = {"halt"};
     desk.execute(go("go"));
     desk.leave();
@@ -206,7 +206,7 @@ TEST_F(Halting, ThatIsUnderWayLetsOthersBindAndTheirCommandsWaitForIt) {
     EXPECT_THAT(robot.told, ElementsAre("start", "halt", "parameters_changed", "start", "dock"));
 }
 
-TEST_F(Halting, ThatIsUnderWayAndFailsEndsWhatWaitsForIt) {
+TEST_F(Halting, ThatIsUnderWayAndFailsEndsTheCommandsThatWaitForIt) {
     robot.halts_later = true;
     desk.execute(go("go"));
     desk.execute(named("stop", stop("navigation")));
@@ -315,7 +315,7 @@ TEST_F(Halting, ThatFailsIsInTheJournalOnceUntilItSucceeds) {
     EXPECT_THAT(journal.said, ElementsAre("navigation failed: the component failed to halt", "navigation halted"));
 }
 
-TEST_F(Halting, OfEverythingTellsWhatHasNotConfirmed) {
+TEST_F(Halting, OfEverythingReportsTheComponentsThatHaveNotConfirmed) {
     robot.halts_later = true;
     world.engine->stop_everything(world.now);
     EXPECT_THAT(world.engine->not_halted(), ElementsAre("navigation"));
@@ -339,7 +339,7 @@ TEST_F(Halting, EndsWithAComponentThatGoes) {
     world.advance(1s);
 }
 
-TEST_F(Halting, ThatNobodyAskedForIsCountedWhenItIsConfirmed) {
+TEST_F(Halting, UnexpectedConfirmationsAreCounted) {
     robot.stands_still();
     EXPECT_EQ(world.stray_answers(), 1);
 }

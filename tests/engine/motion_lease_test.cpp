@@ -183,7 +183,7 @@ TEST_F(Lease, IsNeitherLongerThanTheGatewaysNorTooShort) {
     EXPECT_EQ(world.engine->statistics().sessions, 1U);
 }
 
-TEST_F(Lease, OnlyHoldsWhatMoves) {
+TEST_F(Lease, HoldsOnlyComponentsThatMove) {
     desk.release("navigation");
     desk.execute(say("say"));
     world.advance(20s);
@@ -198,7 +198,7 @@ TEST_F(Lease, HoldsACommandOfTheComponentsOwn) {
     EXPECT_THAT(robot.told, ElementsAre("dock", "suspend"));
 }
 
-TEST_F(Lease, HaltsWhatCannotBeHeld) {
+TEST_F(Lease, HaltsAComponentThatCannotBeSuspended) {
     robot.throws_in = {"suspend"};
     desk.execute(go("go"));
     world.advance(10s);
@@ -264,7 +264,7 @@ TEST_F(Lease, DoesNotDependOnTheCalendar) {
     EXPECT_THAT(robot.told, ElementsAre("start"));
 }
 
-TEST_F(Lease, CoversWhatBeginsWhileTheRestIsHeld) {
+TEST_F(Lease, CoversCommandsThatBeginWhileOthersAreHeld) {
     open();
     desk.execute(go("go"));
     world.advance(2s);
@@ -300,7 +300,7 @@ TEST_F(Lease, IsOverWhenTheSessionEndsWhateverElseMayRunOn) {
     EXPECT_THAT(lasting["speech"].told, ElementsAre("start"));
 }
 
-TEST_F(Lease, IsNotNeededByWhatFailedToBegin) {
+TEST_F(Lease, IsNotNeededByAnActionThatFailedToBegin) {
     robot.throws_in = {"start", "perform"};
     desk.execute(go("go"));
     desk.execute(command("dock", "navigation"));

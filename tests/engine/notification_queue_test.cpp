@@ -73,7 +73,7 @@ TEST_F(Queue, DropsTheOldestWaitingEventsAndCountsThem) {
     EXPECT_EQ(queue.lost(), 2U);
 }
 
-TEST_F(Queue, NeverDropsWhatMustBeTold) {
+TEST_F(Queue, DropsOnlyEvents) {
     completed(1);
     EXPECT_EQ(push(ReceiveError{}), NotificationQueue::Pushed::ok);
     events(2);
@@ -81,7 +81,7 @@ TEST_F(Queue, NeverDropsWhatMustBeTold) {
     EXPECT_THAT(read(0), ElementsAre("1 c", "2 c", "4 lost 2", "5 c", "6 c"));
 }
 
-TEST_F(Queue, OverflowsWhenOnlyThatFillsItAndKeepsItStill) {
+TEST_F(Queue, OverflowsWhenOtherNotificationsFillItAndKeepsThem) {
     completed(4);
     EXPECT_FALSE(queue.overflowed());
     EXPECT_EQ(push(Completed{}), NotificationQueue::Pushed::overflow);
@@ -97,7 +97,7 @@ TEST_F(Queue, OverflowsByAnEventToo) {
     EXPECT_THAT(read(0), ElementsAre("1 c", "2 c", "3 c", "4 c"));
 }
 
-TEST_F(Queue, HasAGapForEachPlaceWhereSomethingIsMissing) {
+TEST_F(Queue, HasALostForEachGap) {
     events(1);
     completed(1);
     events(1);
@@ -106,7 +106,7 @@ TEST_F(Queue, HasAGapForEachPlaceWhereSomethingIsMissing) {
     EXPECT_THAT(read(0), ElementsAre("1 lost 1", "2 c", "3 lost 1", "4 c", "5 e", "6 e"));
 }
 
-TEST_F(Queue, CountsOnlyWhatWaits) {
+TEST_F(Queue, CountsOnlyWaitingNotifications) {
     events(4);
     read(0);
     events(4);
@@ -114,7 +114,7 @@ TEST_F(Queue, CountsOnlyWhatWaits) {
     EXPECT_THAT(read(4), ElementsAre("5 e", "6 e", "7 e", "8 e"));
 }
 
-TEST_F(Queue, KeepsWhatWasSentInARing) {
+TEST_F(Queue, KeepsTheLastSentNotifications) {
     events(4);
     read(0);
     EXPECT_THAT(read(0), ElementsAre("1 lost 1", "2 e", "3 e", "4 e"));
@@ -148,7 +148,7 @@ TEST_F(Queue, AnswersAPositionBeforeAGapThatWasOnceLarger) {
     EXPECT_THAT(read(5), ElementsAre("10 lost 5", "11 e", "12 e", "13 e"));
 }
 
-TEST_F(Queue, CountsAsSentWhatAReaderHasSkipped) {
+TEST_F(Queue, CountsSkippedNotificationsAsSent) {
     events(4);
     EXPECT_THAT(read(3), ElementsAre("4 e"));
     events(4);
@@ -157,7 +157,7 @@ TEST_F(Queue, CountsAsSentWhatAReaderHasSkipped) {
 
 // --- Holds: an answer comes before what it causes ---
 
-TEST_F(Queue, ShowsNothingThatIsHeld) {
+TEST_F(Queue, HidesNotificationsDuringAHold) {
     events(1);
     auto const hold = queue.hold();
     events(2);
@@ -185,7 +185,7 @@ TEST_F(Queue, IsHeldByTheOldestOfSeveralHolds) {
     EXPECT_THAT(read(2), ElementsAre("3 e"));
 }
 
-TEST_F(Queue, MayLoseWhatIsHeld) {
+TEST_F(Queue, MayDropHiddenEvents) {
     events(1);
     auto const hold = queue.hold();
     events(5);
@@ -203,7 +203,7 @@ TEST_F(Queue, CanBeReadAfterItWasClosed) {
     EXPECT_THAT(read(0), ElementsAre("1 c"));
 }
 
-TEST_F(Queue, ShowsItsEndWhenNothingIsHeld) {
+TEST_F(Queue, ShowsItsEndAfterTheLastHold) {
     auto const answer = queue.hold();
     completed(1);
     queue.close();
@@ -216,7 +216,7 @@ TEST_F(Queue, ShowsItsEndWhenNothingIsHeld) {
 
 // Two readers and holds, at random. A second queue is read from its beginning at each step, which moves its entries to the other
 // store.
-TEST(QueueOfAnyLength, GivesTheSameWhereverItsLastEntriesAre) {
+TEST(QueueOfAnyLength, ReadsTheSameFromBothStores) {
     for (unsigned seed = 1; seed <= 200; ++seed) {
         std::minstd_rand random{seed};
         auto const chance = [&](unsigned of) { return random() % of == 0; };
@@ -285,7 +285,7 @@ TEST(OutgoingNotification, IsEncodedOnce) {
     EXPECT_EQ(encoded, 1);
 }
 
-TEST_F(Queue, SaysWhetherAHoldHasHiddenSomething) {
+TEST_F(Queue, ReleaseReturnsWhetherTheHoldHasHiddenSomething) {
     auto const before_nothing = queue.hold();
     EXPECT_FALSE(queue.release(before_nothing));
     auto const first = queue.hold();

@@ -44,7 +44,7 @@ TEST(Notifications, ComeInTheOrderInWhichThingsHappened) {
                                           "4 person_detected detection"));
 }
 
-TEST(Notifications, TellTheOutboxThatThereIsSomething) {
+TEST(Notifications, NotifyTheOutbox) {
     World world{navigation};
     auto desk = world.connect(), hall = world.connect();
     desk.bind("navigation");
@@ -56,7 +56,7 @@ TEST(Notifications, TellTheOutboxThatThereIsSomething) {
     EXPECT_EQ(world.notified[hall.session], 0);
 }
 
-TEST(Notifications, ThatAreEventsAreDroppedWhenNobodyListens) {
+TEST(Notifications, ThatAreEventsAreDroppedWhenTheSessionDoesNotRead) {
     World world{{navigation, detection}, few(4)};
     auto desk = world.connect();
     desk.bind("navigation");
@@ -70,7 +70,7 @@ TEST(Notifications, ThatAreEventsAreDroppedWhenNobodyListens) {
     EXPECT_EQ(world.engine->statistics().notifications_lost, 8U);
 }
 
-TEST(Notifications, ThatMustBeToldEndASessionThatNeverListens) {
+TEST(Notifications, ThatMustNotBeLostEndASessionThatNeverReads) {
     World world{{navigation, speech}, few(3)};
     auto desk = world.connect(), hall = world.connect();
     desk.bind("navigation");
@@ -88,7 +88,7 @@ TEST(Notifications, ThatMustBeToldEndASessionThatNeverListens) {
         << "each command completes, read or not";
 }
 
-TEST(Notifications, OfOthersDoNotSufferFromOneThatNeverListens) {
+TEST(Notifications, OfOtherSessionsAreNotAffectedByOneThatNeverReads) {
     World world{{navigation, detection}, few(3)};
     auto deaf = world.connect(), desk = world.connect();
     deaf.bind("detection");

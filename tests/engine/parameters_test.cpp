@@ -38,7 +38,7 @@ Part detection_with_threshold() {
 
 }  // namespace
 
-TEST_F(Lamp, HasItsDefaultsFirst) { EXPECT_EQ(stored(), "counts=1 2 labels=red|green"); }
+TEST_F(Lamp, StartsWithItsDefaults) { EXPECT_EQ(stored(), "counts=1 2 labels=red|green"); }
 
 TEST_F(Lamp, KeepsWhatIsSetInTheOrderOfItsProfile) {
     auto const reply = desk.set_parameter("lamp", {text("label", "night"), integer("count", 7)});
@@ -79,7 +79,7 @@ TEST_F(Lamp, TakesEveryType) {
     EXPECT_EQ(set(value("shade", "shade", {"anything"})), "OK");
 }
 
-TEST_F(Lamp, TellsTimesInUtc) {
+TEST_F(Lamp, ReturnsTimesInUtc) {
     EXPECT_EQ(set(value("since", "DateTime", {" 2026-11-20T12:00:00.5+01:00"})), "OK");
     EXPECT_EQ(stored(), "since=2026-11-20T11:00:00.5Z counts=1 2 labels=red|green");
 }
@@ -108,7 +108,7 @@ TEST_F(Lamp, RefusesTheWrongCount) {
     EXPECT_THAT(set(value("counts", "int[]", {"1", "2"})), HasSubstr("has one value, its items separated by spaces"));
 }
 
-TEST_F(Lamp, RefusesWhatItDoesNotKnowAndWhatIsThereTwice) {
+TEST_F(Lamp, RefusesUnknownAndDuplicateParameters) {
     EXPECT_THAT(set(value("colour", "string", {"red"})), HasSubstr("unknown parameter 'colour'; known are count, ratio, lit"));
     auto const twice = desk.set_parameter("lamp", {integer("count", 1), integer("Count", 2)});
     EXPECT_EQ(twice.return_code, ReturnCode::bad_parameter);
@@ -324,7 +324,7 @@ TEST(Parameters, ThatCanBeSetAreNotReadFromTheComponentForOthers) {
     EXPECT_EQ(in_words(hall.query("get_parameter").results.parameters), "synthesizable_languages=en volume=50 language=en");
 }
 
-TEST(Parameters, OfAComponentThatHasNoneAreNone) {
+TEST(Parameters, OfAComponentWithoutParametersAreEmpty) {
     World world{detection};
     auto desk = world.connect();
     desk.bind("detection");

@@ -47,7 +47,7 @@ TEST_F(Hall, AGeometryMayStandFirst) {
     EXPECT_THAT(found(spatial(SpatialRelation::within, {{box(0, 0, 1'000, 1'000)}, reference("location")})), ElementsAre("near"));
 }
 
-TEST_F(Hall, IntersectsAndDisjointAreContraries) {
+TEST_F(Hall, IntersectsAndDisjointAreOpposites) {
     EXPECT_THAT(found(spatial(SpatialRelation::intersects, {reference("location"), {box(9'000, 0, 9'500, 7'000)}})),
                 ElementsAre("far"));
     EXPECT_THAT(found(spatial(SpatialRelation::disjoint, {reference("location"), {box(9'000, 0, 9'500, 7'000)}})),
@@ -55,7 +55,7 @@ TEST_F(Hall, IntersectsAndDisjointAreContraries) {
         << "without a position, neither matches";
 }
 
-TEST_F(Hall, OneOperandIsHeldAgainstThePlaceOfTheComponent) {
+TEST_F(Hall, OneOperandIsComparedWithThePositionOfTheComponent) {
     EXPECT_THAT(found(spatial(SpatialRelation::intersects, {{box(0, 0, 5'000, 5'000)}})), ElementsAre("near"));
 }
 
@@ -82,7 +82,7 @@ TEST_F(Hall, NamesOfPlacesStandForTheirAreas) {
               "the condition has the place 'attic', which is not known here; known are 'hall', 'desk'");
 }
 
-TEST_F(Hall, AsATextAPlaceIsTheNamesOfThoseThatItLiesIn) {
+TEST_F(Hall, AsATextAPositionIsTheNamesOfThePlacesAroundIt) {
     EXPECT_THAT(found(equal("location", "desk")), ElementsAre("near"));
     EXPECT_THAT(found(like("location", "ha*")), ElementsAre("far", "near"));
     EXPECT_THAT(found(is_null("location")), ElementsAre("localization", "lost"));
@@ -107,7 +107,7 @@ TEST_F(Hall, FramesMustBeKnown) {
     EXPECT_THAT(found(spatial(SpatialRelation::disjoint, {reference("location"), {box(0, 0, 1, 1)}})), ElementsAre("near"));
 }
 
-TEST_F(Hall, AComponentThatFailsToSayWhereItIsHasNoPlace) {
+TEST_F(Hall, AComponentThatFailsToReportItsPositionHasNone) {
     world["near"].throws_in = {"location"};
     EXPECT_THAT(found(within("location", literal("desk"))), IsEmpty());
     EXPECT_EQ(desk.status_of("near"), "ERROR");
@@ -171,7 +171,7 @@ TEST_F(Hall, SeveralPropertiesSortOneAfterTheOther) {
     EXPECT_THAT(found(query), ElementsAre("near", "lost", "far"));
 }
 
-TEST_F(Hall, SortByHasAPlace) {
+TEST_F(Hall, SortByIsAcceptedOnlyWhereItIsSupported) {
     EXPECT_THAT(reason(sorted(reference("colour"))), HasSubstr("'colour'"));
     EXPECT_THAT(reason(sorted({Function{"area", {}}})), HasSubstr("'area'"));
     EXPECT_THAT(desk.subscribe("reached_target", sorted(reference("name"))).reason, HasSubstr("SortBy"));
@@ -179,7 +179,7 @@ TEST_F(Hall, SortByHasAPlace) {
     EXPECT_EQ(desk.ask(GetProfile{sorted(reference("name"), SortOrder::descending)}).components.front().ref, "near");
 }
 
-TEST_F(Hall, APlaceThatMayComeIsNoReasonToRefuse) {
+TEST_F(Hall, APositionThatMayChangeIsNotRefused) {
     EXPECT_EQ(desk.bind_any(within("location", {box(5'000, 0, 6'000, 1'000)})), "OUT_OF_RESOURCES") << "robots move";
     EXPECT_EQ(desk.bind_any(both({equal("name", "ghost"), within("location", literal("hall"))})), "UNSUPPORTED");
 }
@@ -229,7 +229,7 @@ TEST_F(People, TheStructuredFormIsTheExactOne) {
     EXPECT_TRUE(told(within("position_data", {at_head_height}), two, both_of_them));
 }
 
-TEST_F(People, DisjointAndBeyondAreSaidOfAll) {
+TEST_F(People, DisjointAndBeyondMustHoldForAllPositions) {
     EXPECT_FALSE(told(spatial(SpatialRelation::disjoint, {reference("position_data"), literal("desk")}), two));
     EXPECT_FALSE(told(beyond("position_data", literal("desk"), 100), two));
     EXPECT_TRUE(told(beyond("position_data", {spot(0, 9'999)}, 100), two));
@@ -246,12 +246,12 @@ TEST_F(People, OneOfThemIsNamed) {
     EXPECT_TRUE(told(equal("position_data[@ref='p-2']", "8000, 8000, 0"), two, both_of_them));
 }
 
-TEST_F(People, OneOperandIsHeldAgainstThePlacesOfTheEvent) {
+TEST_F(People, OneOperandIsComparedWithThePositionsOfTheEvent) {
     EXPECT_TRUE(told(spatial(SpatialRelation::intersects, {literal("desk")}), two, {person("p-1", 1, 1)}));
     EXPECT_FALSE(told(spatial(SpatialRelation::intersects, {literal("desk")}), two, {person("p-1", 5'000, 1)}));
 }
 
-TEST_F(People, WhereTheRobotIsCountsToo) {
+TEST_F(People, ThePositionOfTheRobotCountsToo) {
     world["localization"].where = at(500, 500, "robot3");
     EXPECT_TRUE(told(within("location", literal("desk")), two));
     world["localization"].where = at(5'000, 500, "robot3");
@@ -268,7 +268,7 @@ struct Times : People {
     }
 };
 
-TEST_F(Times, DuringLeavesTheEndsOut) {
+TEST_F(Times, DuringExcludesTheEnds) {
     EXPECT_TRUE(holds(TemporalRelation::during, {morning}, "2026-11-20T09:00:00.001Z"));
     EXPECT_TRUE(holds(TemporalRelation::during, {morning}, "2026-11-20T20:59:59+09:00"));
     EXPECT_FALSE(holds(TemporalRelation::during, {morning}, "2026-11-20T09:00:00Z"));
@@ -362,12 +362,12 @@ TEST_F(Times, OfEventsMeetEachOperator) {
     EXPECT_FALSE(holds(TemporalRelation::meets, {morning}, "2026-11-20T09:00:00Z")) << "only periods meet";
 }
 
-TEST_F(Times, OneOperandIsHeldAgainstTheTimeOfTheEvent) {
+TEST_F(Times, OneOperandIsComparedWithTheTimeOfTheEvent) {
     EXPECT_TRUE(told(temporal(TemporalRelation::during, {{morning}}), found_people("2026-11-20T10:00:00Z", {}, {})));
     EXPECT_THAT(reason(temporal(TemporalRelation::during, {{morning}})), HasSubstr("one operand"));
 }
 
-TEST_F(Times, WhatIsNoTimeIsRefused) {
+TEST_F(Times, AnInvalidTimeIsRefused) {
     auto const refused = [&](Condition condition) { return desk.subscribe("person_localized", std::move(condition)).reason; };
     EXPECT_THAT(refused(temporal(TemporalRelation::after, {reference("timestamp"), literal("teatime")})), HasSubstr("'teatime'"));
     EXPECT_THAT(refused(temporal(TemporalRelation::after, {reference("person_ref"), literal("2026")})),

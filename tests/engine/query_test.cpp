@@ -8,7 +8,7 @@ namespace rois {
 
 using testing::HasSubstr;
 
-TEST(Query, NamesWhoAnswered) {
+TEST(Query, AnswerNamesTheComponent) {
     World world{navigation, speech};
     auto desk = world.connect();
     auto const reply = desk.query("route");
@@ -17,7 +17,7 @@ TEST(Query, NamesWhoAnswered) {
     EXPECT_EQ(in_words(reply.results.parameters), "length=2.5");
 }
 
-TEST(Query, PrefersWhatIsReadyThenTheLowestRef) {
+TEST(Query, PrefersAReadyComponentThenTheLowestRef) {
     World world{named("robot_a", navigation), named("robot_b", navigation), named("robot_c", navigation)};
     auto desk = world.connect(), hall = world.connect();
     EXPECT_EQ(desk.query("route").component_ref.code, "robot_a");
@@ -30,7 +30,7 @@ TEST(Query, PrefersWhatIsReadyThenTheLowestRef) {
     EXPECT_EQ(desk.query("route").component_ref.code, "robot_a") << "when none is READY";
 }
 
-TEST(Query, GoesWhereTheConditionSays) {
+TEST(Query, GoesToTheComponentThatTheConditionSelects) {
     World world{named("robot_a", navigation), named("robot_b", navigation), speech};
     auto desk = world.connect();
     EXPECT_EQ(desk.query("route", equal("component_ref", "robot_b")).component_ref.code, "robot_b");
@@ -39,7 +39,7 @@ TEST(Query, GoesWhereTheConditionSays) {
     EXPECT_EQ(desk.query("route", not_understood("what is this")).reason, "what is this");
 }
 
-TEST(Query, GoesToTheNamedAmongMany) {
+TEST(Query, FindsANamedComponentAmongMany) {
     World world{named("a", navigation), named("b", navigation), named("c", navigation),
                 named("d", navigation), named("e", navigation), speech};
     auto desk = world.connect(), hall = world.connect();
@@ -90,7 +90,7 @@ TEST(Query, FindsTheComponentThatHasTheRow) {
     EXPECT_EQ(desk.query("route", equal("to", "door")).component_ref.code, "robot_b") << "a component that fails has no rows";
 }
 
-TEST(Query, AsksOnlyWhomTheConditionLeaves) {
+TEST(Query, AsksOnlyComponentsThatMayMatch) {
     World world{named("robot_a", navigation), named("robot_b", navigation)};
     auto desk = world.connect();
     world["robot_a"].throws_in = {"query"};
@@ -100,7 +100,7 @@ TEST(Query, AsksOnlyWhomTheConditionLeaves) {
         << "robot_a was never asked";
 }
 
-TEST(Query, AsksNobodyBehindTheOneThatIsReady) {
+TEST(Query, StopsAtTheFirstReadyComponent) {
     World world{named("robot_a", navigation), named("robot_b", navigation), named("robot_c", navigation)};
     auto desk = world.connect();
     world["robot_a"].status_now = ComponentStatus::warning;
@@ -133,7 +133,7 @@ TEST(Query, FindsTheComponentsThatTheConditionNames) {
     EXPECT_EQ(found(either({Condition{ResourceId{"robot_c"}}, b})), "robot_b");
 }
 
-TEST(Query, SpeaksOfComponentsFirst) {
+TEST(Query, NamesReferToComponentsBeforeResults) {
     World world{navigation, speech};
     auto desk = world.connect();
     world["navigation"].status_now = ComponentStatus::warning;
@@ -144,7 +144,7 @@ TEST(Query, SpeaksOfComponentsFirst) {
     EXPECT_THAT(desk.query("route", equal("weight", "1")).reason, HasSubstr("length, to"));
 }
 
-TEST(Query, ThatNobodyKnowsIsUnsupported) {
+TEST(Query, OfAnUnknownTypeIsUnsupported) {
     World world{navigation};
     auto const reply = world.connect().query("weather");
     EXPECT_EQ(reply.return_code, ReturnCode::unsupported);
@@ -159,7 +159,7 @@ TEST(Query, ForParametersNeedsNoBinding) {
     EXPECT_EQ(in_words(reply.results.parameters), "synthesizable_languages=en|ja volume=50 language=en");
 }
 
-TEST(Query, ForTheStatusIsTheEngines) {
+TEST(Query, ForTheStatusIsAnsweredByTheEngine) {
     World world{navigation};
     auto const reply = world.connect().query("component_status");
     EXPECT_EQ(reply.results.parameters.front(), status_of("status", ComponentStatus::ready));

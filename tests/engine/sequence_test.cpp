@@ -75,7 +75,7 @@ TEST_F(Sequence, IsCheckedKnownBoundTypeValuesInThisOrder) {
     EXPECT_THAT(reply_to(start("navigation", {text("time_limit", "1")})).reason, HasSubstr("its type is int"));
 }
 
-TEST_F(Sequence, IsRefusedForADelayThatIsNoDelay) {
+TEST_F(Sequence, WithAnInvalidDelayIsRefused) {
     EXPECT_THAT(desk.execute(after(-1ms, go("a"))).reason, HasSubstr("delay_time must be 0 to 86400000 milliseconds"));
     EXPECT_EQ(desk.execute(after(24h + 1ms, go("a"))).return_code, ReturnCode::bad_parameter);
     EXPECT_EQ(desk.execute(after(24h, go("a"))).return_code, ReturnCode::ok);
@@ -115,7 +115,7 @@ TEST_F(Sequence, FillsInNoIdThatTheApplicationGives) {
     EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), 3U);
 }
 
-TEST_F(Sequence, IsRefusedWhenANameIsThereTwice) {
+TEST_F(Sequence, WithADuplicateCommandIdIsRefused) {
     EXPECT_THAT(desk.execute(go("a"), in_sequence({say("b"), say("a")})).reason,
                 "command_unit_list[2]/command_unit_list[2]: the command_id 'a' is there twice");
     desk.execute(go("a"));

@@ -15,7 +15,7 @@ bool lives(World& world, Application const& application) { return world.engine->
 
 }  // namespace
 
-TEST(Session, WithoutOneEverythingButConnectIsRefused) {
+TEST(Session, IsRequiredForEveryOperationExceptConnect) {
     World world{navigation};
     auto const bind = Operation{Bind{Application::identifier("navigation")}};
     EXPECT_EQ(std::get<Refusal>(world.say({}, bind)), Refusal::no_session);
@@ -51,7 +51,7 @@ TEST(Session, ConnectWithAnEndedIdOpensANewOne) {
     EXPECT_EQ(world.engine->statistics().sessions, 1U);
 }
 
-TEST(Session, ThereAreNoMoreThanAllowed) {
+TEST(Session, CannotBeOpenedAboveTheLimit) {
     EngineSettings settings;
     settings.max_sessions = 2;
     World world{{navigation}, settings};
@@ -107,7 +107,7 @@ TEST(Session, DisconnectStopsWhatItStarted) {
     EXPECT_EQ(hall.bind("detection"), ReturnCode::ok);
 }
 
-TEST(Session, NothingIsToldAfterItsEnd) {
+TEST(Session, ReceivesNothingAfterItsEnd) {
     World world{navigation, detection};
     auto desk = world.connect();
     desk.bind("navigation");
@@ -125,7 +125,7 @@ TEST(Session, NothingIsToldAfterItsEnd) {
     EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
 }
 
-TEST(Session, MayLetItsCommandsRunOn) {
+TEST(Session, MayLeaveItsCommandsRunning) {
     EngineSettings settings;
     settings.on_session_end = OnSessionEnd::continue_;
     World world{{navigation, speech}, settings};
@@ -141,7 +141,7 @@ TEST(Session, MayLetItsCommandsRunOn) {
     EXPECT_EQ(world.stray_answers(), 0U);
 }
 
-TEST(Session, WhatRunsOnDoesNotTakeAComponentFromItsNextSession) {
+TEST(Session, CommandsThatContinueDoNotKeepTheirComponentFromTheNextSession) {
     EngineSettings settings;
     settings.on_session_end = OnSessionEnd::continue_;
     World world{{navigation, speech}, settings};
@@ -204,7 +204,7 @@ TEST(Link, ASessionThatIsResumedGoesOn) {
     EXPECT_EQ(std::get<Refusal>(world.say({}, Resume{desk.session, 0})), Refusal::no_session);
 }
 
-TEST(Link, NobodyResumesFromWhatWasNeverTold) {
+TEST(Link, CannotBeResumedFromASequenceThatWasNeverSent) {
     World world{navigation};
     auto desk = world.connect_without_link();
     desk.bind("navigation");
@@ -227,7 +227,7 @@ TEST(Link, HttpMayBeSilentForTheSessionTimeoutAndTheWindow) {
     EXPECT_FALSE(lives(world, desk));
 }
 
-TEST(Link, AConnectThatNobodyFollowsUpEnds) {
+TEST(Link, ASessionWithoutRequestsAfterConnectEnds) {
     World world{navigation};
     auto desk = world.connect_without_link();
     world.advance(29900ms);
@@ -288,7 +288,7 @@ TEST(Link, ManyShortPollsDoNotShortenIt) {
     EXPECT_FALSE(lives(world, desk));
 }
 
-TEST(Link, ThatOfAnUnknownSessionIsNothing) {
+TEST(Link, OfAnUnknownSessionHasNoEffect) {
     World world{navigation};
     world.engine->heard_from({"made-up"}, world.now);
     world.engine->link_opened({"made-up"}, Link::stream, world.now);
@@ -317,7 +317,7 @@ TEST(ShutDown, EndsAllSessionsAndRefusesNewOnes) {
     EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "halt", "parameters_changed"));
 }
 
-TEST(ShutDown, StopsAlsoWhatWasLeftToRunOn) {
+TEST(ShutDown, StopsCommandsWithoutASessionToo) {
     EngineSettings settings;
     settings.on_session_end = OnSessionEnd::continue_;
     World world{{navigation, detection}, settings};
@@ -331,7 +331,7 @@ TEST(ShutDown, StopsAlsoWhatWasLeftToRunOn) {
     EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt"));
 }
 
-TEST(ShutDown, AnEngineMayGoWhileItsCommandsRun) {
+TEST(ShutDown, AnEngineMayBeDestroyedWhileItsCommandsRun) {
     World world{navigation};
     auto desk = world.connect();
     desk.bind("navigation");

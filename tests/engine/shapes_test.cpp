@@ -68,7 +68,7 @@ TEST(Points, AreWithinOrTouchOrApart) {
     EXPECT_EQ(relations(spot(500, 0), box(0, 0, 1'000, 0)), "within") << "a box without height is a line";
 }
 
-TEST(Boxes, LieToEachOtherAsAreasDo) {
+TEST(Boxes, HaveTheRelationsOfAreas) {
     EXPECT_EQ(relations(square, square), "equals within contains");
     EXPECT_EQ(relations(square, box(500, 500, 2'000, 2'000)), "overlaps");
     EXPECT_EQ(relations(square, box(1'000, 0, 2'000, 1'000)), "touches");
@@ -86,7 +86,7 @@ TEST(Boxes, LieToEachOtherAsAreasDo) {
     EXPECT_EQ(relations(low, square), "equals within contains") << "in the plane";
 }
 
-TEST(Polygons, LieToOtherGeometriesAsAreasDo) {
+TEST(Polygons, HaveTheRelationsOfAreasToOtherGeometries) {
     EXPECT_EQ(relations(triangle, triangle), "equals within contains");
     EXPECT_EQ(relations(polygon({{1'000, 0}, {0, 0}, {0, 1'000}, {1'000, 0}}), triangle), "equals within contains")
         << "whatever the first point and the direction";
@@ -218,7 +218,7 @@ TEST_F(Areas, ChooseComponentsByEachOperator) {
     EXPECT_THAT(found(SpatialRelation::touches, {{triangle}}), ElementsAre("edge")) << "one operand: the component's own place";
 }
 
-TEST_F(Areas, SayWhatIsWrongWithThem) {
+TEST_F(Areas, ReportWhyTheyAreInvalid) {
     auto const where = [&](Geometry geometry) { return reason(within("location", {std::move(geometry)})); };
     EXPECT_EQ(where(polygon({{0, 0}, {1, 1}, {1, 0}, {0, 1}, {0, 0}})),
               "the condition has a polygon whose edges cross or touch one another");

@@ -25,7 +25,7 @@ void reports(World& world, std::string const& ref) { world[ref].reports(ErrorTyp
 
 }  // namespace
 
-TEST(ErrorsOfTheEngine, AreHeardFromConnectToDisconnect) {
+TEST(ErrorsOfTheEngine, AreReportedFromConnectToDisconnect) {
     World world{navigation};
     auto const floor = std::make_shared<Floor>();
     world.engine->add(floor);
@@ -40,7 +40,7 @@ TEST(ErrorsOfTheEngine, AreHeardFromConnectToDisconnect) {
     EXPECT_THAT(late.heard(), IsEmpty());
 }
 
-TEST(ErrorsOfAComponent, AreHeardFromBindToRelease) {
+TEST(ErrorsOfAComponent, AreReportedFromBindToRelease) {
     World world{navigation};
     auto desk = world.connect();
     reports(world, "navigation");
@@ -56,7 +56,7 @@ TEST(ErrorsOfAComponent, AreHeardFromBindToRelease) {
     EXPECT_THAT(desk.heard(), ElementsAre("2 USER_DEFINED_ERROR navigation"));
 }
 
-TEST(ErrorsOfAComponent, AreHeardFromSubscribeToUnsubscribe) {
+TEST(ErrorsOfAComponent, AreReportedFromSubscribeToUnsubscribe) {
     World world{navigation};
     auto desk = world.connect();
     auto const id = desk.subscribe("reached_target").subscribe_id;

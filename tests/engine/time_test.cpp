@@ -62,7 +62,7 @@ TEST_P(Calendar, EndsNoSessionAndForgetsNothing) {
     EXPECT_EQ(desk.detail_of(event).return_code, ReturnCode::bad_parameter);
 }
 
-TEST_P(Calendar, IsWhatDocumentsShow) {
+TEST_P(Calendar, IsShownInDocuments) {
     auto const before = world.now.utc;
     jump();
     world["navigation"].reports(ErrorType::user_defined_error, "late");

@@ -23,7 +23,7 @@ struct References : testing::Test {
     std::string reason(Condition condition) { return desk.ask(Search{std::move(condition)}).reason; }
 };
 
-TEST_F(References, SpeakOfComponents) {
+TEST_F(References, MayReferToComponents) {
     EXPECT_THAT(found(equal("component_ref", "speech")), ElementsAre("speech"));
     EXPECT_THAT(found(equal("Identifier", "speech")), ElementsAre("speech"));
     EXPECT_THAT(found(equal("Name", "speech")), ElementsAre("speech"));
@@ -33,7 +33,7 @@ TEST_F(References, SpeakOfComponents) {
     EXPECT_THAT(found(equal("Property/status", "READY")), SizeIs(4)) << "a word that is not a parameter keeps its meaning";
 }
 
-TEST_F(References, SpeakOfParameters) {
+TEST_F(References, MayReferToParameters) {
     EXPECT_THAT(found(equal("Property/volume", "50")), ElementsAre("speech", "sub1.speech"));
     EXPECT_THAT(found(equal("volume", "50")), ElementsAre("speech", "sub1.speech"));
     EXPECT_THAT(found(equal("Property[@name='volume']", "50")), ElementsAre("speech", "sub1.speech"));
@@ -42,7 +42,7 @@ TEST_F(References, SpeakOfParameters) {
     EXPECT_THAT(found(equal("Property/labels", "green")), ElementsAre("lamp"));
 }
 
-TEST_F(References, SpeakOfWhatTheParametersAreNow) {
+TEST_F(References, UseThePresentValuesOfParameters) {
     desk.bind("speech");
     desk.set_parameter("speech", {value("volume", "int", {"80"})});
     EXPECT_THAT(found(greater("volume", "60")), ElementsAre("speech"));
@@ -68,13 +68,13 @@ TEST_F(References, HaveOneValueWhereThereIsOne) {
     EXPECT_THAT(found(equal("name[1]", "speech")), ElementsAre("speech"));
 }
 
-TEST_F(References, ToAnAttributeThatIsNotThereMeetNothing) {
+TEST_F(References, ToAMissingAttributeNeverMatch) {
     EXPECT_THAT(found(is_null("component_ref/@version")), SizeIs(4));
     EXPECT_THAT(found(equal("component_ref/@version", "")), IsEmpty());
     EXPECT_THAT(found(not_equal("component_ref/@version", "1")), IsEmpty());
 }
 
-TEST_F(References, ToParametersGoWithTheirComponents) {
+TEST_F(References, ToParametersFollowTheirComponents) {
     ASSERT_EQ(reason(equal("ratio", "1")), "");
     ASSERT_EQ(reason(equal("label", "x")), "");
     world.change({"lamp"}, {});
@@ -141,7 +141,7 @@ TEST_F(References, ToParametersAlsoFilterEvents) {
     EXPECT_THAT(desk.heard(), SizeIs(1));
 }
 
-TEST_F(References, ToWhatACandidateNeverHasNeverMatch) {
+TEST_F(References, ToAPropertyThatACandidateNeverHasNeverMatch) {
     EXPECT_EQ(desk.bind_any(both({equal("component_ref", "navigation"), equal("Property/volume", "50")})), "UNSUPPORTED");
     EXPECT_EQ(desk.bind_any(equal("Property/volume", "99")), "OUT_OF_RESOURCES") << "a session may set it";
     EXPECT_EQ(desk.subscribe("reached_target", equal("Property/volume", "50")).return_code, ReturnCode::unsupported);
@@ -201,7 +201,7 @@ TEST_F(Groups, HaveAFilterOnTheWholeRobot) {
     EXPECT_THAT(found(group), ElementsAre("sub1.navigation")) << "its lamp has count 2";
 }
 
-TEST_F(Groups, AnAliasStandsForWhatIsOfItsType) {
+TEST_F(Groups, AnAliasStandsForTheComponentsOfItsType) {
     auto group = of_types({"Navigation", "Lamp"}, {"a", "b"});
     group.filter = {both({equal("a/Identifier", "sub1.navigation"), equal("b/Property/labels", "red")})};
     group.members = {drives};
@@ -221,7 +221,7 @@ TEST_F(Groups, AreBoundOneByOne) {
     EXPECT_EQ(world.connect().bind_any(Condition{group}), "OUT_OF_RESOURCES");
 }
 
-TEST_F(Groups, SpeakOfNoResults) {
+TEST_F(Groups, AreRefusedInConditionsOnResults) {
     auto group = of_types({"Robot"});
     group.members = {equal("target", "desk")};
     EXPECT_THAT(desk.subscribe("reached_target", Condition{group}).reason, HasSubstr("'target'"));

@@ -66,9 +66,9 @@ Complaints in_document(std::string const& what, std::string const& by) { return 
 
 }  // namespace
 
-TEST(Proof, ThatIsWholeIsTaken) { EXPECT_THAT(against_proof(whole()), IsEmpty()); }
+TEST(Proof, ThatIsCompleteIsAccepted) { EXPECT_THAT(against_proof(whole()), IsEmpty()); }
 
-TEST(Proof, NamesTestsThatThereAre) {
+TEST(Proof, NamesExistingTests) {
     auto const first = "`Lamp.Shines`";
     for (auto const* name : {"Lamp.IsGreen", "Lamp.Shine", "lamp.glows", "an_operation", "a_lamp_glows"}) {
         auto const said = in_document(first, "`Lamp.Shines`, `" + std::string(name) + "`");
@@ -77,7 +77,7 @@ TEST(Proof, NamesTestsThatThereAre) {
     EXPECT_THAT(with("tests/lamp/lamp_test.cpp", "TEST_F(Lamp", "TEST_P(Torch"), testing::SizeIs(47));
 }
 
-TEST(Proof, NamesFilesThatThereAre) {
+TEST(Proof, NamesExistingFiles) {
     EXPECT_THAT(in_document("| how |", "| `lamp/shade.cpp`, `lamp/lamp_test.cpp`, `/rois/profile` |"),
                 ElementsAre("docs/conformance.md:9: there is no file lamp/shade.cpp",
                             "docs/conformance.md:9: there is no file lamp/lamp_test.cpp"));
@@ -93,7 +93,7 @@ TEST(Proof, HasItsTestsBetweenBackticks) {
                 ElementsAre("docs/conformance.md:9: write tests between backticks: `Lamp.Shines`, Lamp.Burns"));
 }
 
-TEST(Proof, WithoutATestIsNone) {
+TEST(Proof, WithoutATestIsRejected) {
     EXPECT_THAT(in_document("`Lamp.Shines`", "-"), ElementsAre("docs/conformance.md:9: 'done' needs a test"));
 }
 
@@ -119,7 +119,7 @@ TEST(Proof, HasATestWithTheNumberOfEachDecision) {
                 ElementsAre("docs/conformance.md:1: no test is called Decision07.*"));
 }
 
-TEST(Proof, IsCountedTruly) {
+TEST(Proof, HasCorrectTotals) {
     EXPECT_THAT(in_document("| 117 | 117 | 0 | 0 |", "| 117 | 116 | 1 | 0 |"),
                 ElementsAre("docs/conformance.md:3: it should say 117 117 0 0"));
     EXPECT_THAT(in_document("| 2 | 0 | 1 | 1 |", "| 2 | 2 | 0 | 0 |"),

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t steps_a_history = 200;
 
-TEST(Model, HistoriesAreAsTheReferenceSays) {
+TEST(Model, HistoriesMatchTheReference) {
     for (std::uint64_t seed = 1; seed <= 1'000; ++seed) {
         auto const found = difference(random_steps(seed, steps_a_history));
         ASSERT_FALSE(found.has_value()) << "seed " << seed << ": " << shrunk(*found).in_words();
@@ -33,7 +33,7 @@ std::ostream& operator<<(std::ostream& out, Shown const& shown) { return out << 
 
 struct Flawed : testing::TestWithParam<Shown> {};
 
-TEST_P(Flawed, ReferenceIsFoundOut) {
+TEST_P(Flawed, ReferenceIsDetected) {
     auto const [name, flaw, most_steps] = GetParam();
     std::optional<Difference> found;
     for (std::uint64_t seed = 1; !found && seed <= 300; ++seed) found = difference(random_steps(seed, steps_a_history), flaw);
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(WhoBelievesThat, Flawed,
                          testing::PrintToStringParamName());
 
 // A counterexample is printed in a few lines.
-TEST(Model, TellsTheShortestWay) {
+TEST(Model, PrintsTheShortestHistoryThatDiffers) {
     std::optional<Difference> found;
     for (std::uint64_t seed = 1; !found; ++seed) found = difference(random_steps(seed, steps_a_history), Flaw::binding_is_shared);
     EXPECT_THAT(shrunk(*found, Flaw::binding_is_shared).in_words(),
