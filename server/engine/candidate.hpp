@@ -59,9 +59,9 @@ public:
 };
 
 // A component, together with the results of one of its events or of its answer to a query. Keeps references to both.
-class ToldCandidate final : public Candidate {
+class MessageCandidate final : public Candidate {
 public:
-    ToldCandidate(Candidate const& component, Results const& results) : component_{component}, results_{results} {}
+    MessageCandidate(Candidate const& component, Results const& results) : component_{component}, results_{results} {}
 
     std::optional<Texts> texts(Reference const&) const override;
     std::optional<Positions> positions(Reference const&) const override;

@@ -38,7 +38,7 @@ struct Command {
     Steady ended_at;
 
     // The steps of ending it. Each step is done once. A later tick repeats a step that failed.
-    bool told = false;      // the journal and the session were notified
+    bool reported = false;  // the journal and the session were notified
     bool kept = false;      // the result is among the session's results
     bool finished = false;  // no step is left
     bool given_up = false;  // it failed for lack of memory: the next tick ends it

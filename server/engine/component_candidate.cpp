@@ -75,7 +75,7 @@ bool ComponentCandidate::has(Reference const& reference) const {
         case To::parameter:
             return component_.has_parameter(reference.name);
         case To::result:
-            return component_.tells(reference.name);
+            return component_.has_result(reference.name);
         case To::located:
             return false;
         case To::location:

@@ -114,7 +114,7 @@ void Engine::Core::change(ComponentChange change, Instant now) {
     for (auto const& component : going) attempts([&] { leave(component, now); });
     for (auto const& component : coming)
         attempts([&] { executor_.halt(*component, CompletedStatus::abort, "it has just come", now); });
-    for (auto const& [id, session] : sessions_) attempts([&, &to = *session] { notifier_.tell(to, notification); });
+    for (auto const& [id, session] : sessions_) attempts([&, &to = *session] { notifier_.notify(to, notification); });
     attempts([&] { settle(now); });
     if (attempts.failure()) unsettled_ = attempts.failure();
 }

@@ -123,8 +123,8 @@ private:
 
     // Sessions (engine.cpp)
     void end(Session&, std::string_view why, Instant now);
-    void part_with(Session&, Instant now);
-    void end_those_that_must(Instant now, Attempts&);
+    void remove(Session&, Instant now);
+    void end_marked_sessions(Instant now, Attempts&);
     void mark_overflowed();
     static SessionStatistics statistics(Session const&);
     Session* longest_idle() const;
@@ -139,8 +139,8 @@ private:
     void forget_what_is_old(Instant now);
     void unbind(Session&, RegisteredComponent&, Instant now);
 
-    Journal nobody_;
-    Journal* journal_ = &nobody_;                   // never null
+    Journal no_journal_;
+    Journal* journal_ = &no_journal_;               // never null
     MemoryBudget* memory_ = &MemoryBudget::none();  // never null
     EngineSettings settings_;
     FreshSecret fresh_secret_;
@@ -150,11 +150,11 @@ private:
     Agenda agenda_;
     Places places_;
     Registry registry_;
-    struct Moved {
+    struct DeviceState {
         std::shared_ptr<Device> device;
         bool failed;  // at the last tick; the failure was reported
     };
-    std::vector<Moved> devices_;
+    std::vector<DeviceState> devices_;
     std::unordered_map<SessionId, std::unique_ptr<Session>, IdHash> sessions_;
     Subscriptions subscriptions_;
     Deadlines deadlines_;

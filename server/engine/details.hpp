@@ -48,10 +48,10 @@ public:
     }
 
     // Records that the session in this slot was notified of the last entry.
-    void tell(std::uint32_t slot) {
-        auto& told = kept_.back().told;
-        if (slot >= told.size()) told.resize(slot + 1);
-        told[slot] = true;
+    void add_receiver(std::uint32_t slot) {
+        auto& receivers = kept_.back().receivers;
+        if (slot >= receivers.size()) receivers.resize(slot + 1);
+        receivers[slot] = true;
     }
 
     Answer find(std::string_view id, Asker asker, Instant now) {
@@ -64,7 +64,7 @@ public:
         if (!whole || number >= next() || number < asker.first) return {Found::unknown, {}, {}};
         if (number < first_) return {Found::expired, {}, {}};
         auto const& entry = kept_[number - first_];
-        if (asker.slot >= entry.told.size() || !entry.told[asker.slot]) return {Found::unknown, {}, {}};
+        if (asker.slot >= entry.receivers.size() || !entry.receivers[asker.slot]) return {Found::unknown, {}, {}};
         if (!entry.results) return {Found::expired, {}, {}};
         return {Found::kept, entry.results, entry.message};
     }
@@ -90,7 +90,7 @@ private:
         Steady until;
         std::shared_ptr<Results const> results;  // null: expired
         std::shared_ptr<MessageProfile const> message;
-        std::vector<bool> told;  // by slot: whether the session was notified
+        std::vector<bool> receivers;  // by slot: whether the session was notified
     };
 
     std::string prefix_;

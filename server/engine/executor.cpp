@@ -186,7 +186,7 @@ void Executor::go_on_with_start(SharedCommand const& command, Instant now) {
     if (component.call([&](Component& c) { c.start(command->handle, parameters, now); }) == Called::ok) return;
     component.activity = RegisteredComponent::Activity::idle;
     component.start = nullptr;
-    halt_what_moves(component, now);
+    halt_if_it_moves(component, now);
     end(command, Called::failed, now);
 }
 
@@ -219,7 +219,7 @@ void Executor::run_resume(SharedCommand const& command, Instant now) {
     if (called == Called::ok)
         component.suspended = Suspended::nothing;
     else
-        halt_what_moves(component, now);
+        halt_if_it_moves(component, now);
     end(command, called, now);
 }
 
@@ -235,7 +235,7 @@ void Executor::run_function(SharedCommand const& command, Instant now) {
     auto const called = component.call([&](Component& c) { c.perform(command->handle, command->type, arguments, now); });
     if (called != Called::failed) return;
     std::erase(component.functions, command);
-    halt_what_moves(component, now);
+    halt_if_it_moves(component, now);
     end(command, called, now);
 }
 
@@ -272,23 +272,23 @@ void Executor::started(CommandHandle handle) {
     if (auto const deadline = std::exchange(found->second->start_deadline, {})) deadlines_.cancel(*deadline);
 }
 
-void Executor::completed(CommandEnded& said, Instant now) {
-    auto const found = live_.find(static_cast<std::uint64_t>(said.command));
+void Executor::completed(CommandEnded& report, Instant now) {
+    auto const found = live_.find(static_cast<std::uint64_t>(report.command));
     if (found == live_.end() || found->second->state != Command::State::running) {
         ++stray_answers_;
         return;
     }
     auto const command = found->second;
     auto& component = *command->component;
-    if (component.check(MessageKind::command, command->type, said.results) == RegisteredComponent::Answer::wrong) {
-        said.status = CompletedStatus::error;
-        said.results = {};
-        said.reason = "its results do not fit the profile";
+    if (component.check(MessageKind::command, command->type, report.results) == RegisteredComponent::Answer::wrong) {
+        report.status = CompletedStatus::error;
+        report.results = {};
+        report.reason = "its results do not fit the profile";
     }
-    if (said.status == CompletedStatus::ok) component.succeeded();
+    if (report.status == CompletedStatus::ok) component.clear_failure();
     std::erase(component.functions, command);
-    follow_up(component, command, said.status == CompletedStatus::ok ? said.afterwards : Afterwards::as_before);
-    end(command, said.status, said.reason, now, std::move(said.results));
+    follow_up(component, command, report.status == CompletedStatus::ok ? report.afterwards : Afterwards::as_before);
+    end(command, report.status, report.reason, now, std::move(report.results));
     run_ready(now);
 }
 
@@ -327,10 +327,10 @@ void Executor::end(SharedCommand const& command, CompletedStatus status, std::st
 
 // Notifies the session, keeps the results, and continues the sequence.
 void Executor::finish(SharedCommand const& command, Instant now) {
-    if (!command->told) {
+    if (!command->reported) {
         journal_->command_ended(*command);
-        if (command->session != nullptr) notifier_.tell(*command->session, Completed{command->id, command->status});
-        command->told = true;
+        if (command->session != nullptr) notifier_.notify(*command->session, Completed{command->id, command->status});
+        command->reported = true;
     }
     ParameterList{}.swap(command->arguments);  // from now on, only its results are needed
     if (command->session != nullptr) remember(command, now);
@@ -433,7 +433,7 @@ void Executor::stop_all(std::string_view reason, Instant now) {
     attempts.rethrow();
 }
 
-void Executor::let_run_on(Session& session) {
+void Executor::detach_commands(Session& session) {
     for (auto const& command : live_commands(session)) command->session = nullptr;
 }
 

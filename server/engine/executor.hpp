@@ -52,7 +52,7 @@ public:
 
     // Halts the component, even if the engine believes that it is idle, and repeats this until the halt is confirmed (decision
     // 35). Ends the commands that run there: `start` with this status, commands of the component's own profile with ABORT. Halts
-    // the component also when memory is short; `mend` then ends the remaining commands.
+    // the component also when memory is short; `repair` then ends the remaining commands.
     void halt(RegisteredComponent&, CompletedStatus status_of_start, std::string_view reason, Instant now);
 
     // Halts the component, and ends the session's commands that wait for it (decision 6).
@@ -68,7 +68,7 @@ public:
     void abort_all(Session&, Instant now);
 
     // Lets the session's commands run on without a session: their notifications go nowhere.
-    void let_run_on(Session&);
+    void detach_commands(Session&);
 
     // Halts every component, and ends all waiting and running commands of all sessions.
     void stop_all(std::string_view reason, Instant now);
@@ -79,7 +79,7 @@ public:
 
     // Continues work that an exception interrupted: ends the commands that were given up, and halts their components. Call at
     // each tick.
-    void mend(Instant now);
+    void repair(Instant now);
     // Keeps only the results of the session's last `most` commands.
     void keep_results(Session&, std::size_t most);
 
@@ -106,7 +106,7 @@ private:
     void run_resume(SharedCommand const&, Instant now);
     void run_function(SharedCommand const&, Instant now);
     void go_on_with_start(SharedCommand const&, Instant now);
-    void halt_what_moves(RegisteredComponent&, Instant now);
+    void halt_if_it_moves(RegisteredComponent&, Instant now);
     void ask_to_halt(RegisteredComponent&, Instant now);
     void await_confirmation(RegisteredComponent&, Instant now);
     void halt_failed(RegisteredComponent&, CompletedStatus, std::string_view reason, Instant now);
@@ -125,7 +125,7 @@ private:
     void go_on_in_sequence(std::shared_ptr<Execution> const&, Command const& ended, Instant now);
     template <class What>
     void attempt(SharedCommand const&, What const&);
-    void mend(RegisteredComponent&, Instant now);
+    void repair(RegisteredComponent&, Instant now);
     void give_up(Command&) noexcept;
     void give_up_waiting(Execution const&) noexcept;
     void end_given_up(SharedCommand const&, Instant now);
@@ -143,7 +143,7 @@ private:
     std::unordered_map<std::uint64_t, SharedCommand> live_;  // waiting or running, by handle
     std::deque<std::pair<std::shared_ptr<Execution>, std::size_t>> ready_;  // units whose turn has come
     bool running_ready_ = false;
-    bool needs_mending_ = false;                    // a command was given up, or a halt has no deadline
+    bool needs_repair_ = false;                     // a command was given up, or a halt has no deadline
     std::set<std::pair<Steady, Session*>> by_age_;  // the sessions with results, ordered by the age of their oldest one
     std::uint64_t last_handle_ = 0;
     std::uint64_t last_id_ = 0;

@@ -109,20 +109,21 @@ public:
         if (text != nullptr && !as_it_is) std::get<Known>(what_).value = manner.read(*text);
     }
 
-    // The values to compare; nullopt if they are not known yet. Values of the candidate are stored in `told`.
-    std::optional<std::span<Comparable const>> values(Candidate const& candidate, Manner const& manner, Comparables& told) const {
+    // The values to compare; nullopt if they are not known yet. Values of the candidate are stored in `storage`.
+    std::optional<std::span<Comparable const>> values(Candidate const& candidate, Manner const& manner,
+                                                      Comparables& storage) const {
         if (auto const* known = std::get_if<Known>(&what_)) return std::span{&known->value, 1};
         if (auto const* reference = std::get_if<Reference>(&what_)) {
             auto const texts = candidate.texts(*reference);
             if (!texts) return {};
-            told.reserve(texts->size());
-            for (auto const& text : *texts) told.push_back(manner.read(text));
-            return told;
+            storage.reserve(texts->size());
+            for (auto const& text : *texts) storage.push_back(manner.read(text));
+            return storage;
         }
         auto const lengths = std::get<DistancePtr>(what_)->of(candidate);
         if (!lengths) return {};
-        for (double const length : *lengths) told.push_back({.text = {}, .number = length, .time = {}});
-        return told;
+        for (double const length : *lengths) storage.push_back({.text = {}, .number = length, .time = {}});
+        return storage;
     }
 
     std::string canonical(ValueKind kind) const {
@@ -238,9 +239,9 @@ public:
     Match match(Candidate const& candidate) const override {
         auto const rid = candidate.rid();
         if (named_ != nullptr && !rid.empty()) return rid == *named_ ? Match::yes : Match::no;
-        Comparables told, also_told;
-        auto const left = sides_[0].values(candidate, manner_, told);
-        auto const right = sides_[1].values(candidate, manner_, also_told);
+        Comparables left_values, right_values;
+        auto const left = sides_[0].values(candidate, manner_, left_values);
+        auto const right = sides_[1].values(candidate, manner_, right_values);
         if ((left && left->empty()) || (right && right->empty())) return Match::no;
         if (!left || !right) return Match::maybe;
         if (make_too_many_pairs(*left, *right)) return Match::no;
@@ -303,10 +304,10 @@ public:
     }
 
     Match match(Candidate const& candidate) const override {
-        Comparables told[3];
-        auto const values = sides_[0].values(candidate, manner_, told[0]);
-        auto const lowest = sides_[1].values(candidate, manner_, told[1]);
-        auto const highest = sides_[2].values(candidate, manner_, told[2]);
+        Comparables storage[3];
+        auto const values = sides_[0].values(candidate, manner_, storage[0]);
+        auto const lowest = sides_[1].values(candidate, manner_, storage[1]);
+        auto const highest = sides_[2].values(candidate, manner_, storage[2]);
         for (auto const& all : {values, lowest, highest})
             if (all && all->empty()) return Match::no;
         if (!values || !lowest || !highest) return Match::maybe;

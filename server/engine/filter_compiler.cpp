@@ -77,12 +77,12 @@ bool may_be_a_position(Reference const& reference) {
 
 }  // namespace
 
-std::optional<Positions> Whereabouts::of(Candidate const& candidate) const {
+std::optional<Positions> SpatialOperand::of(Candidate const& candidate) const {
     if (auto const* known = std::get_if<Geometry>(&where_)) return Positions{*known};
     return candidate.positions(std::get<Reference>(where_));
 }
 
-std::string Whereabouts::canonical() const {
+std::string SpatialOperand::canonical() const {
     return std::visit([](auto const& where) { return rois::canonical(where); }, where_);
 }
 
@@ -121,7 +121,7 @@ std::optional<Reference> FilterCompiler::resolve(std::string_view path) {
     return std::move(reference);
 }
 
-std::optional<Whereabouts> FilterCompiler::whereabouts(Expression const& expression) {
+std::optional<SpatialOperand> FilterCompiler::spatial_operand(Expression const& expression) {
     auto const& places = *vocabulary_.places;
     if (auto const* not_understood = std::get_if<NotUnderstood>(&expression.value)) return refuse(not_understood->reason);
     if (auto const* geometry = std::get_if<Geometry>(&expression.value)) {
@@ -167,9 +167,9 @@ std::optional<Distance> FilterCompiler::distance(Function const& function) {
 }
 
 // Two boxes must be in the same frame: a box that is turned into another frame is not a box there.
-std::optional<std::pair<Whereabouts, Whereabouts>> FilterCompiler::related(Expression const& one, Expression const& other) {
-    auto first = whereabouts(one);
-    auto second = first ? whereabouts(other) : std::nullopt;
+std::optional<std::pair<SpatialOperand, SpatialOperand>> FilterCompiler::related(Expression const& one, Expression const& other) {
+    auto first = spatial_operand(one);
+    auto second = first ? spatial_operand(other) : std::nullopt;
     if (!second) return {};
     auto const nothing = [](auto const&...) { return true; };
     auto const *a = first->known(), *b = second->known();

@@ -31,10 +31,10 @@ public:
 using PredicatePtr = std::unique_ptr<Predicate const>;
 
 // An operand of a spatial operator: a geometry of the condition, or a reference to positions of the candidate.
-class Whereabouts {
+class SpatialOperand {
 public:
-    Whereabouts(Geometry geometry) : where_{std::move(geometry)} {}
-    Whereabouts(Reference reference) : where_{std::move(reference)} {}
+    SpatialOperand(Geometry geometry) : where_{std::move(geometry)} {}
+    SpatialOperand(Reference reference) : where_{std::move(reference)} {}
 
     Geometry const* known() const { return std::get_if<Geometry>(&where_); }  // null for a reference
     std::optional<Positions> of(Candidate const&) const;
@@ -47,8 +47,8 @@ private:
 // The function `distance`: mm between the nearest points of the operands. nullopt if a value is not known yet; empty if an
 // operand has no position, or they share no frame.
 struct Distance {
-    Whereabouts from;
-    Whereabouts to;
+    SpatialOperand from;
+    SpatialOperand to;
     Frames const* frames;
 
     std::optional<std::vector<double>> of(Candidate const&) const;
@@ -75,11 +75,11 @@ public:
 
     // Returns nullopt, and sets `problem`, if the path is invalid; likewise below.
     std::optional<Reference> resolve(std::string_view path);
-    std::optional<Whereabouts> whereabouts(Expression const&);
+    std::optional<SpatialOperand> spatial_operand(Expression const&);
     std::optional<Distance> distance(Function const&);
 
     // The two operands of a spatial relation.
-    std::optional<std::pair<Whereabouts, Whereabouts>> related(Expression const&, Expression const&);
+    std::optional<std::pair<SpatialOperand, SpatialOperand>> related(Expression const&, Expression const&);
 
     // Sets `problem`, unless it is set already.
     std::nullopt_t refuse(std::string reason);

@@ -11,7 +11,7 @@ namespace rois {
 
 namespace {
 
-using Pair = std::pair<Whereabouts, Whereabouts>;
+using Pair = std::pair<SpatialOperand, SpatialOperand>;
 
 // A distance of at most this many mm.
 struct Near {

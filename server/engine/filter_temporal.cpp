@@ -10,10 +10,10 @@ namespace rois {
 namespace {
 
 // An operand of a temporal operator: a time of the condition, or a reference to times of the candidate.
-class When {
+class TemporalOperand {
 public:
-    When(Period period) : when_{period} {}
-    When(Reference reference) : when_{std::move(reference)} {}
+    TemporalOperand(Period period) : when_{period} {}
+    TemporalOperand(Reference reference) : when_{std::move(reference)} {}
 
     bool is_known() const { return std::holds_alternative<Period>(when_); }
 
@@ -89,7 +89,7 @@ bool holds(TemporalRelation relation, Period const& a, Period const& b) {
 // Matches if one of several times meets the relation.
 class Temporal final : public Predicate {
 public:
-    Temporal(TemporalRelation relation, When left, When right)
+    Temporal(TemporalRelation relation, TemporalOperand left, TemporalOperand right)
         : relation_{relation}, left_{std::move(left)}, right_{std::move(right)} {
         auto const other = converse(relation_);
         if (!other) return;
@@ -117,12 +117,12 @@ public:
 
 private:
     TemporalRelation relation_;
-    When left_;
-    When right_;
+    TemporalOperand left_;
+    TemporalOperand right_;
 };
 
 // Returns nullopt if the expression is invalid.
-std::optional<When> when(FilterCompiler& compiler, Expression const& expression) {
+std::optional<TemporalOperand> temporal_operand(FilterCompiler& compiler, Expression const& expression) {
     if (auto const* not_understood = std::get_if<NotUnderstood>(&expression.value))
         return compiler.refuse(not_understood->reason);
     if (auto const* period = std::get_if<Period>(&expression.value)) return *period;
@@ -149,8 +149,8 @@ PredicatePtr FilterCompiler::operator()(TemporalComparison const& comparison) {
         return nullptr;
     }
     auto const reference = Expression{ValueReference{std::string{own}}};
-    auto left = when(*this, comparison.operands.size() < 2 ? reference : comparison.operands.front());
-    auto right = left ? when(*this, comparison.operands.back()) : std::nullopt;
+    auto left = temporal_operand(*this, comparison.operands.size() < 2 ? reference : comparison.operands.front());
+    auto right = left ? temporal_operand(*this, comparison.operands.back()) : std::nullopt;
     if (!right) return nullptr;
     if (comparison.relation == TemporalRelation::during && left->is_known() && !right->is_known()) std::swap(left, right);
     return std::make_unique<Temporal>(comparison.relation, std::move(*left), std::move(*right));

@@ -11,7 +11,7 @@ namespace rois {
 using Covariance6 = Eigen::Matrix<double, 6, 6>;  // of x, y, z in mm and roll, pitch, yaw in degrees
 
 // A position in some frame.
-struct Whereat {
+struct PoseInFrame {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  // mm
     Eigen::Vector3d turned = Eigen::Vector3d::Zero();    // roll, pitch, yaw in degrees; 0 without an orientation
     std::optional<Covariance6> covariance;               // absent: unknown
@@ -28,8 +28,8 @@ struct Placement {
 };
 
 // Converts from the placed frame to its base, and back.
-Whereat to_base(Whereat const&, Placement const&);
-Whereat from_base(Whereat const&, Placement const&);
+PoseInFrame to_base(PoseInFrame const&, Placement const&);
+PoseInFrame from_base(PoseInFrame const&, Placement const&);
 
 // Returns the angle in (-180, 180] degrees.
 double normal_angle(double degrees);

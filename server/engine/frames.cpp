@@ -81,12 +81,12 @@ struct Frames::Placed {
 };
 
 struct Frames::Step {
-    Whereat (*take)(Whereat const&, Placement const&);
+    PoseInFrame (*take)(PoseInFrame const&, Placement const&);
     Placed const* placed;
 
     bool tilts() const { return placed->placement.turned.x() != 0 || placed->placement.turned.y() != 0; }
 
-    static Whereat all(Whereat where, std::vector<Step> const& way) {
+    static PoseInFrame all(PoseInFrame where, std::vector<Step> const& way) {
         for (auto const& step : way) where = step.take(where, step.placed->placement);
         return where;
     }
@@ -156,7 +156,7 @@ std::optional<std::string> Frames::change(Located& located, std::string_view to)
     bool const oriented = located.orientation.size() == 3;
     if (!oriented && !located.orientation.empty())
         return strange(located, "an orientation of " + std::to_string(located.orientation.size()) + " numbers");
-    Whereat where{.position = vector_of(located.position), .turned = Eigen::Vector3d::Zero(), .covariance = {}};
+    PoseInFrame where{.position = vector_of(located.position), .turned = Eigen::Vector3d::Zero(), .covariance = {}};
     if (oriented) where.turned = {located.orientation[0], located.orientation[1], located.orientation[2]};
     auto* const covariance = std::get_if<Located::Covariance>(&located.certainty);
     auto const axes = covariance == nullptr ? Axes{} : axes_of(covariance->rows.size(), oriented);
@@ -176,10 +176,10 @@ std::optional<std::string> Frames::change(Located& located, std::string_view to)
 }
 
 std::optional<std::string> Frames::moved(std::string_view text, std::vector<Step> const& way, Rounding rounding) {
-    auto const told = point(text, {});
-    if (!told) return {};
+    auto const read = point(text, {});
+    if (!read) return {};
     bool const oriented = std::ranges::count(text, ',') == 2;
-    Whereat where{.position = vector_of(told->low), .turned = Eigen::Vector3d::Zero(), .covariance = {}};
+    PoseInFrame where{.position = vector_of(read->low), .turned = Eigen::Vector3d::Zero(), .covariance = {}};
     if (oriented) where.turned.z() = to_double(text.substr(text.rfind(',') + 1)).value_or(0);
     where = Step::all(std::move(where), way);
     auto const number = [&](double value) { return canonical(rounded(value, rounding)); };

@@ -28,7 +28,7 @@ void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_st
 }
 
 // For a component that failed to begin an action, and may move nevertheless.
-void Executor::halt_what_moves(RegisteredComponent& component, Instant now) {
+void Executor::halt_if_it_moves(RegisteredComponent& component, Instant now) {
     if (component.moves()) halt(component, CompletedStatus::abort, "the component failed", now);
 }
 
@@ -45,7 +45,7 @@ void Executor::ask_to_halt(RegisteredComponent& component, Instant now) {
 }
 
 void Executor::await_confirmation(RegisteredComponent& component, Instant now) {
-    needs_mending_ = true;  // in case this fails
+    needs_repair_ = true;  // in case this fails
     component.halting->due =
         deadlines_.add(now.steady + time_to_confirm, [this, weak = component.weak_from_this()](Instant then) {
             auto const late = weak.lock();
@@ -71,7 +71,7 @@ void Executor::halt_failed(RegisteredComponent& component, CompletedStatus statu
 void Executor::halt_again_later(RegisteredComponent& component, Instant now) {
     auto& due = component.halting->due;
     deadlines_.cancel(std::exchange(due, {}));
-    needs_mending_ = true;  // in case this fails
+    needs_repair_ = true;  // in case this fails
     due = deadlines_.add(now.steady + between_attempts, [this, weak = component.weak_from_this()](Instant then) {
         auto const failed = weak.lock();
         if (!failed || !failed->halting) return;
@@ -92,7 +92,7 @@ void Executor::go_on(RegisteredComponent& component, Instant now) {
     deadlines_.cancel(halting->due);
     Attempts attempts;
     if (halting->failed) {
-        component.succeeded();
+        component.clear_failure();
         attempts([&] { journal_->halted_at_last(component.ref().code); });
     }
     for (auto const& command : halting->waiting) {

@@ -32,8 +32,8 @@ constexpr std::size_t few = 4;
 // Asks a component only if the condition or SortBy may depend on its answer. Without sorting, stops at the component that will be
 // chosen.
 template <class RowsOf>
-std::vector<Possible> who_may_answer(std::vector<RegisteredComponent*> const& able, Selection const& selection,
-                                     Perspective& looked_at, RowsOf const& rows_of) {
+std::vector<Possible> possible_answers(std::vector<RegisteredComponent*> const& able, Selection const& selection,
+                                       Perspective& looked_at, RowsOf const& rows_of) {
     std::vector<Possible> found;
     for (auto* component : able) {
         auto const& candidate = looked_at.candidate(*component);
@@ -43,7 +43,7 @@ std::vector<Possible> who_may_answer(std::vector<RegisteredComponent*> const& ab
         auto rows = ask ? rows_of(*component) : std::vector<Results>{};
         if (rows.empty() && match == Match::yes) found.push_back({component, {}, {}});
         for (auto& row : rows)
-            if (selection.match(ToldCandidate{candidate, row}) == Match::yes) found.push_back({component, std::move(row), {}});
+            if (selection.match(MessageCandidate{candidate, row}) == Match::yes) found.push_back({component, std::move(row), {}});
         if (!selection.sorts() && !found.empty() && found.back().component == component &&
             is_ready(found.back(), *looked_at.asker()))
             break;
@@ -53,11 +53,12 @@ std::vector<Possible> who_may_answer(std::vector<RegisteredComponent*> const& ab
 
 // In the order of the selection, which must sort.
 std::vector<Possible> in_order(Selection const& selection, std::vector<Possible> found, Perspective& looked_at) {
-    std::vector<std::unique_ptr<ToldCandidate>> told;
+    std::vector<std::unique_ptr<MessageCandidate>> with_results;
     std::vector<Candidate const*> candidates;
     for (auto const& [component, row, status] : found) {
         candidates.push_back(&looked_at.candidate(*component));
-        if (row) candidates.back() = told.emplace_back(std::make_unique<ToldCandidate>(*candidates.back(), *row)).get();
+        if (row)
+            candidates.back() = with_results.emplace_back(std::make_unique<MessageCandidate>(*candidates.back(), *row)).get();
     }
     auto const places = selection.order(candidates);
     std::vector<Possible> ordered;
@@ -118,7 +119,7 @@ Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
     Preference const preference{session};
     auto meant = able.possible(able.all().size() > few ? selection.filter().demand() : std::nullopt).rest();
     preference.order(meant);
-    auto found = who_may_answer(meant, selection, looked_at, [&](RegisteredComponent& component) {
+    auto found = possible_answers(meant, selection, looked_at, [&](RegisteredComponent& component) {
         return answers(session, component, query.query_type, now);
     });
     if (found.empty())
@@ -195,7 +196,7 @@ std::vector<Results> Engine::Core::answers(Session const& session, RegisteredCom
     } else {
         rows = component.answer(query_type, now);
     }
-    if (!rows.empty()) component.succeeded();
+    if (!rows.empty()) component.clear_failure();
     return rows;
 }
 

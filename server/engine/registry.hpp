@@ -91,7 +91,7 @@ public:
     // For conditions. Whether the component has the parameter, which may be read-only; whether an event or a query of it has the
     // result; and its position, nullopt also if it failed.
     bool has_parameter(std::string_view name) const;
-    bool tells(std::string_view name) const;
+    bool has_result(std::string_view name) const;
     std::optional<Located> location() const;
 
     // Returns which position is in an unknown frame, or nullopt. The parameters must be normalized.
@@ -130,9 +130,9 @@ public:
     bool answer_lost = false;
 
     // A command or query succeeded: clears the failure.
-    void succeeded();
+    void clear_failure();
     // A new session has bound the component: errors that were reported once are reported again.
-    void bound_anew() { told_once_.clear(); }
+    void forget_reported_errors() { reported_once_.clear(); }
 
     void started(CommandHandle) override;
     void completed(CommandHandle, CompletedStatus, Results, Afterwards, std::string reason) override;
@@ -147,13 +147,13 @@ private:
     void report_failure(std::string_view problem, Report) const noexcept;
     void report(ErrorType, std::string text, Report) const;
     // Converts results to the engine's frame. Returns nullopt, and reports the failure, if that is not possible.
-    std::optional<Results> told(Results, std::string_view message, Report) const;
+    std::optional<Results> in_engine_frame(Results, std::string_view message, Report) const;
     std::optional<ParameterList> reconciled(ParameterList stored, ParameterList const& arrived) const;
     bool is_position(std::string_view parameter) const;
 
     std::unique_ptr<Component> component_;
-    mutable bool failed_ = false;            // an exception left the component
-    mutable std::set<ErrorType> told_once_;  // errors that are not to be reported again
+    mutable bool failed_ = false;                // an exception left the component
+    mutable std::set<ErrorType> reported_once_;  // errors that are not to be reported again
     Identifier ref_;
     std::size_t code_begin_ = 0;  // where its code within its engine begins
     ComponentEntry entry_;
@@ -211,10 +211,10 @@ public:
     std::vector<RegisteredComponent*> const& moving() const { return moving_; }
 
     // Returns the components that can meet the demand; all of them without a demand.
-    ComponentsInOrder possible(std::optional<Demand> const& demand) const { return everybody_.possible(demand); }
+    ComponentsInOrder possible(std::optional<Demand> const& demand) const { return index_.possible(demand); }
 
     // The components whose profile has this message.
-    ComponentIndex const& with(MessageKind kind, std::string_view message) const { return tellers(kind, message).components; }
+    ComponentIndex const& with(MessageKind kind, std::string_view message) const { return providers(kind, message).components; }
 
     // The results of this message, from the profiles of all components that have it. Valid until the components change.
     Declarations const& results(MessageKind, std::string_view message) const;
@@ -227,18 +227,18 @@ public:
 
 private:
     // The components that have a message, and its results; nullopt if the results must be collected again.
-    struct Tellers {
+    struct Providers {
         ComponentIndex components;
         mutable std::optional<Declarations> results;
     };
-    using ByName = std::map<std::string, Tellers, std::less<>>;
+    using ByName = std::map<std::string, Providers, std::less<>>;
 
-    Tellers& change(MessageProfile const&);
-    Tellers const& tellers(MessageKind, std::string_view message) const;
+    Providers& change(MessageProfile const&);
+    Providers const& providers(MessageKind, std::string_view message) const;
 
     Components components_;
     std::vector<RegisteredComponent*> moving_;
-    ComponentIndex everybody_;
+    ComponentIndex index_;
     mutable std::optional<Declarations> parameters_;  // nullopt if they must be collected again
     std::map<MessageKind, ByName> by_message_;
 };

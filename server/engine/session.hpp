@@ -26,7 +26,8 @@ struct Subscription;
 
 // Owned by the engine. Has state only.
 struct Session {
-    Session(MotionLease::Terms const& terms, Steady now) : connected{now}, lease{terms, now}, heard{now}, quiet_until{now} {}
+    Session(MotionLease::Terms const& terms, Steady now)
+        : connected{now}, lease{terms, now}, last_activity{now}, quiet_until{now} {}
 
     std::shared_ptr<NotificationQueue> notifications;
     SessionId id;
@@ -45,7 +46,7 @@ struct Session {
 
     // The session's links (decision 2). They cannot count as lost before `quiet_until`.
     MotionLease lease;
-    Steady heard;  // the last HTTP request, or the last end of a link
+    Steady last_activity;  // the last HTTP request, or the last end of a link
     Steady quiet_until;
     std::optional<Deadlines::Ticket> end_of_window;  // when to check whether the link is lost
 

@@ -30,14 +30,14 @@ struct Subscription {
     // The keys in OfType. Kept so that removing the subscription needs no memory.
     std::string const* meaning = nullptr;
     std::optional<Demand> demand;
-    struct Hearer {
+    struct Subscriber {
         Session* session;
         std::uint64_t number;      // number of the session
         std::uint32_t slot;        // copy of the session's slot in Details, to read it without the session
         NotificationQueue* queue;  // copy of the session's queue, likewise
         bool inline_results;
     };
-    std::vector<Hearer> hearers;  // ordered by session number
+    std::vector<Subscriber> subscribers;  // ordered by session number
 };
 
 // A subscription knows its sessions, and a session its subscriptions.
@@ -57,7 +57,7 @@ public:
     std::vector<Subscription*> possible(std::string_view event_type, RegisteredComponent const&) const;
 
     // Returns the sessions with a subscription that an event of this component may ever match.
-    std::set<Session*> hearers(RegisteredComponent const&, Perspective& ever) const;
+    std::set<Session*> possible_subscribers(RegisteredComponent const&, Perspective& ever) const;
 
     std::size_t size() const { return by_id_.size(); }
     std::size_t predicates() const { return predicates_; }  // in the conditions of all subscriptions
@@ -82,7 +82,7 @@ private:
 
     Subscription& keep(std::unique_ptr<Subscription>);
     static void part(Session&, Subscription&);
-    void forget_if_unheard(Subscription&) noexcept;
+    void remove_if_unused(Subscription&) noexcept;
 
     std::unordered_map<SubscribeId, std::unique_ptr<Subscription>, IdHash> by_id_;
     std::map<std::string, OfType, std::less<>> by_type_;

@@ -8,7 +8,7 @@ namespace rois {
 
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n";
+constexpr std::string_view white_space = " \t\r\n";
 
 bool may_be_in_a_name(char c) {
     bool const letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
@@ -52,7 +52,7 @@ public:
 
 private:
     void skip_blanks() {
-        auto const first = rest_.find_first_not_of(blanks);
+        auto const first = rest_.find_first_not_of(white_space);
         rest_.remove_prefix(first == std::string_view::npos ? rest_.size() : first);
     }
 
