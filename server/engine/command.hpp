@@ -27,12 +27,12 @@ struct Command {
     std::string type;
     ParameterList arguments;                         // with the profile's names
     Session* session = nullptr;                      // receives the notifications; null once the session has ended
-    std::shared_ptr<RegisteredComponent> component;  // stays valid when the component has left the engine
-    bool binding_lost = false;                       // the component was released before the command's turn came (decision 13)
+    std::shared_ptr<RegisteredComponent> component;  // valid also after it has left the engine
+    bool binding_lost = false;                       // released before the command's turn came (decision 13)
 
     State state = State::waiting;
     std::optional<Deadlines::Ticket> start_deadline;  // set until the component reports `started`
-    CompletedStatus status = CompletedStatus::ok;     // this and the members below are set when the command ends
+    CompletedStatus status = CompletedStatus::ok;     // set at the end, like the members below
     Results results;
     std::string reason;  // why the status is not OK, for people; may be empty
     Steady ended_at;

@@ -59,8 +59,8 @@ enum class Halted : std::uint8_t { confirmed, not_yet };
 enum class Report : std::uint8_t { each, once };
 
 // The component's way to report to the engine. The engine owns the port; it lives as long as the component. All functions return
-// at once: the engine handles the reports at the end of its own step, in order. Call them on the engine's thread only, that is,
-// from within a call that the engine makes to a component or a device.
+// at once: the engine handles the reports at the end of its own step, in order. Call them only from within a call that the engine
+// makes to a component or a device, on its thread.
 class ComponentPort {
 public:
     virtual ~ComponentPort() = default;
@@ -134,18 +134,15 @@ public:
     // The present position, or nullopt if it is unknown. `ref` names the robot that the component belongs to.
     virtual std::optional<Located> location() const { return {}; }
 
-    // Parameters that get_parameter returns in addition to the stored ones: those that are read-only (recognizable languages,
-    // ...).
+    // The read-only parameters of get_parameter (recognizable languages, ...).
     virtual ParameterList readable_parameters() const { return {}; }
 
     // Answers a query of the profile, except component_status and get_parameter, from data at hand. Returns one row of results
-    // for each thing that it knows. The query's condition selects one row; without a condition, the first one is returned.
-    // Returns no rows if the component cannot answer.
+    // for each thing that it knows; none if it cannot answer. The engine answers with the first row that meets the condition.
     virtual std::vector<Results> query(std::string_view query_type, Instant now);
 };
 
-// Something that moves with time and that several components share, such as a simulated world. The engine advances it before it
-// calls the components.
+// Something that moves with time and that several components share, such as a simulated world.
 class Device {
 public:
     virtual ~Device() = default;

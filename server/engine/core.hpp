@@ -186,7 +186,6 @@ private:
     } refused_;
 };
 
-// Makes a reply with this return code and reason.
 template <class R>
 R refused(ReturnCode code, std::string reason) {
     R reply;

@@ -26,7 +26,7 @@ public:
     virtual ~Outbox() = default;
     // The session's queue has new entries, or was closed. Must not throw.
     virtual void notify(NotificationQueue&) = 0;
-    // `notify` follows soon for this queue: an implementation may prefetch the memory that it needs then.
+    // `notify` follows soon: the implementation may prefetch memory.
     virtual void approach(NotificationQueue const&) const {}
 };
 
@@ -89,11 +89,11 @@ public:
     Engine(Engine const&) = delete;
     Engine& operator=(Engine const&) = delete;
 
-    // Sets the journal. Without one, the engine reports nothing. The journal must outlive the last call to the engine.
+    // Sets the journal, which must outlive the last call to the engine.
     void report_to(Journal&);
 
-    // Sets the memory budget, which the engine checks before it accepts data that it must keep. Without one there is no limit.
-    // The owner of the budget measures the memory. The budget must outlive the last call to the engine.
+    // Sets the memory budget, which the engine checks before it accepts data to keep. Without one there is no limit. Its owner
+    // measures the memory. It must outlive the last call to the engine.
     void keep_within(MemoryBudget&);
 
     // Call before the first session. Throws std::runtime_error if the ref is taken or a sub component profile is unknown.
@@ -106,8 +106,7 @@ public:
     // sessions if anything changed.
     void change(ComponentChange, Instant now);
 
-    // Sets the frames of positions and the named places of conditions. Without it, none are known. Call once, before the first
-    // session.
+    // Sets the frames and the named places. Call once, before the first session.
     void describe(Places);
 
     // Performs an operation for the session; the id is empty if the client has none yet. On return, the session's queue holds the
@@ -122,17 +121,17 @@ public:
     // Does everything that is due: devices, delays, timeouts, expiry, the end of sessions whose link was lost.
     void tick(Instant now);
 
-    // Returns the session's queue, or null if there is no such session. The queue stays readable after the session's end.
+    // Returns the session's queue, or null. The queue stays readable after the session's end.
     std::shared_ptr<NotificationQueue> notifications(SessionId const&) const;
 
-    // Reports of the network layer about the session's link: a request, a pong, or a WebSocket or notification stream that opened
-    // or closed. Operations renew the motion lease without such a report.
+    // The network layer reports a request, a pong, or a WebSocket or notification stream that opened or closed. Operations renew
+    // the motion lease without such a report.
     void heard_from(SessionId const&, Instant now);
     void heard_pong(SessionId const&, Instant now);
     void link_opened(SessionId const&, Link, Instant now);
     void link_closed(SessionId const&, Link, Closing, Instant now);
 
-    // Ends a session as if it had disconnected. Has no effect if there is no such session.
+    // Ends a session, if it exists, as if it had disconnected.
     void end(SessionId const&, Instant now);
 
     // Stops everything (decision 34): halts every component, bound or not, and ends all commands with ABORT. Nothing starts until

@@ -62,12 +62,11 @@ bool make_too_many_pairs(One const& one, Other const& other) {
     return one.size() > 1 && other.size() > 1 && one.size() > most_pairs / other.size();
 }
 
-// Compiles a condition, in one pass. If it is invalid, `problem` returns the first reason, and the results of all functions are
-// meaningless.
+// Compiles a condition. If it is invalid, `problem` is the first reason, and all other results are meaningless.
 class FilterCompiler {
 public:
     static constexpr std::size_t most_predicates = 256;      // of one condition
-    static constexpr std::size_t points_of_a_predicate = 8;  // points of a line or polygon that cost as much as one predicate
+    static constexpr std::size_t points_of_a_predicate = 8;  // points of a line or polygon that count as one
 
     explicit FilterCompiler(Vocabulary vocabulary) : vocabulary_{vocabulary} {}
 

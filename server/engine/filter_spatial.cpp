@@ -82,7 +82,7 @@ std::optional<Pair> pair_of(FilterCompiler& compiler, std::vector<Expression> co
 
 }  // namespace
 
-// For Within, the candidate's position must be within the geometry of the condition, in whichever order the two are given.
+// For Within, the candidate's position must be within the condition's geometry, in either order of the operands.
 PredicatePtr FilterCompiler::operator()(SpatialComparison const& comparison) {
     auto pair = pair_of(*this, comparison.operands);
     if (!pair) return nullptr;

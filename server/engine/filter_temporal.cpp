@@ -39,7 +39,7 @@ private:
     std::variant<Period, Reference> when_;
 };
 
-// The relation that holds with the operands exchanged, such as "after" for "before". Only for relations stored as their converse.
+// The relation to store with exchanged operands, such as "after" for "before".
 std::optional<TemporalRelation> converse(TemporalRelation relation) {
     switch (relation) {
         case TemporalRelation::before:
@@ -141,7 +141,7 @@ std::optional<TemporalOperand> temporal_operand(FilterCompiler& compiler, Expres
 
 }  // namespace
 
-// For During, the candidate's time must be during the period of the condition, in whichever order the two are given.
+// For During, the candidate's time must be during the condition's period, in either order of the operands.
 PredicatePtr FilterCompiler::operator()(TemporalComparison const& comparison) {
     auto const own = vocabulary_.own_time();
     if (comparison.operands.size() < 2 && own.empty()) {

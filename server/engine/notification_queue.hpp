@@ -59,8 +59,7 @@ public:
     enum class Pushed : std::uint8_t { ok, overflow };
 
     // Numbers and stores the notification. If too many wait, replaces the oldest waiting event by a `Lost`. Returns `overflow` if
-    // there is no event to replace: the session must then end, and the queue accepts no more events, only notifications that must
-    // not be lost.
+    // there is no event to replace: the session must then end, and the queue accepts no more events.
     Pushed push(std::shared_ptr<OutgoingNotification const>);
 
     // Drops the sent notifications. Replaces the oldest waiting events by `Lost` until `events` are left.
@@ -80,13 +79,12 @@ public:
     // Returns whether the session had to end because too many notifications waited.
     bool overflowed() const { return overflowed_; }
 
-    // The state after a position. `ended` and `overflowed`: no more notifications will come; `overflowed`: because too many
-    // waited.
+    // The state after a position. `ended`, `overflowed`: no more will come; `overflowed`: because too many waited.
     enum class Next : std::uint8_t { more, wait, ended, overflowed };
     Next next(std::uint64_t after) const;
 
-    // Appends up to `most` visible entries after the position `after`, oldest first, and marks them as sent. Begins with a `Lost`
-    // if entries after the position were dropped. Returns the state after the last entry.
+    // Appends up to `most` visible entries after `after`, and marks them as sent. Begins with a `Lost` if entries were dropped
+    // there. Returns the state after the last entry.
     Next read(std::uint64_t after, std::size_t most, std::vector<Numbered>& into);
     std::vector<Numbered> read(std::uint64_t after, std::size_t most);
     bool has_after(std::uint64_t after) const { return next(after) == Next::more; }

@@ -50,7 +50,7 @@ public:
     // Includes the messages of the sub components, and the implied ones (add_parameter_messages).
     ComponentProfile const& profile() const { return *entry_.profile; }
 
-    // Removes the component, which is leaving the engine. The ref and the profile stay readable; calls fail without a report.
+    // Removes the component. The ref and the profile stay readable; calls fail without a report.
     void depart() { component_.reset(); }
     bool has_departed() const { return component_ == nullptr; }
 
@@ -59,12 +59,11 @@ public:
     template <class What>
     Called call(What const& what, Report = Report::each) const;
 
-    // Checks the results of a message against the profile. Wrong results are reported like an exception (decision 16).
+    // Checks the results of a message. Wrong ones are reported like an exception (decision 16).
     enum class Answer : std::uint8_t { right, wrong };
     Answer check(MessageKind, std::string_view message, Results const&, Report = Report::each) const;
 
-    // Returns the component's answer to a query, in one or several rows. Returns no rows if it failed, cannot answer, or its
-    // answer does not fit the profile.
+    // Returns the rows of the answer to a query; none if the component failed, cannot answer, or answers against the profile.
     std::vector<Results> answer(std::string_view query_type, Instant now) const;
 
     // The status, as `asker` sees it (decision 7).
@@ -74,9 +73,9 @@ public:
     std::vector<ParameterProfile> const& settable() const { return settable_; }
     // The stored parameters for the session that has bound the component; the defaults for all others (decision 30).
     ParameterList const& parameters_for(Session const* asker) const;
-    // The answer of get_parameter to `asker`: parameters_for(), and the parameters that the component reads. A parameter that can
-    // be set is read for the session that has bound the component only. Parameters that are not in the profile are left out.
-    // Returns nullopt if the component failed, or read values that do not fit the profile.
+    // The answer of get_parameter to `asker`: parameters_for(), and parameters that the component reads. Those that can be set
+    // are read only for the session that has bound it. Those that are not in the profile are left out. Returns nullopt if the
+    // component failed or its values do not fit the profile.
     std::optional<ParameterList> all_parameters(Session const* asker) const;
     // Restores the default parameters at the end of a binding. Notifies the component if they changed.
     void restore_defaults(Instant now);
@@ -88,8 +87,8 @@ public:
     // The parameters for `start`: the stored ones, and its arguments or their defaults.
     ParameterList for_start(ParameterList stored, ParameterList const& arrived) const;
 
-    // For conditions. Whether the component has the parameter, which may be read-only; whether an event or a query of it has the
-    // result; and its position, nullopt also if it failed.
+    // For conditions: whether it has the parameter, maybe read-only; whether its events or queries have the result; its position,
+    // nullopt also if it failed.
     bool has_parameter(std::string_view name) const;
     bool has_result(std::string_view name) const;
     std::optional<Located> location() const;
@@ -126,12 +125,12 @@ public:
     bool has_failed_to_halt() const { return halting && halting->failed; }
     bool has_stood = false;  // has confirmed a halt at least once
 
-    // The component answered a command, but there was no memory to keep the answer. So its state is unknown.
+    // There was no memory to keep the component's answer to a command. So its state is unknown.
     bool answer_lost = false;
 
-    // A command or query succeeded: clears the failure.
+    // For a command or query that succeeded.
     void clear_failure();
-    // A new session has bound the component: errors that were reported once are reported again.
+    // For a new binding: errors that were reported once are reported again.
     void forget_reported_errors() { reported_once_.clear(); }
 
     void started(CommandHandle) override;
@@ -146,7 +145,7 @@ private:
     // Never throws. If memory runs out, the failure is not reported.
     void report_failure(std::string_view problem, Report) const noexcept;
     void report(ErrorType, std::string text, Report) const;
-    // Converts results to the engine's frame. Returns nullopt, and reports the failure, if that is not possible.
+    // Returns nullopt, and reports the failure, if conversion is impossible.
     std::optional<Results> in_engine_frame(Results, std::string_view message, Report) const;
     std::optional<ParameterList> reconciled(ParameterList stored, ParameterList const& arrived) const;
     bool is_position(std::string_view parameter) const;
@@ -216,7 +215,7 @@ public:
     // The components whose profile has this message.
     ComponentIndex const& with(MessageKind kind, std::string_view message) const { return providers(kind, message).components; }
 
-    // The results of this message, from the profiles of all components that have it. Valid until the components change.
+    // The results of this message in all profiles. Valid until the components change.
     Declarations const& results(MessageKind, std::string_view message) const;
 
     // The parameters of all components, for conditions. Valid until the components change.

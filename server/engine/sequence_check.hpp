@@ -28,7 +28,6 @@ public:
     // Checks one command: known, bound, type, values, in this order.
     std::optional<Objection> objection(CommandMessage const&);
 
-    // The number of commands that were checked.
     std::size_t commands() const { return commands_; }
 
     // Returns whether one of the commands begins or resumes an action.
