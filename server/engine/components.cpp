@@ -59,7 +59,7 @@ void Engine::Core::enter(SharedComponent const& component) {
     told_profile_.reset();
 }
 
-// The component is in the registry no more. A step that fails is done by the next tick.
+// The component is no longer in the registry. The next tick retries a step that fails.
 void Engine::Core::leave(SharedComponent const& component, Instant now) {
     Attempts attempts;
     attempts([&] { executor_.part(*component, now); });

@@ -162,7 +162,7 @@ private:
     Executor executor_;
     Details events_;
     Details errors_;
-    std::vector<SharedComponent> departed_;  // what they said may still be on the agenda
+    std::vector<SharedComponent> departed_;  // the agenda may still have their reports
     Steady details_checked_;
     Steady memory_saved_;
     std::vector<std::uint32_t> free_slots_;  // slots of ended sessions, to be reused (Details::Asker)

@@ -74,7 +74,7 @@ public:
     // The stored parameters for the session that has bound the component; the defaults for all others (decision 30).
     ParameterList const& parameters_for(Session const* asker) const;
     // The answer of get_parameter to `asker`: parameters_for(), and parameters that the component reads. Those that can be set
-    // are read only for the session that has bound it. Those that are not in the profile are left out. Returns nullopt if the
+    // are read only for the session that has bound it. Parameters outside of the profile are left out. Returns nullopt if the
     // component failed or its values do not fit the profile.
     std::optional<ParameterList> all_parameters(Session const* asker) const;
     // Restores the default parameters at the end of a binding. Notifies the component if they changed.

@@ -167,9 +167,9 @@ std::optional<Reference> named(Vocabulary const& vocabulary, std::span<PathStep 
         if (vocabulary.results != nullptr && equal_ignoring_case(first.name, "located"))
             return Reference{.to = To::located, .name = {}, .entity = {}};
         if (auto found = word(vocabulary, first.name)) return found;
-        auto result = declared(vocabulary.results, To::result, first.name);
+        auto from_results = declared(vocabulary.results, To::result, first.name);
         auto set = declared(vocabulary.parameters, To::parameter, first.name);
-        return result && (!set || vocabulary.first == Vocabulary::First::results) ? result : set;
+        return from_results && (!set || vocabulary.first == Vocabulary::First::results) ? from_results : set;
     }
     auto const looked_for = steps.size() == 2 ? last.name : *name;
     if (result) return declared(vocabulary.results, To::result, looked_for);
