@@ -1,4 +1,4 @@
-// What components said, in the order in which they said it, until the engine takes it.
+// A queue of the reports that components made through their ports, in order. The engine handles them at the end of its own step.
 #pragma once
 
 #include <deque>
@@ -47,22 +47,22 @@ inline ErrorOccurred everything_was_stopped() {
             "everything was stopped; nothing starts until it is cleared (POST /rois/clear)"};
 }
 
-using Said = std::variant<CommandStarted, CommandEnded, HaltConfirmed, EventOccurred, ErrorOccurred>;
+using AgendaEntry = std::variant<CommandStarted, CommandEnded, HaltConfirmed, EventOccurred, ErrorOccurred>;
 
 class Agenda {
 public:
-    void add(Said said) { said_.push_back(std::move(said)); }
+    void add(AgendaEntry entry) { entries_.push_back(std::move(entry)); }
 
     // The oldest entry, or null. It stays until `pop`, so the engine can retry an entry that failed for lack of memory.
-    Said* front() { return said_.empty() ? nullptr : &said_.front(); }
-    void pop() { said_.pop_front(); }
+    AgendaEntry* front() { return entries_.empty() ? nullptr : &entries_.front(); }
+    void pop() { entries_.pop_front(); }
 
     // Some component's answer to a command could not be stored. RegisteredComponent::answer_lost marks the component.
     void note_lost_answer() noexcept { answers_lost_ = true; }
     bool take_lost_answers() noexcept { return std::exchange(answers_lost_, false); }
 
 private:
-    std::deque<Said> said_;
+    std::deque<AgendaEntry> entries_;
     bool answers_lost_ = false;
 };
 

@@ -8,7 +8,7 @@ namespace rois {
 
 class Attempts {
 public:
-    // Runs `what`. Returns false if it throws. Keeps the first exception of all runs.
+    // Runs `what`. Returns false if it throws. Keeps the first exception of all calls.
     template <class What>
     bool operator()(What const& what) {
         try {
@@ -24,7 +24,7 @@ public:
         if (!failed_) failed_ = std::move(failure);
     }
 
-    std::exception_ptr const& failure() const { return failed_; }  // null: none
+    std::exception_ptr const& failure() const { return failed_; }  // null if nothing failed
 
     // Throws the kept exception, if there is one.
     void rethrow() const {

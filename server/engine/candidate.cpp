@@ -4,15 +4,15 @@
 
 namespace rois {
 
-std::optional<Texts> ToldCandidate::texts(Reference const& reference) const {
+std::optional<Texts> MessageCandidate::texts(Reference const& reference) const {
     return speaks_of_results(reference) ? texts_in(results_, reference) : component_.texts(reference);
 }
 
-std::optional<Positions> ToldCandidate::positions(Reference const& reference) const {
+std::optional<Positions> MessageCandidate::positions(Reference const& reference) const {
     return speaks_of_results(reference) ? positions_in(results_, reference) : component_.positions(reference);
 }
 
-bool ToldCandidate::has(Reference const& reference) const {
+bool MessageCandidate::has(Reference const& reference) const {
     return speaks_of_results(reference) ? is_in(results_, reference) : component_.has(reference);
 }
 

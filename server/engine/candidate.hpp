@@ -1,4 +1,4 @@
-// What a condition is held against: a component, an event of one, or the results of something.
+// The objects that a condition is matched against: a component, an event of a component, or results.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace rois {
 
-// How far something is from fulfilling a condition. `maybe`: what it depends on is not known yet or may change.
+// How well a candidate meets a condition. `maybe`: the value that decides is not known yet, or may change.
 enum class Match : std::uint8_t { no, maybe, yes };
 
 using Texts = std::vector<std::string>;
@@ -21,47 +21,47 @@ using Positions = std::vector<Geometry>;
 
 class Candidate;
 
-// Who has bound a component, as seen by the condition's asker; in the order in which the asker gets the component most easily.
+// Which session has bound a component, as seen by the session that asks. Ordered from the easiest to bind to the hardest.
 enum class Holder : std::uint8_t { asker, nobody, another_session };
 
-// What a condition on a group makes of one robot.
+// The verdict of a group condition about one robot.
 struct GroupVerdict {
     Match match = Match::no;
-    // How the asker gets the group's components from this robot; set if the robot matches.
-    std::size_t bound = 0;                  // those that the asker has bound
-    std::vector<Candidate const*> to_bind;  // those that it lacks and that are free
-    Candidate const* held = nullptr;        // one that it lacks and that only other sessions have; null if there is none
+    // How the asker gets the group's components from this robot. Set if the robot matches.
+    std::size_t bound = 0;                  // components that the asker has bound
+    std::vector<Candidate const*> to_bind;  // free components that the asker lacks
+    Candidate const* held =
+        nullptr;  // a component that the asker lacks and that only other sessions have bound; null if there is none
 };
 
 class Candidate {
 public:
     virtual ~Candidate() = default;
 
-    // The values that a reference stands for, none when it has no value here; nothing while that is open.
+    // Returns the values of a reference; empty if it has no value, nullopt if the value is not known yet.
     virtual std::optional<Texts> texts(Reference const&) const = 0;
     virtual std::optional<Positions> positions(Reference const&) const = 0;
 
-    // Whether it has such a property at all, be it without a value.
+    // Returns whether the candidate has this property, with or without a value.
     virtual bool has(Reference const&) const = 0;
 
-    // What ResourceId names; empty for what has no name.
+    // The name that ResourceId refers to; empty if the candidate has no name.
     virtual std::string_view rid() const = 0;
 
-    // All components of its robot (its engine); none for what belongs to none.
+    // All components of the candidate's robot (its engine); empty if it belongs to none.
     virtual std::vector<Candidate const*> robot() const = 0;
 
-    // Where the verdict of a condition on a group about this candidate's robot is kept, for as long as the robots are looked at;
-    // null for what belongs to no robot.
+    // Where the verdict of a group condition about the candidate's robot is cached. Null if it belongs to no robot.
     virtual std::optional<GroupVerdict>* verdict(void const* group) const = 0;
 
-    // Nobody can bind what is not a component.
+    // Only components can be bound.
     virtual Holder holder() const { return Holder::nobody; }
 };
 
-// A component together with the results of an event of it, or of its answer to a query. What it refers to lives longer.
-class ToldCandidate final : public Candidate {
+// A component, together with the results of one of its events or of its answer to a query. Keeps references to both.
+class MessageCandidate final : public Candidate {
 public:
-    ToldCandidate(Candidate const& component, Results const& results) : component_{component}, results_{results} {}
+    MessageCandidate(Candidate const& component, Results const& results) : component_{component}, results_{results} {}
 
     std::optional<Texts> texts(Reference const&) const override;
     std::optional<Positions> positions(Reference const&) const override;
@@ -76,7 +76,7 @@ private:
     Results const& results_;
 };
 
-// Results alone, with the id that they were asked by.
+// Results without a component. `id` is the id that the application asked with.
 class ResultsCandidate final : public Candidate {
 public:
     ResultsCandidate(Results const& results, std::string_view id) : results_{results}, id_{id} {}

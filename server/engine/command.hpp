@@ -1,4 +1,4 @@
-// One command of a session on its way through the engine.
+// A command of a session, from its acceptance until its result is forgotten.
 #pragma once
 
 #include <cstddef>
@@ -26,25 +26,25 @@ struct Command {
     CommandId id;
     std::string type;
     ParameterList arguments;                         // with the profile's names
-    Session* session = nullptr;                      // who hears of it; null once the session has ended
-    std::shared_ptr<RegisteredComponent> component;  // also when it has gone meanwhile
-    bool binding_lost = false;                       // its component was released before its turn came (decision 13)
+    Session* session = nullptr;                      // receives the notifications; null once the session has ended
+    std::shared_ptr<RegisteredComponent> component;  // valid also after it has left the engine
+    bool binding_lost = false;                       // released before the command's turn came (decision 13)
 
     State state = State::waiting;
-    std::optional<Deadlines::Ticket> start_deadline;  // until the component says that it has started
-    CompletedStatus status = CompletedStatus::ok;     // once ended, as are the following
+    std::optional<Deadlines::Ticket> start_deadline;  // set until the component reports `started`
+    CompletedStatus status = CompletedStatus::ok;     // set at the end, like the members below
     Results results;
-    std::string reason;  // why not with OK, for people; may be empty
+    std::string reason;  // why the status is not OK, for people; may be empty
     Steady ended_at;
 
     // The steps of ending it. Each step is done once. A later tick repeats a step that failed.
-    bool told = false;      // the journal and the session were notified
+    bool reported = false;  // the journal and the session were notified
     bool kept = false;      // the result is among the session's results
     bool finished = false;  // no step is left
     bool given_up = false;  // it failed for lack of memory: the next tick ends it
 
-    // Where it stands in its sequence; none for set_parameter by itself.
-    std::shared_ptr<Execution> execution;  // until it has ended
+    // The command's place in its sequence. Unset for set_parameter outside of a sequence.
+    std::shared_ptr<Execution> execution;  // until the command has ended
     std::size_t node = 0;
 };
 

@@ -10,7 +10,7 @@ namespace rois {
 
 namespace {
 
-// Names the holder by the number of its session, which the log and the metrics show, and never by its id.
+// Names the holder by the number of its session, as the log and the metrics do. The session's id is a secret.
 std::string held(RegisteredComponent const& component) {
     return "the component " + quoted(component.ref().code) + " is bound by another session, number " +
            std::to_string(component.bound_to->number);
@@ -27,7 +27,7 @@ std::string why_not_free(RegisteredComponent const& component) {
     return component.bound_to == nullptr ? why_not_halted(component) : held(component);
 }
 
-// Gives an id to every command that has none.
+// Gives an id to each command that has none.
 class IdFiller {
 public:
     IdFiller(Executor& executor, Session const& session, std::set<CommandId> taken)
@@ -81,7 +81,7 @@ Reply Engine::Core::perform(Session& session, Bind const& bind, Instant now) {
     return refused<Bind::Reply>(ReturnCode::out_of_resources, held(*component));
 }
 
-// Decisions 4 and 6: the first free match in the order of preference, else one that is already mine.
+// Decisions 4 and 6: the first free match in the order of preference, or else one that the session has bound already.
 Reply Engine::Core::perform(Session& session, BindAny const& bind, Instant now) {
     auto compiled = Selection::compile(bind.condition, vocabulary());
     if (auto* problem = std::get_if<std::string>(&compiled))
@@ -157,7 +157,7 @@ Reply Engine::Core::perform(Session& session, Execute const& execute, Instant no
     if (everything_is_stopped_ && check.begins_something())
         return refused<Execute::Reply>(ReturnCode::error,
                                        "everything was stopped; nothing starts until it is cleared (POST /rois/clear)");
-    // However they end, as many `completed` can wait for the session (decisions 12, 23).
+    // Each of these commands may leave a `completed` waiting for the session (decisions 12, 23).
     constexpr std::size_t most_without_memory = 16;
     auto const most = settings_.max_waiting_notifications;
     if (memory_->full() && check.begins_something() && session.live_commands() + check.commands() > most_without_memory)
@@ -165,7 +165,7 @@ Reply Engine::Core::perform(Session& session, Execute const& execute, Instant no
     if (session.live_commands() + check.commands() > most) {
         ++refused_.commands;
         return refused<Execute::Reply>(ReturnCode::out_of_resources,
-                                       "more than " + std::to_string(most) + " commands of this session would wait or run");
+                                       "a session may have at most " + std::to_string(most) + " commands that wait or run");
     }
     Execute::Reply reply;
     reply.command_unit_list = execute.command_unit_list;
@@ -180,10 +180,10 @@ Reply Engine::Core::perform(Session& session, GetCommandResult const& get, Insta
     auto const found = session.commands.find(get.command_id);
     if (found == session.commands.end())
         return refused<GetCommandResult::Reply>(
-            ReturnCode::bad_parameter, "unknown command_id " + quoted(get.command_id.text) + ", or its results have aged out");
+            ReturnCode::bad_parameter, "unknown command_id " + quoted(get.command_id.text) + ", or its results have expired");
     auto const& command = *found->second;
     auto const* message = find_message(command.component->profile(), MessageKind::command, command.type);
-    // A result that the profile calls so is the component's own.
+    // If the profile has a result of this name, it belongs to the component.
     bool const has_reason = !command.reason.empty() && find_parameter(message->results, "reason") == nullptr;
     Results results;
     switch (command.state) {

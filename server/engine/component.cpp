@@ -10,7 +10,7 @@ void Component::parameters_changed(ParameterList const&, Instant) {}
 
 void Component::perform(CommandHandle, std::string_view command_type, ParameterList const&, Instant) {
     throw std::logic_error("the component's profile has the command '" + std::string{command_type} +
-                           "', but it does not perform it");
+                           "', but the component does not implement it");
 }
 
 std::vector<Results> Component::query(std::string_view, Instant) { return {}; }

@@ -1,4 +1,4 @@
-// The engine's door to what fulfils its components: a driver, a simulation, another engine.
+// The interface between the engine and its components: a driver, a simulation or another engine implements `Component`.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace rois {
 
-// Names a command between the engine and a component: unique for the engine's life, unlike a command_id.
+// Identifies a command between the engine and a component. Unique for the life of the engine; a command_id is not.
 enum class CommandHandle : std::uint64_t {};
 
 // The codebooks of one parameter of type RoISIdentifier (decision 31).
@@ -24,127 +24,130 @@ struct Codebooks {
     std::vector<std::string> known;  // the first one is the default
 };
 
-// What the engine knows of a component from the beginning.
+// The constant properties of a component.
 struct ComponentDescription {
     Identifier ref;                                   // code = the instance's name, unique in the engine (decision 25)
     std::string engine;                               // name of the sub engine that it belongs to; empty for the main engine
-    std::shared_ptr<ComponentProfile const> profile;  // as its document says; the engine adds the messages of the sub components
+    std::shared_ptr<ComponentProfile const> profile;  // as in its document; the engine adds the messages of the sub components
 
-    // The frame in which it takes positions; empty: the engine's own. What it tells says its frame by itself (codebook_ref, crs).
+    // The frame in which the component takes positions; empty: the engine's. Positions that it reports name their frame
+    // (codebook_ref, crs).
     std::string crs;
-    // Which of its parameters are positions (located data, decision 27): in the engine's frame when they do not say another, and
-    // refused when they say one that nobody knows. Others are positions when they say a known frame.
+    // The parameters that hold positions (located data, decision 27). Without a frame, they are in the engine's frame; an unknown
+    // frame is rejected. Other parameters count as positions if they name a known frame.
     std::vector<std::string> positions;
-    // From which codebooks its parameters take identifiers. The engine rejects all others. A codebook that the profile declares
-    // for the parameter (codebook_ref of data_type_ref) is known, too, and comes first.
+    // The codebooks that each identifier parameter accepts; the engine rejects all others. A codebook that the profile declares
+    // for the parameter (codebook_ref of data_type_ref) is accepted too, and is the default.
     std::vector<Codebooks> codebooks{};
-    // Whether it moves the robot or a part of it. If so, it acts only while its application gives signs of life (decision 33).
+    // Whether the component moves the robot or a part of it. It then acts only while its application gives signs of life
+    // (decision 33).
     bool moves = false;
 };
 
-// What becomes of a component when a command of it has completed.
+// The state of a component after one of its commands has completed.
 enum class Afterwards : std::uint8_t {
-    as_before,  // the command's own action is over; a continuous function that worked before it still does
-    active,     // a continuous function now works until it is stopped (detection, recognition, an open stream, ...)
-    idle        // no function works any more
+    as_before,  // the command's own action is over; a continuous function that was active before stays active
+    active,     // a continuous function is active until it is stopped (detection, recognition, an open stream, ...)
+    idle        // no function is active
 };
 
-// The answer of a component to `halt`: it stands still already, or it will call ComponentPort::halted later.
+// The component's answer to `halt`. `confirmed`: it stands still. `not_yet`: it will call ComponentPort::halted.
 enum class Halted : std::uint8_t { confirmed, not_yet };
 
-// How often a failure that may come again and again is told: each time, or `once`, until something of the component succeeds or
-// somebody else binds it. `once` is for what anybody may cause at any time.
+// How often a repeated failure is reported. `each`: every time. `once`: until the component succeeds or another session binds it.
+// Use `once` for failures that any client can cause at any time.
 enum class Report : std::uint8_t { each, once };
 
-// What a component tells the engine. The engine owns it; it lives as long as the component. Every call returns at once: the
-// engine takes what was said when its own turn is over, in the order in which it was said. Call it from the engine's thread
-// only, that is from within a call that the engine makes to a component or a device.
+// The component's way to report to the engine. The engine owns the port; it lives as long as the component. All functions return
+// at once: the engine handles the reports at the end of its own step, in order. Call them only from within a call that the engine
+// makes to a component or a device, on its thread.
 class ComponentPort {
 public:
     virtual ~ComponentPort() = default;
 
-    // The command has begun to act. Due within its profile's timeout (decision 16); `completed` implies it.
+    // The command has begun to act. Must be called within the profile's timeout (decision 16). `completed` implies it.
     virtual void started(CommandHandle) = 0;
 
-    // The command has ended; once for each. Answers to commands that have ended otherwise are counted and dropped. `reason` says,
-    // for people, why it did not end with OK; it becomes the result `reason` of get_command_result.
+    // The command has ended. Must be called once for each command. A report for a command that has already ended is counted and
+    // ignored. `reason` says, for people, why the status is not OK; it becomes the result `reason` of get_command_result.
     virtual void completed(CommandHandle, CompletedStatus, Results = {}, Afterwards = Afterwards::as_before,
                            std::string reason = {}) = 0;
 
-    // The component stands still. To be called after its `halt` returned `not_yet`.
+    // The component stands still. Call this after `halt` returned `not_yet`.
     virtual void halted() = 0;
 
     // An event of the profile occurred.
     virtual void event(std::string_view event_type, Results) = 0;
 
-    // Something is wrong, and perhaps no command to tell it by. `text` says what, for people.
+    // Reports an error that may have no command to report it with. `text` is for people.
     virtual void error(ErrorType, std::string text, Report = Report::each) = 0;
 };
 
-// A component of the engine. The engine calls it from one thread at a time; it must answer quickly and never block. It keeps the
-// rules of 7.6 that are the same for all (who has it bound, what `stop` does to a running `start`, which values a parameter
-// takes, in which frame positions are) away from here: a component is only asked for what can be done now. An exception that
-// leaves a call ends the command with ERROR and is reported as COMPONENT_INTERNAL_ERROR; others are not touched by it.
+// A component. The engine calls it from one thread at a time. Calls must return quickly and never block. The engine enforces the
+// rules that all components share (7.6): bindings, `stop` during `start`, parameter values, frames. So it only calls a component
+// for an operation that is allowed now. If a call throws, the command ends with ERROR and the engine reports
+// COMPONENT_INTERNAL_ERROR; other commands are not affected.
 class Component {
 public:
     virtual ~Component() = default;
 
     virtual ComponentDescription const& description() const = 0;
 
-    // Called once, before anything else is asked; the port stays valid as long as the component.
+    // Called once, before all other functions. The port stays valid as long as the component.
     virtual void attach(ComponentPort&) = 0;
 
-    // Never `busy`: that is the engine's to say.
+    // Must not return `busy`: the engine reports that itself.
     virtual ComponentStatus status() const = 0;
 
-    // Why this command cannot be carried out with these parameters (all that will be stored by then), or nothing. Asked for
-    // every unit of a sequence before any of it runs, and for set_parameter; says nothing of the moment's circumstances.
+    // Returns why the component can never carry out this command with these parameters (all that will be stored by then), or
+    // nullopt. Must not depend on the present situation. Called for each unit of a sequence before any of them runs, and for
+    // set_parameter.
     virtual std::optional<std::string> refusal(std::string_view command_type, ParameterList const& parameters) const = 0;
 
-    // `arrived` was just merged into `stored`: drop from `stored` what the new values replace (the alternative of a pair).
-    // Positions are as the application told them, in whatever frame.
+    // Called after `arrived` was merged into `stored`. Removes from `stored` the values that the new ones replace (the other one
+    // of a pair). Positions are as the application sent them, in any frame.
     virtual void reconcile(ParameterList& stored, ParameterList const& arrived) const;
 
-    // Begin to act with these parameters. Never called while an earlier start still runs: the engine halts that first.
+    // Begins to act with these parameters. The engine never calls this while an earlier start runs: it halts that first.
     virtual void start(CommandHandle, ParameterList const& parameters, Instant now) = 0;
 
-    // End every running action, function and command of the profile at once. The engine completes the commands, `start` with
-    // `status_when_stopped`. The engine may call this at any time, also when the component is idle. Until the halt is confirmed,
-    // the engine starts nothing on the component. If the component throws, or does not confirm within 0.5 s, the engine calls
-    // this again every 0.2 s (decision 35).
+    // Ends every running action, function and command of the profile at once. The engine completes the commands, `start` with
+    // `status_when_stopped`. The engine may call this at any time, also when the component is idle. It starts nothing on the
+    // component until the halt is confirmed. If the component throws, or does not confirm within 0.5 s, the engine calls this
+    // again every 0.2 s (decision 35).
     virtual Halted halt(Instant now) = 0;
 
-    // Hold the running action or function, and go on with it.
+    // Pauses the running action or function, and continues it.
     virtual void suspend(Instant now) = 0;
     virtual void resume(Instant now) = 0;
 
-    // Parameters have been stored, or are the defaults again because a binding ended; the component may be running.
+    // The stored parameters have changed: by a command, or back to the defaults because a binding ended. The component may be
+    // running.
     virtual void parameters_changed(ParameterList const& parameters, Instant now);
 
-    // A command of the component's own profile (none of the five common types). Completes through the port.
+    // Runs a command of the component's own profile (not one of the five common types). Completes through the port.
     virtual void perform(CommandHandle, std::string_view command_type, ParameterList const& arguments, Instant now);
 
-    // How a `start` that is ended by `stop` completes: ABORT, but for Follow (decision 8).
+    // The status of a `start` that `stop` ends: ABORT, except for Follow (decision 8).
     virtual CompletedStatus status_when_stopped() const { return CompletedStatus::abort; }
 
-    // Where it is now: `ref` names the robot that it belongs to. Nothing when that is not known.
+    // The present position, or nullopt if it is unknown. `ref` names the robot that the component belongs to.
     virtual std::optional<Located> location() const { return {}; }
 
-    // What get_parameter answers beside the stored parameters: those that can only be read (recognizable languages, ...).
+    // The read-only parameters of get_parameter (recognizable languages, ...).
     virtual ParameterList readable_parameters() const { return {}; }
 
-    // Answers a query of the profile other than component_status and get_parameter, from what is known now: a row of results for
-    // each thing that there is to tell of, of which the query's condition chooses one; the first is told when it does not. None
-    // when it cannot be answered.
+    // Answers a query of the profile, except component_status and get_parameter, from data at hand. Returns one row of results
+    // for each thing that it knows; none if it cannot answer. The engine answers with the first row that meets the condition.
     virtual std::vector<Results> query(std::string_view query_type, Instant now);
 };
 
-// What components stand on and time moves: advanced to the present before the engine looks at its components.
+// Something that moves with time and that several components share, such as a simulated world.
 class Device {
 public:
     virtual ~Device() = default;
     virtual void advance(Instant now) = 0;
-    // Whether it is to be advanced once more in the same tick, when the engine has taken in what came of the last time.
+    // Returns whether to advance the device again in the same tick, after the engine has handled the reports of this turn.
     virtual bool goes_on() const { return false; }
 };
 

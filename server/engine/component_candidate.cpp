@@ -12,9 +12,9 @@ namespace rois {
 using To = Reference::To;
 using Part = Reference::Part;
 
-// By itself it has no results: they are open until an event, or its answer to a query, brings them. Whatever becomes of the
-// component, its status, binding, place and parameters may change; but a parameter that it does not have stays away, and so does
-// a result that none of its messages has.
+// A component alone has no results: they are open until an event, or an answer to a query, brings them. In Perspective::Of::ever
+// its status, binding, position and parameters are open, too. A parameter that it does not have, or a result that no message of
+// it has, stays absent.
 bool ComponentCandidate::is_open(Reference const& reference) const {
     if (perspective_.of() == Perspective::Of::present)
         return reference.to == To::located || (reference.to == To::result && has(reference));
@@ -38,7 +38,7 @@ std::optional<Texts> ComponentCandidate::texts(Reference const& reference) const
                                          : at_its_place(own_texts(reference), reference);
 }
 
-// All but parameters.
+// For all references except parameters.
 Texts ComponentCandidate::own_texts(Reference const& reference) const {
     switch (reference.to) {
         case To::component_ref:
@@ -75,7 +75,7 @@ bool ComponentCandidate::has(Reference const& reference) const {
         case To::parameter:
             return component_.has_parameter(reference.name);
         case To::result:
-            return component_.tells(reference.name);
+            return component_.has_result(reference.name);
         case To::located:
             return false;
         case To::location:
@@ -107,7 +107,7 @@ Texts ComponentCandidate::identifier_texts(Part part) const {
     return text.empty() ? Texts{} : Texts{text};
 }
 
-// As a text, a place is the names of those that it lies in.
+// As a text, a position is the names of the places that contain it.
 Texts ComponentCandidate::location_texts(Part part) const {
     if (!location()) return {};
     if (part == Part::ref) return {location()->ref};

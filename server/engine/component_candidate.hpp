@@ -1,4 +1,4 @@
-// A component as conditions see it.
+// A component as a candidate for conditions.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@ namespace rois {
 class Perspective;
 class RegisteredComponent;
 
-// Asks the component for what a condition wants to know, and for nothing twice.
+// Reads from the component only the values that a condition needs, each at most once.
 class ComponentCandidate final : public Candidate {
 public:
     ComponentCandidate(RegisteredComponent const& component, Perspective& perspective)

@@ -1,4 +1,4 @@
-// Components to be looked up by what conditions demand of them.
+// Finds components by ref and type, for the demands of conditions.
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@ namespace rois {
 
 class RegisteredComponent;
 
-// Components one after the other, ordered by ref, each once. Good until a component comes or goes.
+// Iterates over several lists of components: ordered by ref, without duplicates. Invalid once a component comes or goes.
 class ComponentsInOrder {
 public:
     using List = std::span<RegisteredComponent* const>;  // ordered by ref
@@ -24,32 +24,32 @@ public:
     ComponentsInOrder(ComponentsInOrder&&) noexcept = default;
     ComponentsInOrder& operator=(ComponentsInOrder&&) noexcept = default;
 
-    // Null when there is no other.
+    // Returns null at the end.
     RegisteredComponent* next();
-    // All that are left.
+    // Returns the remaining components.
     std::vector<RegisteredComponent*> rest();
 
 private:
     std::vector<RegisteredComponent*> own_;
-    List first_;                // what is left of the one list, or of its own
-    std::vector<List> others_;  // and of each of these
+    List first_;                // the rest of the single list, or of own_
+    std::vector<List> others_;  // the rest of each further list
 };
 
 class ComponentIndex {
 public:
-    // One that is there already is there once.
+    // Adding a component twice has no effect.
     void add(RegisteredComponent&);
     void remove(RegisteredComponent const&);
 
     // Ordered by ref.
     std::vector<RegisteredComponent*> const& all() const { return all_; }
 
-    // Those of which alone the demand can be met; all when there is none.
+    // Returns the components that can meet the demand; all of them without a demand.
     ComponentsInOrder possible(std::optional<Demand> const&) const;
 
 private:
     std::vector<RegisteredComponent*> all_;
-    std::map<std::string, std::vector<RegisteredComponent*>, std::less<>> by_type_;  // ordered by ref, too
+    std::map<std::string, std::vector<RegisteredComponent*>, std::less<>> by_type_;  // ordered by ref
 };
 
 }  // namespace rois

@@ -26,7 +26,7 @@ void list(EngineProfile& engine, std::string const& sub_engine, std::string cons
     owner->components.push_back(ref);
 }
 
-// A sub engine without components is none.
+// A sub engine without components is removed.
 void unlist(EngineProfile& engine, std::set<std::string_view> const& refs) {
     auto const goes = [&](std::string const& ref) { return refs.contains(ref); };
     std::erase_if(engine.components, goes);
@@ -39,7 +39,7 @@ void unlist(EngineProfile& engine, std::set<std::string_view> const& refs) {
 Engine::Core::SharedComponent Engine::Core::made(std::unique_ptr<Component> component,
                                                  std::vector<ComponentProfile> const& known) {
     auto const& description = component->description();
-    // Conditions look for refs without it.
+    // Conditions look for refs without surrounding spaces.
     if (trimmed(description.ref.code) != description.ref.code)
         throw std::runtime_error("the ref " + quoted(description.ref.code) + " begins or ends with white space");
     auto whole = flattened(*description.profile, known);
@@ -59,7 +59,7 @@ void Engine::Core::enter(SharedComponent const& component) {
     told_profile_.reset();
 }
 
-// The component is in the registry no more. A step that fails is done by the next tick.
+// The component is no longer in the registry. The next tick retries a step that fails.
 void Engine::Core::leave(SharedComponent const& component, Instant now) {
     Attempts attempts;
     attempts([&] { executor_.part(*component, now); });
@@ -114,7 +114,7 @@ void Engine::Core::change(ComponentChange change, Instant now) {
     for (auto const& component : going) attempts([&] { leave(component, now); });
     for (auto const& component : coming)
         attempts([&] { executor_.halt(*component, CompletedStatus::abort, "it has just come", now); });
-    for (auto const& [id, session] : sessions_) attempts([&, &to = *session] { notifier_.tell(to, notification); });
+    for (auto const& [id, session] : sessions_) attempts([&, &to = *session] { notifier_.notify(to, notification); });
     attempts([&] { settle(now); });
     if (attempts.failure()) unsettled_ = attempts.failure();
 }

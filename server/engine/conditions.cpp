@@ -1,4 +1,4 @@
-// What operations do with their conditions (decisions 4, 18, 19).
+// How operations use their conditions (decisions 4, 18, 19).
 #include <algorithm>
 #include <utility>
 
@@ -17,7 +17,7 @@ bool Engine::Core::may_ever_match(Filter const& filter, ComponentsInOrder possib
 
 namespace {
 
-// Sorts `components` as the selection says; components that it does not tell apart keep their order.
+// Sorts `components` in the order of the selection. The sort is stable.
 void sort(std::vector<RegisteredComponent*>& components, Selection const& selection, Perspective& looked_at) {
     std::vector<Candidate const*> candidates;
     candidates.reserve(components.size());

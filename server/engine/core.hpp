@@ -1,4 +1,4 @@
-// The engine's inside: its parts, and one `perform` for each operation, in the file of its RoIS interface.
+// The implementation of the engine: its parts, and one `perform` for each operation, in the source file of its RoIS interface.
 #pragma once
 
 #include <exception>
@@ -95,7 +95,7 @@ private:
     std::optional<std::string> no_room_for(Session const&, Filter const&, bool shared);
     Reply perform(Session&, Unsubscribe const&, Instant now);
     Reply perform(Session&, GetEventDetail const&, Instant now);
-    // `deliveries` keeps the failure of a delivery. The other deliveries are made nevertheless.
+    // Keeps the first failure of a delivery in `deliveries`, and makes the other deliveries.
     void publish(EventOccurred const&, Instant now, Attempts& deliveries);
     void publish(ErrorOccurred const&, Instant now, Attempts& deliveries);
     ReceiveError noted(ErrorOccurred const&, Instant now);
@@ -105,26 +105,26 @@ private:
         return {
             .places = &places_, .parameters = &registry_.parameters(), .results = results, .main_engine = profile_.object.name};
     }
-    // Whether one of these may meet it, whatever becomes of them.
+    // Returns whether one of these components may ever match, now or after a change of its state.
     bool may_ever_match(Filter const&, ComponentsInOrder possible, Session const& asker) const;
-    // The components that match, in the order of the selection, else by ref. A group condition selects components of one robot:
-    // the one that the asker would get (engine/preference.hpp).
+    // Returns the components that match, in the order of the selection, or else by ref. A group condition selects components of
+    // one robot: the one that the asker would get (engine/preference.hpp).
     std::vector<RegisteredComponent*> select(Selection const&, Session const& asker) const;
     struct ToBind {
-        std::vector<RegisteredComponent*> components;  // in the order in which one is taken
+        std::vector<RegisteredComponent*> components;  // in order of preference
         // Set if a robot met a group condition, but another session holds this component, which the asker lacks.
         RegisteredComponent const* held_of_group = nullptr;
     };
-    // The components that match. Unless the selection sorts or has a group, stops behind the first free one. A group condition
-    // selects components of one robot, if the asker has bound or can bind all that the group looks for.
+    // Returns the components that match. If the selection neither sorts nor has a group, stops at the first free one. A group
+    // condition selects components of one robot, if the asker has bound or can bind all that the group asks for.
     ToBind select_to_bind(Selection const&, Session const& asker) const;
-    // Leaves the results that match (decision 19). Returns why the condition cannot be used, or nothing.
+    // Removes the results that do not match (decision 19). Returns why the condition is invalid, or nullopt.
     std::optional<std::string> choose(Results&, QueryExpression const&, Declarations const& known, std::string_view id) const;
 
     // Sessions (engine.cpp)
     void end(Session&, std::string_view why, Instant now);
-    void part_with(Session&, Instant now);
-    void end_those_that_must(Instant now, Attempts&);
+    void remove(Session&, Instant now);
+    void end_marked_sessions(Instant now, Attempts&);
     void mark_overflowed();
     static SessionStatistics statistics(Session const&);
     Session* longest_idle() const;
@@ -139,22 +139,22 @@ private:
     void forget_what_is_old(Instant now);
     void unbind(Session&, RegisteredComponent&, Instant now);
 
-    Journal nobody_;
-    Journal* journal_ = &nobody_;                   // never null
+    Journal no_journal_;
+    Journal* journal_ = &no_journal_;               // never null
     MemoryBudget* memory_ = &MemoryBudget::none();  // never null
     EngineSettings settings_;
     FreshSecret fresh_secret_;
     std::vector<ComponentProfile> known_profiles_;
     EngineProfile profile_;
-    mutable std::shared_ptr<EngineProfile const> told_profile_;  // the same for those who read it; null until somebody does
+    mutable std::shared_ptr<EngineProfile const> told_profile_;  // copy that callers share; null until it is asked for
     Agenda agenda_;
     Places places_;
     Registry registry_;
-    struct Moved {
+    struct DeviceState {
         std::shared_ptr<Device> device;
         bool failed;  // at the last tick; the failure was reported
     };
-    std::vector<Moved> devices_;
+    std::vector<DeviceState> devices_;
     std::unordered_map<SessionId, std::unique_ptr<Session>, IdHash> sessions_;
     Subscriptions subscriptions_;
     Deadlines deadlines_;
@@ -162,21 +162,21 @@ private:
     Executor executor_;
     Details events_;
     Details errors_;
-    std::vector<SharedComponent> departed_;  // what they said may still be on the agenda
+    std::vector<SharedComponent> departed_;  // the agenda may still have their reports
     Steady details_checked_;
     Steady memory_saved_;
-    std::vector<std::uint32_t> free_slots_;  // slots of ended sessions, to be used again (Details::Asker)
+    std::vector<std::uint32_t> free_slots_;  // slots of ended sessions, to be reused (Details::Asker)
     std::optional<Steady> last_tick_;
-    std::exception_ptr unsettled_;  // thrown while settling a performed operation; the next tick continues and rethrows it
+    std::exception_ptr unsettled_;  // thrown while settling an operation; the next tick continues the work and rethrows it
     bool sessions_must_end_ = false;
     bool shutting_down_ = false;
     bool everything_is_stopped_ = false;
-    std::optional<Steady> stop_reported_;  // to the sessions, for the last time
+    std::optional<Steady> stop_reported_;  // when the sessions were last notified
     std::uint64_t events_published_ = 0;
     std::uint64_t errors_published_ = 0;
     std::uint64_t last_session_ = 0;
     std::uint64_t sessions_replaced_ = 0;
-    // How often there would have been too many.
+    // How often each limit was reached.
     struct {
         std::uint64_t sessions = 0;
         std::uint64_t commands = 0;
@@ -186,7 +186,6 @@ private:
     } refused_;
 };
 
-// A reply that says no.
 template <class R>
 R refused(ReturnCode code, std::string reason) {
     R reply;

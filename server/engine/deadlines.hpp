@@ -1,4 +1,4 @@
-// What is due at some time.
+// Actions that the engine carries out at a given time.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace rois {
 
-// Actions in the order of their times; those of one time in the order in which they were added.
+// Ordered by time; actions of the same time in the order in which they were added.
 class Deadlines {
 public:
     using Action = std::function<void(Instant now)>;
-    using Ticket = std::pair<Steady, std::uint64_t>;  // names an action; an ended one is harmless
+    using Ticket = std::pair<Steady, std::uint64_t>;  // identifies an action; harmless once the action has ended
 
     Ticket add(Steady when, Action action) {
         Ticket const ticket{when, ++last_};
@@ -35,11 +35,11 @@ public:
         return true;
     }
 
-    // A ticket before those of all actions.
+    // A ticket that sorts before all actions.
     static Ticket first() { return {Steady::min(), 0}; }
 
-    // Carries out the next action after `last` that is due by now, and sets `last` to its ticket. Returns false if no action is
-    // due. An action that throws stays, to be carried out again.
+    // Carries out the next action after `last` that is due, and sets `last` to its ticket. Returns false if none is due. An
+    // action that throws stays due.
     bool carry_out_next(Ticket& last, Instant now, Attempts& attempts) {
         auto const next = actions_.upper_bound(last);
         if (next == actions_.end() || next->first.first > now.steady) return false;

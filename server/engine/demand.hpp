@@ -1,4 +1,4 @@
-// What a condition demands of components, as far as there are indexes for it.
+// The part of a condition that the component index can look up.
 #pragma once
 
 #include <algorithm>
@@ -7,19 +7,19 @@
 
 namespace rois {
 
-// Only components with one of these refs and those of one of these types can meet the condition. The types are as
-// `RegisteredComponent::type_key` has them. All points into what was asked for it.
+// Only components with one of these refs or types can meet the condition. Types are spelled as in RegisteredComponent::type_key.
+// The texts belong to the condition.
 struct Demand {
     std::vector<std::string_view> refs;
     std::vector<std::string_view> types;
 
-    // From now on what meets the other is let in, too.
+    // Adds the components that meet `other`.
     void widen(Demand const& other) {
         refs.insert(refs.end(), other.refs.begin(), other.refs.end());
         types.insert(types.end(), other.types.begin(), other.types.end());
     }
 
-    // In order, each once.
+    // Sorts the lists and removes duplicates.
     void tidy() {
         for (auto* texts : {&refs, &types}) {
             std::ranges::sort(*texts);

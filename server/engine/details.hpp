@@ -1,4 +1,4 @@
-// Details of events and errors, kept until they expire, for the sessions that were notified of them (decisions 21, 24).
+// The details of events and errors, kept until they expire, for the sessions that were notified (decisions 21, 24).
 #pragma once
 
 #include <charconv>
@@ -16,12 +16,12 @@
 
 namespace rois {
 
-// Gives numbered ids ("e-17") and keeps the details for each id for the time `kept_for`. For that time again it remembers which
-// sessions were notified: they get the answer `expired`, the others `unknown`.
+// Gives numbered ids ("e-17") and keeps the details of each for `kept_for`. For that time again, remembers which sessions were
+// notified: they get `expired`, all others `unknown`.
 class Details {
 public:
-    // A session that asks for details. Slots are small numbers and are used again. An id that was given before the session
-    // connected is unknown to the session, even if an earlier session in its slot was notified.
+    // A session that asks for details. Slots are small numbers and are reused. A session does not know ids from before it
+    // connected, even if an earlier session in its slot was notified.
     struct Asker {
         std::uint32_t slot = 0;
         std::uint64_t first = 0;  // next() when it connected
@@ -31,27 +31,27 @@ public:
     struct Answer {
         Found found;
         std::shared_ptr<Results const> results;         // when kept
-        std::shared_ptr<MessageProfile const> message;  // to which they belong
+        std::shared_ptr<MessageProfile const> message;  // the message that the results belong to
     };
 
     Details(std::string prefix, std::chrono::milliseconds kept_for) : prefix_{std::move(prefix)}, kept_for_{kept_for} {}
 
     std::chrono::milliseconds kept_for() const { return kept_for_; }
 
-    // The number of the next id.
+    // The number that the next id will have.
     std::uint64_t next() const { return first_ + kept_.size(); }
 
-    // Keeps the results of a message (an event; null for an error) under a new id, with no notified session yet.
+    // Keeps the results of a message (an event; null for an error) under a new id. No session counts as notified yet.
     std::string add(std::shared_ptr<Results const> results, std::shared_ptr<MessageProfile const> message, Instant now) {
         kept_.push_back({now.steady + kept_for_, std::move(results), std::move(message), {}});
         return prefix_ + std::to_string(next() - 1);
     }
 
-    // Records that the session in this slot is notified of the entry that was added last.
-    void tell(std::uint32_t slot) {
-        auto& told = kept_.back().told;
-        if (slot >= told.size()) told.resize(slot + 1);
-        told[slot] = true;
+    // Records that the session in this slot was notified of the last entry.
+    void add_receiver(std::uint32_t slot) {
+        auto& receivers = kept_.back().receivers;
+        if (slot >= receivers.size()) receivers.resize(slot + 1);
+        receivers[slot] = true;
     }
 
     Answer find(std::string_view id, Asker asker, Instant now) {
@@ -64,7 +64,7 @@ public:
         if (!whole || number >= next() || number < asker.first) return {Found::unknown, {}, {}};
         if (number < first_) return {Found::expired, {}, {}};
         auto const& entry = kept_[number - first_];
-        if (asker.slot >= entry.told.size() || !entry.told[asker.slot]) return {Found::unknown, {}, {}};
+        if (asker.slot >= entry.receivers.size() || !entry.receivers[asker.slot]) return {Found::unknown, {}, {}};
         if (!entry.results) return {Found::expired, {}, {}};
         return {Found::kept, entry.results, entry.message};
     }
@@ -74,7 +74,7 @@ public:
         for (; !kept_.empty() && kept_.front().until + kept_for_ <= now.steady; ++first_, --expired_) kept_.pop_front();
     }
 
-    // Expires the oldest entries until at most so many are kept.
+    // Expires the oldest entries until at most `most` are kept.
     void keep_last(std::size_t most) {
         while (kept_.size() - expired_ > most) expire();
     }
@@ -90,14 +90,14 @@ private:
         Steady until;
         std::shared_ptr<Results const> results;  // null: expired
         std::shared_ptr<MessageProfile const> message;
-        std::vector<bool> told;  // by slot: the session was notified
+        std::vector<bool> receivers;  // by slot: whether the session was notified
     };
 
     std::string prefix_;
     std::chrono::milliseconds kept_for_;
-    std::deque<Entry> kept_;   // by number, from first_
+    std::deque<Entry> kept_;   // by number, beginning with first_
     std::uint64_t first_ = 1;  // the number of the first entry in kept_
-    std::size_t expired_ = 0;  // so many entries in kept_ have expired, from the first
+    std::size_t expired_ = 0;  // number of expired entries, at the front of kept_
 };
 
 }  // namespace rois

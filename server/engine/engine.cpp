@@ -24,7 +24,7 @@ Engine::Core::Core(EngineProfile profile, std::vector<ComponentProfile> known_pr
 
 namespace {
 
-// A tick asks for pings for this long, so that they go on when the next tick is late.
+// A tick asks for pings for this long, so that they continue if the next tick is late.
 constexpr std::chrono::milliseconds signs_of_life_wanted{1'000};
 
 std::string in_seconds(std::chrono::nanoseconds time) {
@@ -34,7 +34,7 @@ std::string in_seconds(std::chrono::nanoseconds time) {
 
 }  // namespace
 
-// All refusals, before any operation runs; then the one that it is.
+// Checks all reasons to refuse before it performs the operation.
 std::variant<Reply, Refusal> Engine::Core::handle(SessionId const& id, Operation const& operation, Instant now) {
     if (shutting_down_) return Refusal::shutting_down;
     if (auto const* asked = std::get_if<Connect>(&operation)) return connect(id, *asked, now);
@@ -42,7 +42,7 @@ std::variant<Reply, Refusal> Engine::Core::handle(SessionId const& id, Operation
     auto* session = find(resumed != nullptr ? resumed->session : id);
     if (session == nullptr) return Refusal::no_session;
     auto const number = session->number;
-    session->lease.heard_request(now.steady);
+    session->lease.request_received(now.steady);
     auto const too_long = why_too_long(operation);
     Reply reply = std::visit(
         [&]<class Known>(Known const& known) -> Reply {
@@ -62,16 +62,16 @@ void Engine::Core::begin(Instant now) {
     tick(now);
 }
 
-// A part that fails does not prevent the others. Throws the first failure at the end. A later tick repeats the part that failed.
+// If a part of the tick fails, the others still run. Throws the first failure at the end; a later tick repeats the failed part.
 void Engine::Core::tick(Instant now) {
     Attempts attempts;
     if (unsettled_) attempts.note(std::exchange(unsettled_, nullptr));
     attempts([&] { hold_unproven_motion(now); });
     if (memory_->full()) attempts([&] { save_memory(now); });
-    constexpr int most_turns = 100;  // of devices; what is left waits for the next tick
-    auto const goes_on = [&](Moved const& moved) {
+    constexpr int most_turns = 100;  // of devices; the rest waits for the next tick
+    auto const goes_on = [&](DeviceState const& state) {
         bool more = false;
-        attempts([&] { more = moved.device->goes_on(); });
+        attempts([&] { more = state.device->goes_on(); });
         return more;
     };
     for (int turn = 0; turn == 0 || (turn < most_turns && std::ranges::any_of(devices_, goes_on)); ++turn) {
@@ -79,8 +79,8 @@ void Engine::Core::tick(Instant now) {
         attempts([&] { settle(now); });
     }
     carry_out_what_is_due(now, attempts);
-    attempts([&] { executor_.mend(now); });
-    end_those_that_must(now, attempts);
+    attempts([&] { executor_.repair(now); });
+    end_marked_sessions(now, attempts);
     if (attempts([&] { settle(now); })) departed_.clear();
     attempts([&] { forget_what_is_old(now); });
     attempts.rethrow();
@@ -98,8 +98,8 @@ void Engine::Core::forget_what_is_old(Instant now) {
     executor_.forget_old_results(now);
 }
 
-// Decision 33. Asks the sessions that command moving components for signs of life, and holds the motion when they are missing.
-// If no tick came for as long as a motion lease, nobody was asked in that time: the engine holds all motion.
+// Decision 33. Asks the sessions that command moving components for signs of life, and holds the motion if they are missing. If
+// the ticks paused for as long as a motion lease, no session was asked in that time: the engine then holds all motion.
 void Engine::Core::hold_unproven_motion(Instant now) {
     auto const missed = now.steady - last_tick_.value_or(now.steady);
     Attempts attempts;
@@ -112,7 +112,7 @@ void Engine::Core::hold_unproven_motion(Instant now) {
             if (missed >= settings_.motion_lease)
                 executor_.hold(*component, "the engine stood still for " + in_seconds(missed), now);
             else if (now.steady >= session->lease.end())
-                executor_.hold(*component, "nothing was heard from its application in time", now);
+                executor_.hold(*component, "its application gave no sign of life in time", now);
         });
     }
     attempts.rethrow();  // before last_tick_ changes: the next tick then holds the components that could not be held
@@ -120,7 +120,7 @@ void Engine::Core::hold_unproven_motion(Instant now) {
     settle(now);
 }
 
-// Reports a failing device once, until it succeeds. The next tick advances it again: it may have lacked memory.
+// Reports a failing device once, until it succeeds. The next tick advances it again: the cause may have been a lack of memory.
 void Engine::Core::advance_devices(Instant now) {
     Attempts attempts;
     for (auto& [device, failed] : devices_) {
@@ -132,7 +132,7 @@ void Engine::Core::advance_devices(Instant now) {
         } catch (std::exception const& exception) {
             attempts([&] { problem = exception.what(); });
         } catch (...) {
-            attempts([&] { problem = "an unknown exception left a device"; });
+            attempts([&] { problem = "a device threw an unknown exception"; });
         }
         if (std::exchange(failed, true)) continue;
         attempts([&] { agenda_.add(ErrorOccurred{nullptr, ErrorType::engine_internal_error, std::move(problem)}); });
@@ -143,27 +143,27 @@ void Engine::Core::advance_devices(Instant now) {
 // Handles the agenda, and what handling it adds to it, until it is empty. The next tick retries an entry that fails.
 void Engine::Core::settle(Instant now) {
     Attempts attempts;
-    struct Taker {
+    struct Handler {
         Core& core;
         Instant now;
         Attempts& deliveries;
-        void operator()(CommandStarted const& said) { core.executor_.started(said.command); }
-        void operator()(CommandEnded& said) { core.executor_.completed(said, now); }
-        void operator()(HaltConfirmed const& said) { core.executor_.halted(*said.component, now); }
-        void operator()(EventOccurred const& said) { core.publish(said, now, deliveries); }
-        void operator()(ErrorOccurred const& said) { core.publish(said, now, deliveries); }
+        void operator()(CommandStarted const& report) { core.executor_.started(report.command); }
+        void operator()(CommandEnded& report) { core.executor_.completed(report, now); }
+        void operator()(HaltConfirmed const& report) { core.executor_.halted(*report.component, now); }
+        void operator()(EventOccurred const& report) { core.publish(report, now, deliveries); }
+        void operator()(ErrorOccurred const& report) { core.publish(report, now, deliveries); }
     };
-    auto const take_all = [&] {
-        while (auto* said = agenda_.front()) {
-            if (!attempts([&] { std::visit(Taker{*this, now, attempts}, *said); })) return;
+    auto const handle_all = [&] {
+        while (auto* entry = agenda_.front()) {
+            if (!attempts([&] { std::visit(Handler{*this, now, attempts}, *entry); })) return;
             agenda_.pop();
         }
     };
-    take_all();
+    handle_all();
     while (notifier_.take_overflowed()) {
         mark_overflowed();
-        end_those_that_must(now, attempts);
-        take_all();
+        end_marked_sessions(now, attempts);
+        handle_all();
     }
     attempts.rethrow();
 }
@@ -194,14 +194,14 @@ void Engine::Core::end(Session& session, std::string_view why, Instant now) {
     session.ending = true;
     session.why_it_ends = why;
     try {
-        part_with(session, now);
+        remove(session, now);
     } catch (...) {
         sessions_must_end_ = true;
         throw;
     }
 }
 
-void Engine::Core::end_those_that_must(Instant now, Attempts& attempts) {
+void Engine::Core::end_marked_sessions(Instant now, Attempts& attempts) {
     if (!std::exchange(sessions_must_end_, false)) return;
     for (auto next = sessions_.begin(); next != sessions_.end();) {
         auto& session = *(next++)->second;
@@ -210,13 +210,13 @@ void Engine::Core::end_those_that_must(Instant now, Attempts& attempts) {
 }
 
 // Decision 3. Halts the components first, because they may move. Closes the queue after the last notifications are in it.
-void Engine::Core::part_with(Session& session, Instant now) {
+void Engine::Core::remove(Session& session, Instant now) {
     Attempts attempts;
     if (settings_.on_session_end == OnSessionEnd::continue_) {
         for (auto* component : session.bound)
             if (component->moves())
                 attempts([&] { executor_.halt(*component, CompletedStatus::abort, "its session has ended", now); });
-        attempts([&] { executor_.let_run_on(session); });
+        attempts([&] { executor_.detach_commands(session); });
     } else {
         for (auto* component : session.bound)
             attempts([&] { executor_.halt(*component, CompletedStatus::abort, "its session has ended", now); });
@@ -229,7 +229,7 @@ void Engine::Core::part_with(Session& session, Instant now) {
     executor_.forget(session);
     notifier_.close(session);
     journal_->session_ended(session.number, session.why_it_ends);
-    free_slots_.push_back(session.events.slot);  // does not throw: `connect` reserved the room
+    free_slots_.push_back(session.events.slot);  // cannot throw: `connect` reserved the room
     sessions_.erase(sessions_.find(session.id));
 }
 
@@ -242,7 +242,7 @@ void Engine::Core::stop_everything(Instant now) {
     attempts.rethrow();
 }
 
-// Any client can stop everything, as often as it likes. More errors than this would fill the queues of the sessions.
+// Any client can stop everything, as often as it likes. Reporting each stop would fill the queues of the sessions.
 void Engine::Core::report_stop_of_everything(Instant now) {
     if (stop_reported_ && now.steady - *stop_reported_ < std::chrono::seconds{1}) return;
     agenda_.add(everything_was_stopped());
@@ -274,13 +274,13 @@ void Engine::Core::shut_down(Instant now) {
         session->ending = sessions_must_end_ = true;
         session->why_it_ends = "the gateway is shutting down";
     }
-    end_those_that_must(now, attempts);
+    end_marked_sessions(now, attempts);
     attempts([&] { settle(now); });
     attempts.rethrow();
 }
 
-// Drops data that is kept for later only: results, details, sent notifications and waiting events. Runs at most every 100 ms.
-// Keeps the last ones, for an application that is slow for a moment. Then ends the sessions in which too many notifications wait.
+// Drops data that is only kept for later: results, details, sent notifications and waiting events. Keeps the newest ones, for an
+// application that is slow for a moment. Then ends the sessions with too many waiting notifications. Runs at most every 100 ms.
 void Engine::Core::save_memory(Instant now) {
     constexpr std::size_t kept = 64, most_waiting = 256;
     if (now.steady - memory_saved_ < std::chrono::milliseconds{100}) return;
@@ -301,12 +301,12 @@ void Engine::Core::save_memory(Instant now) {
 void Engine::Core::heard_from(SessionId const& id, Instant now) {
     auto* session = find(id);
     if (session == nullptr) return;
-    session->heard = now.steady;
+    session->last_activity = now.steady;
     session->quiet_until = std::max(session->quiet_until, now.steady + settings_.session_timeout);
 }
 
 void Engine::Core::heard_pong(SessionId const& id, Instant now) {
-    if (auto* session = find(id)) session->lease.heard_pong(now.steady);
+    if (auto* session = find(id)) session->lease.pong_received(now.steady);
 }
 
 void Engine::Core::link_opened(SessionId const& id, Link link, Instant now) {
@@ -317,7 +317,7 @@ void Engine::Core::link_closed(SessionId const& id, Link link, Closing closing, 
     auto* session = find(id);
     if (session == nullptr) return;
     session->lease.closed(link, closing, now.steady);
-    session->heard = now.steady;
+    session->last_activity = now.steady;
     auto const grace = link == Link::stream ? settings_.session_timeout : std::chrono::milliseconds{0};
     session->quiet_until = std::max(session->quiet_until, now.steady + grace);
     await_end_of_window(*session);
@@ -330,7 +330,7 @@ Session* Engine::Core::longest_idle() const {
         bool const idle = session->lease.links() == 0 && session->bound.empty() && session->subscriptions.empty() &&
                           session->live_commands() == 0;
         auto const earlier = [](Session const& a, Session const& b) {
-            return std::pair{a.heard, a.number} < std::pair{b.heard, b.number};
+            return std::pair{a.last_activity, a.number} < std::pair{b.last_activity, b.number};
         };
         if (idle && (longest == nullptr || earlier(*session, *longest))) longest = session.get();
     }
@@ -344,8 +344,8 @@ void Engine::Core::await_end_of_window(Session& session, Steady not_before) {
     session.end_of_window = deadlines_.add(when, [this, id = session.id](Instant then) { end_if_lost(id, then); });
 }
 
-// Checks again later if the session sent something in between (decision 2). Keeps a deadline also while a link is open, so that
-// the end of the link can move it without memory.
+// Checks again later if the session sent something in between (decision 2). Keeps the deadline while a link is open, so that the
+// end of the link can move it without memory.
 void Engine::Core::end_if_lost(SessionId const& id, Instant now) {
     auto* session = find(id);
     if (session == nullptr) return;
@@ -370,7 +370,7 @@ EngineStatistics Engine::Core::statistics() const {
     numbers.subscriptions = subscriptions_.size();
     std::ranges::copy(executor_.completed_by_status(), numbers.commands_completed);
     numbers.events = events_published_;
-    numbers.notifications = notifier_.told();
+    numbers.notifications = notifier_.pushed();
     numbers.notifications_lost = notifier_.lost();
     numbers.errors = errors_published_;
     numbers.stray_answers = executor_.stray_answers();

@@ -1,4 +1,4 @@
-// The HRI engine (section 7.2): sessions, components, commands, queries and events behind one door.
+// The HRI engine (section 7.2): sessions, components, commands, queries and events behind one interface.
 #pragma once
 
 #include <cstdint>
@@ -20,32 +20,32 @@
 
 namespace rois {
 
-// The engine's door to those who carry notifications to their receivers. Called from within the engine's own calls.
+// Notifies the network layer that a session has notifications to read. Called from within calls to the engine.
 class Outbox {
 public:
     virtual ~Outbox() = default;
-    // The session's queue has something to read, or was closed. Must not throw.
+    // The session's queue has new entries, or was closed. Must not throw.
     virtual void notify(NotificationQueue&) = 0;
-    // `notify` will be called soon: what that needs may be prefetched.
+    // `notify` follows soon: the implementation may prefetch memory.
     virtual void approach(NotificationQueue const&) const {}
 };
 
-// Why an operation did not run at all; the network layer makes a fault of it.
+// Why an operation was not performed at all. The network layer answers with a fault.
 enum class Refusal : std::uint8_t { no_session, too_many_sessions, no_memory, shutting_down };
 
-// Components that come and go at once (profile_changed).
+// Components to remove and to add in one step (profile_changed).
 struct ComponentChange {
-    std::vector<std::string> going;  // refs
+    std::vector<std::string> going;  // refs of the components to remove
     std::vector<std::unique_ptr<Component>> coming;
-    std::vector<ComponentProfile> known_profiles;  // among which sub components are looked up from now on
+    std::vector<ComponentProfile> known_profiles;  // where sub components are looked up from now on
 };
 
-// Numbers for /metrics, counted since the start.
+// Statistics for /metrics, counted since the start.
 struct SessionStatistics {
-    std::uint64_t number = 0;  // in the order of connecting, from 1: unlike the id it is no secret
+    std::uint64_t number = 0;  // in the order of connecting, from 1; unlike the session id not a secret
     Steady connected;
     std::vector<std::string> bound;  // refs
-    std::size_t commands = 0;        // that wait or run
+    std::size_t commands = 0;        // waiting or running
     std::size_t subscriptions = 0;
     std::size_t waiting_notifications = 0;
 };
@@ -53,97 +53,99 @@ struct SessionStatistics {
 struct LimitStatistics {
     std::string_view of;
     std::size_t most = 0;
-    std::uint64_t reached = 0;  // how often something was refused, dropped or ended because of it
+    std::uint64_t reached = 0;  // how often it made the gateway reject, drop or end something
 };
 
 struct EngineStatistics {
-    std::size_t sessions = 0;                  // now
-    std::uint64_t sessions_replaced = 0;       // idle ones that ended for a new one
-    std::size_t components = 0;                // now
-    std::size_t subscriptions = 0;             // now: distinct event types with conditions
+    std::size_t sessions = 0;                  // open now
+    std::uint64_t sessions_replaced = 0;       // idle sessions that were ended to make room for a new one
+    std::size_t components = 0;                // present now
+    std::size_t subscriptions = 0;             // present now: distinct pairs of event type and condition
     std::uint64_t commands_completed[5] = {};  // by CompletedStatus
     std::uint64_t events = 0;
     std::uint64_t notifications = 0;
     std::uint64_t notifications_lost = 0;
     std::uint64_t errors = 0;
-    std::uint64_t stray_answers = 0;              // of components: late, double or of nobody
+    std::uint64_t stray_answers = 0;              // answers of components that came late, twice, or for an unknown command
     bool everything_is_stopped = false;           // decision 34
     std::size_t not_halted = 0;                   // components that have not confirmed a halt
     std::vector<SessionStatistics> each_session;  // ordered by number
     std::vector<LimitStatistics> limits;
-    std::size_t memory_budget = 0;  // bytes; 0: there is no limit
-    std::size_t memory_used = 0;    // of it
+    std::size_t memory_budget = 0;  // bytes; 0: no limit
+    std::size_t memory_used = 0;    // bytes
 };
 
-// Plain and single-threaded: all calls, also those to a session's NotificationQueue, are made by one thread at a time. Time is
-// passed in and never goes back on `steady`. A call runs everything that it causes before it returns.
+// Not thread-safe: the caller serializes all calls (net::Gateway holds a mutex). Only reading from a NotificationQueue needs no
+// such lock. The engine never reads a clock or opens a file: the caller passes the time, and `steady` must not go back. A call
+// handles everything that it causes before it returns.
 class Engine {
 public:
-    using FreshSecret = std::function<std::string()>;  // an unguessable text of 128 bits or more, fit for an XML attribute
+    // Returns an unguessable text of at least 128 bits that is valid in an XML attribute.
+    using FreshSecret = std::function<std::string()>;
 
-    // `profile` names the engine; its components and sub profiles are filled in as components are added.
+    // `profile` names the engine. The engine adds components and sub profiles as components are added.
     Engine(EngineProfile profile, std::vector<ComponentProfile> known_profiles, EngineSettings, Outbox&, FreshSecret);
     ~Engine();
     Engine(Engine const&) = delete;
     Engine& operator=(Engine const&) = delete;
 
-    // Reports to this journal from now on; without one, to nobody. It must live until the last call of the engine.
+    // Sets the journal, which must outlive the last call to the engine.
     void report_to(Journal&);
 
-    // From now on the engine checks this budget before it accepts anything that it must keep. Without a budget there is no limit.
-    // The owner of the budget measures it, and keeps it until after the last call of the engine.
+    // Sets the memory budget, which the engine checks before it accepts data to keep. Without one there is no limit. Its owner
+    // measures the memory. It must outlive the last call to the engine.
     void keep_within(MemoryBudget&);
 
-    // Before the first session. Throws std::runtime_error for a ref that is taken or a sub component profile that is unknown.
+    // Call before the first session. Throws std::runtime_error if the ref is taken or a sub component profile is unknown.
     void add(std::unique_ptr<Component>);
     void add(std::shared_ptr<Device>);
 
-    // At any time; all of it or nothing: throws std::runtime_error for a ref that is taken or unknown, or a sub component profile
-    // that is unknown. What runs on a component that goes, or waits for it, completes with ABORT; its bindings are lost;
-    // subscriptions stay, and hear it again should it come back. New components are halted first. All sessions are notified when
-    // any component came or went.
+    // Removes and adds components, at any time. Throws std::runtime_error, and changes nothing, if a ref is taken or unknown or a
+    // sub component profile is unknown. Commands that run on or wait for a removed component complete with ABORT, and its
+    // bindings end. Subscriptions stay, and apply again if the component returns. New components are halted first. Notifies all
+    // sessions if anything changed.
     void change(ComponentChange, Instant now);
 
-    // The frames that components and applications tell positions in, and the places that conditions speak of; none is known
-    // before. Once, before the first session.
+    // Sets the frames and the named places. Call once, before the first session.
     void describe(Places);
 
-    // Performs an operation for the session (an empty id: for nobody yet). The notifications that it causes are in the session's
-    // queue when it returns. `Connect` opens a session unless `session` is one already;
-    // when all places are taken, it ends the one that has been idle for longest, without link, binding and subscription. `Resume`
-    // only checks that its session can be taken over from `last_sequence`; reading on from there is the caller's.
+    // Performs an operation for the session; the id is empty if the client has none yet. On return, the session's queue holds the
+    // notifications that the operation caused. `Connect` opens a session unless `session` is open. If the limit of sessions is
+    // reached, it ends the session that has been idle for longest (no link, no binding, no subscription), or is refused. `Resume`
+    // only checks that notifications can be read on from `last_sequence`; the caller reads them.
     std::variant<Reply, Refusal> handle(SessionId const& session, Operation const&, Instant now);
 
-    // Halts all components, which may be moving already, and performs the first tick. To be called once, before `handle`.
+    // Halts all components, which may be moving, and performs the first tick. Call once, before `handle`.
     void begin(Instant now);
 
-    // Does what is due by now: devices, delays, timeouts, expiry, sessions whose link was lost.
+    // Does everything that is due: devices, delays, timeouts, expiry, the end of sessions whose link was lost.
     void tick(Instant now);
 
-    // Null when there is no such session. Whoever keeps it can read what the session was told last, also after its end.
+    // Returns the session's queue, or null. The queue stays readable after the session's end.
     std::shared_ptr<NotificationQueue> notifications(SessionId const&) const;
 
-    // The session's link. The gateway received an HTTP request or a pong of the session, or a WebSocket or notification stream of
-    // it opened or closed. Operations renew the motion lease by themselves.
+    // The network layer reports a request, a pong, or a WebSocket or notification stream that opened or closed. Operations renew
+    // the motion lease without such a report.
     void heard_from(SessionId const&, Instant now);
     void heard_pong(SessionId const&, Instant now);
     void link_opened(SessionId const&, Link, Instant now);
     void link_closed(SessionId const&, Link, Closing, Instant now);
 
-    // Ends one session as if disconnected; nothing happens when there is none.
+    // Ends a session, if it exists, as if it had disconnected.
     void end(SessionId const&, Instant now);
 
-    // Stop for everything (decision 34): halts every component, bound or not, and ends all commands with ABORT. Nothing starts
-    // until `clear`. All sessions are notified, also those that are opened until then.
+    // Stops everything (decision 34): halts every component, bound or not, and ends all commands with ABORT. Nothing starts until
+    // `clear`. Notifies all sessions, also those that are opened before `clear`.
     void stop_everything(Instant now);
     void clear();
     bool everything_is_stopped() const;
-    // Refs of the components that were told to halt and have not confirmed that they stand still (decision 35).
+    // Returns the refs of the components that have not confirmed a halt (decision 35).
     std::vector<std::string> not_halted() const;
-    // Those of them for which the engine is not ready: their halt has failed, it is their first one, or everything is stopped.
+    // Returns those of not_halted() that keep the engine from being ready: the halt has failed, is the component's first, or
+    // everything is stopped.
     std::vector<std::string> not_ready() const;
 
-    // Ends every session, and refuses what comes later.
+    // Ends every session. Later operations are refused.
     void shut_down(Instant now);
 
     std::shared_ptr<EngineProfile const> profile() const;

@@ -20,7 +20,7 @@ namespace {
 
 // A list among the results.
 struct List {
-    std::size_t at;  // its place among the parameters
+    std::size_t at;  // its index among the parameters
     Reference::Items kept;
     Texts items;
 };
@@ -44,7 +44,7 @@ std::vector<std::string> values_of(Texts items, Reference::Items kept) {
 struct Table {
     std::vector<List> lists;
     std::vector<std::optional<std::size_t>> entry_of_located;  // for each `located` element of the results
-    std::vector<std::vector<std::size_t>> located_of_entry;    // the other way round
+    std::vector<std::vector<std::size_t>> located_of_entry;    // the inverse
 
     std::size_t length() const { return lists.front().items.size(); }
 };
@@ -54,7 +54,7 @@ bool has_list(Table const& table, ParameterList const& parameters, std::string_v
                                [&](List const& list) { return equal_ignoring_case(parameters[list.at].name, name); });
 }
 
-// Where the code is in a list of identifiers.
+// Returns the index of the code in a list of identifiers.
 std::optional<std::size_t> entry_with(Table const& table, ParameterList const& parameters, std::string_view code) {
     for (auto const& list : table.lists) {
         if (DataType::of(parameters[list.at].data_type_ref).base != BaseType::identifier) continue;
@@ -64,7 +64,7 @@ std::optional<std::size_t> entry_with(Table const& table, ParameterList const& p
     return {};
 }
 
-// A `located` element belongs to the entry at its place if every entry has one, else to the entry that has its ref.
+// A `located` element belongs to the entry with its index if every entry has one element, or else to the entry that has its ref.
 void assign_located(Table& table, Results const& results) {
     std::map<std::string, std::vector<std::size_t>> located_of_list;
     for (std::size_t i = 0; i < results.located.size(); ++i)
@@ -82,7 +82,7 @@ void assign_located(Table& table, Results const& results) {
     }
 }
 
-// Whether the reference is about the entries of this list.
+// Returns whether the reference is about the entries of this list.
 bool is_about(Reference const& reference, Parameter const& parameter, std::vector<Located> const& located) {
     if (reference.to == Reference::To::result)
         return reference.part == Reference::Part::value && equal_ignoring_case(reference.name, parameter.name);
@@ -90,12 +90,12 @@ bool is_about(Reference const& reference, Parameter const& parameter, std::vecto
     return std::ranges::any_of(located, [&](Located const& each) { return equal_ignoring_case(each.of, parameter.name); });
 }
 
-// Results of which parallel lists have one entry only. A place in a reference, "person_ref[2]", is that of the entry.
+// Results in which the parallel lists have one entry only. An index in a reference, "person_ref[2]", is that of the entry.
 class EntryCandidate final : public Candidate {
 public:
     EntryCandidate(Results const& row, std::string_view id, Table const& table) : row_{row}, whole_{row, id}, table_{table} {}
 
-    std::size_t entry = 0;  // the one that the row has
+    std::size_t entry = 0;  // the entry that the row contains
 
     std::optional<Texts> texts(Reference const& reference) const override {
         if (!names_a_place(reference)) return whole_.texts(reference);
@@ -125,7 +125,7 @@ private:
     Table const& table_;
 };
 
-// Which entries match, in their order.
+// Returns for each entry whether it matches.
 std::vector<bool> matching(Table const& table, Results const& results, Filter const& filter, std::string_view id) {
     auto row = results;
     std::erase_if(row.located, [&](Located const& each) { return has_list(table, results.parameters, each.of); });
@@ -141,7 +141,7 @@ std::vector<bool> matching(Table const& table, Results const& results, Filter co
     return matches;
 }
 
-// The tables that the filter refers to; nothing if it refers to no list.
+// Returns the tables that the filter refers to; nullopt if it refers to no list.
 std::optional<std::vector<Table>> tables_of(Results const& results, Filter const& filter) {
     std::map<std::size_t, Table> by_length;
     std::set<std::size_t> referred;

@@ -1,4 +1,4 @@
-// Event interface (7.4.2, table 5): subscriptions, and what becomes of events.
+// Event interface (7.4.2, table 5): subscriptions and the delivery of events.
 #include <span>
 #include <utility>
 
@@ -10,13 +10,12 @@ namespace rois {
 
 namespace {
 
-// An event to a thousand sessions finds each one's queue far away in memory, and behind that those who read it: they are called
-// for some turns before their own.
-void call_nearer(std::span<Subscription::Hearer const> those_who_follow, Notifier const& notifier) {
-    auto const follows = [&](std::size_t turns) { return turns < those_who_follow.size(); };
-    if (follows(6)) prefetch<sizeof(NotificationQueue)>(those_who_follow[6].queue);
-    if (follows(4)) Notifier::approach(*those_who_follow[4].queue);
-    if (follows(2)) notifier.approach_readers(*those_who_follow[2].queue);
+// Prefetches the queues of the next few subscribers, and their readers: with many sessions, each queue is a cache miss.
+void prefetch_next(std::span<Subscription::Subscriber const> next, Notifier const& notifier) {
+    auto const follows = [&](std::size_t turns) { return turns < next.size(); };
+    if (follows(6)) prefetch<sizeof(NotificationQueue)>(next[6].queue);
+    if (follows(4)) Notifier::prefetch_audience(*next[4].queue);
+    if (follows(2)) notifier.prefetch_readers(*next[2].queue);
 }
 
 }  // namespace
@@ -40,12 +39,12 @@ Reply Engine::Core::perform(Session& session, Subscribe const& subscribe, Instan
     return reply;
 }
 
-// Returns why the session may not have one more subscription, or nothing. `shared`: another session has the same subscription.
+// Returns why the session may not have one more subscription, or nullopt. `shared`: another session has the same subscription.
 std::optional<std::string> Engine::Core::no_room_for(Session const& session, Filter const& wanted, bool shared) {
     auto const too_many = [](std::string_view whose, std::size_t most, std::string_view what, std::uint64_t& refused) {
         ++refused;
-        return "the conditions of " + std::string{whose} + " may have " + std::to_string(most) + " " + std::string{what} +
-               " together: unsubscribe from what is not needed any more";
+        return "the conditions of " + std::string{whose} + " may have at most " + std::to_string(most) + " " + std::string{what} +
+               " in total: unsubscribe from events that you do not need";
     };
     if (session.predicates + wanted.predicates() > settings_.max_subscribed_predicates)
         return too_many("a session's subscriptions", settings_.max_subscribed_predicates, "predicates", refused_.predicates);
@@ -80,7 +79,7 @@ Reply Engine::Core::perform(Session& session, GetEventDetail const& get, Instant
 
 namespace {
 
-// The notifications of one event to one subscription: one object for all who want the results inline, one for the others.
+// The notifications of one event for one subscription: one shared by all sessions with inline results, one by the others.
 class EventNotifications {
 public:
     EventNotifications(ReceiveEvent plain, std::shared_ptr<Results const> results)
@@ -104,40 +103,40 @@ private:
 
 }  // namespace
 
-void Engine::Core::publish(EventOccurred const& said, Instant now, Attempts& deliveries) {
-    auto const subscriptions = subscriptions_.possible(said.event_type, *said.component);
-    auto const& results = said.results;
-    std::string event_id;  // given when somebody hears of it
-    Perspective anybodys{registry_, places_, nullptr, Perspective::Of::present};
-    ToldCandidate const candidate{anybodys.candidate(*said.component), *results};
+void Engine::Core::publish(EventOccurred const& event, Instant now, Attempts& deliveries) {
+    auto const subscriptions = subscriptions_.possible(event.event_type, *event.component);
+    auto const& results = event.results;
+    std::string event_id;  // made when a subscriber matches
+    Perspective no_asker{registry_, places_, nullptr, Perspective::Of::present};
+    MessageCandidate const candidate{no_asker.candidate(*event.component), *results};
     auto const matches = [&](Subscription const& subscription, Session const& asker) {
         Perspective askers{registry_, places_, &asker, Perspective::Of::present};
-        return subscription.filter.match(ToldCandidate{askers.candidate(*said.component), *results}) == Match::yes;
+        return subscription.filter.match(MessageCandidate{askers.candidate(*event.component), *results}) == Match::yes;
     };
     bool begun = false;  // some subscriber may have been notified
     auto const deliver = [&](Subscription& subscription) {
         bool const each = subscription.filter.depends_on_asker();
         if (!each && subscription.filter.match(candidate) != Match::yes) return;
         if (event_id.empty()) {
-            auto const& profile = said.component->entry().profile;
-            event_id = events_.add(results, {profile, find_message(*profile, MessageKind::event, said.event_type)}, now);
+            auto const& profile = event.component->entry().profile;
+            event_id = events_.add(results, {profile, find_message(*profile, MessageKind::event, event.event_type)}, now);
         }
         EventNotifications notifications{{.event_id = {event_id},
-                                          .event_type = said.event_type,
+                                          .event_type = event.event_type,
                                           .subscribe_id = subscription.id,
                                           .expire = now.utc + events_.kept_for(),
-                                          .component_ref = said.component->ref(),
+                                          .component_ref = event.component->ref(),
                                           .results = nullptr},
                                          results};
         begun = true;
-        for (std::span<Subscription::Hearer const> hearers{subscription.hearers}; !hearers.empty();
-             hearers = hearers.subspan(1)) {
-            call_nearer(hearers, notifier_);
-            auto const& hearer = hearers.front();
+        for (std::span<Subscription::Subscriber const> subscribers{subscription.subscribers}; !subscribers.empty();
+             subscribers = subscribers.subspan(1)) {
+            prefetch_next(subscribers, notifier_);
+            auto const& subscriber = subscribers.front();
             deliveries([&] {
-                if (each && !matches(subscription, *hearer.session)) return;
-                events_.tell(hearer.slot);
-                notifier_.tell(*hearer.queue, notifications.of(hearer.inline_results));
+                if (each && !matches(subscription, *subscriber.session)) return;
+                events_.add_receiver(subscriber.slot);
+                notifier_.notify(*subscriber.queue, notifications.of(subscriber.inline_results));
             });
         }
     };

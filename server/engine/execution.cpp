@@ -79,7 +79,7 @@ std::vector<Execution::Turn> Execution::command_ended(std::size_t node, Complete
     return turns;
 }
 
-// Ends a unit and, with it, the units around it that are over by that.
+// Ends a unit, and each enclosing unit that is over as a consequence.
 void Execution::end(std::size_t node, bool ok, std::vector<Turn>& turns) {
     while (true) {
         nodes_[node].ended = true;

@@ -1,4 +1,4 @@
-// The shape of one accepted command unit sequence while it runs: units in sequence and in parallel (decisions 13 to 15).
+// One accepted command unit sequence while it runs: a tree of sequential and parallel units (decisions 13 to 15).
 #pragma once
 
 #include <chrono>
@@ -15,36 +15,37 @@
 
 namespace rois {
 
-// A tree of units. It decides whose turn it is; running a command is the executor's.
+// Decides which unit may begin next. The executor runs the commands.
 class Execution {
 public:
-    // Makes the command of a message, in document order.
+    // Makes the command of a message. Called in document order.
     using MakeCommand = std::function<std::shared_ptr<Command>(CommandMessage const&)>;
 
     Execution(CommandUnitSequence const&, MakeCommand const&);
 
-    // What may go on now; the caller acts on each of them, in order.
+    // A unit that may begin now. The caller begins them in order.
     struct Turn {
         std::size_t node;
-        std::chrono::milliseconds delay;  // before the unit begins: call `begin` then
+        std::chrono::milliseconds delay;  // before the unit begins; the caller then calls `begin`
     };
 
-    // Begins the unit at this node (0: the whole sequence), which must be no command: those the caller runs.
+    // Begins the unit at this node (0: the whole sequence). It must not be a command: those the caller runs itself.
     std::vector<Turn> begin(std::size_t node);
 
-    // The command at this node has ended. What cannot run any more is in `take_aborted`.
+    // Records that the command at this node has ended. Returns the next turns; `take_aborted` has the commands that cannot run
+    // any more.
     std::vector<Turn> command_ended(std::size_t node, CompletedStatus);
 
-    // The command of this node; null when it is another unit.
+    // The command of this node; null if the node is another kind of unit.
     std::shared_ptr<Command> const& command_at(std::size_t node) const { return nodes_[node].command; }
 
-    // Commands that shall complete with ABORT since their sequence has failed, in document order; each is given once.
+    // Returns the commands to complete with ABORT because their sequence failed, in document order. Returns each one once.
     std::vector<std::shared_ptr<Command>> take_aborted() { return std::exchange(aborted_, {}); }
 
     // All commands, in document order.
     std::vector<std::shared_ptr<Command>> const& commands() const { return commands_; }
 
-    std::vector<Deadlines::Ticket> delays;  // set by the executor: deadlines of the delays that are not over
+    std::vector<Deadlines::Ticket> delays;  // set by the executor: the deadlines of the delays that are not over
 
 private:
     enum class Kind : std::uint8_t { sequence, parallel, command, delay };

@@ -13,7 +13,7 @@ namespace rois {
 
 namespace {
 
-// The commands of a session that have not finished yet, in the order in which they were given.
+// The commands of a session that have not finished, in the order in which they were given.
 std::vector<std::shared_ptr<Command>> live_commands(Session const& session) {
     std::vector<std::shared_ptr<Command>> live;
     for (auto const& [id, command] : session.commands)
@@ -27,7 +27,7 @@ bool is_proven_alive(Session const* session, Instant now) { return session != nu
 
 }  // namespace
 
-// A command knows its sequence and its component, which know it: what still runs is parted here.
+// A command and its sequence and component refer to each other. Breaks these cycles for the commands that still run.
 Executor::~Executor() {
     for (auto const& [handle, command] : live_) {
         command->execution.reset();
@@ -62,7 +62,7 @@ Executor::SharedCommand Executor::make(Session& session, CommandMessage const& m
 
 void Executor::execute(Session& session, CommandUnitSequence const& sequence, Instant now) {
     auto const before = last_handle_;
-    // Cancels the delays that are not over when the sequence ends.
+    // When the sequence ends, cancels the delays that are not over.
     auto const give_up = [this](Execution* over) {
         for (auto const& delay : over->delays) deadlines_.cancel(delay);
         delete over;
@@ -114,7 +114,8 @@ void Executor::give_turns(std::shared_ptr<Execution> const& execution, std::vect
     }
 }
 
-// Runs what is ready, and what becomes ready by that; a loop, not a recursion, however long a sequence is.
+// Begins all units whose turn has come, and those whose turn comes thereby. A loop, not a recursion, because sequences can be
+// long.
 void Executor::run_ready(Instant now) {
     if (std::exchange(running_ready_, true)) return;
     Attempts attempts;
@@ -138,7 +139,7 @@ void Executor::run(SharedCommand const& command, Instant now) {
     command->state = Command::State::running;
     journal_->command_begun(*command);
     if (command->component->moves() && begins_action(command->type) && !is_proven_alive(command->session, now))
-        return end(command, CompletedStatus::abort, "nothing was heard from its application before its turn came", now);
+        return end(command, CompletedStatus::abort, "its application gave no sign of life before its turn came", now);
     if (command->type == "set_parameter") return run_set_parameter(command, now);
     if (command->type == "start") return run_start(command, now);
     if (command->type == "stop") return run_stop(command, now);
@@ -185,7 +186,7 @@ void Executor::go_on_with_start(SharedCommand const& command, Instant now) {
     if (component.call([&](Component& c) { c.start(command->handle, parameters, now); }) == Called::ok) return;
     component.activity = RegisteredComponent::Activity::idle;
     component.start = nullptr;
-    halt_what_moves(component, now);
+    halt_if_it_moves(component, now);
     end(command, Called::failed, now);
 }
 
@@ -218,7 +219,7 @@ void Executor::run_resume(SharedCommand const& command, Instant now) {
     if (called == Called::ok)
         component.suspended = Suspended::nothing;
     else
-        halt_what_moves(component, now);
+        halt_if_it_moves(component, now);
     end(command, called, now);
 }
 
@@ -234,7 +235,7 @@ void Executor::run_function(SharedCommand const& command, Instant now) {
     auto const called = component.call([&](Component& c) { c.perform(command->handle, command->type, arguments, now); });
     if (called != Called::failed) return;
     std::erase(component.functions, command);
-    halt_what_moves(component, now);
+    halt_if_it_moves(component, now);
     end(command, called, now);
 }
 
@@ -271,27 +272,28 @@ void Executor::started(CommandHandle handle) {
     if (auto const deadline = std::exchange(found->second->start_deadline, {})) deadlines_.cancel(*deadline);
 }
 
-void Executor::completed(CommandEnded& said, Instant now) {
-    auto const found = live_.find(static_cast<std::uint64_t>(said.command));
+void Executor::completed(CommandEnded& report, Instant now) {
+    auto const found = live_.find(static_cast<std::uint64_t>(report.command));
     if (found == live_.end() || found->second->state != Command::State::running) {
         ++stray_answers_;
         return;
     }
     auto const command = found->second;
     auto& component = *command->component;
-    if (component.check(MessageKind::command, command->type, said.results) == RegisteredComponent::Answer::wrong) {
-        said.status = CompletedStatus::error;
-        said.results = {};
-        said.reason = "its results are not those of the profile";
+    if (component.check(MessageKind::command, command->type, report.results) == RegisteredComponent::Answer::wrong) {
+        report.status = CompletedStatus::error;
+        report.results = {};
+        report.reason = "its results do not fit the profile";
     }
-    if (said.status == CompletedStatus::ok) component.succeeded();
+    if (report.status == CompletedStatus::ok) component.clear_failure();
     std::erase(component.functions, command);
-    follow_up(component, command, said.status == CompletedStatus::ok ? said.afterwards : Afterwards::as_before);
-    end(command, said.status, said.reason, now, std::move(said.results));
+    follow_up(component, command, report.status == CompletedStatus::ok ? report.afterwards : Afterwards::as_before);
+    end(command, report.status, report.reason, now, std::move(report.results));
     run_ready(now);
 }
 
-// Nothing was active before a `start`: what was, was halted. Whatever else completes does not touch a `start` that still runs.
+// A `start` halts any running action first, so nothing was active before it. The end of another command does not affect a running
+// `start`.
 void Executor::follow_up(RegisteredComponent& component, SharedCommand const& command, Afterwards afterwards) {
     using Activity = RegisteredComponent::Activity;
     bool const starts = component.start == command;
@@ -325,12 +327,12 @@ void Executor::end(SharedCommand const& command, CompletedStatus status, std::st
 
 // Notifies the session, keeps the results, and continues the sequence.
 void Executor::finish(SharedCommand const& command, Instant now) {
-    if (!command->told) {
+    if (!command->reported) {
         journal_->command_ended(*command);
-        if (command->session != nullptr) notifier_.tell(*command->session, Completed{command->id, command->status});
-        command->told = true;
+        if (command->session != nullptr) notifier_.notify(*command->session, Completed{command->id, command->status});
+        command->reported = true;
     }
-    ParameterList{}.swap(command->arguments);  // only its results are asked for from now on
+    ParameterList{}.swap(command->arguments);  // from now on, only its results are needed
     if (command->session != nullptr) remember(command, now);
     if (auto const execution = std::exchange(command->execution, nullptr)) {
         try {
@@ -402,7 +404,7 @@ void Executor::release(Session& session, RegisteredComponent& component, Instant
 
 void Executor::part(RegisteredComponent& component, Instant now) {
     Attempts attempts;
-    attempts([&] { halt(component, CompletedStatus::abort, "its component has gone", now); });
+    attempts([&] { halt(component, CompletedStatus::abort, "its component was removed", now); });
     attempts([&] { forget_halt(component, now); });
     for (auto const& [handle, command] : live_)
         if (command->component.get() == &component) command->binding_lost = true;
@@ -431,7 +433,7 @@ void Executor::stop_all(std::string_view reason, Instant now) {
     attempts.rethrow();
 }
 
-void Executor::let_run_on(Session& session) {
+void Executor::detach_commands(Session& session) {
     for (auto const& command : live_commands(session)) command->session = nullptr;
 }
 

@@ -1,5 +1,5 @@
-// Runs commands: one at a time for set_parameter, whole sequences for execute; sees to it that each completes exactly once
-// (decisions 8, 9, 12 to 17).
+// Runs commands: single ones for set_parameter, whole sequences for execute. Each command completes exactly once (decisions 8, 9,
+// 12 to 17).
 #pragma once
 
 #include <array>
@@ -36,54 +36,54 @@ public:
     Executor(Executor const&) = delete;
     Executor& operator=(Executor const&) = delete;
 
-    // Begins a sequence that was checked and whose commands all have ids.
+    // Begins a sequence. It must have passed SequenceCheck, and all its commands must have ids.
     void execute(Session&, CommandUnitSequence const&, Instant now);
 
-    // Runs one command by itself.
+    // Runs a single command.
     void run_alone(Session&, CommandMessage const&, Instant now);
 
-    // An id that this session does not know yet, nor is among those `taken`.
+    // Returns an id that is new to this session and not in `taken`.
     CommandId fresh_id(Session const&, std::set<CommandId> const& taken);
 
-    // What components said.
+    // Reports of components.
     void started(CommandHandle);
     void completed(CommandEnded&, Instant now);
     void halted(RegisteredComponent&, Instant now);
 
-    // Halts the component, even if the engine believes that it is idle, and repeats this until it confirms (decision 35). Ends the
-    // commands that run there: `start` with this status, commands of its profile with ABORT. Calls the component also when memory
-    // is short; `mend` then ends the commands that are left.
+    // Halts the component, even if the engine believes that it is idle, and repeats this until the halt is confirmed (decision
+    // 35). Ends the commands that run there: `start` with this status, commands of the component's own profile with ABORT. Halts
+    // the component also when memory is short; `repair` then ends the remaining commands.
     void halt(RegisteredComponent&, CompletedStatus status_of_start, std::string_view reason, Instant now);
 
     // Halts the component, and ends the session's commands that wait for it (decision 6).
     void release(Session&, RegisteredComponent&, Instant now);
 
-    // The same for a component that goes, whoever commanded it.
+    // Halts a component that leaves the engine, and ends the commands of all sessions that wait for it.
     void part(RegisteredComponent&, Instant now);
 
-    // Suspends the component, or halts it if that fails, and reports the reason as an error (decision 33).
+    // Suspends the component, or halts it if that fails. Reports the reason as an error (decision 33).
     void hold(RegisteredComponent&, std::string_view reason, Instant now);
 
-    // Ends all commands of the session with ABORT. Halts no component.
+    // Ends all commands of the session with ABORT. Does not halt components.
     void abort_all(Session&, Instant now);
 
-    // Lets all that the session commanded run on, heard by nobody.
-    void let_run_on(Session&);
+    // Lets the session's commands run on without a session: their notifications go nowhere.
+    void detach_commands(Session&);
 
-    // Halts every component, and ends all running and waiting commands of all sessions.
+    // Halts every component, and ends all waiting and running commands of all sessions.
     void stop_all(std::string_view reason, Instant now);
 
-    // Removes results, of the session or of all, that are older than they are kept.
+    // Removes the results that have expired: of the session, or of all.
     void forget_old_results(Session&, Instant now);
     void forget_old_results(Instant now);
 
-    // Continues the work that an exception interrupted: ends the commands that were given up, and halts their components. To be
-    // called at each tick.
-    void mend(Instant now);
-    // Keeps the results of the last `most` commands of the session.
+    // Continues work that an exception interrupted: ends the commands that were given up, and halts their components. Call at
+    // each tick.
+    void repair(Instant now);
+    // Keeps only the results of the session's last `most` commands.
     void keep_results(Session&, std::size_t most);
 
-    // Looks no more after what the session keeps.
+    // Removes the session from the search for expired results.
     void forget(Session&);
 
     std::array<std::uint64_t, 5> const& completed_by_status() const { return completed_by_status_; }
@@ -106,7 +106,7 @@ private:
     void run_resume(SharedCommand const&, Instant now);
     void run_function(SharedCommand const&, Instant now);
     void go_on_with_start(SharedCommand const&, Instant now);
-    void halt_what_moves(RegisteredComponent&, Instant now);
+    void halt_if_it_moves(RegisteredComponent&, Instant now);
     void ask_to_halt(RegisteredComponent&, Instant now);
     void await_confirmation(RegisteredComponent&, Instant now);
     void halt_failed(RegisteredComponent&, CompletedStatus, std::string_view reason, Instant now);
@@ -117,7 +117,7 @@ private:
     void await_start(SharedCommand const&, Instant now);
     void start_timed_out(CommandHandle, Instant now);
     static void follow_up(RegisteredComponent&, SharedCommand const&, Afterwards);
-    // `reason`: why it is not OK, for people.
+    // `reason`: why the status is not OK, for people.
     void end(SharedCommand const&, CompletedStatus, std::string_view reason, Instant now, Results = {});
     void end(SharedCommand const& command, Called called, Instant now);
     void end_each(std::vector<SharedCommand> const&, CompletedStatus, std::string_view reason, Instant now);
@@ -125,7 +125,7 @@ private:
     void go_on_in_sequence(std::shared_ptr<Execution> const&, Command const& ended, Instant now);
     template <class What>
     void attempt(SharedCommand const&, What const&);
-    void mend(RegisteredComponent&, Instant now);
+    void repair(RegisteredComponent&, Instant now);
     void give_up(Command&) noexcept;
     void give_up_waiting(Execution const&) noexcept;
     void end_given_up(SharedCommand const&, Instant now);
@@ -139,19 +139,19 @@ private:
     Agenda& agenda_;
     Deadlines& deadlines_;
     Notifier& notifier_;
-    Journal* const& journal_;                                // the engine's, which may be replaced before the first session
+    Journal* const& journal_;                                // the engine's; may be replaced before the first session
     std::unordered_map<std::uint64_t, SharedCommand> live_;  // waiting or running, by handle
     std::deque<std::pair<std::shared_ptr<Execution>, std::size_t>> ready_;  // units whose turn has come
     bool running_ready_ = false;
-    bool needs_mending_ = false;                    // a command was given up, or a halt has no deadline
-    std::set<std::pair<Steady, Session*>> by_age_;  // the sessions that keep results, by when their oldest one ended
+    bool needs_repair_ = false;                     // a command was given up, or a halt has no deadline
+    std::set<std::pair<Steady, Session*>> by_age_;  // the sessions with results, ordered by the age of their oldest one
     std::uint64_t last_handle_ = 0;
     std::uint64_t last_id_ = 0;
     std::array<std::uint64_t, 5> completed_by_status_{};
     std::uint64_t stray_answers_ = 0;
 };
 
-// Runs `what`. If it throws, the next tick ends the command.
+// Runs `what`. If it throws, gives up the command: the next tick ends it.
 template <class What>
 void Executor::attempt(SharedCommand const& command, What const& what) {
     try {

@@ -14,9 +14,7 @@ Filter::Filter(Filter&&) noexcept = default;
 Filter& Filter::operator=(Filter&&) noexcept = default;
 
 std::variant<Filter, std::string> Filter::compile(QueryExpression const& query, Vocabulary const& vocabulary) {
-    if (!query.sort_by.empty())
-        return "the condition has SortBy, which puts what get_profile, search, bind_any and query find in order, and means "
-               "nothing here";
+    if (!query.sort_by.empty()) return "the condition has SortBy, which only get_profile, search, bind_any and query support";
     return compile(query.filter, vocabulary);
 }
 

@@ -1,5 +1,5 @@
-// Conditions made ready (ISO 19143): references resolved, numbers, times, geometries and patterns read, so that holding them
-// against something only compares. docs/conditions.md says what they mean.
+// Compiled conditions (ISO 19143). References are resolved, and numbers, times, geometries and patterns parsed, so matching only
+// compares. For their meaning see docs/conditions.md.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ namespace rois {
 class Predicate;
 class SortKey;
 
-// What is true or false of candidates.
+// A compiled condition without SortBy.
 class Filter {
 public:
     Filter();  // restricts nothing
@@ -28,32 +28,32 @@ public:
     Filter(Filter&&) noexcept;
     Filter& operator=(Filter&&) noexcept;
 
-    // The filter, or why the condition cannot be used: what is not understood, or not known in the vocabulary, is named. SortBy
-    // is refused: it has a meaning only where a Selection is made.
+    // Returns the filter, or why the condition is invalid: it names the part that is not supported or unknown to the vocabulary.
+    // Rejects SortBy, which only a Selection supports.
     static std::variant<Filter, std::string> compile(QueryExpression const&, Vocabulary const&);
 
     Match match(Candidate const&) const;
 
-    // Whether there is anything that it does not let through.
+    // Returns false if every candidate matches.
     bool restricts() const { return predicate_ != nullptr; }
 
-    // The condition's canonical text: the same for conditions that mean the same (decision 20). Made anew each time.
+    // Returns a canonical text, the same for equivalent conditions (decision 20). Computed at each call.
     std::string meaning() const;
 
-    // Which components alone can be let through, be it with `maybe`, in order and each once; nothing when it may be any. Good for
-    // as long as the filter.
+    // Returns the components that can match, also those with `maybe`; nullopt if any component can. The texts belong to the
+    // filter.
     std::optional<Demand> demand() const;
 
-    // How many predicates it is made of: what it costs to hold it against something.
+    // The number of predicates, as a measure of the cost of a match.
     std::size_t predicates() const { return predicates_; }
 
-    // The total length of its texts, including the points of geometries, as a measure of the memory that it takes.
+    // The total length of the texts, including the points of geometries, as a measure of memory.
     std::size_t text_bytes() const { return text_bytes_; }
 
-    // The references to results, in the order of the condition.
+    // The references to results, in the order in which the condition has them.
     std::vector<Reference> const& results() const { return results_; }
 
-    // Whether the answer may differ from asker to asker (`status` and parameters do, decisions 7 and 30).
+    // Returns whether the result of a match may depend on the session that asks (`status` and parameters do, decisions 7 and 30).
     bool depends_on_asker() const { return depends_on_asker_; }
 
 private:
@@ -67,7 +67,7 @@ private:
     bool depends_on_asker_ = false;
 };
 
-// A filter, and the order in which those that it lets through come.
+// A filter with a sort order.
 class Selection {
 public:
     ~Selection();
@@ -81,8 +81,7 @@ public:
 
     bool sorts() const { return !keys_.empty(); }
 
-    // The places of these candidates in the order in which they come; those that SortBy does not tell apart stay as they are.
-    // What has no value comes last.
+    // Returns the indexes of the candidates in sorted order. The sort is stable; candidates without a value come last.
     std::vector<std::size_t> order(std::vector<Candidate const*> const&) const;
 
 private:

@@ -1,4 +1,4 @@
-// The comparisons (ISO 19143, Minimum Standard Filter) and PropertyIsBetween: numbers as numbers, times as times, else texts.
+// Comparisons (ISO 19143, Minimum Standard Filter) and PropertyIsBetween: numbers as numbers, times as times, others as texts.
 #include <algorithm>
 #include <array>
 #include <compare>
@@ -15,7 +15,7 @@ namespace {
 
 enum class Case : std::uint8_t { matched, ignored };
 
-// A value read as the kinds that it may be compared as.
+// A value, parsed as each kind that it may be compared as.
 struct Comparable {
     std::string text;
     std::optional<double> number;
@@ -42,7 +42,7 @@ struct Manner {
         return value;
     }
 
-    // Unordered: also what is not of the kind.
+    // Unordered if a value is not of the kind.
     std::partial_ordering compare(Comparable const& a, Comparable const& b) const {
         if (a.number && b.number) return *a.number <=> *b.number;
         if (a.time && b.time) return *a.time <=> *b.time;
@@ -51,7 +51,7 @@ struct Manner {
     }
 };
 
-// A value that the condition says itself.
+// A value in the condition itself.
 struct Known {
     enum class Is : std::uint8_t { literal, time } is = Is::literal;
     Comparable value;
@@ -60,7 +60,7 @@ struct Known {
 // One side of a comparison.
 class Side {
 public:
-    // Reads what stands there; the compiler has a problem when it cannot be compared.
+    // Reads the expression. If it cannot be compared, the compiler has a problem.
     void read(FilterCompiler& compiler, Expression const& expression) {
         if (auto const* reference = std::get_if<ValueReference>(&expression.value)) {
             if (auto resolved = compiler.resolve(reference->path)) what_ = std::move(*resolved);
@@ -75,12 +75,11 @@ public:
                    period != nullptr && period->begin == period->end) {
             what_ = Known{.is = Known::Is::time, .value = {.text = to_text(period->begin), .number = {}, .time = period->begin}};
         } else {
-            compiler.refuse(
-                "the condition compares a geometry or a period as if it were a value: operators of space and time do that");
+            compiler.refuse("the condition compares a geometry or a period as a value; use a spatial or temporal operator");
         }
     }
 
-    // The kind that it is of by itself; a literal is of any.
+    // The kind of the expression; nullopt for a literal, which can be of any kind.
     std::optional<ValueKind> kind() const {
         if (auto const* reference = std::get_if<Reference>(&what_)) return reference->kind;
         auto const* known = std::get_if<Known>(&what_);
@@ -88,13 +87,13 @@ public:
         return known->is == Known::Is::time ? std::optional{ValueKind::time} : std::nullopt;
     }
 
-    // Null when it is no literal.
+    // The text of a literal, or null.
     std::string const* literal() const {
         auto const* known = std::get_if<Known>(&what_);
         return known != nullptr && known->is == Known::Is::literal ? &known->value.text : nullptr;
     }
 
-    // Whether a literal is of the kind it is compared as.
+    // Returns whether a literal can be read as `kind`.
     bool fits(ValueKind kind) const {
         auto const* text = literal();
         if (text == nullptr) return true;
@@ -103,27 +102,28 @@ public:
         return kind != ValueKind::boolean || is_boolean(*text);
     }
 
-    // A literal is read once, as what it is compared as.
+    // Parses a literal once, as the kind that it is compared as.
     void settle(Manner const& manner) {
         auto const* text = literal();
         bool const as_it_is = manner.kind == ValueKind::text && manner.letters == Case::matched;
         if (text != nullptr && !as_it_is) std::get<Known>(what_).value = manner.read(*text);
     }
 
-    // Nothing while open. What a candidate tells is kept in `told`.
-    std::optional<std::span<Comparable const>> values(Candidate const& candidate, Manner const& manner, Comparables& told) const {
+    // The values to compare; nullopt if they are not known yet. Values of the candidate are stored in `storage`.
+    std::optional<std::span<Comparable const>> values(Candidate const& candidate, Manner const& manner,
+                                                      Comparables& storage) const {
         if (auto const* known = std::get_if<Known>(&what_)) return std::span{&known->value, 1};
         if (auto const* reference = std::get_if<Reference>(&what_)) {
             auto const texts = candidate.texts(*reference);
             if (!texts) return {};
-            told.reserve(texts->size());
-            for (auto const& text : *texts) told.push_back(manner.read(text));
-            return told;
+            storage.reserve(texts->size());
+            for (auto const& text : *texts) storage.push_back(manner.read(text));
+            return storage;
         }
         auto const lengths = std::get<DistancePtr>(what_)->of(candidate);
         if (!lengths) return {};
-        for (double const length : *lengths) told.push_back({.text = {}, .number = length, .time = {}});
-        return told;
+        for (double const length : *lengths) storage.push_back({.text = {}, .number = length, .time = {}});
+        return storage;
     }
 
     std::string canonical(ValueKind kind) const {
@@ -162,7 +162,7 @@ private:
     std::variant<Known, Reference, DistancePtr> what_;
 };
 
-// The kind that all sides agree on.
+// The kind of all sides that have one; `any` if they differ.
 ValueKind common_kind(std::span<Side const> sides) {
     std::optional<ValueKind> common;
     for (auto const& side : sides) {
@@ -186,7 +186,7 @@ std::string name_of(ValueKind kind) {
     return kind == ValueKind::time ? "time" : "true or false";
 }
 
-// Makes the sides of a comparison ready to be compared; the compiler has a problem when they cannot be.
+// Prepares the sides of a comparison. If they cannot be compared, the compiler has a problem.
 Manner settle(FilterCompiler& compiler, std::span<Side> sides, std::initializer_list<Expression const*> expressions,
               Case letters) {
     Manner manner;
@@ -198,7 +198,7 @@ Manner settle(FilterCompiler& compiler, std::span<Side> sides, std::initializer_
     for (auto& each : sides) {
         if (!each.fits(manner.kind)) {
             compiler.refuse("the condition compares a " + name_of(manner.kind) + " with " + quoted(*each.literal()) +
-                            ", which is none");
+                            ", which is not one");
             return manner;
         }
         each.settle(manner);
@@ -222,7 +222,7 @@ bool holds(Comparator comparator, std::partial_ordering order) {
     return order <= 0;
 }
 
-// "greater" is "less" with the sides exchanged.
+// "greater" is stored as "less" with the sides exchanged.
 class Comparison final : public Predicate {
 public:
     Comparison(FilterCompiler& compiler, PropertyComparison const& comparison)
@@ -239,9 +239,9 @@ public:
     Match match(Candidate const& candidate) const override {
         auto const rid = candidate.rid();
         if (named_ != nullptr && !rid.empty()) return rid == *named_ ? Match::yes : Match::no;
-        Comparables told, also_told;
-        auto const left = sides_[0].values(candidate, manner_, told);
-        auto const right = sides_[1].values(candidate, manner_, also_told);
+        Comparables left_values, right_values;
+        auto const left = sides_[0].values(candidate, manner_, left_values);
+        auto const right = sides_[1].values(candidate, manner_, right_values);
         if ((left && left->empty()) || (right && right->empty())) return Match::no;
         if (!left || !right) return Match::maybe;
         if (make_too_many_pairs(*left, *right)) return Match::no;
@@ -267,7 +267,7 @@ public:
                (by_letters && manner_.letters == Case::ignored ? "~" : "") + "(" + left + "," + right + ")";
     }
 
-    // Decision 32: it says that the engine is the main engine (by name, or left empty), which has every component.
+    // Decision 32: the condition names the main engine, which has every component (by name, or with an empty text).
     bool speaks_of_main_engine(std::string_view name) const {
         auto const* literal = literal_beside(&Side::is_engine);
         if (literal == nullptr || name.empty()) return false;
@@ -282,7 +282,7 @@ public:
     }
 
 private:
-    // What stands on the other side of such a reference; null when there is none, or no literal.
+    // The literal on the other side of such a reference; null if there is none.
     std::string const* literal_beside(bool (Side::*is_such)() const) const {
         if ((sides_[0].*is_such)()) return sides_[1].literal();
         return (sides_[1].*is_such)() ? sides_[0].literal() : nullptr;
@@ -292,11 +292,11 @@ private:
     MatchAction action_;
     std::array<Side, 2> sides_;
     Manner manner_;
-    std::string const* named_ = nullptr;  // the component that alone meets it, by ref; null when it is not about that
-    std::string const* type_ = nullptr;   // the same of the type whose components alone meet it
+    std::string const* named_ = nullptr;  // ref of the only component that can match, or null
+    std::string const* type_ = nullptr;   // type of the only components that can match, or null
 };
 
-// One of the values is between the boundaries, both included.
+// Matches if one of the values is between the boundaries, both included.
 class Between final : public Predicate {
 public:
     Between(FilterCompiler& compiler, PropertyIsBetween const& between) {
@@ -304,10 +304,10 @@ public:
     }
 
     Match match(Candidate const& candidate) const override {
-        Comparables told[3];
-        auto const values = sides_[0].values(candidate, manner_, told[0]);
-        auto const lowest = sides_[1].values(candidate, manner_, told[1]);
-        auto const highest = sides_[2].values(candidate, manner_, told[2]);
+        Comparables storage[3];
+        auto const values = sides_[0].values(candidate, manner_, storage[0]);
+        auto const lowest = sides_[1].values(candidate, manner_, storage[1]);
+        auto const highest = sides_[2].values(candidate, manner_, storage[2]);
         for (auto const& all : {values, lowest, highest})
             if (all && all->empty()) return Match::no;
         if (!values || !lowest || !highest) return Match::maybe;

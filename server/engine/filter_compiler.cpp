@@ -28,7 +28,7 @@ std::string with_commas(std::string_view text) {
     return commas;
 }
 
-// The total length of a predicate's texts, without those of the predicates in it.
+// The total length of a predicate's texts, without those of nested predicates.
 struct TextBytes {
     std::size_t operator()(PropertyComparison const& p) const { return of(p.left) + of(p.right); }
     std::size_t operator()(PropertyIsLike const& p) const { return of(p.left) + of(p.right); }
@@ -77,12 +77,12 @@ bool may_be_a_position(Reference const& reference) {
 
 }  // namespace
 
-std::optional<Positions> Whereabouts::of(Candidate const& candidate) const {
+std::optional<Positions> SpatialOperand::of(Candidate const& candidate) const {
     if (auto const* known = std::get_if<Geometry>(&where_)) return Positions{*known};
     return candidate.positions(std::get<Reference>(where_));
 }
 
-std::string Whereabouts::canonical() const {
+std::string SpatialOperand::canonical() const {
     return std::visit([](auto const& where) { return rois::canonical(where); }, where_);
 }
 
@@ -121,7 +121,7 @@ std::optional<Reference> FilterCompiler::resolve(std::string_view path) {
     return std::move(reference);
 }
 
-std::optional<Whereabouts> FilterCompiler::whereabouts(Expression const& expression) {
+std::optional<SpatialOperand> FilterCompiler::spatial_operand(Expression const& expression) {
     auto const& places = *vocabulary_.places;
     if (auto const* not_understood = std::get_if<NotUnderstood>(&expression.value)) return refuse(not_understood->reason);
     if (auto const* geometry = std::get_if<Geometry>(&expression.value)) {
@@ -129,7 +129,7 @@ std::optional<Whereabouts> FilterCompiler::whereabouts(Expression const& express
         Geometry here = *geometry;
         for (auto const& path : here.paths) predicates_ += path.size() / points_of_a_predicate;
         if (predicates_ > most_predicates)
-            return refuse("the condition has more than " + std::to_string(most_predicates) + " predicates, of which " +
+            return refuse("the condition has more than " + std::to_string(most_predicates) + " predicates; " +
                           std::to_string(points_of_a_predicate) + " points of a line or polygon count as one");
         if (auto const problem = here.shape == Geometry::Shape::box ? std::nullopt : why_invalid(here))
             return refuse("the condition has a " + *problem);
@@ -144,11 +144,11 @@ std::optional<Whereabouts> FilterCompiler::whereabouts(Expression const& express
         auto resolved = resolve(reference->path);
         if (!resolved) return {};
         if (!may_be_a_position(*resolved))
-            return refuse("the condition takes " + quoted(reference->path) + " for a position, which it is not");
+            return refuse("the condition uses " + quoted(reference->path) + " as a position, but it is not one");
         return std::move(*resolved);
     }
     auto const* literal = std::get_if<Literal>(&expression.value);
-    if (literal == nullptr) return refuse("the condition relates something to a place that is none");
+    if (literal == nullptr) return refuse("an operand of a spatial operator in the condition is not a position");
     auto const text = trimmed(literal->text);
     if (auto const* place = places.find(text)) return place->area;
     if (auto read = point(text, places.frames.own())) return std::move(*read);
@@ -160,22 +160,22 @@ std::optional<Whereabouts> FilterCompiler::whereabouts(Expression const& express
 std::optional<Distance> FilterCompiler::distance(Function const& function) {
     if (!equal_ignoring_case(function.name, "distance"))
         return refuse("the condition has the function " + quoted(function.name) + ", which is not known here; known is distance");
-    if (function.arguments.size() != 2) return refuse("the function distance of the condition has not two arguments");
+    if (function.arguments.size() != 2) return refuse("the function distance in the condition needs two arguments");
     auto both = related(function.arguments[0], function.arguments[1]);
     if (!both) return {};
     return Distance{std::move(both->first), std::move(both->second), &vocabulary_.places->frames};
 }
 
-// Two boxes have to be in one frame: a box that is turned into another frame is not a box there.
-std::optional<std::pair<Whereabouts, Whereabouts>> FilterCompiler::related(Expression const& one, Expression const& other) {
-    auto first = whereabouts(one);
-    auto second = first ? whereabouts(other) : std::nullopt;
+// Two boxes must be in the same frame: a box that is turned into another frame is not a box there.
+std::optional<std::pair<SpatialOperand, SpatialOperand>> FilterCompiler::related(Expression const& one, Expression const& other) {
+    auto first = spatial_operand(one);
+    auto second = first ? spatial_operand(other) : std::nullopt;
     if (!second) return {};
     auto const nothing = [](auto const&...) { return true; };
     auto const *a = first->known(), *b = second->known();
     if (a != nullptr && b != nullptr && !in_one_frame(vocabulary_.places->frames, *a, *b, nothing))
         return refuse("the condition relates a geometry in the frame " + quoted(a->crs, 200) + " to one in " +
-                      quoted(b->crs, 200) + ": tell both in the same frame");
+                      quoted(b->crs, 200) + ": use one frame for both");
     return std::pair{std::move(*first), std::move(*second)};
 }
 

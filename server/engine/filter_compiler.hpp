@@ -1,4 +1,4 @@
-// How conditions are made ready; the parts of Filter and Selection. Each kind of predicate has a file of its own: filter_*.cpp.
+// The parts of Filter and Selection, and their compiler. Each kind of predicate has its own file: filter_*.cpp.
 #pragma once
 
 #include <memory>
@@ -16,27 +16,27 @@
 
 namespace rois {
 
-// A condition made ready.
+// A part of a compiled condition.
 class Predicate {
 public:
     virtual ~Predicate() = default;
     virtual Match match(Candidate const&) const = 0;
-    // The same text for conditions that mean the same.
+    // A text that is the same for equivalent predicates.
     virtual std::string canonical() const = 0;
     virtual bool met_by_everything() const { return false; }
-    // Which components alone can meet it, be it perhaps, in texts of its own; nothing when it may be any.
+    // Returns the components that can match, also with `maybe`; nullopt if any component can. The texts belong to the predicate.
     virtual std::optional<Demand> demand() const { return {}; }
 };
 
 using PredicatePtr = std::unique_ptr<Predicate const>;
 
-// Where something is: known beforehand, or told by a candidate.
-class Whereabouts {
+// An operand of a spatial operator: a geometry of the condition, or a reference to positions of the candidate.
+class SpatialOperand {
 public:
-    Whereabouts(Geometry geometry) : where_{std::move(geometry)} {}
-    Whereabouts(Reference reference) : where_{std::move(reference)} {}
+    SpatialOperand(Geometry geometry) : where_{std::move(geometry)} {}
+    SpatialOperand(Reference reference) : where_{std::move(reference)} {}
 
-    Geometry const* known() const { return std::get_if<Geometry>(&where_); }  // null when a candidate tells
+    Geometry const* known() const { return std::get_if<Geometry>(&where_); }  // null for a reference
     std::optional<Positions> of(Candidate const&) const;
     std::string canonical() const;
 
@@ -44,44 +44,43 @@ private:
     std::variant<Geometry, Reference> where_;
 };
 
-// The function `distance`: mm between the nearest of two things; nothing while open, and none when either has no place or they
-// have no frame in common.
+// The function `distance`: mm between the nearest points of the operands. nullopt if a value is not known yet; empty if an
+// operand has no position, or they share no frame.
 struct Distance {
-    Whereabouts from;
-    Whereabouts to;
+    SpatialOperand from;
+    SpatialOperand to;
     Frames const* frames;
 
     std::optional<std::vector<double>> of(Candidate const&) const;
     std::string canonical() const;
 };
 
-// Of lists that make more pairs nothing is said: nothing is met.
+// Lists that make more pairs than this are not compared: they never match.
 inline constexpr std::size_t most_pairs = 100'000;
 template <class One, class Other>
 bool make_too_many_pairs(One const& one, Other const& other) {
     return one.size() > 1 && other.size() > 1 && one.size() > most_pairs / other.size();
 }
 
-// Goes through a condition once. What cannot be used is refused with its reason; the first one counts, and what is returned then
-// means nothing.
+// Compiles a condition. If it is invalid, `problem` is the first reason, and all other results are meaningless.
 class FilterCompiler {
 public:
-    static constexpr std::size_t most_predicates = 256;      // in one condition
-    static constexpr std::size_t points_of_a_predicate = 8;  // so many points of a line or polygon cost as much as a predicate
+    static constexpr std::size_t most_predicates = 256;      // of one condition
+    static constexpr std::size_t points_of_a_predicate = 8;  // points of a line or polygon that count as one
 
     explicit FilterCompiler(Vocabulary vocabulary) : vocabulary_{vocabulary} {}
 
     PredicatePtr compile(Condition const&);
 
-    // Nothing when refused.
+    // Returns nullopt, and sets `problem`, if the path is invalid; likewise below.
     std::optional<Reference> resolve(std::string_view path);
-    std::optional<Whereabouts> whereabouts(Expression const&);
+    std::optional<SpatialOperand> spatial_operand(Expression const&);
     std::optional<Distance> distance(Function const&);
 
-    // Two things that a condition relates; nothing when refused.
-    std::optional<std::pair<Whereabouts, Whereabouts>> related(Expression const&, Expression const&);
+    // The two operands of a spatial relation.
+    std::optional<std::pair<SpatialOperand, SpatialOperand>> related(Expression const&, Expression const&);
 
-    // Always nothing.
+    // Sets `problem`, unless it is set already.
     std::nullopt_t refuse(std::string reason);
 
     std::optional<std::string> const& problem() const { return problem_; }
@@ -108,28 +107,28 @@ public:
 
 private:
     Vocabulary vocabulary_;
-    std::vector<std::string> aliases_;  // of the group whose filter is compiled
-    bool in_and_ = false;               // where a group is the type of a unr:ComponentCondition (types/condition.hpp)
+    std::vector<std::string> aliases_;  // of the group whose filter is being compiled
+    bool in_and_ = false;               // inside of an And, a group is the type of a unr:ComponentCondition (types/condition.hpp)
     std::optional<std::string> problem_;
-    std::vector<Reference> results_;  // the references to results, so far
+    std::vector<Reference> results_;  // the references to results found so far
     bool depends_on_asker_ = false;
     std::size_t predicates_ = 0;
     std::size_t text_bytes_ = 0;
 };
 
-// What a SortProperty sorts by.
+// The key of a SortProperty.
 class SortKey {
 public:
     SortKey(std::variant<Reference, Distance> by, SortOrder order) : by_{std::move(by)}, order_{order} {}
 
-    // A value to sort by; nothing when the candidate has none.
+    // The value to sort by; nullopt if the candidate has none.
     struct Value {
         std::optional<double> number;
         std::string text;
     };
     std::optional<Value> value(Candidate const&) const;
 
-    // Less than 0 when a comes before b.
+    // Returns less than 0 if a comes before b.
     int compare(std::optional<Value> const& a, std::optional<Value> const& b) const;
 
 private:

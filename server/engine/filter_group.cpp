@@ -1,4 +1,4 @@
-// Conditions on components that belong together (the published examples' ComponentGroupCondition; docs/conditions.md).
+// Conditions on components that belong together (the ComponentGroupCondition of the published examples; docs/conditions.md).
 #include <algorithm>
 
 #include "engine/filter_compiler.hpp"
@@ -11,7 +11,7 @@ namespace {
 
 using Members = std::vector<Candidate const*>;
 
-// The first text that a component has for something that every component has.
+// The first value of a property that every component has.
 std::string text_of(Candidate const& component, Reference::To to) {
     auto const texts = component.texts(Reference{.to = to, .name = {}, .entity = {}});
     return texts && !texts->empty() ? texts->front() : std::string{};
@@ -19,14 +19,14 @@ std::string text_of(Candidate const& component, Reference::To to) {
 
 std::string_view last_part(std::string_view urn) { return urn.substr(urn.rfind(':') + 1); }
 
-// Whether a robot goes by this name: the one that it has, its engine's, or the engine's URN.
+// Returns whether the robot has this name: its own, its engine's, or the URN of the engine.
 bool is_robot(std::string_view type, std::string_view engine, std::string_view robot) {
     if (equal_ignoring_case(type, "Robot") || equal_ignoring_case(type, robot)) return true;
     auto const name = last_part(type);
     return equal_ignoring_case(name, engine) || equal_ignoring_case(name.substr(name.rfind('.') + 1), engine);
 }
 
-// Whether a component is of the type, or of a robot that is. Every robot is of the main engine.
+// Returns whether the component has the type, or its robot has. Every robot belongs to the main engine.
 bool is_of(std::string_view type, Candidate const& component, std::string_view main_engine) {
     if (!main_engine.empty() && (equal_ignoring_case(type, main_engine) || equal_ignoring_case(last_part(type), main_engine)))
         return true;
@@ -35,8 +35,8 @@ bool is_of(std::string_view type, Candidate const& component, std::string_view m
     return is_robot(type, text_of(component, Reference::To::engine), text_of(component, Reference::To::robot_id));
 }
 
-// A component as a condition on a group sees it: what the asker has bound already is not bound for it. It would have to be free
-// otherwise, and so the asker could never bind a second one of the group.
+// A component, as a group condition sees it: one that the asker has bound does not count as bound. Otherwise the asker could
+// never bind a second component of the group, because the first would have to be free.
 class ForAsker final : public Candidate {
 public:
     explicit ForAsker(Candidate const& component) : component_{component} {}
@@ -58,8 +58,8 @@ private:
     Candidate const& component_;
 };
 
-// A robot as its group's filter sees it: a reference stands for the values of all its components that are of the types, with an
-// alias for those of one type.
+// A robot, as the filter of its group sees it. A reference has the values of all components of the group's types; with an alias,
+// of those of one type.
 class Robot final : public Candidate {
 public:
     Robot(Members const& all, std::vector<std::string> const& types, std::string_view main_engine) {
@@ -97,7 +97,7 @@ private:
         return reference.alias < by_type_.size() ? by_type_[reference.alias] : members_;
     }
 
-    // Open when it is for one of them.
+    // nullopt if the value of one component is not known yet.
     template <class Values, class Ask>
     std::optional<Values> united(Reference const& reference, Ask const& ask) const {
         Values all;
@@ -113,7 +113,7 @@ private:
     Members members_;
 };
 
-// The type of a unr:ComponentCondition: a component of it, whatever else its robot has.
+// The type of a unr:ComponentCondition. Matches the component alone, whatever its robot has.
 class OfType final : public Predicate {
 public:
     OfType(std::string type, std::string_view main_engine) : type_{std::move(type)}, main_engine_{main_engine} {}
@@ -151,7 +151,7 @@ public:
     }
 
 private:
-    // What is looked for: its members; without any, the components of its types.
+    // Returns whether the group asks for this component: it is a member, or, without members, it is of one of the types.
     Match match_itself(Candidate const& candidate) const {
         if (!members_.empty()) return best(members_, ForAsker{candidate});
         bool const meant =
@@ -159,7 +159,7 @@ private:
         return meant ? Match::yes : Match::no;
     }
 
-    // Each member is there, each type is, and the whole meets the filter.
+    // Matches if each member and each type is present, and the robot meets the filter.
     Match match_robot(Members const& all) const {
         Robot const robot{all, types_, main_engine_};
         if (!robot.has_all_types()) return Match::no;
@@ -185,7 +185,7 @@ private:
         return verdict;
     }
 
-    // Adds the component that the asker gets most easily of those that the group looks for under one type or as one member.
+    // Adds the easiest component to bind among those that `is_meant` accepts: one type, or one member, of the group.
     template <class IsMeant>
     static void add(GroupVerdict& verdict, Members const& all, IsMeant const& is_meant) {
         Candidate const* found = nullptr;
@@ -219,12 +219,10 @@ private:
 
 }  // namespace
 
-// A group speaks of robots and components, never of results.
+// A group condition is about robots and components, never about results.
 PredicatePtr FilterCompiler::operator()(ComponentGroup const& group) {
     if (vocabulary_.parameters == nullptr) {
-        refuse(
-            "the condition looks for components (ComponentCondition, ComponentGroupCondition), which means nothing where results "
-            "are chosen");
+        refuse("the condition has ComponentCondition or ComponentGroupCondition, which a condition on results does not support");
         return nullptr;
     }
     for (auto const& [what, names] : {std::pair{"the type of a component", &group.types}, {"an alias", &group.aliases}}) {

@@ -1,4 +1,4 @@
-// And, Or and Not (ISO 19143, Minimum Standard Filter) in three values.
+// And, Or and Not (ISO 19143, Minimum Standard Filter) in three-valued logic.
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -11,7 +11,7 @@ namespace {
 
 using Predicates = std::vector<PredicatePtr>;
 
-// Operands in the order of their meanings, none twice; one alone stands for itself.
+// The operands' canonical texts, sorted and without duplicates. A single operand stands for itself.
 std::string joined(char name, Predicates const& operands) {
     std::set<std::string> meanings;
     for (auto const& operand : operands) meanings.insert(operand->canonical());
@@ -21,7 +21,7 @@ std::string joined(char name, Predicates const& operands) {
     return text;
 }
 
-// Met by everything when it has no operands.
+// Everything matches if there are no operands.
 class All final : public Predicate {
 public:
     explicit All(Predicates operands) : operands_{std::move(operands)} {}
@@ -34,7 +34,7 @@ public:
     }
     bool met_by_everything() const override { return operands_.empty(); }
     std::string canonical() const override { return joined('&', operands_); }
-    // One of its operands' will do: refs rather than types, of which there are many components.
+    // The demand of one operand is enough. Prefers refs to types: a type has many components.
     std::optional<Demand> demand() const override {
         std::optional<Demand> narrowest;
         for (auto const& operand : operands_)
@@ -104,7 +104,7 @@ Condition const* innermost(Condition const* condition) {
     return condition;
 }
 
-// Operands, those of the same operator inside among them.
+// The operands, with nested ones of the same operator merged in.
 template <class Operator>
 class Flattened {
 public:
@@ -123,7 +123,7 @@ public:
         }
     }
 
-    // What everything meets adds nothing to And, and decides Or.
+    // An operand that everything matches is redundant in And, and decides Or.
     template <class Made>
     PredicatePtr made() && {
         if (std::is_same_v<Operator, Or> && decided_) return std::make_unique<All>(Predicates{});
@@ -133,7 +133,7 @@ public:
 private:
     FilterCompiler& compiler_;
     Predicates operands_;
-    bool decided_ = false;  // everything meets one of them
+    bool decided_ = false;  // everything matches one of the operands
 };
 
 }  // namespace

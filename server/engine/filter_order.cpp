@@ -1,4 +1,4 @@
-// What SortBy sorts by (ISO 19143, Sorting).
+// The sort keys of SortBy (ISO 19143, Sorting).
 #include <cmath>
 
 #include "engine/filter_compiler.hpp"
@@ -6,7 +6,7 @@
 
 namespace rois {
 
-// Of several values, the first.
+// If there are several values, uses the first.
 std::optional<SortKey::Value> SortKey::value(Candidate const& candidate) const {
     if (auto const* distance = std::get_if<Distance>(&by_)) {
         auto const length = distance->of(candidate);
@@ -22,7 +22,7 @@ std::optional<SortKey::Value> SortKey::value(Candidate const& candidate) const {
     return Value{.number = number && !std::isnan(*number) ? number : std::nullopt, .text = texts->front()};
 }
 
-// Numbers before texts, and before nothing at all: also when the order is descending, what has no value comes last.
+// Numbers come before texts. A missing value comes last, in descending order, too.
 int SortKey::compare(std::optional<Value> const& a, std::optional<Value> const& b) const {
     if (!a || !b) return static_cast<int>(!a) - static_cast<int>(!b);
     int const sign = order_ == SortOrder::descending ? -1 : 1;

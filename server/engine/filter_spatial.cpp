@@ -1,4 +1,4 @@
-// The spatial operators (ISO 19143, Spatial Filter).
+// Spatial operators (ISO 19143, Spatial Filter).
 #include <array>
 #include <variant>
 
@@ -11,9 +11,9 @@ namespace rois {
 
 namespace {
 
-using Pair = std::pair<Whereabouts, Whereabouts>;
+using Pair = std::pair<SpatialOperand, SpatialOperand>;
 
-// A relation, or a distance of at most so many mm.
+// A distance of at most this many mm.
 struct Near {
     double mm;
 };
@@ -31,8 +31,8 @@ std::string name_of(Relation const& relation) {
     return std::string{names.at(static_cast<std::size_t>(std::get<SpatialRelation>(relation)))};
 }
 
-// Of several positions, one must meet the relation; none may meet one that is denied (Disjoint denies Intersects, Beyond
-// DWithin). Positions that have no frame in common meet nothing.
+// Matches if one of several positions meets the relation; if denied, if none does (Disjoint denies Intersects, Beyond denies
+// DWithin). Positions without a common frame never match.
 class Spatial final : public Predicate {
 public:
     enum class Sense : std::uint8_t { affirmed, denied };
@@ -71,18 +71,18 @@ private:
     Frames const& frames_;
 };
 
-// Both operands, or the one that is there with the candidate's own position before it; nothing when refused.
+// Both operands; a single operand is compared with the candidate's own position. Returns nullopt if they are invalid.
 std::optional<Pair> pair_of(FilterCompiler& compiler, std::vector<Expression> const& operands) {
     auto const own = compiler.vocabulary().own_position();
     if (operands.size() < 2 && own.empty())
-        return compiler.refuse("the condition has a spatial operator with one operand, which means nothing here");
+        return compiler.refuse("the condition has a spatial operator with one operand; expected are two");
     auto const reference = Expression{ValueReference{std::string{own}}};
     return compiler.related(operands.size() < 2 ? reference : operands.front(), operands.back());
 }
 
 }  // namespace
 
-// Within: what is told is within what is known, in whichever order the two stand.
+// For Within, the candidate's position must be within the condition's geometry, in either order of the operands.
 PredicatePtr FilterCompiler::operator()(SpatialComparison const& comparison) {
     auto pair = pair_of(*this, comparison.operands);
     if (!pair) return nullptr;
@@ -108,7 +108,7 @@ PredicatePtr FilterCompiler::operator()(DistanceComparison const& comparison) {
         return nullptr;
     }
     if (!(comparison.distance >= 0)) {
-        refuse("the condition has a distance that is no number from 0 on");
+        refuse("the condition has a distance that is not a number of at least 0");
         return nullptr;
     }
     auto pair = pair_of(*this, comparison.operands);

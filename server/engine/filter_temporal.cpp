@@ -1,4 +1,4 @@
-// The temporal operators (ISO 19143, Temporal Filter) over moments and periods.
+// Temporal operators (ISO 19143, Temporal Filter) on moments and periods.
 #include <optional>
 #include <variant>
 
@@ -9,15 +9,15 @@ namespace rois {
 
 namespace {
 
-// When something is: known beforehand, or told by a candidate.
-class When {
+// An operand of a temporal operator: a time of the condition, or a reference to times of the candidate.
+class TemporalOperand {
 public:
-    When(Period period) : when_{period} {}
-    When(Reference reference) : when_{std::move(reference)} {}
+    TemporalOperand(Period period) : when_{period} {}
+    TemporalOperand(Reference reference) : when_{std::move(reference)} {}
 
     bool is_known() const { return std::holds_alternative<Period>(when_); }
 
-    // Nothing while open.
+    // nullopt if the value is not known yet.
     std::optional<std::vector<Period>> of(Candidate const& candidate) const {
         if (auto const* known = std::get_if<Period>(&when_)) return std::vector<Period>{*known};
         auto const texts = candidate.texts(std::get<Reference>(when_));
@@ -39,7 +39,7 @@ private:
     std::variant<Period, Reference> when_;
 };
 
-// A relation that is told as its converse: "before" as "after" with the operands exchanged.
+// The relation to store with exchanged operands, such as "after" for "before".
 std::optional<TemporalRelation> converse(TemporalRelation relation) {
     switch (relation) {
         case TemporalRelation::before:
@@ -63,7 +63,7 @@ bool is_moment(Period const& period) { return period.begin == period.end; }
 
 bool meets(Period const& a, Period const& b) { return a.end == b.begin && !is_moment(a) && !is_moment(b); }
 
-// ISO 19108, TM_RelativePosition. Never called for a relation that has a converse.
+// ISO 19108, TM_RelativePosition. The relation must not have a converse.
 bool holds(TemporalRelation relation, Period const& a, Period const& b) {
     switch (relation) {
         case TemporalRelation::after:
@@ -86,10 +86,10 @@ bool holds(TemporalRelation relation, Period const& a, Period const& b) {
     return a == b;
 }
 
-// One of several times must meet it.
+// Matches if one of several times meets the relation.
 class Temporal final : public Predicate {
 public:
-    Temporal(TemporalRelation relation, When left, When right)
+    Temporal(TemporalRelation relation, TemporalOperand left, TemporalOperand right)
         : relation_{relation}, left_{std::move(left)}, right_{std::move(right)} {
         auto const other = converse(relation_);
         if (!other) return;
@@ -117,40 +117,40 @@ public:
 
 private:
     TemporalRelation relation_;
-    When left_;
-    When right_;
+    TemporalOperand left_;
+    TemporalOperand right_;
 };
 
-// Nothing when refused.
-std::optional<When> when(FilterCompiler& compiler, Expression const& expression) {
+// Returns nullopt if the expression is invalid.
+std::optional<TemporalOperand> temporal_operand(FilterCompiler& compiler, Expression const& expression) {
     if (auto const* not_understood = std::get_if<NotUnderstood>(&expression.value))
         return compiler.refuse(not_understood->reason);
     if (auto const* period = std::get_if<Period>(&expression.value)) return *period;
     if (auto const* literal = std::get_if<Literal>(&expression.value)) {
         if (auto const period = to_period(literal->text)) return *period;
-        return compiler.refuse("the condition has the time " + quoted(literal->text) + ", which is none");
+        return compiler.refuse("the condition has the time " + quoted(literal->text) + ", which is not a time");
     }
     auto const* reference = std::get_if<ValueReference>(&expression.value);
-    if (reference == nullptr) return compiler.refuse("the condition relates something to a time that is none");
+    if (reference == nullptr) return compiler.refuse("an operand of a temporal operator in the condition is not a time");
     auto resolved = compiler.resolve(reference->path);
     if (!resolved) return {};
     if (resolved->kind != ValueKind::time && resolved->kind != ValueKind::any)
-        return compiler.refuse("the condition takes " + quoted(reference->path) + " for a time, which it is not");
+        return compiler.refuse("the condition uses " + quoted(reference->path) + " as a time, but it is not one");
     return std::move(*resolved);
 }
 
 }  // namespace
 
-// What is told is during what is known, in whichever order the two stand.
+// For During, the candidate's time must be during the condition's period, in either order of the operands.
 PredicatePtr FilterCompiler::operator()(TemporalComparison const& comparison) {
     auto const own = vocabulary_.own_time();
     if (comparison.operands.size() < 2 && own.empty()) {
-        refuse("the condition has a temporal operator with one operand, which means nothing here");
+        refuse("the condition has a temporal operator with one operand; expected are two");
         return nullptr;
     }
     auto const reference = Expression{ValueReference{std::string{own}}};
-    auto left = when(*this, comparison.operands.size() < 2 ? reference : comparison.operands.front());
-    auto right = left ? when(*this, comparison.operands.back()) : std::nullopt;
+    auto left = temporal_operand(*this, comparison.operands.size() < 2 ? reference : comparison.operands.front());
+    auto right = left ? temporal_operand(*this, comparison.operands.back()) : std::nullopt;
     if (!right) return nullptr;
     if (comparison.relation == TemporalRelation::during && left->is_known() && !right->is_known()) std::swap(left, right);
     return std::make_unique<Temporal>(comparison.relation, std::move(*left), std::move(*right));

@@ -38,11 +38,11 @@ private:
     Case letters_;
 };
 
-// Which of those without a value are meant.
+// Which missing values match.
 enum class Without : std::uint8_t {
     any,          // all of them
-    missing,      // those that have such a property, but no value of it
-    inapplicable  // those that have no such property
+    missing,      // the candidate has the property, but no value of it
+    inapplicable  // the candidate does not have the property
 };
 
 class Null final : public Predicate {
@@ -85,7 +85,7 @@ private:
     std::string rid_;
 };
 
-// Nothing is ever nil for these reasons of GML, but they are reasons.
+// For the nilReasons of GML that are valid, but never apply here.
 class Never final : public Predicate {
 public:
     Match match(Candidate const&) const override { return Match::no; }
@@ -103,7 +103,7 @@ PredicatePtr FilterCompiler::operator()(PropertyIsLike const& like) {
     auto const* reference = reference_in(reversed ? like.right : like.left);
     auto const* literal = std::get_if<Literal>(&(reversed ? like.left : like.right).value);
     if (reference == nullptr || literal == nullptr) {
-        refuse("PropertyIsLike of the condition is not about a value reference and a literal");
+        refuse("PropertyIsLike in the condition needs a value reference and a literal");
         return nullptr;
     }
     auto resolved = resolve(reference->path);
@@ -131,7 +131,7 @@ PredicatePtr FilterCompiler::operator()(PropertyIsNil const& nil) {
     if (auto const* not_understood = std::get_if<NotUnderstood>(&nil.value.value)) refuse(not_understood->reason);
     auto const* reference = reference_in(nil.value);
     if (reference == nullptr) {
-        refuse("PropertyIsNull or PropertyIsNil of the condition is not about a value reference");
+        refuse("PropertyIsNull or PropertyIsNil in the condition needs a value reference");
         return nullptr;
     }
     auto resolved = resolve(reference->path);
@@ -146,7 +146,7 @@ PredicatePtr FilterCompiler::operator()(PropertyIsNil const& nil) {
     return nullptr;
 }
 
-// A component's name is its ref.
+// The name of a component is its ref.
 PredicatePtr FilterCompiler::operator()(ResourceId const& id) {
     if (auto problem = why_too_long("the rid of a ResourceId", id.rid)) {
         refuse(*std::move(problem));

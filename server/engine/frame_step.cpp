@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 
 constexpr double degree = std::numbers::pi / 180;
 
-// Where the pitch is nearer to a right angle, roll and yaw are about the same axis.
+// Below this cosine of the pitch, roll and yaw turn about the same axis.
 constexpr double least_cosine = 1e-6;
 
 Vector3d radians(Vector3d const& turned) { return turned * degree; }
@@ -33,7 +33,7 @@ Matrix3d rotation(Vector3d const& turned) {
         .toRotationMatrix();
 }
 
-// Roll, pitch and yaw of a rotation; of those at a right angle of pitch, the one without roll.
+// Roll, pitch and yaw of a rotation. At a pitch of 90 degrees roll is 0.
 Vector3d turned_by(Matrix3d const& r) {
     double const level = std::hypot(r(0, 0), r(1, 0));
     Vector3d angle{0, std::atan2(-r(2, 0), level), 0};
@@ -48,7 +48,7 @@ Vector3d turned_by(Matrix3d const& r) {
 
 bool is_level(Vector3d const& turned) { return turned.x() == 0 && turned.y() == 0; }
 
-// What a small change of roll, pitch and yaw turns by, about the axes of the frame that they are told in.
+// The rotation, about the axes of the outer frame, that a small change of roll, pitch and yaw causes.
 Matrix3d turn_of_change(Vector3d const& turned) {
     Vector3d const angle = radians(turned);
     double const cp = std::cos(angle.y()), sp = std::sin(angle.y()), cy = std::cos(angle.z()), sy = std::sin(angle.z());
@@ -57,7 +57,7 @@ Matrix3d turn_of_change(Vector3d const& turned) {
     return turn;
 }
 
-// The other way round: which change of roll, pitch and yaw a small turn about the axes is.
+// The inverse: the change of roll, pitch and yaw that a small rotation about the axes causes.
 Matrix3d change_of_turn(Vector3d const& turned) {
     Vector3d const angle = radians(turned);
     double const cp = std::cos(angle.y()), sp = std::sin(angle.y()), cy = std::cos(angle.z()), sy = std::sin(angle.z());
@@ -76,11 +76,10 @@ Matrix3d cross_product(Vector3d const& a) {
     return with;
 }
 
-// J C J^T of what is told, and of the placement, to the first order.
-Covariance6 carried(Covariance6 const& told, Covariance6 const& by_what_is_told, Covariance6 const& placed,
-                    Covariance6 const& by_the_placement) {
-    Covariance6 const sum =
-        by_what_is_told * told * by_what_is_told.transpose() + by_the_placement * placed * by_the_placement.transpose();
+// The covariance of the result, to the first order: J C J^T for the position, and for the placement.
+Covariance6 carried(Covariance6 const& covariance, Covariance6 const& jacobian, Covariance6 const& placed,
+                    Covariance6 const& placed_jacobian) {
+    Covariance6 const sum = jacobian * covariance * jacobian.transpose() + placed_jacobian * placed * placed_jacobian.transpose();
     return (sum + sum.transpose()) / 2;
 }
 
@@ -100,17 +99,17 @@ Covariance6 covariance_of(Frame const& frame) {
     auto const size = frame.covariance.size() == 9 ? 3 : 6;
     if (frame.covariance.size() != 9 && frame.covariance.size() != 36)
         refuse(frame, "the covariance of its placement has " + std::to_string(frame.covariance.size()) +
-                          " numbers; it has 9 (x, y, yaw) or 36 (x, y, z, roll, pitch, yaw)");
+                          " numbers; expected are 9 (x, y, yaw) or 36 (x, y, z, roll, pitch, yaw)");
     if (!is_finite(frame.covariance)) refuse(frame, "the covariance of its placement is not finite");
-    Eigen::MatrixXd const told = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> const>{
+    Eigen::MatrixXd const given = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> const>{
         frame.covariance.data(), size, size};
-    if (!is_symmetric(told)) refuse(frame, "the covariance of its placement is not symmetric");
-    if (!is_positive(told)) refuse(frame, "the covariance of its placement is not positive semi-definite");
+    if (!is_symmetric(given)) refuse(frame, "the covariance of its placement is not symmetric");
+    if (!is_positive(given)) refuse(frame, "the covariance of its placement is not positive semi-definite");
     if (size == 6) {
-        whole = told;
+        whole = given;
     } else {
         constexpr std::array<Eigen::Index, 3> at{0, 1, 5};
-        whole(at, at) = told;
+        whole(at, at) = given;
     }
     return (whole + whole.transpose()) / 2;
 }
@@ -127,40 +126,40 @@ Placement Placement::of(Frame const& frame) {
     return {vector_of(frame.position), vector_of(frame.orientation), covariance_of(frame)};
 }
 
-Whereat to_base(Whereat const& told, Placement const& placed) {
+PoseInFrame to_base(PoseInFrame const& pose, Placement const& placed) {
     Matrix3d const turn = rotation(placed.turned);
-    Vector3d const arm = turn * told.position;
+    Vector3d const arm = turn * pose.position;
     bool const level = is_level(placed.turned);
-    Whereat there;
+    PoseInFrame there;
     there.position = placed.origin + arm;
-    there.turned = level ? told.turned + placed.turned : turned_by(turn * rotation(told.turned));
-    if (!told.covariance) return there;
+    there.turned = level ? pose.turned + placed.turned : turned_by(turn * rotation(pose.turned));
+    if (!pose.covariance) return there;
     Matrix3d const change = change_of_turn(there.turned), of_placement = turn_of_change(placed.turned);
-    Covariance6 by_told = Covariance6::Zero(), by_placement = Covariance6::Identity();
-    by_told.topLeftCorner<3, 3>() = turn;
-    by_told.bottomRightCorner<3, 3>() = level ? Matrix3d::Identity() : Matrix3d{change * turn * turn_of_change(told.turned)};
+    Covariance6 by_pose = Covariance6::Zero(), by_placement = Covariance6::Identity();
+    by_pose.topLeftCorner<3, 3>() = turn;
+    by_pose.bottomRightCorner<3, 3>() = level ? Matrix3d::Identity() : Matrix3d{change * turn * turn_of_change(pose.turned)};
     by_placement.topRightCorner<3, 3>() = -cross_product(arm) * of_placement * degree;
     by_placement.bottomRightCorner<3, 3>() = change * of_placement;
-    there.covariance = carried(*told.covariance, by_told, placed.covariance, by_placement);
+    there.covariance = carried(*pose.covariance, by_pose, placed.covariance, by_placement);
     return there;
 }
 
-Whereat from_base(Whereat const& told, Placement const& placed) {
+PoseInFrame from_base(PoseInFrame const& pose, Placement const& placed) {
     Matrix3d const back = rotation(placed.turned).transpose();
-    Vector3d const arm = told.position - placed.origin;
+    Vector3d const arm = pose.position - placed.origin;
     bool const level = is_level(placed.turned);
-    Whereat there;
+    PoseInFrame there;
     there.position = back * arm;
-    there.turned = level ? told.turned - placed.turned : turned_by(back * rotation(told.turned));
-    if (!told.covariance) return there;
+    there.turned = level ? pose.turned - placed.turned : turned_by(back * rotation(pose.turned));
+    if (!pose.covariance) return there;
     Matrix3d const change = change_of_turn(there.turned), of_placement = turn_of_change(placed.turned);
-    Covariance6 by_told = Covariance6::Zero(), by_placement = Covariance6::Zero();
-    by_told.topLeftCorner<3, 3>() = back;
-    by_told.bottomRightCorner<3, 3>() = level ? Matrix3d::Identity() : Matrix3d{change * back * turn_of_change(told.turned)};
+    Covariance6 by_pose = Covariance6::Zero(), by_placement = Covariance6::Zero();
+    by_pose.topLeftCorner<3, 3>() = back;
+    by_pose.bottomRightCorner<3, 3>() = level ? Matrix3d::Identity() : Matrix3d{change * back * turn_of_change(pose.turned)};
     by_placement.topLeftCorner<3, 3>() = -back;
     by_placement.topRightCorner<3, 3>() = back * cross_product(arm) * of_placement * degree;
     by_placement.bottomRightCorner<3, 3>() = -change * back * of_placement;
-    there.covariance = carried(*told.covariance, by_told, placed.covariance, by_placement);
+    there.covariance = carried(*pose.covariance, by_pose, placed.covariance, by_placement);
     return there;
 }
 

@@ -1,5 +1,4 @@
-// One step between two frames, one of which is placed in the other: where something is, and how certain that is, told in the
-// other frame. The inside of Frames.
+// Converts a position, with its uncertainty, between a frame and the frame that it is placed in. Used by Frames.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,35 +10,35 @@ namespace rois {
 
 using Covariance6 = Eigen::Matrix<double, 6, 6>;  // of x, y, z in mm and roll, pitch, yaw in degrees
 
-// Where something is, in the frame that is spoken of.
-struct Whereat {
+// A position in some frame.
+struct PoseInFrame {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  // mm
-    Eigen::Vector3d turned = Eigen::Vector3d::Zero();    // roll, pitch, yaw in degrees; 0 for what has no orientation
-    std::optional<Covariance6> covariance;               // absent: nothing is known of it
+    Eigen::Vector3d turned = Eigen::Vector3d::Zero();    // roll, pitch, yaw in degrees; 0 without an orientation
+    std::optional<Covariance6> covariance;               // absent: unknown
 };
 
-// A frame as it is placed in its base, made ready.
+// The position of a frame in its base frame.
 struct Placement {
     Eigen::Vector3d origin;
     Eigen::Vector3d turned;
     Covariance6 covariance;
 
-    // Throws std::invalid_argument when the frame's numbers are no placement.
+    // Throws std::invalid_argument if the numbers of the frame are invalid.
     static Placement of(Frame const&);
 };
 
-// From the placed frame to its base, and back.
-Whereat to_base(Whereat const&, Placement const&);
-Whereat from_base(Whereat const&, Placement const&);
+// Converts from the placed frame to its base, and back.
+PoseInFrame to_base(PoseInFrame const&, Placement const&);
+PoseInFrame from_base(PoseInFrame const&, Placement const&);
 
-// Degrees in (-180, 180].
+// Returns the angle in (-180, 180] degrees.
 double normal_angle(double degrees);
 
-// Whether it can be a covariance, but for the errors of arithmetic.
+// Whether the matrix is symmetric, or positive semi-definite, within the precision of the arithmetic.
 bool is_symmetric(Eigen::MatrixXd const&);
 bool is_positive(Eigen::MatrixXd const&);
 
-// Rounded to a thousandth, and positive semi-definite nonetheless: where rounding took that away, the variances are raised.
+// Rounds to a thousandth. If rounding makes the matrix lose positive semi-definiteness, raises the variances.
 Eigen::MatrixXd rounded_covariance(Eigen::MatrixXd const&);
 
 }  // namespace rois

@@ -18,7 +18,7 @@ namespace {
 
 using Axes = std::span<Eigen::Index const>;
 
-// Which of x, y, z, roll, pitch, yaw a covariance of so many numbers is about; none when it is no such covariance.
+// The axes (x, y, z, roll, pitch, yaw) that a covariance with this many numbers covers; empty if the number is invalid.
 Axes axes_of(std::size_t numbers, bool oriented) {
     static constexpr std::array<Eigen::Index, 6> all{0, 1, 2, 3, 4, 5};
     static constexpr std::array<Eigen::Index, 3> in_plane{0, 1, 5};
@@ -58,7 +58,7 @@ std::vector<double> rows_of(Covariance6 const& covariance, Axes axes) {
 
 double rounded(double value, Frames::Rounding rounding) {
     double const parts = rounding == Frames::Rounding::thousandth ? 1e3 : 1e6;
-    return std::round(value * parts) / parts + 0.0;  // 0 has no sign
+    return std::round(value * parts) / parts + 0.0;  // turns -0 into 0
 }
 
 double rounded_angle(double degrees, Frames::Rounding rounding) { return normal_angle(rounded(normal_angle(degrees), rounding)); }
@@ -70,7 +70,7 @@ std::array<double, 3> array_of(Eigen::Vector3d const& v, Frames::Rounding roundi
 Eigen::Vector3d vector_of(std::span<double const, 3> numbers) { return {numbers[0], numbers[1], numbers[2]}; }
 
 std::string strange(Located const& located, std::string const& what) {
-    return "where " + quoted(located.ref) + " is has " + what;
+    return "the position of " + quoted(located.ref) + " has " + what;
 }
 
 }  // namespace
@@ -81,12 +81,12 @@ struct Frames::Placed {
 };
 
 struct Frames::Step {
-    Whereat (*take)(Whereat const&, Placement const&);
+    PoseInFrame (*take)(PoseInFrame const&, Placement const&);
     Placed const* placed;
 
     bool tilts() const { return placed->placement.turned.x() != 0 || placed->placement.turned.y() != 0; }
 
-    static Whereat all(Whereat where, std::vector<Step> const& way) {
+    static PoseInFrame all(PoseInFrame where, std::vector<Step> const& way) {
         for (auto const& step : way) where = step.take(where, step.placed->placement);
         return where;
     }
@@ -94,7 +94,7 @@ struct Frames::Step {
 
 Frames::Frames(std::string own, std::vector<Frame> others) : own_{std::move(own)} {
     for (auto& frame : others) {
-        if (own_.empty() || frame.crs.empty()) throw std::invalid_argument("a frame has no name, or the engine's own has none");
+        if (own_.empty() || frame.crs.empty()) throw std::invalid_argument("a frame, or the engine's own frame, has no name");
         auto const placement = Placement::of(frame);
         auto key = lower_case(frame.crs);
         if (equal_ignoring_case(frame.crs, own_) || placed_.contains(key))
@@ -105,7 +105,7 @@ Frames::Frames(std::string own, std::vector<Frame> others) : own_{std::move(own)
         auto const& [crs, base, position, orientation, covariance] = placed->frame;
         if (base.empty() || !know(base))
             throw std::invalid_argument("the frame " + quoted(crs, 200) + " is placed in " + quoted(base, 200) +
-                                        ", which is not known; known are " + listed(names()));
+                                        ", which is unknown; known are " + listed(names()));
         if (ancestry(crs).size() > placed_.size())
             throw std::invalid_argument("the frame " + quoted(crs, 200) + " is placed in itself, through " + quoted(base, 200));
     }
@@ -126,7 +126,7 @@ Frames::Placed const* Frames::find(std::string_view crs) const {
     return found == placed_.end() ? nullptr : found->second.get();
 }
 
-// The frame, the one it is placed in, and so on, without the engine's own; too many when it comes back to itself.
+// The frame, the frame that it is placed in, and so on, without the engine's own. In a cycle, returns more frames than there are.
 std::vector<Frames::Placed const*> Frames::ancestry(std::string_view crs) const {
     std::vector<Placed const*> all;
     for (auto const* placed = find(crs); placed != nullptr && all.size() <= placed_.size(); placed = find(placed->frame.base))
@@ -134,8 +134,8 @@ std::vector<Frames::Placed const*> Frames::ancestry(std::string_view crs) const 
     return all;
 }
 
-// Up to the frame that both descend from, and down from there: how uncertain the placement of that one is does not matter between
-// the two. Nothing when a frame is not known.
+// The way up to the first common ancestor of the two frames, and down from there. So the uncertainty of the ancestor's own
+// placement does not count. Returns nullopt if a frame is unknown.
 std::optional<std::vector<Frames::Step>> Frames::way(std::string_view from, std::string_view to) const {
     if (!know(from) || !know(to)) return {};
     auto up = ancestry(from), down = ancestry(to);
@@ -156,7 +156,7 @@ std::optional<std::string> Frames::change(Located& located, std::string_view to)
     bool const oriented = located.orientation.size() == 3;
     if (!oriented && !located.orientation.empty())
         return strange(located, "an orientation of " + std::to_string(located.orientation.size()) + " numbers");
-    Whereat where{.position = vector_of(located.position), .turned = Eigen::Vector3d::Zero(), .covariance = {}};
+    PoseInFrame where{.position = vector_of(located.position), .turned = Eigen::Vector3d::Zero(), .covariance = {}};
     if (oriented) where.turned = {located.orientation[0], located.orientation[1], located.orientation[2]};
     auto* const covariance = std::get_if<Located::Covariance>(&located.certainty);
     auto const axes = covariance == nullptr ? Axes{} : axes_of(covariance->rows.size(), oriented);
@@ -176,10 +176,10 @@ std::optional<std::string> Frames::change(Located& located, std::string_view to)
 }
 
 std::optional<std::string> Frames::moved(std::string_view text, std::vector<Step> const& way, Rounding rounding) {
-    auto const told = point(text, {});
-    if (!told) return {};
+    auto const read = point(text, {});
+    if (!read) return {};
     bool const oriented = std::ranges::count(text, ',') == 2;
-    Whereat where{.position = vector_of(told->low), .turned = Eigen::Vector3d::Zero(), .covariance = {}};
+    PoseInFrame where{.position = vector_of(read->low), .turned = Eigen::Vector3d::Zero(), .covariance = {}};
     if (oriented) where.turned.z() = to_double(text.substr(text.rfind(',') + 1)).value_or(0);
     where = Step::all(std::move(where), way);
     auto const number = [&](double value) { return canonical(rounded(value, rounding)); };

@@ -1,5 +1,5 @@
-// The frames in which components and applications tell positions, and how what is told in one is told in another (RLS data;
-// decision 27; docs/frames.md).
+// The frames in which components and applications state positions, and the conversion between them (RLS data; decision 27;
+// docs/frames.md).
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@
 
 namespace rois {
 
-// A frame: its name, and where it is as seen from another one.
+// A frame and its position in another frame.
 struct Frame {
     std::string crs;
-    std::string base;                  // the frame that it is placed in
+    std::string base;                  // the frame in which this one is placed
     std::array<double, 3> position{};  // of its origin, mm
     std::array<double, 3>
         orientation{};  // of its axes: roll, pitch, yaw in degrees; turned by roll about x first, by yaw about z last
@@ -28,65 +28,66 @@ struct Frame {
                                      // roll, pitch, yaw (36); empty: it is certain
 };
 
-// All frames that an engine knows: its own, and those that are placed in it or in one another. Names have no case; an empty one
-// means the engine's own. Each change of frame leaves what it cannot change as it is: what is in a frame that is not known.
+// All frames that the engine knows: its own, and frames placed in it or in one another. Frame names are not case-sensitive; an
+// empty name means the engine's frame. Conversions leave values in unknown frames unchanged.
 class Frames {
 public:
-    // How finely numbers are rounded: what is told to applications to a thousandth, what is only compared or handed to a
-    // component to a millionth, so that it is the same again when it comes back.
+    // The precision of converted numbers: a thousandth for values sent to applications; a millionth for values that are compared
+    // or passed to components, so that they convert back exactly.
     enum class Rounding : std::uint8_t { thousandth, millionth };
 
-    // None is known: coordinates of any frame are taken as they are.
+    // Knows no frames: coordinates of any frame are compared without conversion.
     Frames() = default;
 
-    // Throws std::invalid_argument for a frame that is there twice, one that is placed in none that is known or in itself, and a
-    // placement that is not finite or whose covariance is none: not of 9 or 36 numbers, not symmetric, not positive
+    // Throws std::invalid_argument if a frame is duplicated, is placed in an unknown frame or in itself, or has an invalid
+    // placement: a number is not finite, or the covariance does not have 9 or 36 numbers, is not symmetric or not positive
     // semi-definite.
     Frames(std::string own, std::vector<Frame> others = {});
 
     std::string const& own() const { return own_; }
 
-    // Whether there is nothing to change.
+    // Returns whether the engine's frame is the only one, so nothing ever needs a conversion.
     bool are_one() const { return placed_.empty(); }
     bool know(std::string_view crs) const;
-    std::vector<std::string> names() const;  // the engine's own first
+    std::vector<std::string> names() const;  // the engine's frame first
 
-    // Tells in the frame `to` where an entity is. A covariance is carried along to the first order, and takes in those of the
-    // placements on the way; it keeps its form, which is one of
+    // Converts the position to the frame `to`. Converts a covariance to the first order, and adds those of the frames between.
+    // The covariance keeps its form, which is one of
     //     x, y    x, y, yaw (x, y, z without orientation)    x, y, z, yaw    x, y, z, roll, pitch, yaw
-    // A reliability stays. Why it cannot be done, when the covariance is none of these or the orientation is none; else nothing.
+    // A reliability stays. Returns why the covariance or the orientation is invalid, or nullopt.
     std::optional<std::string> change(Located&, std::string_view to) const;
 
-    // Tells in the frame `to` the points among a parameter's values ("x, y" or "x, y, th"), and which frame that is; other
-    // values, the names of places for one, stay.
+    // Converts the points among the parameter's values ("x, y" or "x, y, th"), and sets the frame. Other values, such as names of
+    // places, stay.
     void change(Parameter&, std::string_view to, Rounding) const;
 
-    // Tells in the engine's own frame all that says another one. As above.
+    // Converts all positions to the engine's frame. Returns the first problem, as above.
     std::optional<std::string> change_to_own(Results&) const;
 
-    // Whether coordinates of the two may be compared as they are.
+    // Whether the coordinates of the two can be compared without conversion.
     bool share(Geometry const& a, Geometry const& b) const;
 
-    // The geometry in the frame `to`; nothing for a frame that is not known, for a box, which may not be a box there, and for a
-    // line, circle or polygon when the frames are tilted against each other.
+    // Returns the geometry in the frame `to`. Returns nullopt for an unknown frame, for a box (it may not be a box there), and
+    // for a line, circle or polygon if the frames are tilted against each other.
     std::optional<Geometry> moved(Geometry const&, std::string_view to) const;
 
 private:
     struct Placed;
     struct Step;
 
-    Placed const* find(std::string_view crs) const;  // null for the engine's own
+    Placed const* find(std::string_view crs) const;  // null for the engine's frame
     std::vector<Placed const*> ancestry(std::string_view crs) const;
     std::optional<std::vector<Step>> way(std::string_view from, std::string_view to) const;
 
-    // The text "x, y" or "x, y, th" at the end of a way; nothing when it is neither.
+    // Converts the text "x, y" or "x, y, th"; nullopt for other texts.
     static std::optional<std::string> moved(std::string_view text, std::vector<Step> const& way, Rounding);
 
     std::string own_;
     std::map<std::string, std::shared_ptr<Placed const>> placed_;  // by name in lower case
 };
 
-// What is made of the two in one frame, a box's where there is a box; nothing when they have none in common.
+// Calls `make` with both geometries in one frame. If only one is a box, its frame is used. Returns nullopt if they share no
+// frame.
 template <class Make>
 std::optional<std::invoke_result_t<Make, Geometry const&, Geometry const&>> in_one_frame(Frames const& frames, Geometry const& a,
                                                                                          Geometry const& b, Make const& make) {

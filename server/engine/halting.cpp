@@ -27,8 +27,8 @@ void Executor::halt(RegisteredComponent& component, CompletedStatus status_of_st
     attempts.rethrow();
 }
 
-// For a component that failed to begin an action: it may move nevertheless.
-void Executor::halt_what_moves(RegisteredComponent& component, Instant now) {
+// For a component that failed to begin an action, and may move nevertheless.
+void Executor::halt_if_it_moves(RegisteredComponent& component, Instant now) {
     if (component.moves()) halt(component, CompletedStatus::abort, "the component failed", now);
 }
 
@@ -45,7 +45,7 @@ void Executor::ask_to_halt(RegisteredComponent& component, Instant now) {
 }
 
 void Executor::await_confirmation(RegisteredComponent& component, Instant now) {
-    needs_mending_ = true;  // in case this fails
+    needs_repair_ = true;  // in case this fails
     component.halting->due =
         deadlines_.add(now.steady + time_to_confirm, [this, weak = component.weak_from_this()](Instant then) {
             auto const late = weak.lock();
@@ -57,7 +57,7 @@ void Executor::await_confirmation(RegisteredComponent& component, Instant now) {
         });
 }
 
-// Only a confirmed halt leads out of this state.
+// Only a confirmed halt ends this state.
 void Executor::halt_failed(RegisteredComponent& component, CompletedStatus status, std::string_view reason, Instant now) {
     if (!component.halting) component.halting.emplace();
     bool const first = !std::exchange(component.halting->failed, true);
@@ -71,7 +71,7 @@ void Executor::halt_failed(RegisteredComponent& component, CompletedStatus statu
 void Executor::halt_again_later(RegisteredComponent& component, Instant now) {
     auto& due = component.halting->due;
     deadlines_.cancel(std::exchange(due, {}));
-    needs_mending_ = true;  // in case this fails
+    needs_repair_ = true;  // in case this fails
     due = deadlines_.add(now.steady + between_attempts, [this, weak = component.weak_from_this()](Instant then) {
         auto const failed = weak.lock();
         if (!failed || !failed->halting) return;
@@ -92,7 +92,7 @@ void Executor::go_on(RegisteredComponent& component, Instant now) {
     deadlines_.cancel(halting->due);
     Attempts attempts;
     if (halting->failed) {
-        component.succeeded();
+        component.clear_failure();
         attempts([&] { journal_->halted_at_last(component.ref().code); });
     }
     for (auto const& command : halting->waiting) {
@@ -116,12 +116,12 @@ void Executor::wait_for_halt(SharedCommand const& command, Instant now) {
     halting.waiting.push_back(command);
 }
 
-// For a component that leaves: ends the commands that wait for its halt.
+// For a component that leaves the engine: ends the commands that wait for its halt.
 void Executor::forget_halt(RegisteredComponent& component, Instant now) {
     auto const halting = std::exchange(component.halting, {});
     if (!halting) return;
     deadlines_.cancel(halting->due);
-    end_each(halting->waiting, CompletedStatus::abort, "its component has gone", now);
+    end_each(halting->waiting, CompletedStatus::abort, "its component was removed", now);
 }
 
 void Executor::hold(RegisteredComponent& component, std::string_view reason, Instant now) {
@@ -132,7 +132,7 @@ void Executor::hold(RegisteredComponent& component, std::string_view reason, Ins
     attempts([&] {
         agenda_.add(ErrorOccurred{&component, ErrorType::user_defined_error,
                                   std::string{held ? "its motion is held: " : "its motion was stopped: "}.append(reason).append(
-                                      held ? "; resume goes on, and so does a new command" : "")});
+                                      held ? "; to continue, send resume or a new command" : "")});
     });
     attempts([&] { run_ready(now); });
     attempts.rethrow();

@@ -9,7 +9,7 @@
 
 namespace rois {
 
-// Returns why an identifier of this operation is too long (types/identifier_length.hpp), or nothing. Does not check session ids:
+// Returns which identifier of the operation is too long (types/identifier_length.hpp), or nullopt. Does not check session ids:
 // one that is too long is unknown.
 std::optional<std::string> why_too_long(Operation const&);
 

@@ -11,8 +11,8 @@ namespace rois {
 
 struct Command;
 
-// Called from within the engine's own calls; must not call the engine. Sessions are named by their numbers, because their ids are
-// secrets. Refs are those of components; a command's id may be any text of the application's.
+// The engine calls it from within its own calls; implementations must not call the engine. Sessions are identified by their
+// numbers, because their ids are secrets. A command's id may be any text that the application chose.
 class Journal {
 public:
     virtual ~Journal() = default;
@@ -21,12 +21,12 @@ public:
     virtual void session_ended(std::uint64_t /*session*/, std::string_view /*why*/) {}
     virtual void bound(std::uint64_t /*session*/, std::string const& /*ref*/) {}
     virtual void released(std::uint64_t /*session*/, std::string const& /*ref*/) {}
-    // The component did not confirm a halt, and is told again until it does (decision 35).
+    // The component did not confirm a halt. The engine repeats the halt until it does (decision 35).
     virtual void halt_failed(std::string const& /*ref*/, std::string_view /*why*/) {}
     virtual void halted_at_last(std::string const& /*ref*/) {}
-    // The operation returned another code than OK.
+    // The operation returned a code other than OK.
     virtual void refused(std::uint64_t /*session*/, Operation const&, Outcome const&) {}
-    // The command's turn has come, or it has ended. Its session is null once that has ended.
+    // The command's turn has come, or it has ended. Its session is null if that has ended.
     virtual void command_begun(Command const&) {}
     virtual void command_ended(Command const&) {}
 };

@@ -1,4 +1,4 @@
-// The pattern of PropertyIsLike (ISO 19143), made ready once.
+// A compiled pattern of PropertyIsLike (ISO 19143).
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,26 @@
 
 namespace rois {
 
-// Takes time in proportion to the text's length, whatever the pattern: all ways to match are followed at once, a bit each.
+// Matching takes time in proportion to the text's length, whatever the pattern: it follows all ways to match at once, one bit
+// each.
 class LikePattern {
 public:
     static constexpr std::size_t longest = 1'000;  // characters of a pattern
 
-    // The pattern, or why there is none: a special character that is not one character, the same twice, too long a pattern.
-    // With `match_case` false, the texts must be folded as `folded_case` does.
+    // Returns the pattern, or why it is invalid: a special character that is not one character, two special characters that are
+    // the same, or a pattern that is too long. If `match_case` is false, texts to match must be folded by `folded_case`.
     static std::variant<LikePattern, std::string> compile(std::string_view pattern, PropertyIsLike const& characters);
 
-    // The whole text, in UTF-8.
+    // Matches the whole text, in UTF-8.
     bool matches(std::string_view text) const;
 
-    // The same for patterns that mean the same.
+    // A text that is the same for equivalent patterns.
     std::string canonical() const;
 
 private:
     using Bits = std::vector<std::uint64_t>;
 
-    // The elements that match only this character; `bits` covers those in the word `word` of Bits.
+    // The elements that match only this character. `bits` holds those of the word `word` in Bits.
     struct Taker {
         char32_t character;
         std::uint32_t word;
@@ -40,9 +41,9 @@ private:
 
     std::u32string elements_;                       // without wild cards; any_one for a single_char
     std::vector<bool> wild_card_before_ = {false};  // by element, and one more for the end
-    Bits loops_;                                    // the same as bits
-    Bits any_;                                      // the elements that take any character
-    std::vector<Taker> takers_;                     // in the order of characters and words
+    Bits loops_;                                    // wild_card_before_ as bits
+    Bits any_;                                      // the elements that match any character
+    std::vector<Taker> takers_;                     // ordered by character and word
 };
 
 }  // namespace rois

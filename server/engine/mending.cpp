@@ -14,7 +14,7 @@ constexpr std::string_view interrupted = "the engine failed in the middle of it"
 
 void Executor::give_up(Command& command) noexcept {
     command.given_up = true;
-    needs_mending_ = true;
+    needs_repair_ = true;
 }
 
 // Gives up the waiting commands of a sequence that cannot continue. Its running commands continue.
@@ -52,25 +52,25 @@ void Executor::end_given_up(SharedCommand const& command, Instant now) {
 }
 
 // Halts a component whose answer was lost, or whose halt has no deadline.
-void Executor::mend(RegisteredComponent& component, Instant now) {
+void Executor::repair(RegisteredComponent& component, Instant now) {
     if (std::exchange(component.answer_lost, false)) halt(component, CompletedStatus::error, interrupted, now);
     if (component.halting && component.halting->due == Deadlines::Ticket{}) ask_to_halt(component, now);
 }
 
-void Executor::mend(Instant now) {
+void Executor::repair(Instant now) {
     Attempts attempts;
     if (!ready_.empty()) attempts([&] { run_ready(now); });
     bool const answers_lost = agenda_.take_lost_answers();
-    if (std::exchange(needs_mending_, false) || answers_lost) {
+    if (std::exchange(needs_repair_, false) || answers_lost) {
         std::vector<SharedCommand> given_up;
         bool const listed = attempts([&] {
             for (auto const& [handle, command] : live_)
                 if (command->given_up) given_up.push_back(command);
         });
-        if (!listed) needs_mending_ = true;
+        if (!listed) needs_repair_ = true;
         for (auto const& command : given_up) attempts([&] { end_given_up(command, now); });
         for (auto const& [ref, component] : registry_.all())
-            if (!attempts([&] { mend(*component, now); })) needs_mending_ = true;
+            if (!attempts([&] { repair(*component, now); })) needs_repair_ = true;
         attempts([&] { run_ready(now); });
     }
     attempts.rethrow();

@@ -10,7 +10,7 @@
 
 namespace rois {
 
-// How a service application is linked to its session (decision 2): by a WebSocket, or by an event stream or a pending long poll.
+// How an application is linked to its session (decision 2): by a WebSocket, or by an event stream or a pending long poll.
 enum class Link : std::uint8_t { websocket, stream };
 
 // How a link ended. `answered`: a long poll was answered, which counts as a request. `lost`: the application closed the link, or
@@ -25,49 +25,49 @@ public:
         bool links_count = true;           // false: only requests are signs of life, not pongs and open streams
     };
 
-    MotionLease(Terms const& terms, Steady now) : terms_{terms}, heard_{now} {}
+    MotionLease(Terms const& terms, Steady now) : terms_{terms}, last_sign_of_life_{now} {}
 
     Terms const& terms() const { return terms_; }
     void agree(Terms const& terms) { terms_ = terms; }
 
-    void heard_request(Steady now) {
-        heard_ = now;
+    void request_received(Steady now) {
+        last_sign_of_life_ = now;
         end_after_link_.reset();
     }
-    void heard_pong(Steady now) {
-        if (terms_.links_count) heard_ = now;
+    void pong_received(Steady now) {
+        if (terms_.links_count) last_sign_of_life_ = now;
     }
     void opened(Link link, Steady now) {
         ++count(link);
-        heard_request(now);
+        request_received(now);
     }
     void closed(Link link, Closing closing, Steady now) {
         if (count(link) > 0) --count(link);
-        if (closing == Closing::answered && terms_.links_count) heard_request(now);
+        if (closing == Closing::answered && terms_.links_count) request_received(now);
         if (closing == Closing::lost && links() == 0) end_after_link_ = now + for_a_successor;
     }
 
     std::size_t links() const { return websockets_ + streams_; }
 
-    // The time from which its motion is held, if no sign of life comes before. An open stream is a sign of life by itself, because
-    // the system detects when the peer has gone. It is none if the session asked that only its requests count.
+    // The time at which motion is held if no sign of life comes before. An open stream is a permanent sign of life, because the
+    // system detects when the peer is gone, unless the session asked that only its requests count.
     Steady end() const {
         if (streams_ > 0 && terms_.links_count) return Steady::max();
-        if (links() > 0) return heard_ + terms_.linked;
-        return end_after_link_.value_or(heard_ + terms_.http);
+        if (links() > 0) return last_sign_of_life_ + terms_.linked;
+        return end_after_link_.value_or(last_sign_of_life_ + terms_.http);
     }
 
 private:
-    // After the last link is lost, a new link or a request must come within this time.
+    // The time for a new link or a request after the last link is lost.
     static constexpr std::chrono::milliseconds for_a_successor{250};
 
     std::size_t& count(Link link) { return link == Link::websocket ? websockets_ : streams_; }
 
     Terms terms_;
-    Steady heard_;
+    Steady last_sign_of_life_;
     std::size_t websockets_ = 0;
     std::size_t streams_ = 0;
-    std::optional<Steady> end_after_link_;  // set when the last link is lost; reset by a new link or a request
+    std::optional<Steady> end_after_link_;  // set when the last link is lost
 };
 
 }  // namespace rois

@@ -13,7 +13,7 @@ Numbered gap_until(std::uint64_t until, std::uint64_t count) {
 
 Lost const* as_lost(Numbered const& entry) { return std::get_if<Lost>(&entry.notification->body); }
 
-// A `Lost` stands for all that it counts: the sequence before the first of them.
+// The sequence before this entry; before the first one that it counts, for a `Lost`.
 std::uint64_t before(Numbered const& entry) {
     auto const* gap = as_lost(entry);
     return entry.sequence - (gap == nullptr ? 1 : gap->count);
@@ -31,7 +31,8 @@ NotificationQueue::Pushed NotificationQueue::push(std::shared_ptr<OutgoingNotifi
     return overflowed_ ? Pushed::overflow : Pushed::ok;
 }
 
-// Drops the oldest waiting event; a `Lost` takes its place, joined with one that stands right before it.
+// Replaces the oldest waiting event by a `Lost`, merged with a `Lost` right before it. Returns false if there is no waiting
+// event.
 bool NotificationQueue::make_room() {
     settle_recent();
     auto const first_waiting = entries_.begin() + static_cast<std::ptrdiff_t>(sent_);
@@ -96,7 +97,7 @@ NotificationQueue::Next NotificationQueue::read(std::uint64_t after, std::size_t
     auto entry = first_after(after);
     auto const begin = into.size();
     if (entry != entries_.end() && entry->sequence <= until && before(*entry) != after) {
-        // The position lies before all that is kept, or inside a gap: what is missing comes first, counted from the position.
+        // The position is before the oldest entry, or inside a gap: begin with a `Lost` that counts from the position.
         auto const missing_until = as_lost(*entry) == nullptr ? before(*entry) : entry->sequence;
         if (missing_until > after) into.push_back(gap_until(missing_until, missing_until - after));
         if (as_lost(*entry) != nullptr) ++entry;
@@ -108,7 +109,7 @@ NotificationQueue::Next NotificationQueue::read(std::uint64_t after, std::size_t
     return after_locked(into.back().sequence);
 }
 
-// Most readers go on where they have stopped. Nothing that is so recent was forgotten.
+// The common case: the reader continues where it stopped, and all entries after that are recent.
 NotificationQueue::Next NotificationQueue::read_recent(std::uint64_t after, std::size_t most, std::vector<Numbered>& into) {
     auto const until = visible_until();
     auto last = after;
@@ -126,7 +127,7 @@ void NotificationQueue::settle_recent() {
     forget();
 }
 
-// Most readers go on where the last has stopped: at the first that waits.
+// Most readers continue where the last read stopped: at the first waiting entry.
 std::vector<Numbered>::const_iterator NotificationQueue::first_after(std::uint64_t sequence) const {
     auto const sent = std::min(sent_, entries_.size());
     bool const knows_sent = sent == 0 || entries_[sent - 1].sequence <= sequence;
@@ -140,7 +141,7 @@ NotificationQueue::Next NotificationQueue::next(std::uint64_t after) const {
     return after_locked(after);
 }
 
-// That of the first entry behind this one, 0 when there is none.
+// The sequence of the first entry after this one; 0 if there is none.
 std::uint64_t NotificationQueue::sequence_after(std::uint64_t sequence) const {
     if (is_recent(sequence)) return sequence < last_sequence_ ? sequence + 1 : 0;
     auto const entry = first_after(sequence);
@@ -190,7 +191,7 @@ void NotificationQueue::mark_sent(std::uint64_t until) {
         if (as_lost(at(sent_)) == nullptr) --waiting_;
 }
 
-// For when all are in entries_.
+// All entries must be in entries_.
 void NotificationQueue::forget() {
     for (; sent_ - forgotten_ > max_sent_; ++forgotten_) entries_[forgotten_].notification.reset();
     if (forgotten_ * 2 <= entries_.size()) return;

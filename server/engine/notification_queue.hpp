@@ -1,4 +1,4 @@
-// What an engine has to tell one session: numbered, bounded, readable again for a while (decisions 22, 23).
+// The notifications of one session: numbered, bounded, and readable again for a while (decisions 22, 23).
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 
 namespace rois {
 
-// A notification on its way to one or many sessions. But for its sequence its text is the same for all of them; it is made
-// once, by whoever writes it first, on any thread.
+// A notification for one or many sessions. Its text is the same for all of them, except the sequence. The first thread that needs
+// the text makes it.
 class OutgoingNotification {
 public:
     explicit OutgoingNotification(Notification n) : body{std::move(n)} {}
@@ -34,18 +34,21 @@ private:
     mutable std::string text_;
 };
 
-// One entry of a session's history.
+// An entry of a session's queue.
 struct Numbered {
     std::uint64_t sequence = 0;
     std::shared_ptr<OutgoingNotification const> notification;
 };
 
-// Those who read a session's notifications, as the outbox knows them.
+// The readers of a session's notifications; defined by the network layer.
 struct Audience;
 
-// Holds the notifications of a session: those that wait (never read) and those that were read, for reading them again. Any number
-// of readers, each with its own position; reading discards nothing but marks as sent. Only the engine pushes and closes, and asks
-// what it has done; readers and holders come from any thread, and wait for nothing but each other: not for the engine's turn.
+// Holds a session's notifications: those that are waiting (never read), and those that were sent (read once), for reading again.
+// Any number of readers, each with its own position. Reading marks notifications as sent.
+//
+// `session`, `read`, `next`, `has_after`, `hold`, `release`, `closed`, `waiting` and `wants_signs_of_life` are thread-safe: the
+// queue's own mutex guards them, so readers never wait for a call to the engine. All other functions need the lock that
+// serializes the calls to the engine.
 class NotificationQueue {
 public:
     NotificationQueue(SessionId session, std::size_t max_waiting, std::size_t max_sent)
@@ -55,51 +58,51 @@ public:
 
     enum class Pushed : std::uint8_t { ok, overflow };
 
-    // Numbers and keeps it. When too many wait, the oldest waiting event makes room and a `Lost` takes its place; `overflow`
-    // when there is no event to drop: then the session must end. From then on it keeps what must not be lost, and no event.
+    // Numbers and stores the notification. If too many wait, replaces the oldest waiting event by a `Lost`. Returns `overflow` if
+    // there is no event to replace: the session must then end, and the queue accepts no more events.
     Pushed push(std::shared_ptr<OutgoingNotification const>);
 
-    // Drops the sent notifications, and the oldest waiting events until only `events` are left. `Lost` replaces the latter.
+    // Drops the sent notifications. Replaces the oldest waiting events by `Lost` until `events` are left.
     void keep_last(std::size_t events);
 
-    // No more will come: the session has ended. As what is told, it shows when nothing is held.
+    // Marks the end: the session has ended. Holds hide the end, too.
     void close();
 
     std::uint64_t last_sequence() const { return last_sequence_; }
 
-    // How many were dropped so far.
+    // The number of notifications that were dropped.
     std::uint64_t lost() const { return lost_; }
 
-    // How many nobody has read.
+    // The number of notifications that were never read.
     std::size_t waiting() const;
 
-    // Whether the session had to end because too many waited.
+    // Returns whether the session had to end because too many notifications waited.
     bool overflowed() const { return overflowed_; }
 
-    // What comes behind a position: ended: nothing, ever; overflowed: as well, because too many waited.
+    // The state after a position. `ended`, `overflowed`: no more will come; `overflowed`: because too many waited.
     enum class Next : std::uint8_t { more, wait, ended, overflowed };
     Next next(std::uint64_t after) const;
 
-    // At most `most` visible entries with a sequence above `after`, oldest first, which count as sent from now on. A position
-    // that is older than what is kept begins with a `Lost`. They are appended to `into`; what is said is what comes behind them.
+    // Appends up to `most` visible entries after `after`, and marks them as sent. Begins with a `Lost` if entries were dropped
+    // there. Returns the state after the last entry.
     Next read(std::uint64_t after, std::size_t most, std::vector<Numbered>& into);
     std::vector<Numbered> read(std::uint64_t after, std::size_t most);
     bool has_after(std::uint64_t after) const { return next(after) == Next::more; }
 
-    // While held, what is pushed from now on stays invisible: an answer that must come first is still on its way (decision 22).
-    // Holds may overlap; each is released once.
-    using Hold = std::uint64_t;  // the sequence behind which it hides
+    // While a hold exists, notifications that are pushed later are invisible: an answer must be sent before them (decision 22).
+    // Holds may overlap. Release each one once.
+    using Hold = std::uint64_t;  // the last visible sequence
     Hold hold();
-    // Whether it has hidden something.
+    // Returns whether the hold has hidden an entry or the end.
     bool release(Hold);
 
     bool closed() const;
 
-    // Until then the engine wants signs of life from the application (decision 33), so WebSockets send pings.
+    // Until this time the engine needs signs of life from the application (decision 33), so WebSockets send pings.
     void want_signs_of_life(Steady until) { signs_of_life_until_.store(until, std::memory_order_relaxed); }
     bool wants_signs_of_life(Steady now) const { return now < signs_of_life_until_.load(std::memory_order_relaxed); }
 
-    // For the outbox, which finds them here without a search; guarded as the engine is.
+    // For the outbox, which finds the readers here without a search. Needs the engine's lock.
     std::shared_ptr<Audience> const& audience() const { return audience_; }
     void set_audience(std::shared_ptr<Audience> audience) { audience_ = std::move(audience); }
 
@@ -117,27 +120,29 @@ private:
     void mark_sent(std::uint64_t until);
     void forget();
 
-    // In the order of use: an event to a thousand sessions finds each of them far away in memory.
+    // The members are in the order of use: with many sessions, each queue is a cache miss.
     std::shared_ptr<Audience> audience_;
-    mutable std::mutex mutex_;  // guards what follows; what only the engine changes it may read without
-    // In the order of their sequence; a `Lost` stands for several; first those that were forgotten, then those that were sent.
-    // Nothing is allocated for a session that has heard nothing. The last ones are kept in the queue itself, without a `Lost` and
-    // without gaps, until they are too many: what was allocated is on another page of memory, for each session on its own.
+    // Guards the members below. last_sequence_, lost_ and overflowed_ change only under the engine's lock as well, so its holder
+    // may read them without this mutex.
+    mutable std::mutex mutex_;
+    // Ordered by sequence: forgotten entries, then sent ones, then waiting ones. A `Lost` counts for several. The newest entries
+    // are in recent_, which has no `Lost` and no gaps; when it is full, they move to entries_. So a session with few
+    // notifications allocates no memory.
     std::vector<Numbered> entries_;
-    std::size_t forgotten_ = 0;  // how many were forgotten and are still there
-    std::size_t sent_ = 0;       // how many were forgotten or sent, of all
+    std::size_t forgotten_ = 0;  // forgotten entries that are still in entries_
+    std::size_t sent_ = 0;       // entries that were forgotten or sent, in both stores
     std::size_t recent_count_ = 0;
     std::array<Numbered, 8> recent_;
-    std::size_t waiting_ = 0;          // the others, without `Lost`
-    std::uint64_t last_sequence_ = 0;  // given last
+    std::size_t waiting_ = 0;          // waiting entries, without `Lost`
+    std::uint64_t last_sequence_ = 0;  // of the newest entry
     std::uint64_t lost_ = 0;
-    std::vector<Hold> holds_;  // ascending, since sequences are
+    std::vector<Hold> holds_;  // ascending
     bool closed_ = false;
     bool overflowed_ = false;
 
     std::atomic<Steady> signs_of_life_until_{Steady::min()};
 
-    std::size_t max_waiting_;  // what follows never changes
+    std::size_t max_waiting_;  // constant from here on
     std::size_t max_sent_;
     SessionId session_;
 };

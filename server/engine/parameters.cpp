@@ -12,7 +12,7 @@ namespace rois {
 
 namespace {
 
-// Spellings of published profiles, and the names that the engine uses.
+// Spellings in published profiles, and the names that the engine uses.
 struct Spelling {
     std::string_view published;
     std::string_view seed;
@@ -36,14 +36,14 @@ std::optional<std::string> why_not(ParameterProfile const& profile, DataType con
     return {};
 }
 
-// Where the profile is that a parameter's name means, mostly at the parameter's own place; at the end when there is none.
+// The index of the profile for a parameter's name; profiles.size() if there is none. Tries the likely index first.
 std::size_t place_of(std::vector<ParameterProfile> const& profiles, std::string_view name, std::size_t likely) {
     if (likely < profiles.size() && profiles[likely].name == name) return likely;
     auto const* found = profile_for(profiles, name);
     return found == nullptr ? profiles.size() : static_cast<std::size_t>(found - profiles.data());
 }
 
-// `type_at` says of which type the profile at a place is.
+// `type_at` returns the type of the profile at an index.
 template <class TypeAt>
 std::optional<std::string> problem_of(ParameterList const& list, std::vector<ParameterProfile> const& profiles,
                                       TypeAt const& type_at) {

@@ -1,4 +1,4 @@
-// Parameters held against their profiles (decision 26).
+// Checks and normalizes parameters by their profiles (decision 26).
 #pragma once
 
 #include <optional>
@@ -12,21 +12,21 @@
 
 namespace rois {
 
-// The profile that an application's name means: without regard to case, other versions' spellings included. Null when none.
+// Finds the profile of a name: without regard to case, and with the spellings of other versions. Returns null if there is none.
 ParameterProfile const* profile_for(std::vector<ParameterProfile> const&, std::string_view name);
 
-// The seed's name for what published profiles spell otherwise; any other name as it is.
+// Returns the seed's name for a spelling of published profiles; any other name unchanged.
 std::string_view seed_spelling(std::string_view name);
 
-// Why these parameters are not what the profiles say: unknown, twice, of another type. Nothing when they are.
+// Returns why the parameters do not fit the profiles (unknown, duplicated, wrong type), or nullopt.
 std::optional<std::string> why_not(std::vector<ParameterProfile> const&, ParameterList const&);
 
-// Profiles whose types are read once, for lists that are held against them again and again.
+// Profiles with their types parsed once, for repeated checks.
 class TypedProfiles {
 public:
-    explicit TypedProfiles(std::vector<ParameterProfile> const&);  // which must live as long
+    explicit TypedProfiles(std::vector<ParameterProfile> const&);  // which must outlive this
 
-    // As above.
+    // As the function above.
     std::optional<std::string> why_not(ParameterList const&) const;
 
 private:
@@ -34,17 +34,17 @@ private:
     std::vector<DataType> types_;
 };
 
-// The same parameters under the profiles' names and type codes, times in UTC, identifiers without a codebook with that of the
-// profile (decision 31); `list` was checked.
+// Returns the parameters with the profiles' names and type codes, times in UTC, and the profile's codebook for identifiers
+// without one (decision 31). `list` must be valid.
 ParameterList normalized(std::vector<ParameterProfile> const&, ParameterList const& list);
 
-// Why a command cannot do with these arguments: one that has no default value is not there. Nothing when it can.
+// Returns which argument without a default value is missing, or nullopt.
 std::optional<std::string> why_incomplete(std::vector<ParameterProfile> const&, ParameterList const& normalized);
 
-// The arguments with the default values of those that are not there, in the order of the profiles.
+// Returns the arguments, completed by the default values, in the order of the profiles.
 ParameterList with_defaults(std::vector<ParameterProfile> const&, ParameterList const& normalized);
 
-// Puts what arrived over what is stored, in the order of the profiles.
+// Overwrites the stored parameters with those that arrived, in the order of the profiles.
 void merge(ParameterList& stored, ParameterList const& arrived, std::vector<ParameterProfile> const&);
 
 }  // namespace rois

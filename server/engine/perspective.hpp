@@ -1,4 +1,4 @@
-// The components as a condition's asker sees them.
+// The components as seen by the session that asks.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace rois {
 class Registry;
 struct Session;
 
-// How all components look to one asker at one moment (`present`), or whatever becomes of their status, binding, place and
-// parameters (`ever`). Lives no longer than the engine's one step.
+// How all components look to one session now (`present`), or in any state that they may ever have: status, binding, position and
+// parameters (`ever`). Valid only within one call to the engine.
 class Perspective {
 public:
     enum class Of : std::uint8_t { present, ever };
@@ -33,13 +33,13 @@ public:
     Session const* asker() const { return asker_; }
     Of of() const { return of_; }
 
-    // Whether a condition on a group was held against a component.
+    // Returns whether a group condition was matched against a component.
     bool knows_groups() const { return !verdicts_.empty(); }
-    // From now on each group is met by one robot only. Of the robots of the components in `found`: one of which no other session
-    // holds what the asker lacks; of these, the one of which the asker has bound most of the group; then the first in `found`.
+    // Restricts each group to one robot of the components in `found`. Prefers robots of which no other session holds a component
+    // that the asker lacks, then those of which the asker has bound the most of the group, then the first in `found`.
     void keep_one_robot(std::vector<RegisteredComponent*> const& found);
-    // From now on no group is met by a robot of which another session holds what the asker lacks. Returns the name of such a
-    // component, or nothing if there is none.
+    // Removes from each group the robots of which another session holds a component that the asker lacks. Returns the name of
+    // such a component, or nullopt.
     std::optional<std::string_view> drop_held_robots();
     // Whether the asker lacks this free component of a group.
     bool is_lacked(RegisteredComponent const&);
@@ -54,7 +54,7 @@ private:
     Of of_;
     std::map<RegisteredComponent const*, ComponentCandidate> components_;
     std::map<std::string, std::vector<Candidate const*>, std::less<>> robots_;
-    std::map<std::pair<void const*, std::string>, std::optional<GroupVerdict>> verdicts_;  // of groups on robots
+    std::map<std::pair<void const*, std::string>, std::optional<GroupVerdict>> verdicts_;  // by group and robot
 };
 
 }  // namespace rois

@@ -1,4 +1,4 @@
-// The space that the engine's components share, as whoever knows the floor plan tells it: its frames, and places with names.
+// The space that the engine's components share, from the floor plan: frames and named places.
 #pragma once
 
 #include <algorithm>
@@ -11,17 +11,17 @@
 
 namespace rois {
 
-// An area that conditions mean by a name.
+// An area that conditions refer to by name.
 struct NamedPlace {
     std::string name;
     Geometry area;
 };
 
 struct Places {
-    Frames frames;  // the areas, and coordinates that say none, are in the engine's own
+    Frames frames;  // areas, and coordinates without a frame, are in the engine's frame
     std::vector<NamedPlace> all;
 
-    // Null when there is none of that name, to the letter.
+    // Finds a place by its exact name. Returns null if there is none.
     NamedPlace const* find(std::string_view name) const {
         auto const found = std::ranges::find(all, name, &NamedPlace::name);
         return found == all.end() ? nullptr : &*found;

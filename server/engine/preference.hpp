@@ -1,4 +1,4 @@
-// Which of several components that match an operation takes (decisions 6 and 18).
+// The order in which operations choose among several matching components (decisions 6 and 18).
 #pragma once
 
 #include <algorithm>
@@ -13,17 +13,17 @@ namespace rois {
 class RegisteredComponent;
 struct Session;
 
-// The robots (engines and sub engines) that a session works with. Valid until a binding changes.
+// Counts the components that a session has bound, by engine (main engine or sub engine). Invalid once a binding changes.
 class Preference {
 public:
     explicit Preference(Session const& asker);
 
-    // Sorts components into the order in which one is taken when the condition does not sort: first the engine of which the asker
-    // has bound the most components, then the lowest code within its engine, then the lowest engine name.
+    // Sorts components by preference, for conditions that do not sort: first the engine of which the asker has bound the most
+    // components, then the lowest code within its engine, then the lowest engine name.
     void order(std::vector<RegisteredComponent*>&) const;
 
-    // Moves the engines of which the asker has bound more components to the front of a list that the condition has sorted. Within
-    // one number of bound components the order stays.
+    // In a list that the condition has sorted, moves components of engines of which the asker has bound more to the front. The
+    // sort is stable.
     template <class List, class Projection = std::identity>
     void bring_forward(List& list, Projection component = {}) const {
         if (bound_.empty()) return;

@@ -14,11 +14,11 @@ namespace rois {
 
 namespace {
 
-// Who may answer a query, and with what; nothing when it is not asked yet.
+// A component that may answer a query, with its row of results; nullopt if it was not asked yet.
 struct Possible {
     RegisteredComponent* component;
     std::optional<Results> row;
-    std::optional<ComponentStatus> status;  // asked for once
+    std::optional<ComponentStatus> status;  // cached
 };
 
 bool is_ready(Possible& possible, Session const& asker) {
@@ -26,14 +26,14 @@ bool is_ready(Possible& possible, Session const& asker) {
     return possible.status == ComponentStatus::ready;
 }
 
-// So many components are sooner looked at than looked up by what a condition demands.
+// For so few components, calling each is faster than looking them up by the demand of the condition.
 constexpr std::size_t few = 4;
 
-// A component is asked only when the condition or SortBy may depend on what it answers; and nobody behind the one that will be
-// chosen when nothing is sorted.
+// Asks a component only if the condition or SortBy may depend on its answer. Without sorting, stops at the component that will be
+// chosen.
 template <class RowsOf>
-std::vector<Possible> who_may_answer(std::vector<RegisteredComponent*> const& able, Selection const& selection,
-                                     Perspective& looked_at, RowsOf const& rows_of) {
+std::vector<Possible> possible_answers(std::vector<RegisteredComponent*> const& able, Selection const& selection,
+                                       Perspective& looked_at, RowsOf const& rows_of) {
     std::vector<Possible> found;
     for (auto* component : able) {
         auto const& candidate = looked_at.candidate(*component);
@@ -43,7 +43,7 @@ std::vector<Possible> who_may_answer(std::vector<RegisteredComponent*> const& ab
         auto rows = ask ? rows_of(*component) : std::vector<Results>{};
         if (rows.empty() && match == Match::yes) found.push_back({component, {}, {}});
         for (auto& row : rows)
-            if (selection.match(ToldCandidate{candidate, row}) == Match::yes) found.push_back({component, std::move(row), {}});
+            if (selection.match(MessageCandidate{candidate, row}) == Match::yes) found.push_back({component, std::move(row), {}});
         if (!selection.sorts() && !found.empty() && found.back().component == component &&
             is_ready(found.back(), *looked_at.asker()))
             break;
@@ -51,13 +51,14 @@ std::vector<Possible> who_may_answer(std::vector<RegisteredComponent*> const& ab
     return found;
 }
 
-// In the order of the selection, which sorts.
+// In the order of the selection, which must sort.
 std::vector<Possible> in_order(Selection const& selection, std::vector<Possible> found, Perspective& looked_at) {
-    std::vector<std::unique_ptr<ToldCandidate>> told;
+    std::vector<std::unique_ptr<MessageCandidate>> with_results;
     std::vector<Candidate const*> candidates;
     for (auto const& [component, row, status] : found) {
         candidates.push_back(&looked_at.candidate(*component));
-        if (row) candidates.back() = told.emplace_back(std::make_unique<ToldCandidate>(*candidates.back(), *row)).get();
+        if (row)
+            candidates.back() = with_results.emplace_back(std::make_unique<MessageCandidate>(*candidates.back(), *row)).get();
     }
     auto const places = selection.order(candidates);
     std::vector<Possible> ordered;
@@ -69,7 +70,6 @@ std::vector<Possible> in_order(Selection const& selection, std::vector<Possible>
 // The queries of System Information: it "belongs to the HRI engine" (7.6.1).
 bool is_about_the_engine(std::string_view query_type) { return query_type == "robot_position" || query_type == "engine_status"; }
 
-// How bad a status is.
 std::ptrdiff_t badness(std::string_view status) {
     static constexpr std::array<std::string_view, 5> from_good_to_bad{"READY", "BUSY", "WARNING", "UNINITIALIZED", "ERROR"};
     return std::ranges::find(from_good_to_bad, status) - from_good_to_bad.begin();
@@ -80,8 +80,8 @@ std::string const& first_value(Parameter const& parameter) {
     return parameter.values.empty() ? none : parameter.values.front();
 }
 
-// Adds what another engine answers: entries to the lists; of single values, the worst status, the earliest time of measurement
-// and the time since when all of them operate.
+// Adds the answer of another engine: entries to the lists; of single values, the worst status, the earliest time of measurement,
+// and the time since which all of them operate.
 void join(Results& whole, Results part) {
     auto const operates = [](Results const& results) { return find(results.parameters, "operable_time") != nullptr; };
     bool const all_operate = operates(whole) && operates(part);
@@ -103,8 +103,8 @@ void join(Results& whole, Results part) {
 
 }  // namespace
 
-// Decision 18: the one component that knows the query type, preferring READY, then the robot that the session works with, then
-// what SortBy says or the lowest code; of its rows, the first that matches.
+// Decision 18: one component that has the query type answers. READY ones come first, then those of the robot that the session
+// works with, then the order of SortBy or the lowest code. Of its rows, the first that matches.
 Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
     auto vocabulary = this->vocabulary(&registry_.results(MessageKind::query, query.query_type));
     vocabulary.first = Vocabulary::First::parameters;
@@ -119,7 +119,7 @@ Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
     Preference const preference{session};
     auto meant = able.possible(able.all().size() > few ? selection.filter().demand() : std::nullopt).rest();
     preference.order(meant);
-    auto found = who_may_answer(meant, selection, looked_at, [&](RegisteredComponent& component) {
+    auto found = possible_answers(meant, selection, looked_at, [&](RegisteredComponent& component) {
         return answers(session, component, query.query_type, now);
     });
     if (found.empty())
@@ -144,8 +144,8 @@ Reply Engine::Core::perform(Session& session, Query const& query, Instant now) {
     return reply;
 }
 
-// One component answers for each engine, by the engine's name: READY, then the lowest code. An engine that cannot answer has no
-// position, and its status is ERROR. The answer names the component of the first engine.
+// One component of each engine answers, in the order of the engines' names: READY before others, then the lowest code. An engine
+// that cannot answer has no position, and its status is ERROR. The answer names the component of the first engine.
 Reply Engine::Core::answer_of_whole_engine(Session const& session, std::string const& query_type, Instant now) {
     using Choice = std::pair<bool, RegisteredComponent*>;  // whether it is not READY
     std::map<std::string_view, Choice> chosen;             // by engine
@@ -182,7 +182,7 @@ Reply Engine::Core::answer_of_whole_engine(Session const& session, std::string c
     return reply;
 }
 
-// Rows of results; none when it could not answer.
+// Rows of results; none if the component could not answer.
 std::vector<Results> Engine::Core::answers(Session const& session, RegisteredComponent& component, std::string const& query_type,
                                            Instant now) {
     if (query_type == "component_status") {
@@ -196,7 +196,7 @@ std::vector<Results> Engine::Core::answers(Session const& session, RegisteredCom
     } else {
         rows = component.answer(query_type, now);
     }
-    if (!rows.empty()) component.succeeded();
+    if (!rows.empty()) component.clear_failure();
     return rows;
 }
 

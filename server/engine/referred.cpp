@@ -11,8 +11,8 @@ namespace {
 
 using Part = Reference::Part;
 
-// Null for what is too long to be looked at.
-Parameter const* bearable(Parameter const* parameter) {
+// Returns null if the values are too long.
+Parameter const* if_not_too_long(Parameter const* parameter) {
     if (parameter == nullptr) return nullptr;
     std::size_t length = 0;
     for (auto const& value : parameter->values) length += value.size();
@@ -31,7 +31,7 @@ std::vector<Located const*> located_in(Results const& results, Reference const& 
     return meant;
 }
 
-// The values that stand for one entity: at the places at which it is located.
+// The values of one entity: those with the indexes at which it is located.
 Texts texts_of_entity(Texts const& items, Results const& results, Reference const& reference) {
     Texts meant;
     std::size_t at = 0;
@@ -80,13 +80,13 @@ Texts texts_in(Parameter const* parameter, Reference const& reference) {
         default:
             break;
     }
-    parameter = bearable(parameter);
+    parameter = if_not_too_long(parameter);
     return parameter == nullptr ? Texts{} : at_its_place(items_of(*parameter, reference.items), reference);
 }
 
 Positions positions_in(Parameter const* parameter, Reference const& reference) {
     Positions positions;
-    parameter = bearable(parameter);
+    parameter = if_not_too_long(parameter);
     if (parameter == nullptr) return positions;
     for (auto const& value : parameter->values)
         if (auto read = point(value, parameter->data_type_ref.codebook_ref)) positions.push_back(std::move(*read));
@@ -96,12 +96,12 @@ Positions positions_in(Parameter const* parameter, Reference const& reference) {
 Texts texts_in(Results const& results, Reference const& reference) {
     if (reference.to == Reference::To::located)
         return at_its_place(texts_of(located_in(results, reference), reference), reference);
-    auto const* parameter = bearable(find(results.parameters, reference.name));
+    auto const* parameter = if_not_too_long(find(results.parameters, reference.name));
     if (parameter == nullptr || reference.entity.empty()) return texts_in(parameter, reference);
     return at_its_place(texts_of_entity(items_of(*parameter, reference.items), results, reference), reference);
 }
 
-// The structured form where there is one, else the text form.
+// Prefers the structured form to the text form.
 Positions positions_in(Results const& results, Reference const& reference) {
     auto const meant = located_in(results, reference);
     if (meant.empty() && reference.to == Reference::To::result && reference.entity.empty())

@@ -1,4 +1,4 @@
-// What references stand for in lists of parameters and results.
+// The values of references in lists of parameters and results.
 #pragma once
 
 #include "engine/candidate.hpp"
@@ -6,16 +6,16 @@
 
 namespace rois {
 
-// What is longer, all values of a parameter or result together, is to conditions as if it were not there: else a session could
-// make the engine read megabytes for each predicate of a condition.
+// A parameter or result whose values are longer in total counts as missing. Otherwise a session could make the engine read
+// megabytes for each predicate of a condition.
 inline constexpr std::size_t longest_value = 64 * 1024;  // bytes
 
 bool speaks_of_results(Reference const&);
 
-// The items of a list; the value of what is not a list.
+// The items of a list, or the single value.
 Texts items_of(Parameter const&, Reference::Items);
 
-// Of one parameter or result; null when it is not there.
+// The values in one parameter or result; null counts as missing.
 Texts texts_in(Parameter const*, Reference const&);
 Positions positions_in(Parameter const*, Reference const&);
 
@@ -23,7 +23,7 @@ Texts texts_in(Results const&, Reference const&);
 Positions positions_in(Results const&, Reference const&);
 bool is_in(Results const&, Reference const&);
 
-// Only the one at the place that the reference says, when it says one.
+// If the reference names a place in the list, keeps only the value there.
 template <class Value>
 std::vector<Value> at_its_place(std::vector<Value> all, Reference const& reference) {
     if (reference.position == 0) return all;

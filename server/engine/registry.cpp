@@ -14,7 +14,7 @@ namespace rois {
 
 namespace {
 
-// Those that set_parameter names, and the profile's parameters beside them.
+// The parameters of set_parameter, and further ones of the profile.
 std::vector<ParameterProfile> settable_of(ComponentProfile const& profile) {
     std::vector<ParameterProfile> settable;
     if (auto const* message = find_message(profile, MessageKind::command, "set_parameter")) settable = message->arguments;
@@ -30,15 +30,15 @@ std::vector<ParameterProfile> settable_of(ComponentProfile const& profile) {
     return settable;
 }
 
-// `list`, and what `others` has beside.
+// `list`, and the members of `others` that it lacks.
 std::vector<ParameterProfile> with_others(std::vector<ParameterProfile> list, std::vector<ParameterProfile> const& others) {
     for (auto const& other : others)
         if (find_parameter(list, other.name) == nullptr) list.push_back(other);
     return list;
 }
 
-// Published profiles name the parameters only; the two messages that every component with parameters has go without saying, and
-// so does what one of them leaves out.
+// Published profiles may name only the parameters. Adds the messages set_parameter and get_parameter, which every component with
+// parameters has, or completes them.
 void add_parameter_messages(ComponentProfile& profile, std::vector<ParameterProfile> const& settable) {
     if (settable.empty()) return;
     auto const message = [&](MessageKind kind, std::string_view name) -> MessageProfile& {
@@ -54,7 +54,7 @@ void add_parameter_messages(ComponentProfile& profile, std::vector<ParameterProf
     get.results = with_others(std::move(get.results), settable);
 }
 
-// What the profile's own `start` takes beside the parameters that are stored: what these are not, or not of that type.
+// The arguments of the profile's own `start` that are not stored parameters, or have another type.
 std::vector<ParameterProfile> start_arguments_of(ComponentProfile const& profile, std::vector<ParameterProfile> const& settable) {
     std::vector<ParameterProfile> arguments;
     auto const* message = find_message(profile, MessageKind::command, "start");
@@ -73,7 +73,7 @@ Codebooks const* codebooks_for(std::vector<Codebooks> const& all, std::string_vi
     return found == all.end() ? nullptr : &*found;
 }
 
-// Declares the default codebook of each identifier whose profile declares none.
+// Declares the default codebook of each identifier parameter whose profile declares none.
 void declare_codebooks(std::vector<ParameterProfile>& profiles, std::vector<Codebooks> const& codebooks) {
     for (auto& profile : profiles) {
         auto const* found = codebooks_for(codebooks, profile.name);
@@ -94,7 +94,7 @@ bool is_among(std::vector<std::string> const& known, std::string_view name) {
     return std::ranges::any_of(known, [&](std::string const& each) { return equal_ignoring_case(each, name); });
 }
 
-// The published examples' component_ref names this codebook, whatever the component: "urn:...:ComponentType" (Annex B.2).
+// The published examples' component_ref has this codebook for every component: "urn:...:ComponentType" (Annex B.2).
 bool is_codebook_of_all_components(std::string_view codebook) {
     return equal_ignoring_case(codebook.substr(codebook.rfind(':') + 1), "ComponentType");
 }
@@ -149,18 +149,18 @@ void RegisteredComponent::report_failure(std::string_view problem, Report report
         this->report(ErrorType::component_internal_error, std::string{problem}, report);
     } catch (...) {
         // The component's status is ERROR nevertheless.
-        told_once_.erase(ErrorType::component_internal_error);
+        reported_once_.erase(ErrorType::component_internal_error);
     }
 }
 
 void RegisteredComponent::report(ErrorType type, std::string text, Report report) const {
-    bool const known = !told_once_.insert(type).second;
+    bool const known = !reported_once_.insert(type).second;
     if (!known || report == Report::each) agenda_.add(ErrorOccurred{this, type, std::move(text)});
 }
 
-void RegisteredComponent::succeeded() {
+void RegisteredComponent::clear_failure() {
     failed_ = false;
-    told_once_.clear();
+    reported_once_.clear();
 }
 
 TypedProfiles const* RegisteredComponent::results_of(MessageKind kind, std::string_view message) const {
@@ -182,9 +182,9 @@ std::vector<Results> RegisteredComponent::answer(std::string_view query_type, In
     call([&](Component& c) { rows = c.query(query_type, now); }, Report::once);
     for (auto& row : rows) {
         if (check(MessageKind::query, query_type, row, Report::once) == Answer::wrong) return {};
-        auto as_told = told(std::move(row), query_type, Report::once);
-        if (!as_told) return {};
-        row = std::move(*as_told);
+        auto converted = in_engine_frame(std::move(row), query_type, Report::once);
+        if (!converted) return {};
+        row = std::move(*converted);
     }
     return rows;
 }
@@ -223,7 +223,7 @@ std::optional<ParameterList> RegisteredComponent::all_parameters(Session const* 
 
 bool RegisteredComponent::has_parameter(std::string_view name) const { return profile_for(readable_, name) != nullptr; }
 
-bool RegisteredComponent::tells(std::string_view name) const {
+bool RegisteredComponent::has_result(std::string_view name) const {
     return std::ranges::any_of(profile().messages, [&](MessageProfile const& message) {
         return message.kind != MessageKind::command && find_parameter(message.results, name) != nullptr;
     });
@@ -239,7 +239,7 @@ std::optional<Located> RegisteredComponent::location() const {
     return {};
 }
 
-std::optional<Results> RegisteredComponent::told(Results results, std::string_view message, Report report) const {
+std::optional<Results> RegisteredComponent::in_engine_frame(Results results, std::string_view message, Report report) const {
     auto const problem = frames_.change_to_own(results);
     if (!problem) return results;
     report_failure("wrong results of " + quoted(message) + ": " + *problem, report);
@@ -322,12 +322,12 @@ void RegisteredComponent::started(CommandHandle command) { agenda_.add(CommandSt
 void RegisteredComponent::completed(CommandHandle command, CompletedStatus status, Results results, Afterwards afterwards,
                                     std::string reason) {
     try {
-        auto told_results = told(std::move(results), "a command", Report::each);
-        if (!told_results) {
+        auto converted = in_engine_frame(std::move(results), "a command", Report::each);
+        if (!converted) {
             status = CompletedStatus::error;
-            reason = "its results are in a frame that cannot be told";
+            reason = "its results are in a frame that cannot be converted";
         }
-        agenda_.add(CommandEnded{command, status, std::move(told_results).value_or(Results{}), afterwards, std::move(reason)});
+        agenda_.add(CommandEnded{command, status, std::move(converted).value_or(Results{}), afterwards, std::move(reason)});
     } catch (...) {
         answer_lost = true;
         agenda_.note_lost_answer();
@@ -339,7 +339,7 @@ void RegisteredComponent::halted() { agenda_.add(HaltConfirmed{this}); }
 
 void RegisteredComponent::event(std::string_view event_type, Results results) {
     if (check(MessageKind::event, event_type, results, Report::once) == Answer::wrong) return;
-    if (auto here = told(std::move(results), event_type, Report::once))
+    if (auto here = in_engine_frame(std::move(results), event_type, Report::once))
         agenda_.add(EventOccurred{this, std::string{event_type}, std::make_shared<Results const>(std::move(*here))});
 }
 
@@ -352,29 +352,29 @@ RegisteredComponent& Registry::add(std::shared_ptr<RegisteredComponent> componen
     place->second = std::move(component);
     auto& registered = *place->second;
     parameters_.reset();
-    everybody_.add(registered);
+    index_.add(registered);
     if (registered.moves()) moving_.push_back(&registered);
     for (auto const& message : registered.profile().messages) change(message).components.add(registered);
     return registered;
 }
 
 void Registry::remove(RegisteredComponent const& component) {
-    everybody_.remove(component);
+    index_.remove(component);
     std::erase(moving_, &component);
     for (auto const& message : component.profile().messages) change(message).components.remove(component);
     components_.erase(component.ref().code);
     parameters_.reset();
 }
 
-// What was gathered of a message is not good any more.
-Registry::Tellers& Registry::change(MessageProfile const& message) {
-    auto& tellers = by_message_[message.kind][message.name];
-    tellers.results.reset();
-    return tellers;
+// The results of the message must be collected again.
+Registry::Providers& Registry::change(MessageProfile const& message) {
+    auto& providers = by_message_[message.kind][message.name];
+    providers.results.reset();
+    return providers;
 }
 
-Registry::Tellers const& Registry::tellers(MessageKind kind, std::string_view message) const {
-    static Tellers const none;
+Registry::Providers const& Registry::providers(MessageKind kind, std::string_view message) const {
+    static Providers const none;
     auto const by_name = by_message_.find(kind);
     if (by_name == by_message_.end()) return none;
     auto const found = by_name->second.find(message);
@@ -415,7 +415,7 @@ Registry::Meant Registry::meant(Identifier const& ref) const {
 }
 
 Declarations const& Registry::results(MessageKind kind, std::string_view message) const {
-    auto const& [components, results] = tellers(kind, message);
+    auto const& [components, results] = providers(kind, message);
     static Declarations const none;
     if (components.all().empty()) return none;
     if (results) return *results;
@@ -428,7 +428,7 @@ Registry::Bound Registry::bind(RegisteredComponent& component, Session& session,
     if (component.bound_to != nullptr && component.bound_to != &session) return Bound::taken;
     if (component.has_failed_to_halt()) return Bound::not_halted;
     if (component.bound_to == nullptr) {
-        component.bound_anew();
+        component.forget_reported_errors();
         component.restore_defaults(now);  // what still runs for an ended session (on_session_end) left its own
     }
     session.bound.insert(&component);

@@ -1,4 +1,4 @@
-// Whether a command may run, asked before anything runs (decision 10).
+// Checks whether commands may run, before any of them does (decision 10).
 #pragma once
 
 #include <map>
@@ -17,24 +17,23 @@ struct Objection {
     std::string reason;
 };
 
-// Checks the units of one document in its order, and remembers what earlier ones will have stored.
+// Checks the units of one document in order. Takes into account what earlier units will have stored.
 class SequenceCheck {
 public:
     SequenceCheck(Session const& session, Registry const& registry) : session_{session}, registry_{registry} {}
 
-    // The first objection, beginning with the unit's path; nothing when all of it may run.
+    // Returns the first objection, beginning with the path of the unit; nullopt if all commands may run.
     std::optional<Objection> objection(CommandUnitSequence const&);
 
-    // One command: known, bound, type, values, in this order.
+    // Checks one command: known, bound, type, values, in this order.
     std::optional<Objection> objection(CommandMessage const&);
 
-    // How many commands were checked.
     std::size_t commands() const { return commands_; }
 
-    // Whether one of the commands begins or resumes an action.
+    // Returns whether one of the commands begins or resumes an action.
     bool begins_something() const { return begins_something_; }
 
-    // The ids that the application gave.
+    // The ids that the application chose.
     std::set<CommandId> const& ids() const { return ids_; }
 
 private:
@@ -49,19 +48,19 @@ private:
     std::size_t commands_ = 0;
     bool begins_something_ = false;
     std::set<CommandId> ids_;
-    std::map<RegisteredComponent const*, ParameterList> stored_;  // where it will differ from what is stored now
+    std::map<RegisteredComponent const*, ParameterList> stored_;  // for components whose parameters an earlier unit changes
 };
 
-// Which parameters a command of this type may carry; null when the component has no such command.
+// The parameters that a command of this type accepts; null if the component has no such command.
 std::vector<ParameterProfile> const* arguments_of(RegisteredComponent const&, std::string_view command_type);
 
-// Whether a command of this type begins or resumes an action.
+// Returns whether a command of this type begins or resumes an action.
 bool begins_action(std::string_view command_type);
 
-// Whether what it carries is stored (decision 8); other commands carry arguments, which have default values.
+// Returns whether the values of this command are stored (decision 8). Other commands have arguments, which have default values.
 bool stores_arguments(std::string_view command_type);
 
-// The longest delay_time, in milliseconds: a day.
+// The longest delay_time, in milliseconds: one day.
 inline constexpr std::int64_t max_delay_time = 86'400'000;
 
 }  // namespace rois

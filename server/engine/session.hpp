@@ -1,4 +1,4 @@
-// A service application's session (decisions 1 to 3): what it has bound, subscribed to and commanded.
+// A session of a service application (decisions 1 to 3): its bindings, subscriptions and commands.
 #pragma once
 
 #include <cstddef>
@@ -24,34 +24,35 @@ namespace rois {
 class RegisteredComponent;
 struct Subscription;
 
-// Owned by the engine; state only.
+// Owned by the engine. Has state only.
 struct Session {
-    Session(MotionLease::Terms const& terms, Steady now) : connected{now}, lease{terms, now}, heard{now}, quiet_until{now} {}
+    Session(MotionLease::Terms const& terms, Steady now)
+        : connected{now}, lease{terms, now}, last_activity{now}, quiet_until{now} {}
 
     std::shared_ptr<NotificationQueue> notifications;
     SessionId id;
     std::uint64_t number = 0;  // in the order of connecting
     Steady connected;
-    Details::Asker events;  // which details it may ask for (decision 24)
+    Details::Asker events;  // decides which details the session may ask for (decision 24)
     Details::Asker errors;
 
     std::set<RegisteredComponent*> bound;
     std::set<Subscription*> subscriptions;
-    std::size_t predicates = 0;                                                // in the conditions of these
-    std::size_t condition_bytes = 0;                                           // bytes of text in these conditions
-    std::unordered_map<CommandId, std::shared_ptr<Command>, IdHash> commands;  // all that are known (decision 17)
-    std::list<std::shared_ptr<Command>> ended;                                 // of these, in the order in which they ended
+    std::size_t predicates = 0;                                                // total in the conditions of the subscriptions
+    std::size_t condition_bytes = 0;                                           // total length of the texts in these conditions
+    std::unordered_map<CommandId, std::shared_ptr<Command>, IdHash> commands;  // all known commands (decision 17)
+    std::list<std::shared_ptr<Command>> ended;  // those of `commands` that have ended, in the order of their ends
     std::size_t live_commands() const { return commands.size() - ended.size(); }
 
-    // The session's links (decision 2). They do not count as lost before `quiet_until`.
+    // The session's links (decision 2). They cannot count as lost before `quiet_until`.
     MotionLease lease;
-    Steady heard;  // the last HTTP request, or the last end of a link
+    Steady last_activity;  // the last HTTP request, or the last end of a link
     Steady quiet_until;
-    std::optional<Deadlines::Ticket> end_of_window;  // when to look whether the link was lost for good
+    std::optional<Deadlines::Ticket> end_of_window;  // when to check whether the link is lost
 
-    // The session is ending: requests do not find it. If an attempt to end it fails for lack of memory, the next tick continues.
+    // The session is ending: requests do not find it. If ending it fails for lack of memory, the next tick continues.
     bool ending = false;
-    std::string_view why_it_ends;  // a literal
+    std::string_view why_it_ends;  // a string literal
 };
 
 }  // namespace rois

@@ -25,7 +25,7 @@ using Line = bg::model::linestring<Point>;
 using Polygon = bg::model::polygon<Point>;
 using Plain = std::variant<Point, Line, Polygon>;  // the index is the dimension
 
-constexpr double farthest = 1e12;  // mm: beyond it, products of coordinates are too coarse
+constexpr double farthest = 1e12;  // mm; beyond it, products of coordinates lose precision
 
 bool is_circle(Geometry const& geometry) { return geometry.shape == Geometry::Shape::circle; }
 
@@ -54,7 +54,7 @@ Plain box_of(Geometry const& box) {
     return Polygon{{low, {low.x(), high.y()}, high, {high.x(), low.y()}, low}};
 }
 
-// All but circles.
+// For all shapes except circles.
 Plain plain(Geometry const& geometry) {
     switch (geometry.shape) {
         case Geometry::Shape::line:
@@ -74,8 +74,8 @@ double distance(Plain const& a, Plain const& b) {
 
 // --- Lines, polygons, boxes and points ---
 
-// The matrix of the dimensionally extended nine-intersection model, against a pattern: 'T' is any intersection, 'F' none, '*'
-// either of them, a digit an intersection of that dimension.
+// Compares a matrix of the dimensionally extended nine-intersection model with a pattern: 'T' is any intersection, 'F' none, '*'
+// either, a digit an intersection of that dimension.
 bool fits(std::string_view matrix, std::string_view pattern) {
     for (std::size_t i = 0; i < pattern.size(); ++i) {
         bool const fit = pattern[i] == '*' || (pattern[i] == 'T' ? matrix[i] != 'F' : matrix[i] == pattern[i]);
@@ -120,7 +120,7 @@ struct Circle {
     double radius;
 };
 
-// Whether all corners lie in the circle: then so does what is between them.
+// All corners lie in the circle; so do the edges between them.
 bool lies_in(Plain const& inner, Circle const& circle) {
     auto const is_in = [&](Point const& point) { return bg::distance(point, circle.centre) <= circle.radius + circle_tolerance; };
     if (auto const* point = std::get_if<Point>(&inner)) return is_in(*point);
@@ -128,7 +128,7 @@ bool lies_in(Plain const& inner, Circle const& circle) {
     return std::ranges::all_of(std::get<Polygon>(inner).outer(), is_in);
 }
 
-// Whether the centre lies in the polygon, and no edge is nearer than the radius.
+// The centre lies in the polygon, and no edge is nearer than the radius.
 bool lies_in(Circle const& circle, Plain const& outer) {
     auto const* polygon = std::get_if<Polygon>(&outer);
     if (polygon == nullptr || !bg::covered_by(circle.centre, *polygon)) return false;
@@ -139,9 +139,9 @@ bool lies_in(Circle const& circle, Plain const& outer) {
 }
 
 bool holds(SpatialRelation relation, Circle const& circle, Plain const& other) {
-    double const away = distance(circle.centre, other) - circle.radius;  // of the other from the edge; negative inside
+    double const away = distance(circle.centre, other) - circle.radius;  // distance of the other from the edge; negative inside
     bool const intersects = away <= circle_tolerance;
-    bool const inside = away < -circle_tolerance;  // some of the other is inside the edge
+    bool const inside = away < -circle_tolerance;  // a part of the other is inside the edge
     switch (relation) {
         case SpatialRelation::within:
             return lies_in(circle, other);
@@ -195,7 +195,7 @@ SpatialRelation the_other_way_round(SpatialRelation relation) {
     return relation == SpatialRelation::contains ? SpatialRelation::within : relation;
 }
 
-// Cheap, and true of most geometries that are compared.
+// A cheap check that settles most comparisons.
 bool boxes_are_apart(Geometry const& a, Geometry const& b) {
     for (std::size_t axis = 0; axis < 2; ++axis)
         if (a.high[axis] + circle_tolerance < b.low[axis] || b.high[axis] + circle_tolerance < a.low[axis]) return true;

@@ -27,14 +27,14 @@ bool intersect(Geometry const& a, Geometry const& b) {
     return true;
 }
 
-// Along how many axes a box extends: 0 for a point, 1 for a line, 2 for an area.
+// The number of axes along which a box extends: 0 for a point, 1 for a line, 2 for an area.
 std::size_t extent(Geometry const& box, std::size_t axes) {
     std::size_t count = 0;
     for (std::size_t axis = 0; axis < axes; ++axis) count += box.low[axis] < box.high[axis] ? 1 : 0;
     return count;
 }
 
-// Along how many axes the two have more than one coordinate in common.
+// The number of axes along which the two overlap in more than one coordinate.
 std::size_t extent_in_common(Geometry const& a, Geometry const& b) {
     std::size_t count = 0;
     for (std::size_t axis = 0; axis < shared_dimensions(a, b); ++axis)

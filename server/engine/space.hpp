@@ -1,5 +1,5 @@
-// How geometries lie to each other (ISO 19143, spatial operators; OGC Simple Features). Edges belong to a geometry, for `within`
-// and `contains` as well. Where one of two is in the plane only, both are taken so.
+// Relations between geometries (ISO 19143, spatial operators; OGC Simple Features). Edges belong to a geometry, also for `within`
+// and `contains`. If one of two geometries is in the plane only, both are compared in the plane.
 #pragma once
 
 #include <optional>
@@ -11,18 +11,18 @@
 
 namespace rois {
 
-// Whether coordinates of the two may be compared: frames are the same, or one says none.
+// Returns whether the coordinates can be compared: the frames are the same, or one is not named.
 bool share_a_frame(Geometry const&, Geometry const&);
 
 bool holds(SpatialRelation, Geometry const&, Geometry const&);
-double distance(Geometry const&, Geometry const&);  // mm, from edge to edge; 0 when they intersect
+double distance(Geometry const&, Geometry const&);  // in mm, from edge to edge; 0 if they intersect
 
 Geometry point(Located const&);
 
-// "x, y" or "x, y, th" in mm and degrees (decision 27); nothing when it is neither.
+// Parses "x, y" or "x, y, th" in mm and degrees (decision 27). Returns nullopt for other texts.
 std::optional<Geometry> point(std::string_view text, std::string crs);
 
-// The same text for the same geometry.
+// A text that is the same for equal geometries.
 std::string canonical(Geometry const&);
 std::string canonical(double);
 

@@ -17,9 +17,9 @@ void take_out(auto& by_text, std::string_view text, Subscription* subscription) 
     if (found->second.empty()) by_text.erase(found);
 }
 
-// Where the session's hearer is, or would be.
+// The position of the session's entry, or where to insert it.
 auto place_of(Session const& session, Subscription& subscription) {
-    return std::ranges::lower_bound(subscription.hearers, session.number, {}, &Subscription::Hearer::number);
+    return std::ranges::lower_bound(subscription.subscribers, session.number, {}, &Subscription::Subscriber::number);
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ Subscription* Subscriptions::find(std::string_view event_type, Filter const& fil
     return known == alike->second.by_meaning.end() ? nullptr : known->second;
 }
 
-// After the subscription is in the session's own list, no step can throw.
+// Once the subscription is in the session's own list, no step can throw.
 Subscription& Subscriptions::add(Session& session, std::string const& event_type, Filter filter, bool inline_results) {
     auto* subscription = find(event_type, filter);
     if (subscription == nullptr) {
@@ -66,20 +66,20 @@ Subscription& Subscriptions::add(Session& session, std::string const& event_type
         subscription = &keep(std::move(made));
         predicates_ += subscription->filter.predicates();
     }
-    auto& hearers = subscription->hearers;
+    auto& subscribers = subscription->subscribers;
     bool added = false;
     try {
-        if (hearers.size() == hearers.capacity()) hearers.reserve(2 * hearers.size() + 1);
+        if (subscribers.size() == subscribers.capacity()) subscribers.reserve(2 * subscribers.size() + 1);
         added = session.subscriptions.insert(subscription).second;
     } catch (...) {
-        forget_if_unheard(*subscription);
+        remove_if_unused(*subscription);
         throw;
     }
     auto const place = place_of(session, *subscription);
     if (added) {
         session.predicates += subscription->filter.predicates();
         session.condition_bytes += subscription->filter.text_bytes();
-        hearers.insert(place, {&session, session.number, session.events.slot, session.notifications.get(), inline_results});
+        subscribers.insert(place, {&session, session.number, session.events.slot, session.notifications.get(), inline_results});
     } else {
         place->inline_results = inline_results;
     }
@@ -105,7 +105,7 @@ void Subscriptions::remove(Session& session, SubscribeId const& id) {
     auto& subscription = *found->second;
     if (session.subscriptions.erase(&subscription) == 0) return;
     part(session, subscription);
-    forget_if_unheard(subscription);
+    remove_if_unused(subscription);
 }
 
 void Subscriptions::remove_all(Session& session) {
@@ -113,12 +113,12 @@ void Subscriptions::remove_all(Session& session) {
         auto* const subscription = *session.subscriptions.begin();
         session.subscriptions.erase(session.subscriptions.begin());
         part(session, *subscription);
-        forget_if_unheard(*subscription);
+        remove_if_unused(*subscription);
     }
 }
 
 void Subscriptions::part(Session& session, Subscription& subscription) {
-    subscription.hearers.erase(place_of(session, subscription));
+    subscription.subscribers.erase(place_of(session, subscription));
     session.predicates -= subscription.filter.predicates();
     session.condition_bytes -= subscription.filter.text_bytes();
 }
@@ -140,19 +140,19 @@ std::vector<Subscription*> Subscriptions::possible(std::string_view event_type, 
     return all;
 }
 
-std::set<Session*> Subscriptions::hearers(RegisteredComponent const& component, Perspective& ever) const {
-    std::set<Session*> hearing;
+std::set<Session*> Subscriptions::possible_subscribers(RegisteredComponent const& component, Perspective& ever) const {
+    std::set<Session*> sessions;
     for (auto const& message : component.profile().messages) {
         if (message.kind != MessageKind::event) continue;
         for (auto const* subscription : possible(message.name, component))
             if (subscription->filter.match(ever.candidate(component)) != Match::no)
-                for (auto const& hearer : subscription->hearers) hearing.insert(hearer.session);
+                for (auto const& subscriber : subscription->subscribers) sessions.insert(subscriber.session);
     }
-    return hearing;
+    return sessions;
 }
 
-void Subscriptions::forget_if_unheard(Subscription& subscription) noexcept {
-    if (!subscription.hearers.empty()) return;
+void Subscriptions::remove_if_unused(Subscription& subscription) noexcept {
+    if (!subscription.subscribers.empty()) return;
     predicates_ -= subscription.filter.predicates();
     by_type_.find(subscription.event_type)->second.remove(subscription);
     by_id_.erase(by_id_.find(subscription.id));

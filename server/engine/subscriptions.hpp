@@ -1,4 +1,4 @@
-// Who hears of which events (decisions 18 to 21).
+// The subscriptions of all sessions to events (decisions 18 to 21).
 #pragma once
 
 #include <cstdint>
@@ -21,43 +21,43 @@ class NotificationQueue;
 class RegisteredComponent;
 struct Session;
 
-// An event type and a condition, and those who asked for it.
+// An event type and a condition, and the sessions that subscribed to this pair.
 struct Subscription {
     std::uint64_t number = 0;  // in the order of subscribing
     SubscribeId id;
     std::string event_type;
     Filter filter;
-    // Its keys in OfType. Kept so that the subscription can be removed without allocating memory.
+    // The keys in OfType. Kept so that removing the subscription needs no memory.
     std::string const* meaning = nullptr;
     std::optional<Demand> demand;
-    struct Hearer {
+    struct Subscriber {
         Session* session;
-        std::uint64_t number;      // the session's
-        std::uint32_t slot;        // copy of the session's slot in Details, to read without the session
-        NotificationQueue* queue;  // the session's own queue, to read without the session
+        std::uint64_t number;      // number of the session
+        std::uint32_t slot;        // copy of the session's slot in Details, to read it without the session
+        NotificationQueue* queue;  // copy of the session's queue, likewise
         bool inline_results;
     };
-    std::vector<Hearer> hearers;  // in the order in which their sessions connected
+    std::vector<Subscriber> subscribers;  // ordered by session number
 };
 
-// Kept both ways: a subscription knows its sessions, a session its subscriptions.
+// A subscription knows its sessions, and a session its subscriptions.
 class Subscriptions {
 public:
-    // Null when nobody has this one.
+    // Returns the subscription, or null if no session has it.
     Subscription* find(std::string_view event_type, Filter const&) const;
 
-    // The same type and condition give the same subscription; the last `inline_results` wins.
+    // Subscribes a session. The same event type and condition give the same subscription; the last `inline_results` wins.
     Subscription& add(Session&, std::string const& event_type, Filter, bool inline_results);
 
-    // Nothing happens when the session has none of that id.
+    // Has no effect if the session has no subscription with this id.
     void remove(Session&, SubscribeId const&);
     void remove_all(Session&);
 
-    // Those of an event type to which alone this component may matter, in the order of subscribing.
+    // Returns the subscriptions to this event type that the component may concern, in the order of subscribing.
     std::vector<Subscription*> possible(std::string_view event_type, RegisteredComponent const&) const;
 
-    // The sessions that have subscribed to an event that this component has and may match, whatever happens.
-    std::set<Session*> hearers(RegisteredComponent const&, Perspective& ever) const;
+    // Returns the sessions with a subscription that an event of this component may ever match.
+    std::set<Session*> possible_subscribers(RegisteredComponent const&, Perspective& ever) const;
 
     std::size_t size() const { return by_id_.size(); }
     std::size_t predicates() const { return predicates_; }  // in the conditions of all subscriptions
@@ -69,12 +69,12 @@ private:
     using InOrder = std::set<Subscription*, Earlier>;
     using ByText = std::map<std::string, InOrder, std::less<>>;
 
-    // Each is found by all refs and types that its condition demands, or is one of the others.
+    // Each subscription is listed under all refs and types that its condition demands, or else in `others`.
     struct OfType {
         ByText by_ref;
         ByText by_type;
         InOrder others;
-        std::unordered_map<std::string, Subscription*> by_meaning;  // of their filters
+        std::unordered_map<std::string, Subscription*> by_meaning;  // by the canonical text of the filter
 
         void add(Subscription&);  // changes nothing if it throws
         void remove(Subscription&) noexcept;
@@ -82,7 +82,7 @@ private:
 
     Subscription& keep(std::unique_ptr<Subscription>);
     static void part(Session&, Subscription&);
-    void forget_if_unheard(Subscription&) noexcept;
+    void remove_if_unused(Subscription&) noexcept;
 
     std::unordered_map<SubscribeId, std::unique_ptr<Subscription>, IdHash> by_id_;
     std::map<std::string, OfType, std::less<>> by_type_;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::chrono::milliseconds shortest_lease{1'000};
 
-// Changes `terms` to the requested leases. Returns why a requested lease is invalid, or nothing.
+// Sets `terms` to the requested leases. Returns why a requested lease is invalid, or nullopt.
 std::optional<std::string> agree(MotionLease::Terms& terms, Connect const& asked, EngineSettings const& most) {
     auto const take = [](std::string_view name, std::optional<std::chrono::milliseconds> wanted,
                          std::chrono::milliseconds longest, std::chrono::milliseconds& lease) -> std::optional<std::string> {
@@ -35,7 +35,7 @@ std::variant<Reply, Refusal> Engine::Core::connect(SessionId const& id, Connect 
     if (auto problem = agree(terms, asked, settings_)) return refused<Connect::Reply>(ReturnCode::bad_parameter, *problem);
     if (known != nullptr) {
         known->lease.agree(terms);
-        known->lease.heard_request(now.steady);
+        known->lease.request_received(now.steady);
         return perform(*known, asked, now);
     }
     if (memory_->tight()) return Refusal::no_memory;
@@ -67,8 +67,8 @@ std::variant<Reply, Refusal> Engine::Core::connect(SessionId const& id, Connect 
     journal_->session_opened(opened.number);
     if (everything_is_stopped_) {
         auto error = noted(everything_was_stopped(), now);
-        errors_.tell(opened.errors.slot);
-        notifier_.tell(opened, std::move(error));
+        errors_.add_receiver(opened.errors.slot);
+        notifier_.notify(opened, std::move(error));
     }
     return perform(opened, asked, now);
 }
@@ -84,8 +84,9 @@ Reply Engine::Core::perform(Session& session, Resume const& resume, Instant) {
         journal_->session_resumed(session.number);
         return Resume::Reply{};
     }
-    return refused<Resume::Reply>(ReturnCode::bad_parameter, "last_sequence is above the last one that was given, " +
-                                                                 std::to_string(session.notifications->last_sequence()));
+    return refused<Resume::Reply>(ReturnCode::bad_parameter, "last_sequence must be at most " +
+                                                                 std::to_string(session.notifications->last_sequence()) +
+                                                                 ", not " + std::to_string(resume.last_sequence));
 }
 
 Reply Engine::Core::perform(Session& session, Disconnect const&, Instant now) {
@@ -95,9 +96,9 @@ Reply Engine::Core::perform(Session& session, Disconnect const&, Instant now) {
 
 namespace {
 
-// The profile of the sub engine that has all of these; of the main engine when there is none.
-std::shared_ptr<EngineProfile const> profile_of_those(std::shared_ptr<EngineProfile const> const& main,
-                                                      std::vector<ComponentEntry> const& components) {
+// The profile of the sub engine that has all of these components, or that of the main engine.
+std::shared_ptr<EngineProfile const> profile_of_engine_with(std::shared_ptr<EngineProfile const> const& main,
+                                                            std::vector<ComponentEntry> const& components) {
     if (components.empty()) return main;
     auto const sub = std::ranges::find(
         main->sub_profiles, components.front().engine,
@@ -116,13 +117,13 @@ Reply Engine::Core::perform(Session& session, GetProfile const& get, Instant) {
     GetProfile::Reply reply;
     auto const& selected = std::get<Selection>(selection);
     for (auto const* component : select(selected, session)) reply.components.push_back(component->entry());
-    reply.profile = selected.filter().restricts() ? profile_of_those(profile(), reply.components) : profile();
+    reply.profile = selected.filter().restricts() ? profile_of_engine_with(profile(), reply.components) : profile();
     return reply;
 }
 
 namespace {
 
-// The results that get_error_detail answers.
+// The results of get_error_detail.
 Declarations error_details() {
     Declarations known;
     for (auto const& [name, type] : {std::pair{"component_ref", "RoISIdentifier"}, {"time", "DateTime"}, {"text", "string"}})
@@ -146,36 +147,38 @@ Reply Engine::Core::perform(Session& session, GetErrorDetail const& get, Instant
     return reply;
 }
 
-// Decision 24: the engine's errors go to all sessions, a component's to those who have to do with it.
-void Engine::Core::publish(ErrorOccurred const& said, Instant now, Attempts& deliveries) {
-    auto const* const component = said.component;
+// Decision 24: the engine's errors go to all sessions; a component's errors to the sessions that use it.
+void Engine::Core::publish(ErrorOccurred const& report, Instant now, Attempts& deliveries) {
+    auto const* const component = report.component;
     std::set<Session*> concerned;
     if (component != nullptr) {
         Perspective ever{registry_, places_, nullptr, Perspective::Of::ever};
-        concerned = subscriptions_.hearers(*component, ever);
+        concerned = subscriptions_.possible_subscribers(*component, ever);
         if (component->bound_to != nullptr) concerned.insert(component->bound_to);
     }
-    auto const notification = std::make_shared<OutgoingNotification const>(noted(said, now));
-    auto const tell = [&](Session& session) {
+    auto const notification = std::make_shared<OutgoingNotification const>(noted(report, now));
+    auto const notify = [&](Session& session) {
         deliveries([&] {
-            errors_.tell(session.errors.slot);
-            notifier_.tell(session, notification);
+            errors_.add_receiver(session.errors.slot);
+            notifier_.notify(session, notification);
         });
     };
     if (component == nullptr)
-        for (auto const& [id, session] : sessions_) tell(*session);
-    for (auto* session : concerned) tell(*session);
+        for (auto const& [id, session] : sessions_) notify(*session);
+    for (auto* session : concerned) notify(*session);
 }
 
 // Keeps the details of the error.
-ReceiveError Engine::Core::noted(ErrorOccurred const& said, Instant now) {
+ReceiveError Engine::Core::noted(ErrorOccurred const& report, Instant now) {
     auto results = std::make_shared<Results>();
-    if (said.component != nullptr)
-        results->parameters.push_back(reference("component_ref", said.component->ref().code, said.component->ref().codebook_ref));
+    if (report.component != nullptr)
+        results->parameters.push_back(
+            reference("component_ref", report.component->ref().code, report.component->ref().codebook_ref));
     results->parameters.push_back(date_time("time", now.utc));
-    results->parameters.push_back(text("text", said.text));
-    ReceiveError error{.error_id = {errors_.add(std::move(results), nullptr, now)}, .error_type = said.type, .component_ref = {}};
-    if (said.component != nullptr) error.component_ref = said.component->ref();
+    results->parameters.push_back(text("text", report.text));
+    ReceiveError error{
+        .error_id = {errors_.add(std::move(results), nullptr, now)}, .error_type = report.type, .component_ref = {}};
+    if (report.component != nullptr) error.component_ref = report.component->ref();
     ++errors_published_;
     return error;
 }

@@ -8,7 +8,7 @@ namespace rois {
 
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n";
+constexpr std::string_view white_space = " \t\r\n";
 
 bool may_be_in_a_name(char c) {
     bool const letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
@@ -29,7 +29,7 @@ public:
         return true;
     }
 
-    // A name, without its prefix; "." and ".." are none.
+    // A name without its prefix; nullopt for "." and "..".
     std::optional<std::string_view> name() {
         auto local = plain_name();
         if (local && rest_.starts_with(':')) {
@@ -39,7 +39,7 @@ public:
         return local;
     }
 
-    // "[2]" or "[@name='volume']", of which the opening bracket was taken.
+    // "[2]" or "[@name='volume']", after the opening bracket.
     bool predicate(PathStep& step) {
         if (!take('@')) return position(step) && take(']');
         auto attribute = name();
@@ -52,7 +52,7 @@ public:
 
 private:
     void skip_blanks() {
-        auto const first = rest_.find_first_not_of(blanks);
+        auto const first = rest_.find_first_not_of(white_space);
         rest_.remove_prefix(first == std::string_view::npos ? rest_.size() : first);
     }
 

@@ -1,4 +1,4 @@
-// The path of a value reference: the minimum XPath of ISO 19143 (clause 7.4.4).
+// Parses value references: the minimum XPath of ISO 19143 (clause 7.4.4).
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace rois {
 
-// A step down to a child, without its prefix.
+// A step to a child element, without its namespace prefix.
 struct PathStep {
     struct Predicate {  // [@attribute='text']
         std::string_view attribute;
@@ -16,17 +16,17 @@ struct PathStep {
     };
 
     std::string_view name;
-    std::size_t position = 0;  // [n], counted from 1; 0 when none is said
+    std::size_t position = 0;  // [n], counted from 1; 0 if absent
     std::vector<Predicate> predicates;
 };
 
-// Relative, abbreviated: steps divided by "/", the last one perhaps an attribute. Its texts are parts of the text that was
-// parsed, which must live as long.
+// A relative, abbreviated path: steps divided by "/"; the last one may be an attribute. Its texts point into the parsed text,
+// which must outlive it.
 struct ValuePath {
-    std::vector<PathStep> steps;  // one at least
-    std::string_view attribute;   // after "@"; empty when there is none
+    std::vector<PathStep> steps;  // at least one
+    std::string_view attribute;   // after "@"; empty if absent
 
-    // Nothing when the text is no such path: absolute, with other axes, functions or predicates.
+    // Returns nullopt if the text is not such a path: for example absolute, or with other axes, functions or predicates.
     static std::optional<ValuePath> parse(std::string_view);
 };
 

@@ -23,7 +23,7 @@ struct Word {
     ValueKind kind;
 };
 
-// Of components. Those after the first seven are the published examples' names for the same.
+// Properties of components. The last two are other names, from the published examples.
 constexpr std::array<Word, 9> words{{{"component_ref", To::component_ref, ValueKind::text},
                                      {"component_type", To::component_type, ValueKind::name},
                                      {"name", To::component_ref, ValueKind::text},
@@ -96,13 +96,13 @@ std::optional<Reference> declared(Declarations const* declarations, To to, std::
     return Reference{.to = to, .name = lower_case(found->name), .entity = {}, .kind = found->kind, .items = found->items};
 }
 
-// The name in `[@name='volume']`; nothing when the step has no such predicate.
+// The name in `[@name='volume']`; nullopt if the step has no such predicate.
 std::optional<std::string_view> name_in(PathStep const& step) {
     if (step.predicates.size() != 1 || !equal_ignoring_case(step.predicates.front().attribute, "name")) return {};
     return step.predicates.front().text;
 }
 
-// Takes `[2]` and `[@ref='person-3']` into the reference; nothing when it has a predicate that it cannot have.
+// Adds `[2]` and `[@ref='person-3']` to the reference. Returns false for other predicates.
 bool restrict(Reference& reference, std::size_t position, std::span<PathStep::Predicate const> predicates) {
     reference.position = position;
     for (auto const& predicate : predicates) {
@@ -156,7 +156,7 @@ std::optional<Reference> word(Vocabulary const& vocabulary, std::string_view nam
     return Reference{.to = found->to, .name = {}, .entity = {}, .kind = found->kind};
 }
 
-// One step, or two of which the first says where to look.
+// One step, or two of which the first is the kind of the second.
 std::optional<Reference> named(Vocabulary const& vocabulary, std::span<PathStep const> steps) {
     auto const& first = steps.front();
     auto const& last = steps.back();
@@ -167,9 +167,9 @@ std::optional<Reference> named(Vocabulary const& vocabulary, std::span<PathStep 
         if (vocabulary.results != nullptr && equal_ignoring_case(first.name, "located"))
             return Reference{.to = To::located, .name = {}, .entity = {}};
         if (auto found = word(vocabulary, first.name)) return found;
-        auto told = declared(vocabulary.results, To::result, first.name);
+        auto from_results = declared(vocabulary.results, To::result, first.name);
         auto set = declared(vocabulary.parameters, To::parameter, first.name);
-        return told && (!set || vocabulary.first == Vocabulary::First::results) ? told : set;
+        return from_results && (!set || vocabulary.first == Vocabulary::First::results) ? from_results : set;
     }
     auto const looked_for = steps.size() == 2 ? last.name : *name;
     if (result) return declared(vocabulary.results, To::result, looked_for);
@@ -180,12 +180,12 @@ std::optional<Reference> named(Vocabulary const& vocabulary, std::span<PathStep 
 }  // namespace
 
 std::variant<Reference, std::string> Vocabulary::resolve(std::string_view written, std::span<std::string const> aliases) const {
-    // Nearly all references are one of these words alone.
+    // Most references are a single word.
     if (auto found = word(*this, trimmed(written))) return std::move(*found);
     auto const path = ValuePath::parse(written);
     if (!path)
         return "the condition refers to " + quoted(written) +
-               ", which is not of the minimum XPath: steps divided by '/', '@' before an attribute, [n] or [@name='text'] after "
+               ", which is not in the minimum XPath: steps divided by '/', '@' before an attribute, [n] or [@name='text'] after "
                "a step";
     std::span<PathStep const> steps{path->steps};
     auto const alias = std::ranges::find(aliases, steps.front().name);
@@ -199,12 +199,12 @@ std::variant<Reference, std::string> Vocabulary::resolve(std::string_view writte
     auto const& last = steps.back();
     auto const predicates = by_name ? std::span<PathStep::Predicate const>{} : std::span{last.predicates};
     if (!restrict(*reference, last.position, predicates))
-        return "the condition refers to " + quoted(written) + ", whose predicate is not known here";
+        return "the condition refers to " + quoted(written) + ", whose predicate is not supported";
     if (path->attribute.empty()) return std::move(*reference);
     auto const part = std::ranges::find_if(
         identifier_parts, [&](PartWord const& known) { return equal_ignoring_case(known.name, path->attribute); });
     if (part == identifier_parts.end() || !has_part(reference->to, part->part))
-        return "the condition refers to " + quoted(written) + ", whose attribute is not known here";
+        return "the condition refers to " + quoted(written) + ", whose attribute is unknown";
     reference->part = part->part;
     reference->kind = part->part == Part::data_type_ref || part->part == Part::codebook_ref ? ValueKind::name : ValueKind::text;
     reference->items = Reference::Items::one_each;

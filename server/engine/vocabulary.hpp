@@ -1,4 +1,4 @@
-// What the value references of a condition may speak of (decision 18; docs/conditions.md).
+// The names that a condition's value references can use (decision 18; docs/conditions.md).
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@
 
 namespace rois {
 
-// How values are compared. `any`: as what both sides look like. `name`: a text without regard to case.
+// How values are compared. `any`: by the type that both values look like. `name`: as texts, without regard to case.
 enum class ValueKind : std::uint8_t { any, number, time, boolean, text, name };
 
-// A text as it is compared without regard to case.
+// Returns the text folded for comparison without regard to case.
 std::string folded_name(std::string_view);
 
-// A value reference, resolved.
+// A resolved value reference.
 struct Reference {
     enum class To : std::uint8_t {
         component_ref,
@@ -32,26 +32,26 @@ struct Reference {
         location,
         parameter,
         result,
-        located  // all located entities of the results
+        located  // all located entities among the results
     };
     enum class Part : std::uint8_t { value, code, authority, codebook_ref, version, name, data_type_ref, ref, crs };
     enum class Items : std::uint8_t { one_each, packed };  // a list of numbers or bools is packed into one text
     static constexpr std::size_t no_alias = SIZE_MAX;
 
     To to = To::component_ref;
-    std::string name;          // of the parameter or result, or of the result that is located; in lower case
-    std::string entity;        // only what is located with this ref; empty: all
-    std::size_t position = 0;  // only the value at this place, from 1; 0: all
-    Part part = Part::value;   // or an attribute of it
+    std::string name;          // of the parameter or result, or of the result that the entity is located in; in lower case
+    std::string entity;        // only the entity with this ref; empty: all
+    std::size_t position = 0;  // only the value at this place, counted from 1; 0: all
+    Part part = Part::value;   // the value or one of its attributes
     ValueKind kind = ValueKind::any;
     Items items = Items::one_each;
-    std::size_t alias = no_alias;  // of the types of the group, counted from 0
+    std::size_t alias = no_alias;  // index among the types of the group
 };
 
-// The same text for references that mean the same.
+// A text that is the same for equivalent references.
 std::string canonical(Reference const&);
 
-// Parameters or results by name, without regard to case, with the types that their profiles declare.
+// Parameters or results by name, without regard to case, with their declared types.
 class Declarations {
 public:
     struct Declared {
@@ -60,13 +60,13 @@ public:
         Reference::Items items = Reference::Items::one_each;
     };
 
-    // A name that is declared with two types is taken for any of them.
+    // Declares a name. A name with two different types gets ValueKind::any.
     void add(ParameterProfile const&);
     void add(std::span<ParameterProfile const> profiles) {
         for (auto const& profile : profiles) add(profile);
     }
 
-    // Null when it is not declared; other versions' spellings are known.
+    // Finds a declaration, also by the spellings of other versions. Returns null if there is none.
     Declared const* find(std::string_view name) const;
 
     bool empty() const { return by_name_.empty(); }
@@ -77,9 +77,9 @@ private:
     std::map<std::string, Declared, std::less<>> by_name_;
 };
 
-// `parameters`: of components, null where a condition does not speak of components. `results`: null where it does not speak of
-// any. `first`: which of both a bare name means that both have, and an operator of space with one operand. What it points to must
-// live as long, and the places as long as what is compiled with it.
+// `parameters`: those of components; null if the condition is not about components. `results`: null if it is not about results.
+// `first`: the meaning of a bare name that both have, and of a spatial operator with one operand. The pointers must outlive the
+// vocabulary, and `places` the compiled filters too.
 struct Vocabulary {
     enum class First : std::uint8_t { results, parameters };
 
@@ -87,16 +87,16 @@ struct Vocabulary {
     Declarations const* parameters = nullptr;
     Declarations const* results = nullptr;
     First first = First::results;
-    std::string_view main_engine{};  // the name of the engine that has all components and sub engines
+    std::string_view main_engine{};  // name of the engine that has all components and sub engines
 
-    // The reference, or why there is none. An alias is the first of several steps.
+    // Returns the reference, or why the path is invalid. An alias is the first of several steps.
     std::variant<Reference, std::string> resolve(std::string_view path, std::span<std::string const> aliases = {}) const;
 
-    // What a spatial or temporal operator with one operand is about: a value reference; empty when there is nothing.
+    // The reference that a spatial or temporal operator with one operand uses; empty if there is none.
     std::string_view own_position() const;
     std::string_view own_time() const;
 
-    // All that may be referred to, for people.
+    // All names that can be referred to, for people.
     std::string known() const;
 };
 

@@ -24,14 +24,14 @@ constexpr auto examples =
     "A flag wins over a variable, a variable over the file.\n\n"
     "Examples:\n"
     "  rois-gateway                                      on http://127.0.0.1:8080\n"
-    "  rois-gateway --listen [::1]:9000 --sim-speed 20   elsewhere, twenty times as fast\n"
-    "  rois-gateway --print-config > rois-gateway.json   a file to begin with\n"
+    "  rois-gateway --listen [::1]:9000 --sim-speed 20   another address, twenty times as fast\n"
+    "  rois-gateway --print-config > rois-gateway.json   write a configuration file to edit\n"
     "  rois-gateway --config rois-gateway.json --check-config\n"
-    "  rois-gateway --check-profiles profiles            what is right and wrong in profiles of others\n\n"
+    "  rois-gateway --check-profiles profiles            check a folder of component profiles\n\n"
     "Exit codes:\n"
-    "  0  stopped by a signal, or what was asked for was done\n"
-    "  1  could not start, is not healthy, or a profile was refused\n"
-    "  2  bad configuration\n"
+    "  0  stopped by a signal, or did what an option asked for\n"
+    "  1  cannot start, is not healthy, or a profile was refused\n"
+    "  2  invalid configuration\n"
     "  70 too many exceptions in a second; all components were halted\n"
     "  71 stopped by a signal, but a component did not confirm that it stands still";
 
@@ -45,20 +45,20 @@ struct Flags {
     std::map<std::string, std::string> values;  // by key
 };
 
-// CLI11 would take the next flag for the value of one that has none.
+// Without this check, CLI11 would take the next flag as the missing value.
 std::string is_a_value(std::string const& text) {
     return text.starts_with("--") ? "a value is missing before " + rois::quoted(text) : "";
 }
 
 void declare(CLI::App& app, Flags& flags) {
-    app.set_help_flag("-h,--help", "say this");
-    app.add_option("--check-profiles", flags.check_profiles, "say what is in a folder of component profiles, and stop")
+    app.set_help_flag("-h,--help", "print this help and exit");
+    app.add_option("--check-profiles", flags.check_profiles, "check the component profiles in a folder, and exit")
         ->option_text("DIR");
-    app.add_flag("--version", flags.version, "say the version");
+    app.add_flag("--version", flags.version, "print the version and exit");
     app.add_option("--config", flags.config, "configuration file (ROIS_CONFIG)")->option_text("FILE");
-    app.add_flag("--check-config", flags.check_config, "say whether the configuration is good, and stop");
-    app.add_flag("--print-config", flags.print_config, "print a commented configuration file, and stop");
-    app.add_flag("--check-health", flags.check_health, "ask the gateway that runs with this configuration whether it lives");
+    app.add_flag("--check-config", flags.check_config, "check the configuration, and exit");
+    app.add_flag("--print-config", flags.print_config, "print a commented configuration file, and exit");
+    app.add_flag("--check-health", flags.check_health, "check that the gateway with this configuration is healthy, and exit");
     for (auto const& key : keys()) {
         auto const now = key.show(Settings{});
         app.add_option(flag_of(key), flags.values[key.name], key.help)
@@ -79,12 +79,11 @@ void set(Settings& settings, Key const& key, std::string const& where, std::stri
     throw BadSettings{where + " must be " + key.must_be + ", not " + rois::quoted(value)};
 }
 
-// The gateway and its media are two servers.
 void check_ports(Settings const& settings) {
     bool const same = !settings.media.host.empty() && settings.media.port != 0 && settings.media.port == settings.net.port;
     if (same)
         throw BadSettings{"media and listen must not have the same port, " + std::to_string(settings.net.port) +
-                          ": give media a port of its own"};
+                          "; choose another port for media"};
 }
 
 Settings gather(CLI::App const& app, Flags const& flags) {

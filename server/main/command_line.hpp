@@ -1,4 +1,4 @@
-// What the program was started to do.
+// The command line of rois-gateway, and the settings that result from it.
 #pragma once
 
 #include <string>
@@ -10,13 +10,13 @@ namespace rois {
 
 struct CommandLine {
     enum class Wish : std::uint8_t { serve, say, check_config, check_health, check_profiles } wish = Wish::serve;
-    std::string words;                  // to say: help, version, configuration
-    std::string folder;                 // whose profiles are to be checked
-    std::vector<std::string> warnings;  // about what was ignored
-    Settings settings;                  // from flags, else variables, else the file, else the defaults
+    std::string words;                  // output for `say`: help, version, configuration
+    std::string folder;                 // the folder of profiles to check
+    std::vector<std::string> warnings;  // about settings that are ignored
+    Settings settings;                  // from flags, or else variables, the file, the defaults
 };
 
-// Throws BadSettings.
+// Throws BadSettings if a setting is invalid.
 CommandLine read_command_line(int argc, char const* const* argv);
 
 }  // namespace rois

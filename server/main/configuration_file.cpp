@@ -23,12 +23,12 @@ using nlohmann::json;
 std::string place_of(std::string_view text, std::size_t position) {
     auto const before = text.substr(0, position);
     auto const line = 1 + std::ranges::count(before, '\n');
-    auto const begin = before.rfind('\n') + 1;  // npos + 1 is the beginning
+    auto const begin = before.rfind('\n') + 1;  // npos + 1 is 0
     auto const column = 1 + std::ranges::count_if(before.substr(begin), [](char c) { return (c & 0xC0) != 0x80; });
     return std::to_string(line) + ":" + std::to_string(column);
 }
 
-// Where the key is set, first or last; comments do not count.
+// The place of the first or last setting of the key. Ignores comments.
 enum class Which : std::uint8_t { first, last };
 std::string place_of_key(std::string const& text, std::string const& key, Which which = Which::first) {
     auto const quoted_key = json(key).dump();
@@ -44,7 +44,7 @@ std::string place_of_key(std::string const& text, std::string const& key, Which 
     return place_of(text, found);
 }
 
-// Where the number, word or string begins that ends at this position: the library says where it ends.
+// Returns where the number, word or string that ends at this position begins. The library reports only the end.
 std::size_t begin_of_token(std::string_view text, std::size_t end) {
     auto const is_escaped = [&](std::size_t at) {
         auto const before = text.find_last_not_of('\\', at - 1);
@@ -62,7 +62,7 @@ std::size_t begin_of_token(std::string_view text, std::size_t end) {
     return begin;
 }
 
-// What the library says after its own name, the place and what it was parsing: "unexpected number literal; expected ':'".
+// The part of the library's message after its name, the place and the context: "unexpected number literal; expected ':'".
 std::string cause_of(json::exception const& error) {
     std::string_view words = error.what();
     for (std::string_view const end : {"] ", "column ", ": ", " - "})
@@ -70,12 +70,12 @@ std::string cause_of(json::exception const& error) {
     constexpr std::size_t longest = 160;
     auto const with_quotes = rois::quoted(words, longest);
     auto cause = with_quotes.substr(1, with_quotes.size() - 2);
-    for (std::string const end : {"'}'", "']'"})  // of an object or a list, which may go on instead
+    for (std::string const end : {"'}'", "']'"})  // an object or a list may also continue
         if (cause.ends_with("expected " + end)) cause.insert(cause.size() - end.size(), "',' or ");
     return cause;
 }
 
-// Where the number stands that is too large; the library says which one it is.
+// The place of the number that is too large, which the library names.
 std::string place_of_number(std::string const& text, json::out_of_range const& error) {
     std::string_view const words = error.what();
     auto const begin = std::min(words.find('\''), words.size() - 1) + 1;
@@ -109,7 +109,7 @@ json parse(std::string const& file, std::string const& text) {
 
 void set(Settings& settings, std::string const& name, json const& value, std::string const& where) {
     auto const key = std::ranges::find(keys(), name, &Key::name);
-    if (key == keys().end()) throw BadSettings{where + rois::quoted(name) + " is no configuration key"};
+    if (key == keys().end()) throw BadSettings{where + rois::quoted(name) + " is not a configuration key; --help lists the keys"};
     bool const fits = key->kind == Key::Kind::number ? value.is_number() : value.is_string();
     auto const text = value.is_string() ? value.get<std::string>() : value.dump();
     if (!fits || !key->set(settings, text)) {

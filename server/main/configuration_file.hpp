@@ -7,13 +7,13 @@
 
 namespace rois {
 
-// Sets what the file sets. Throws BadSettings naming the file, the line and the key.
+// Sets the keys of the file. Throws BadSettings with the file, the line and the key.
 void read_configuration_file(std::string const& file, Settings&);
 
-// A file that sets every key to these settings and says what it is.
+// Returns a configuration file that sets every key to its value in `settings`, with comments.
 std::string commented_configuration(Settings const&);
 
-// The bytes of a file. Throws BadSettings naming it.
+// Returns the content of a file. Throws BadSettings with its name.
 std::string text_of_file(std::string const& file);
 
 }  // namespace rois

@@ -19,7 +19,7 @@ using std::chrono::milliseconds;
 
 std::string text_of(double number) {
     char buffer[32];
-    auto const end = std::to_chars(std::begin(buffer), std::end(buffer), number).ptr;
+    auto const end = std::to_chars(std::begin(buffer), std::end(buffer), number, std::chars_format::fixed).ptr;
     return {buffer, end};
 }
 
@@ -33,7 +33,7 @@ std::string range(std::string const& what, double least, double most) {
     return what + " from " + text_of(least) + " to " + text_of(most);
 }
 
-// A member of the settings, or of a part of them.
+// Selects a member of the settings.
 template <class T>
 using Member = std::function<T&(Settings&)>;
 
@@ -121,7 +121,7 @@ std::string show_media(Settings const& settings) {
     return settings.media.host.empty() ? "" : show_address(settings.media.host, settings.media.port);
 }
 
-// Where a reverse proxy serves the media; their addresses are this and a path.
+// URL at which a reverse proxy serves the media. The paths of streams are appended to it.
 bool set_media_url(Settings& settings, std::string const& text) {
     bool const is_url = (text.starts_with("http://") && text.size() > 7) || (text.starts_with("https://") && text.size() > 8);
     if (!text.empty() && (!is_url || text.find_first_of(" \t\r\n?#\"<>") != std::string::npos)) return false;
@@ -129,7 +129,7 @@ bool set_media_url(Settings& settings, std::string const& text) {
     return true;
 }
 
-// The engine's name becomes part of XML ids.
+// The engine's name becomes a part of XML ids.
 bool set_engine_name(Settings& settings, std::string const& text) {
     auto const is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
     auto const fits = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '.'; };
@@ -138,7 +138,7 @@ bool set_engine_name(Settings& settings, std::string const& text) {
     return true;
 }
 
-// As browsers write them, "http://console.example:8081": small letters, no path, no port that the scheme implies.
+// Origins as browsers send them, "http://console.example:8081": lower case, no path, no default port.
 bool is_origin(std::string const& text) {
     auto const after = text.find("://");
     if (after == std::string::npos || after == 0) return false;
@@ -150,7 +150,7 @@ bool is_origin(std::string const& text) {
     return !default_port;
 }
 
-// The parts of a text that are separated by spaces.
+// Splits a text at spaces.
 std::vector<std::string> words_of(std::string const& text) {
     std::vector<std::string> words;
     for (std::size_t begin = 0; begin < text.size();) {
@@ -238,40 +238,41 @@ bool set_sim_speed(Settings& settings, std::string const& text) {
 
 std::vector<Key> general_keys() {
     return {
-        {"listen", "address and port; port 0 takes any free one", "HOST:PORT",
+        {"listen", "address and port to listen on; port 0: any free port", "HOST:PORT",
          "HOST:PORT, such as 127.0.0.1:8080, [::1]:8080, or 0.0.0.0:8080 for every address of this machine", Key::Kind::text,
          set_listen, show_listen},
         whole_number<std::size_t>(
-            "threads", "I/O threads", [](Settings & s) -> auto& { return s.net.threads; }, 1, 256),
-        choice<LogFormat>("log_format", "how the log looks", [](Settings & s) -> auto& { return s.log_format; },
+            "threads", "number of I/O threads", [](Settings & s) -> auto& { return s.net.threads; }, 1, 256),
+        choice<LogFormat>("log_format", "format of the log", [](Settings & s) -> auto& { return s.log_format; },
                           {{"text", LogFormat::text}, {"json", LogFormat::json}}),
         choice<LogLevel>(
-            "log_level", "the least that is logged", [](Settings & s) -> auto& { return s.log_level; },
+            "log_level", "lowest level that is logged", [](Settings & s) -> auto& { return s.log_level; },
             {{"debug", LogLevel::debug}, {"info", LogLevel::info}, {"warning", LogLevel::warning}, {"error", LogLevel::error}}),
-        {"engine_name", "the engine's name in its profile", "NAME",
+        {"engine_name", "name of the engine in its profile", "NAME",
          "a letter, then letters, digits, '-', '_' and '.', 64 at most", Key::Kind::text, set_engine_name,
          [](Settings const& s) { return s.engine_name; }},
-        {"sim_speed", "simulated seconds in a second; 0: the world stands still but for what simulated_hall lets pass", "X",
+        {"sim_speed", "simulated seconds per second; 0: simulated time stands still until simulated_hall lets it pass", "X",
          range("0, or a number", 0.01, 1'000), Key::Kind::number, set_sim_speed,
          [](Settings const& s) { return text_of(s.sim_speed); }},
-        choice<Steering>("steering", "the component simulated_hall, by which applications steer visitors; also with sim_speed 0",
+        choice<Steering>("steering",
+                         "offer the component simulated_hall, with which applications steer visitors; always on with sim_speed 0",
                          [](Settings & s) -> auto& { return s.steering; }, {{"off", Steering::off}, {"on", Steering::on}}),
         whole_number<std::uint64_t>(
-            "seed", "from which the simulation draws; the same seed gives the same history",
+            "seed", "seed of the simulation's random numbers; the same seed gives the same history",
             [](Settings & s) -> auto& { return s.seed; }, 0, 9'007'199'254'740'991),
         file(
-            "floor_plan", "floor plan of the simulated hall; empty: the one inside the program",
+            "floor_plan", "floor plan of the simulated hall; empty: the built-in one",
             [](Settings & s) -> auto& { return s.floor_plan; }),
         file(
-            "scenario", "who visits the hall, and when; empty: the one inside the program",
+            "scenario", "scenario: which visitors come to the hall, and when; empty: the built-in one",
             [](Settings & s) -> auto& { return s.scenario; }),
-        {"profiles", "folder of component profiles that make components, re-read after SIGHUP; empty: none", "DIR", "a text",
-         Key::Kind::text, [](Settings& s, std::string const& text) { return s.profiles = text, true; },
+        {"profiles", "folder of component profiles to make components from, read again after SIGHUP; empty: none", "DIR",
+         "a text", Key::Kind::text, [](Settings& s, std::string const& text) { return s.profiles = text, true; },
          [](Settings const& s) { return s.profiles; }},
-        {"hosts", "names by which clients reach the gateway, beside localhost, IP addresses and the name of its machine", "NAMES",
+        {"hosts", "further host names of the gateway, besides localhost, IP addresses and the name of its machine", "NAMES",
          "host names such as gateway or robots.example, without a port, separated by spaces", Key::Kind::text, set_hosts,
          [](Settings const& s) { return joined(s.net.hosts); }},
-        {"allowed_origins", "web pages that may send requests, beside this server's own, separated by spaces", "ORIGINS",
+        {"allowed_origins", "origins of web pages that may send requests, besides the gateway's own", "ORIGINS",
          "origins such as https://console.example, in small letters and without a path, separated by spaces", Key::Kind::text,
          set_origins, [](Settings const& s) { return joined(s.net.allowed_origins); }},
     };
@@ -279,68 +280,68 @@ std::vector<Key> general_keys() {
 
 std::vector<Key> media_keys() {
     return {
-        {"media", "address and port that streams are fetched from; port 0 takes any free one; empty: nothing is streamed",
-         "HOST:PORT", "HOST:PORT, such as 127.0.0.1:8081, or empty", Key::Kind::text, set_media, show_media},
-        {"media_url", "how applications reach what media serves; empty: http://HOST:PORT of media", "URL",
+        {"media", "address and port that serve media streams; port 0: any free port; empty: no streams", "HOST:PORT",
+         "HOST:PORT, such as 127.0.0.1:8081, or empty", Key::Kind::text, set_media, show_media},
+        {"media_url", "URL at which applications reach the media server; empty: http://HOST:PORT of media", "URL",
          "a URL such as https://robots.example/media", Key::Kind::text, set_media_url,
          [](Settings const& s) { return s.media.url; }},
-        choice<media::RtpTargets>("media_rtp", "whom streams are sent to by RTP: applications name the target",
+        choice<media::RtpTargets>("media_rtp", "RTP targets that applications may name",
                                   [](Settings & s) -> auto& { return s.media.rtp_targets; },
                                   {{"loopback", media::RtpTargets::loopback}, {"any", media::RtpTargets::any}}),
         whole_number<std::size_t>(
-            "max_media_connections", "connections on which streams are fetched",
+            "max_media_connections", "maximum number of connections to the media server",
             [](Settings & s) -> auto& { return s.media.max_connections; }, 1, 10'000),
     };
 }
 
 std::vector<Key> session_keys() {
     return {
-        choice<OnSessionEnd>("on_session_end", "what becomes of the commands of a session that ends",
+        choice<OnSessionEnd>("on_session_end", "whether the commands of a session that ends are stopped",
                              [](Settings & s) -> auto& { return s.engine.on_session_end; },
                              {{"stop", OnSessionEnd::stop}, {"continue", OnSessionEnd::continue_}}),
         seconds(
-            "session_timeout", "without a request or an open stream, until a session counts as lost",
+            "session_timeout", "time without a request or an open stream after which a session counts as lost",
             [](Settings & s) -> auto& { return s.engine.session_timeout; }),
         seconds(
-            "resume_window", "for a lost session to be resumed in, before it ends",
+            "resume_window", "time in which a lost session can be resumed before it ends",
             [](Settings & s) -> auto& { return s.engine.resume_window; }, 0),
         seconds(
-            "motion_lease", "without a sign of life on a WebSocket, until what moves is held",
+            "motion_lease", "time without a sign of life on a WebSocket after which motion is held",
             [](Settings & s) -> auto& { return s.engine.motion_lease; }, 0.5, 3600),
         seconds(
-            "motion_lease_http", "without a request, until what moves is held, for applications that send requests only",
+            "motion_lease_http", "time without a request after which motion is held, for applications that only send requests",
             [](Settings & s) -> auto& { return s.engine.motion_lease_http; }, 0.5, 3600),
         seconds(
-            "event_details", "after an event, in which its details can be fetched",
+            "event_details", "time for which the details of an event can be fetched",
             [](Settings & s) -> auto& { return s.engine.event_details; }),
         seconds(
-            "error_details", "after an error, in which its details can be fetched",
+            "error_details", "time for which the details of an error can be fetched",
             [](Settings & s) -> auto& { return s.engine.error_details; }),
         seconds(
-            "command_results", "after a command, in which its results can be fetched",
+            "command_results", "time for which the results of a command can be fetched",
             [](Settings & s) -> auto& { return s.engine.command_results; }),
         seconds(
-            "start_timeout", "for a component to start a command, unless its profile says otherwise",
+            "start_timeout", "time for a component to start a command, unless its profile sets another",
             [](Settings & s) -> auto& { return s.engine.start_timeout; }),
         whole_number<std::size_t>(
-            "max_sessions", "sessions", [](Settings & s) -> auto& { return s.engine.max_sessions; }, 1, 1e6),
+            "max_sessions", "maximum number of sessions", [](Settings & s) -> auto& { return s.engine.max_sessions; }, 1, 1e6),
         whole_number<std::size_t>(
-            "max_waiting_notifications", "notifications that wait for a session",
+            "max_waiting_notifications", "maximum number of notifications that wait for a session",
             [](Settings & s) -> auto& { return s.engine.max_waiting_notifications; }, 16, 1e6),
         whole_number<std::size_t>(
-            "max_sent_notifications", "sent notifications that are kept for a session to resume",
+            "max_sent_notifications", "maximum number of sent notifications that are kept for a session to resume",
             [](Settings & s) -> auto& { return s.engine.max_sent_notifications; }, 16, 1e6),
         whole_number<std::size_t>(
-            "max_command_results", "ended commands of a session whose results are kept",
+            "max_command_results", "maximum number of ended commands of a session whose results are kept",
             [](Settings & s) -> auto& { return s.engine.max_command_results; }, 1, 1e6),
         whole_number<std::size_t>(
-            "max_subscribed_predicates", "predicates in the conditions of a session's subscriptions together",
+            "max_subscribed_predicates", "maximum number of predicates in the conditions of a session's subscriptions, in total",
             [](Settings & s) -> auto& { return s.engine.max_subscribed_predicates; }, 256, 1e6),
         whole_number<std::size_t>(
-            "max_predicates", "predicates in the conditions of all subscriptions together",
+            "max_predicates", "maximum number of predicates in the conditions of all subscriptions, in total",
             [](Settings & s) -> auto& { return s.engine.max_predicates; }, 256, 1e8),
         whole_number<std::size_t>(
-            "max_condition_bytes", "bytes of text in the conditions of a session's subscriptions together",
+            "max_condition_bytes", "maximum bytes of text in the conditions of a session's subscriptions, in total",
             [](Settings & s) -> auto& { return s.engine.max_condition_bytes; }, 1'024, 1 << 30),
     };
 }
@@ -348,60 +349,66 @@ std::vector<Key> session_keys() {
 std::vector<Key> network_keys() {
     return {
         {"memory_budget",
-         "memory that the process may use; from 80 % on, new sessions, subscriptions and long documents are refused", "SIZE",
+         "memory that the process may use; above 80 %, new sessions, subscriptions and long documents are refused", "SIZE",
          "a whole number of bytes, or of KiB, MiB or GiB, such as 512MiB, from 64MiB to 1024GiB", Key::Kind::text,
          set_memory_budget, show_memory_budget},
         whole_number<std::size_t>(
-            "max_connections", "connections", [](Settings & s) -> auto& { return s.net.max_connections; }, 1, 1e6),
+            "max_connections", "maximum number of connections", [](Settings & s) -> auto& { return s.net.max_connections; }, 1,
+            1e6),
         whole_number<std::size_t>(
-            "max_connections_per_address", "connections of one remote address, except the loopback and proxies",
+            "max_connections_per_address", "maximum number of connections of one remote address, except loopback and proxies",
             [](Settings & s) -> auto& { return s.net.max_connections_per_address; }, 1, 1e6),
         whole_number<std::size_t>(
-            "max_sessions_per_address", "sessions opened by one remote address, except the loopback and proxies",
+            "max_sessions_per_address", "maximum number of sessions opened by one remote address, except loopback and proxies",
             [](Settings & s) -> auto& { return s.net.max_sessions_per_address; }, 1, 1e6),
         whole_number<std::size_t>(
-            "max_sessions_per_connection", "sessions opened on one connection, except those of proxies",
+            "max_sessions_per_connection", "maximum number of sessions opened on one connection, except those of proxies",
             [](Settings & s) -> auto& { return s.net.max_sessions_per_connection; }, 1, 1e6),
         whole_number<std::size_t>(
-            "max_streams_per_session", "event streams of a session",
+            "max_streams_per_session", "maximum number of event streams of a session",
             [](Settings & s) -> auto& { return s.net.max_streams_per_session; }, 1, 1e6),
-        {"proxies", "addresses of reverse proxies, whose connections the limits per address and per connection do not hold for",
-         "ADDRESSES", "IP addresses or networks such as 192.0.2.1 10.0.0.0/8 2001:db8::/32, separated by spaces", Key::Kind::text,
-         set_proxies, show_proxies},
+        {"proxies", "addresses of reverse proxies, to which the limits per address and per connection do not apply", "ADDRESSES",
+         "IP addresses or networks such as 192.0.2.1 10.0.0.0/8 2001:db8::/32, separated by spaces", Key::Kind::text, set_proxies,
+         show_proxies},
         whole_number<std::size_t>(
-            "max_requests_in_flight", "answers that wait for one WebSocket before it is read again",
+            "max_requests_in_flight",
+            "maximum number of answers that wait for a WebSocket; the gateway then stops reading from it",
             [](Settings & s) -> auto& { return s.net.max_requests_in_flight; }, 1, 1'024),
         whole_number<std::size_t>(
-            "max_body", "bytes of a request document", [](Settings & s) -> auto& { return s.net.document.bytes; }, 1'024,
+            "max_body", "maximum bytes of a request document", [](Settings & s) -> auto& { return s.net.document.bytes; }, 1'024,
             1 << 30),
         whole_number<std::size_t>(
-            "max_header", "bytes of an HTTP header", [](Settings & s) -> auto& { return s.net.max_header; }, 1'024, 1 << 20),
+            "max_header", "maximum bytes of an HTTP header", [](Settings & s) -> auto& { return s.net.max_header; }, 1'024,
+            1 << 20),
         whole_number<std::size_t>(
-            "max_depth", "nested elements in a document", [](Settings & s) -> auto& { return s.net.document.depth; }, 8, 1'024),
+            "max_depth", "maximum depth of nested elements in a document",
+            [](Settings & s) -> auto& { return s.net.document.depth; }, 8, 1'024),
         whole_number<std::size_t>(
-            "max_attributes", "attributes of an element", [](Settings & s) -> auto& { return s.net.document.attributes; }, 8,
-            1'024),
+            "max_attributes", "maximum number of attributes of an element",
+            [](Settings & s) -> auto& { return s.net.document.attributes; }, 8, 1'024),
         whole_number<std::size_t>(
-            "max_elements", "elements of a document", [](Settings & s) -> auto& { return s.net.document.elements; }, 16, 1e6),
-        choice<xml::Validation>("validation",
-                                "how documents are checked: by tables made from the schemas where these are enough, or in full",
-                                [](Settings & s) -> auto& { return s.net.validation; },
-                                {{"fast", xml::Validation::fast}, {"full", xml::Validation::full}}),
+            "max_elements", "maximum number of elements of a document",
+            [](Settings & s) -> auto& { return s.net.document.elements; }, 16, 1e6),
+        choice<xml::Validation>(
+            "validation", "how documents are validated: fast, with tables made from the schemas where they suffice, or in full",
+            [](Settings & s) -> auto& { return s.net.validation; },
+            {{"fast", xml::Validation::fast}, {"full", xml::Validation::full}}),
         seconds(
-            "request_timeout", "for a request to arrive", [](Settings & s) -> auto& { return s.net.request_timeout; }),
+            "request_timeout", "time for a request to arrive", [](Settings & s) -> auto& { return s.net.request_timeout; }),
         seconds(
-            "connect_timeout", "for a WebSocket to open or resume a session",
+            "connect_timeout", "time for a new WebSocket to open or resume a session",
             [](Settings & s) -> auto& { return s.net.connect_timeout; }),
         seconds(
-            "idle_timeout", "between two requests of an HTTP connection",
+            "idle_timeout", "time between two requests on an HTTP connection",
             [](Settings & s) -> auto& { return s.net.idle_timeout; }),
         seconds(
-            "write_timeout", "for a client to take what it was sent", [](Settings & s) -> auto& { return s.net.write_timeout; }),
+            "write_timeout", "time for a client to accept the data sent to it",
+            [](Settings & s) -> auto& { return s.net.write_timeout; }),
         seconds(
-            "ping_interval", "between signs of life on WebSockets and event streams",
+            "ping_interval", "time between signs of life on WebSockets and event streams",
             [](Settings & s) -> auto& { return s.net.ping_interval; }),
         seconds(
-            "shutdown_timeout", "for clients to take their last notifications when the gateway stops",
+            "shutdown_timeout", "time for clients to receive their last notifications when the gateway stops",
             [](Settings & s) -> auto& { return s.net.shutdown_timeout; }, 0.1, 8),
     };
 }

@@ -1,5 +1,4 @@
-// Every configuration key, once: the same name is a flag (--sim-speed), a variable (ROIS_SIM_SPEED) and a key of the file
-// (sim_speed).
+// The configuration keys. Each key is also a flag (--sim-speed) and an environment variable (ROIS_SIM_SPEED).
 #pragma once
 
 #include <functional>
@@ -15,11 +14,12 @@ struct Key {
 
     std::string name;
     std::string help;
-    std::string value;    // what stands behind the flag: "SECONDS"
-    std::string must_be;  // for whoever gave something else: "a number of seconds from 0.1 to 86400"
+    std::string value;    // placeholder of the value in the help: "SECONDS"
+    std::string must_be;  // expected values, for error messages: "a number of seconds from 0.1 to 86400"
     Kind kind = Kind::text;
-    std::function<bool(Settings&, std::string const&)> set;  // false, and nothing changed, when the text is no such value
-    std::function<std::string(Settings const&)> show;        // the value as a text that `set` would take
+    std::function<bool(Settings&, std::string const&)>
+        set;                                           // returns false, and changes nothing, if the text is not a valid value
+    std::function<std::string(Settings const&)> show;  // returns the value as a text that `set` accepts
 };
 
 std::vector<Key> const& keys();

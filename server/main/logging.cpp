@@ -44,7 +44,7 @@ spdlog::level::level_enum level_of(LogLevel level) {
 void protect_standard_files() {
     std::signal(SIGPIPE, SIG_IGN);
     for (int file = STDIN_FILENO; file <= STDERR_FILENO; ++file)
-        if (::fcntl(file, F_GETFD) < 0) ::open("/dev/null", O_RDWR);  // gets the lowest number, which is this one
+        if (::fcntl(file, F_GETFD) < 0) ::open("/dev/null", O_RDWR);  // takes the lowest free number, which is `file`
 }
 
 std::shared_ptr<net::LogQueue const> set_up_logging(LogFormat format, LogLevel level) {

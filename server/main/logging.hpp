@@ -1,4 +1,4 @@
-// The log: one line an event, on standard error.
+// The log on standard error, one line per event.
 #pragma once
 
 #include <memory>
@@ -8,15 +8,15 @@
 
 namespace rois {
 
-// Before anything else is opened: SIGPIPE is ignored, and standard input, output and error are open from then on, so that no
-// socket takes their place.
+// Ignores SIGPIPE and opens standard input, output and error if they are closed, so that no socket takes their place. Call this
+// before anything else is opened.
 void protect_standard_files();
 
-// From then on spdlog's default logger writes there. What it still has is written at the end of the process, or for half a
-// second.
+// Makes spdlog's default logger write to the queue that is returned. At the end of the process, it writes remaining lines for at
+// most half a second.
 std::shared_ptr<net::LogQueue const> set_up_logging(LogFormat, LogLevel);
 
-// Waits for what was said so far, for half a second at most, when it goes.
+// Its destructor waits until all lines are written, for at most half a second.
 struct LogFlush {
     ~LogFlush();
 };

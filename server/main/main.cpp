@@ -1,4 +1,4 @@
-// The composition root of rois-gateway.
+// The main program of rois-gateway: makes all parts and connects them.
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -51,7 +51,7 @@ std::vector<ComponentProfile> read_profiles(std::shared_ptr<xml::Schemas const> 
     return profiles;
 }
 
-// The file's text, or that of the file inside the program when none is named.
+// The text of the file, or of the built-in file if none is named.
 std::string chosen(std::string const& file, std::string_view built_in) {
     return file.empty() ? std::string{files::simulation().at(std::string{built_in})} : text_of_file(file);
 }
@@ -60,7 +60,7 @@ simulation::Streams streams(Settings const& settings) {
     return settings.media.host.empty() ? simulation::Streams::none : simulation::Streams::served;
 }
 
-// How the components are named that come of the folder of profiles, as it is now.
+// The names of the components that the folder of profiles makes at present.
 std::vector<std::string> user_names(std::shared_ptr<xml::Schemas const> const& schemas, Settings const& settings,
                                     std::vector<ComponentProfile> const& own) {
     std::vector<std::string> names;
@@ -81,12 +81,12 @@ std::shared_ptr<simulation::Simulation> make_simulation(std::shared_ptr<xml::Sch
     auto const robot = std::ranges::find(plan.robots, settings.engine_name, &simulation::RobotPlan::name);
     if (robot != plan.robots.end())
         throw BadSettings("engine_name: '" + settings.engine_name +
-                          "' is the name of a robot of the floor plan; choose another name, so that conditions and profiles tell "
-                          "the whole engine from its robot");
+                          "' is the name of a robot of the floor plan; choose another name, so that conditions and profiles can "
+                          "distinguish the engine from its robot");
     return std::make_shared<simulation::Simulation>(std::move(plan), std::move(scenario), settings.seed, settings.sim_speed);
 }
 
-// "robots.example" of "https://robots.example:8443/media"; not for IPv6 addresses.
+// The host of a URL: "robots.example" of "https://robots.example:8443/media". Not for IPv6 addresses.
 std::string_view host_of_url(std::string_view url) {
     auto const scheme_end = url.find("://");
     if (scheme_end == std::string_view::npos) return {};
@@ -94,8 +94,7 @@ std::string_view host_of_url(std::string_view url) {
     return url.substr(0, url.find_first_of(":/"));
 }
 
-// The network's settings with all names by which clients reach this gateway: those of the key `hosts`, of the machine, and of the
-// keys that say where it listens.
+// The network settings, with all names of this gateway: those of the key `hosts`, of the machine, and in the keys for addresses.
 net::Settings with_all_hosts(Settings const& settings) {
     auto all = settings.net;
     auto const add = [&](std::string_view name) {
@@ -114,9 +113,9 @@ net::ClientLimits client_limits(net::Settings const& settings) {
             .streams_per_session = settings.max_streams_per_session};
 }
 
-// Raises the limit of open files to what all connections need; if it cannot be raised so far, fewer connections are accepted.
+// Raises the limit of open files to the number that all connections need. If the system refuses, accepts fewer connections.
 void make_room_for_connections(net::Settings& net, media::Settings const& media) {
-    constexpr std::size_t own = 64, of_thread = 8;  // files that are open beside connections, with some to spare
+    constexpr std::size_t own = 64, of_thread = 8;  // other open files, with some reserve
     auto const others = own + of_thread * net.threads + (media.host.empty() ? 0 : media.max_connections);
     auto const wanted = others + net.max_connections;
     auto const possible = net::raise_open_files(wanted);
@@ -129,7 +128,7 @@ void make_room_for_connections(net::Settings& net, media::Settings const& media)
     net.max_connections = fit;
 }
 
-// Null when nothing is to be streamed.
+// Returns null if no streams are served.
 std::shared_ptr<media::Server> make_media(media::Settings settings, net::Settings const& net) {
     if (settings.host.empty()) return nullptr;
     settings.is_own_host = [hosts = net.hosts](std::string_view host) { return net::is_own_host(host, hosts); };
@@ -146,7 +145,7 @@ ComponentProfile profile_of_hall(std::shared_ptr<xml::Schemas const> const& sche
     return xml::read_component_profile(schemas, file, std::string{files::simulation().at(file)});
 }
 
-// Of all components that are there without any profile of a user.
+// The refs of all components that do not come from the user's profiles.
 std::vector<std::string> own_refs(Settings const& settings, simulation::FloorPlan const& plan) {
     auto refs = simulation::component_refs(plan);
     if (has_steering(settings)) refs.emplace_back(simulation::simulated_hall_ref);
@@ -158,7 +157,7 @@ std::string shown(std::string_view name, Settings const& settings) {
     return std::ranges::find(keys(), name, &Key::name)->show(settings);
 }
 
-// A parameter of the engine; what it is now is its default value.
+// A parameter of the engine. Its present value is its default value.
 ParameterProfile engine_parameter(std::string name, std::string type, std::string value, std::string description) {
     return {.name = std::move(name),
             .data_type_ref = {.code = std::move(type), .authority = {}, .codebook_ref = {}, .version = {}},
@@ -173,23 +172,23 @@ EngineProfile engine_profile(Settings const& settings, simulation::FloorPlan con
     profile.object.name = settings.engine_name;
     profile.parameters = {
         engine_parameter("sim_speed", "double", shown("sim_speed", settings),
-                         "Simulated seconds in a second; 0: the world stands still."),
-        engine_parameter("crs", "string", plan.crs, "The frame in which positions are told; others may be taken, too.")};
+                         "Simulated seconds per second; 0: simulated time stands still."),
+        engine_parameter("crs", "string", plan.crs, "The frame of the positions that the engine reports. It may accept others.")};
     return profile;
 }
 
-// Reads the folder of profiles again; what is wrong with it is told, and changes nothing.
+// Reads the folder of profiles again. If that fails, logs why and changes nothing.
 void read_again(UserComponents& components, net::Gateway& gateway) {
     try {
-        spdlog::info("profiles: reading them again after SIGHUP");
+        spdlog::info("profiles: reading the folder again after SIGHUP");
         gateway.change([&] { return components.read(); });
         components.keep();
     } catch (std::exception const& error) {
-        spdlog::warn("profiles: all stay as they are: {}", error.what());
+        spdlog::warn("profiles: no component was changed: {}", error.what());
     }
 }
 
-// Builds all parts in order of need, and serves until a signal ends it.
+// Makes all parts in the order of their dependencies, and serves until a signal arrives.
 int serve(CommandLine const& command) {
     auto const& settings = command.settings;
     auto const schemas = std::make_shared<xml::Schemas const>(files::schemas());

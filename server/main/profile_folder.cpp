@@ -31,12 +31,12 @@ std::vector<std::filesystem::path> documents_in(std::string const& folder) {
     return documents;
 }
 
-// A file with what its document says beside the profile.
+// A file, and the places in its document that later checks refer to.
 struct Read {
     ProfileFile file;
     std::vector<std::string> sub_component_places;
     std::string adapter_place, identifier_place, name_place;
-    bool is_idle = false;  // the gateway has a profile of its own with this URN, and keeps to it
+    bool is_idle = false;  // the gateway has a built-in profile with this URN, and uses that one
 };
 
 void refuse(ProfileFile& file, std::string why) {
@@ -55,7 +55,7 @@ Read read(std::shared_ptr<xml::Schemas const> const& schemas, std::filesystem::p
     read.file.name = path.filename();
     try {
         std::error_code error;
-        if (!std::filesystem::is_regular_file(path, error)) throw BadSettings{read.file.name + ": is no file"};
+        if (!std::filesystem::is_regular_file(path, error)) throw BadSettings{read.file.name + ": not a regular file"};
         auto document = xml::read_profile_document(schemas, read.file.name, text_of_file(path));
         if (!document.warnings.empty()) read.file.verdict = Verdict::warning;
         read.file.findings = std::move(document.warnings);
@@ -76,7 +76,7 @@ Read read(std::shared_ptr<xml::Schemas const> const& schemas, std::filesystem::p
 
 std::string first_place(ProfileFile const& file) { return file.name + ":1:1: "; }
 
-// A profile is there once; that of a basic component is the program's own.
+// Refuses a profile that an earlier file has. Ignores, with a warning, the profile of a built-in component.
 void refuse_doubles(std::vector<Read>& all, std::vector<ComponentProfile> const& known) {
     for (auto each = all.begin(); each != all.end(); ++each) {
         if (!each->file.profile) continue;
@@ -90,7 +90,7 @@ void refuse_doubles(std::vector<Read>& all, std::vector<ComponentProfile> const&
         } else if (std::ranges::any_of(known, same)) {
             each->is_idle = true;
             warn(each->file,
-                 first_place(each->file) + "the gateway has a profile " + quoted(urn, 200) + " of its own and keeps to it");
+                 first_place(each->file) + "the gateway has a profile " + quoted(urn, 200) + " of its own, and uses that one");
         }
     }
 }
@@ -102,7 +102,7 @@ std::vector<ComponentProfile> with_known(std::vector<Read> const& all, std::vect
     return together;
 }
 
-// Why nothing can be made of the profile; nothing when something can. Asked of one file after the other.
+// Returns why no component can be made of the profile, or nullopt. Called for one file after the other.
 using Objection = std::function<std::optional<std::string>(Read const&, std::vector<ComponentProfile> const& known)>;
 
 std::optional<std::string> includes_unknown(Read const& read, std::vector<ComponentProfile> const& known) {
@@ -149,7 +149,7 @@ Objection asks_for_no_adapter(simulation::Streams streams) {
 }
 
 Objection is_named_as_another(simulation::Streams streams) {
-    auto const files = std::make_shared<std::map<std::string, std::string>>();  // by the names of their components
+    auto const files = std::make_shared<std::map<std::string, std::string>>();  // file names, by the names of their components
     return [=](Read const& read, std::vector<ComponentProfile> const& known) -> std::optional<std::string> {
         auto const& profile = *read.file.profile;
         if (read.is_idle || simulation::adapter_of(profile, known, streams).empty()) return {};
@@ -162,7 +162,7 @@ Objection is_named_as_another(simulation::Streams streams) {
     };
 }
 
-// Until nobody includes what was refused.
+// Repeats the checks until no file includes a refused one.
 void refuse_what_makes_nothing(std::vector<Read>& all, std::vector<ComponentProfile> const& known, simulation::Streams streams) {
     auto const some = [&](Objection const& objection) { return refuse(all, known, objection) == Refused::some; };
     do {
@@ -181,7 +181,7 @@ void warn_of_ambiguous(std::vector<Read>& all, std::vector<ComponentProfile> con
             if (meant.size() < 2) continue;
             warn(each.file, each.sub_component_places[i] + ": " + rois::quoted(parts[i]) + " may mean " +
                                 quoted(meant[0]->object.identifier, 200) + " or " + quoted(meant[1]->object.identifier, 200) +
-                                ", and is taken for the first: write the whole identifier");
+                                "; the gateway uses the first: write the whole identifier");
         }
     }
 }

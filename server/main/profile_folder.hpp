@@ -1,4 +1,4 @@
-// The folder of component profiles that users bring (key `profiles`).
+// The folder of component profiles that a user provides (key `profiles`).
 #pragma once
 
 #include <memory>
@@ -12,24 +12,23 @@
 
 namespace rois {
 
-// One file of the folder, and what was found in it.
+// One file of the folder, and the result of its check.
 struct ProfileFile {
     enum class Verdict : std::uint8_t { ok, warning, refused };
 
     std::string name;  // without the folder
     Verdict verdict = Verdict::ok;
-    std::vector<std::string> findings;        // warnings, or why it was refused: "name:line:column: reason"
-    std::optional<ComponentProfile> profile;  // as the document says; absent in what was refused and in engine profiles
+    std::vector<std::string> findings;        // warnings, or why the file was refused: "name:line:column: reason"
+    std::optional<ComponentProfile> profile;  // as in the document; unset for refused files and engine profiles
 };
 
-// Reads all *.xml of the folder, in the order of their names; `known` are the program's own profiles, which those of the folder
-// may include. Refused is also what asks for an adapter that there is not, and what would make a component with the name of
-// another. A file that is refused does not touch the others, but those that include its profile. Throws BadSettings when the
-// folder cannot be read.
+// Reads all *.xml of the folder, in the order of their names. Profiles may include the built-in ones (`known`). Refuses a file if
+// its profile is invalid, needs an adapter that does not exist, or would make a component with a name that is taken. Refusing a
+// file affects only the files that include its profile. Throws BadSettings if the folder cannot be read.
 std::vector<ProfileFile> read_profile_folder(std::shared_ptr<xml::Schemas const> const&, std::string const& folder,
                                              std::vector<ComponentProfile> const& known, simulation::Streams);
 
-// What --check-profiles says: a line for each finding and each file that is in order, and the sum.
+// The output of --check-profiles: a line for each finding and each valid file, and the totals.
 std::string report_of(std::vector<ProfileFile> const&);
 
 }  // namespace rois

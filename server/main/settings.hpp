@@ -1,4 +1,4 @@
-// All that can be configured, with its default.
+// All settings, with their defaults.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@ namespace rois {
 enum class LogFormat : std::uint8_t { text, json };
 enum class LogLevel : std::uint8_t { debug, info, warning, error };
 
-// Whether applications find the hall itself among the components (docs/simulation.md).
+// Whether the component simulated_hall exists (docs/simulation.md).
 enum class Steering : std::uint8_t { off, on };
 
 struct Settings {
     net::Settings net;
     EngineSettings engine;
-    media::Settings media;  // without a host nothing is streamed
+    media::Settings media;  // without a host, no streams are served
     std::string engine_name = "reception";
-    double sim_speed = 1;  // 0: the world stands still, and there is steering
+    double sim_speed = 1;  // 0: simulated time stands still, and there is steering
     Steering steering = Steering::off;
     std::uint64_t seed = 1;
-    std::string floor_plan;  // a file; empty: the reception hall that comes with the program
+    std::string floor_plan;  // a file; empty: the built-in reception hall
     std::string scenario;
     std::string profiles;  // a folder of component profiles; empty: none
     LogFormat log_format = LogFormat::text;
@@ -34,7 +34,7 @@ struct Settings {
     Settings();
 };
 
-// One line that says what is wrong, and where.
+// An invalid setting. The message is one line, with the place and the reason.
 class BadSettings : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

@@ -12,7 +12,7 @@ namespace rois {
 
 namespace {
 
-constexpr std::size_t shown = 200;  // bytes of what is said
+constexpr std::size_t shown = 200;  // bytes of a text that are shown
 
 using simulation::Happening;
 

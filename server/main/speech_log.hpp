@@ -1,4 +1,4 @@
-// What the robots of the hall say, in the log: whose voice, in which language, for how long, with which prosody.
+// Logs the speech of the robots in the hall: voice, language, duration and prosody.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace rois {
 
-// Logs for as long as it lives.
+// Logs during its lifetime.
 class SpeechLog : private simulation::Observer {
 public:
     explicit SpeechLog(std::shared_ptr<simulation::Simulation>);
@@ -20,7 +20,7 @@ private:
     void observe(Instant when) override;
 
     std::shared_ptr<simulation::Simulation> simulation_;
-    std::uint64_t read_ = 0;  // of the chronicle
+    std::uint64_t read_ = 0;  // the last entry of the chronicle that was read
 };
 
 }  // namespace rois

@@ -17,7 +17,7 @@ bool is_refused(ProfileFile const& file) { return file.verdict == ProfileFile::V
 void log(ProfileFile const& file, bool stays) {
     for (auto const& finding : file.findings)
         spdlog::warn("profiles: {}{}{}", is_refused(file) ? "refused: " : "", finding,
-                     is_refused(file) && stays ? "; what it was before stays" : "");
+                     is_refused(file) && stays ? "; its previous version stays" : "");
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ UserComponents::UserComponents(std::shared_ptr<xml::Schemas const> schemas, simu
       refs_{refs.begin(), refs.end()},
       folder_{std::move(folder)} {}
 
-// The program's own come first, and are found first.
+// The built-in profiles come first, and are found first.
 std::vector<ComponentProfile> UserComponents::with_own(std::vector<ProfileFile> const& found) const {
     auto all = own_;
     for (auto const& file : found) {
@@ -41,8 +41,8 @@ std::vector<ComponentProfile> UserComponents::with_own(std::vector<ProfileFile> 
     return all;
 }
 
-// Those of before that are as they were, or that are refused now. What made no component is tried again: it may have been in the
-// way of another.
+// Returns the files to keep: those that are unchanged, and those whose new version is refused. A file that made no component is
+// tried again: the ref that it needs may be free now.
 UserComponents::Files UserComponents::stay(std::vector<ProfileFile> const& found,
                                            std::vector<ComponentProfile> const& known) const {
     Files staying;
@@ -56,7 +56,7 @@ UserComponents::Files UserComponents::stay(std::vector<ProfileFile> const& found
     return staying;
 }
 
-// None when the profile asks for none or is one of the gateway's own, or they would have the refs of others.
+// Returns no components if the profile names no adapter, is one of the built-in ones, or needs a ref that is taken.
 std::vector<std::unique_ptr<Component>> UserComponents::components(ProfileFile const& file,
                                                                    std::vector<ComponentProfile> const& known,
                                                                    std::set<std::string>& taken) const {
@@ -68,11 +68,11 @@ std::vector<std::unique_ptr<Component>> UserComponents::components(ProfileFile c
     try {
         auto made = adapters_.components(profile, known);
         if (made.empty())
-            spdlog::info("profiles: {}: {} asks for no adapter, and makes no component", file.name, profile.object.identifier);
+            spdlog::info("profiles: {}: {} names no adapter, and makes no component", file.name, profile.object.identifier);
         for (auto const& component : made) {
             auto const& ref = component->description().ref.code;
             if (taken.insert(ref).second) continue;
-            spdlog::warn("profiles: {}: there is a component {} already: none is made", file.name, ref);
+            spdlog::warn("profiles: {}: makes no component, because the ref {} is taken", file.name, ref);
             return {};
         }
         return made;
@@ -97,12 +97,12 @@ ComponentChange UserComponents::read() {
         Made made{*file.profile, flattened(*file.profile, change.known_profiles), {}};
         for (auto& component : components(file, change.known_profiles, taken)) {
             made.refs.push_back(component->description().ref.code);
-            spdlog::info("profiles: {}: the component {}", file.name, made.refs.back());
+            spdlog::info("profiles: {}: adds the component {}", file.name, made.refs.back());
             change.coming.push_back(std::move(component));
         }
         next.emplace(file.name, std::move(made));
     }
-    for (auto const& ref : change.going) spdlog::info("profiles: the component {} goes", ref);
+    for (auto const& ref : change.going) spdlog::info("profiles: removes the component {}", ref);
     next_ = std::move(next);
     return change;
 }

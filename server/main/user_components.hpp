@@ -1,4 +1,4 @@
-// The components that come of the profiles which users bring, and what becomes of them when the folder is read again.
+// The components made from the profiles that a user provides, and their changes when the folder is read again.
 #pragma once
 
 #include <map>
@@ -16,24 +16,24 @@ namespace rois {
 
 class UserComponents {
 public:
-    // `own`: the profiles inside the program. `refs`: of the components that are there without any profile of a user.
+    // `own`: the built-in profiles. `refs`: of the components that do not come from the user's profiles.
     UserComponents(std::shared_ptr<xml::Schemas const>, simulation::Adapters, std::vector<ComponentProfile> own,
                    std::vector<std::string> const& refs, std::string folder);
 
-    // What has changed in the folder since the last time; what was found is in the log. A file that is refused now leaves what
-    // was made of it before. Throws BadSettings when the folder cannot be read: then nothing has changed.
+    // Reads the folder, and returns the changes since the last call. Logs the findings. If a file is refused now, keeps the
+    // components that an earlier version of it made. Throws BadSettings, and changes nothing, if the folder cannot be read.
     ComponentChange read();
     // The change of the last `read` has happened. Without this call, the next `read` returns it again.
     void keep();
 
 private:
-    // What a file of the folder is good for.
+    // The components made from one file.
     struct Made {
         ComponentProfile profile;
-        ComponentProfile whole;         // with what its sub components have, to see whether it has changed
-        std::vector<std::string> refs;  // of its components
+        ComponentProfile whole;         // including its sub components, to detect changes
+        std::vector<std::string> refs;  // of the components
     };
-    using Files = std::map<std::string, Made>;  // by name
+    using Files = std::map<std::string, Made>;  // by file name
 
     Files stay(std::vector<ProfileFile> const& found, std::vector<ComponentProfile> const& known) const;
     std::vector<ComponentProfile> with_own(std::vector<ProfileFile> const& found) const;

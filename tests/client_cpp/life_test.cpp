@@ -74,7 +74,7 @@ TEST_P(TheApplication, IsHeldWhenItsThreadHangsAndGoesOnWithResume) {
     await_hold();
     auto const error = std::get<ReceiveError>(history.notifications().front().second);
     auto const details = robot(robot.client().get_error_detail(error.error_id));
-    EXPECT_THAT(find(details.parameters, "text")->values.front(), HasSubstr("nothing was heard from its application"));
+    EXPECT_THAT(find(details.parameters, "text")->values.front(), HasSubstr("its application gave no sign of life"));
     EXPECT_EQ(robot(robot.client().component("navigation").resume()), CompletedStatus::ok);
     robot(robot.client().sleep(longer));
     EXPECT_THAT(errors(), ElementsAre(ErrorType::user_defined_error)) << "reported once";

@@ -109,10 +109,11 @@ TEST_F(RoisAndMotion, ACommandThatIsStoppedLetsTheRobotBeHeldAndSaysSo) {
     RoisProcess walk{{"start", "navigation", way}, at};
     await_busy("navigation");
     walk.signal(SIGSTOP);
-    EXPECT_THAT(held(), HasSubstr("its motion is held: nothing was heard from its application"));
+    EXPECT_THAT(held(), HasSubstr("its motion is held: its application gave no sign of life"));
     walk.signal(SIGCONT);
-    EXPECT_THAT(walk.error_line(), testing::AllOf(StartsWith("rois: navigation: its motion is held: nothing was heard"),
-                                                  testing::EndsWith("; interrupt this command and run it again")));
+    EXPECT_THAT(walk.error_line(),
+                testing::AllOf(StartsWith("rois: navigation: its motion is held: its application gave no sign of life"),
+                               testing::EndsWith("; interrupt this command and run it again")));
 }
 
 TEST_F(RoisAndMotion, AHeldSessionKeepsTheRobotGoingWhileTheShellLives) {

@@ -1,4 +1,4 @@
-// Decisions 4 to 7: who may command a component.
+// Decisions 4 to 7: binding, and the commands that need it.
 #include <gmock/gmock.h>
 
 #include "conditions.hpp"
@@ -22,7 +22,7 @@ TEST(Bind, KeepsAComponentForOneSession) {
     EXPECT_EQ(hall.bind("navigation"), ReturnCode::ok);
 }
 
-TEST(Bind, OfWhatIsNotThereIsABadParameter) {
+TEST(Bind, OfAnUnknownComponentIsABadParameter) {
     World world{navigation};
     auto desk = world.connect();
     auto const refused = desk.ask(Bind{Application::identifier("../\r\n<x>")});
@@ -48,12 +48,12 @@ TEST(BindAny, TakesTheLowestFreeMatch) {
     EXPECT_EQ(world.connect().bind_any(speaks), "OUT_OF_RESOURCES");
 }
 
-TEST(BindAny, TakesAFreeOneBeforeOneThatIsMine) {
+TEST(BindAny, PrefersAFreeComponentToOneThatTheSessionHasBound) {
     World world{named("speech_a", speech), named("speech_b", speech)};
     auto desk = world.connect();
     EXPECT_EQ(desk.bind_any(), "speech_a");
     EXPECT_EQ(desk.bind_any(), "speech_b");
-    EXPECT_EQ(desk.bind_any(), "speech_a") << "when none is free, one that is already mine";
+    EXPECT_EQ(desk.bind_any(), "speech_a") << "without a free one, one that the session has bound";
 }
 
 TEST(BindAny, KeepsToTheRobotThatTheSessionWorksWith) {
@@ -70,7 +70,7 @@ TEST(BindAny, KeepsToTheRobotThatTheSessionWorksWith) {
     EXPECT_EQ(desk.bind("robot1.detection"), ReturnCode::ok);
     EXPECT_EQ(desk.bind_any(detects), "robot2.detection") << "two components are more than one";
     for (auto const* ref : {"robot2.navigation", "robot2.speech", "robot2.detection"}) desk.release(ref);
-    EXPECT_EQ(desk.bind_any(speaks), "robot2.speech") << "what the other robot has is taken";
+    EXPECT_EQ(desk.bind_any(speaks), "robot2.speech") << "the other robot's are taken";
     desk.leave();
     hall.leave();
     EXPECT_EQ(world.connect().bind_any(either({speaks, detects})), "robot1.detection");
@@ -88,7 +88,7 @@ TEST(BindAny, PutsTheRobotBeforeTheOrderOfTheCondition) {
     EXPECT_EQ(desk.bind_any(last_first), "robot2.speech") << "nothing of the first is free";
 }
 
-// "robot2.navigation" is not compared with "speech": the name of a sub engine does not belong to the code.
+// Without the name of the sub engine, "robot2.navigation" sorts before "speech".
 TEST(BindAny, ComparesCodesWithinTheirEngines) {
     World world{speech, in_engine("robot2", speech), in_engine("arm", named("tool", speech))};
     auto const speaks = equal("component_type", speech.profile.object.identifier);
@@ -126,7 +126,7 @@ struct GroupsOfTwoRobots : testing::Test {
     Condition drives_and_speaks = group({.types = {"Navigation", "SpeechSynthesis"}, .aliases = {}, .filter = {}, .members = {}});
 };
 
-TEST_F(GroupsOfTwoRobots, AreBoundOfTheOneThatHasAllOfThemFree) {
+TEST_F(GroupsOfTwoRobots, AreBoundFromTheRobotThatHasAllOfThemFree) {
     hall.bind("robot1.speech");
     EXPECT_THAT(desk.search(drives_and_speaks), ElementsAre("robot2.navigation", "robot2.speech")) << "what bind_any takes";
     EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot2.navigation");
@@ -134,11 +134,11 @@ TEST_F(GroupsOfTwoRobots, AreBoundOfTheOneThatHasAllOfThemFree) {
     EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot2.navigation") << "nothing of robot1: the group is complete";
 }
 
-TEST_F(GroupsOfTwoRobots, AreBoundOfOneRobotHoweverOftenTheApplicationAsks) {
+TEST_F(GroupsOfTwoRobots, AreBoundFromOneRobotHoweverOftenTheApplicationAsks) {
     std::vector<std::string> bound;
     for (int i = 0; i < 4; ++i) bound.push_back(desk.bind_any(drives_and_speaks));
     EXPECT_THAT(bound, ElementsAre("robot1.navigation", "robot1.speech", "robot1.navigation", "robot1.navigation"));
-    EXPECT_EQ(hall.bind_any(drives_and_speaks), "robot2.navigation") << "nothing of robot2 was taken";
+    EXPECT_EQ(hall.bind_any(drives_and_speaks), "robot2.navigation") << "no component of robot2 was taken";
 }
 
 TEST_F(GroupsOfTwoRobots, AreCompletedBeforeThoseOfTheRobotWithMoreOtherComponents) {
@@ -150,7 +150,7 @@ TEST_F(GroupsOfTwoRobots, AreCompletedBeforeThoseOfTheRobotWithMoreOtherComponen
     EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot1.speech") << "one of the group is more than none";
 }
 
-TEST_F(GroupsOfTwoRobots, ThatNoneCanGiveAreRefusedWithTheHolder) {
+TEST_F(GroupsOfTwoRobots, ThatNoRobotCanProvideAreRefusedAndTheReasonNamesTheHolder) {
     hall.bind("robot1.speech");
     hall.bind("robot2.navigation");
     auto const refused = desk.ask(BindAny{drives_and_speaks});
@@ -165,7 +165,7 @@ TEST_F(GroupsOfTwoRobots, ThatNoneCanGiveAreRefusedWithTheHolder) {
     EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot2.navigation");
 }
 
-TEST_F(GroupsOfTwoRobots, BeginAnewWhenARobotCannotGiveTheRest) {
+TEST_F(GroupsOfTwoRobots, StartOverWhenARobotCannotProvideTheRest) {
     EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot1.navigation");
     hall.bind("robot1.speech");
     EXPECT_EQ(desk.bind_any(drives_and_speaks), "robot2.navigation");
@@ -193,7 +193,7 @@ TEST_F(GroupsOfTwoRobots, MayAskForWhatNoOtherSessionHasBound) {
     std::vector<std::string> bound;
     for (int i = 0; i < 4; ++i) bound.push_back(desk.bind_any(free_ones));
     EXPECT_THAT(bound, ElementsAre("robot1.navigation", "robot1.speech", "robot1.navigation", "robot1.navigation"))
-        << "what the session has bound itself is still free for it";
+        << "its own binding does not count";
     EXPECT_EQ(hall.bind_any(free_ones), "robot2.navigation");
     EXPECT_THAT(desk.search(equal("bound", "false")), testing::Not(testing::Contains("robot1.navigation")))
         << "outside of groups, any session counts";
@@ -212,15 +212,15 @@ TEST(BindAny, OfAGroupTakesWhatTheSessionLacksFirst) {
     std::vector<std::string> bound;
     for (int i = 0; i < 4; ++i) bound.push_back(desk.bind_any(drives_and_speaks));
     EXPECT_THAT(bound, ElementsAre("navigation_a", "speech", "navigation_b", "navigation_a"))
-        << "further ones of the same robot, then one that is mine";
+        << "others of the same robot, then one that the session has bound";
 }
 
-TEST(BindAny, TellsWhatCanNeverMatchFromWhatIsTaken) {
+TEST(BindAny, DistinguishesImpossibleConditionsFromTakenComponents) {
     World world{navigation, speech};
     auto desk = world.connect(), hall = world.connect();
     EXPECT_EQ(desk.bind_any(equal("component_ref", "gripper")), "UNSUPPORTED");
     EXPECT_EQ(desk.bind_any(both({equal("component_ref", "speech"), equal("component_ref", "navigation")})), "UNSUPPORTED");
-    EXPECT_EQ(desk.bind_any(equal("status", "WARNING")), "OUT_OF_RESOURCES") << "it may still come to that";
+    EXPECT_EQ(desk.bind_any(equal("status", "WARNING")), "OUT_OF_RESOURCES") << "the status may still change";
     EXPECT_EQ(desk.bind_any(equal("component_ref", "speech")), "speech");
     EXPECT_EQ(hall.bind_any(equal("component_ref", "speech")), "OUT_OF_RESOURCES");
     EXPECT_EQ(hall.bind_any(both({equal("component_ref", "speech"), equal("status", "READY")})), "OUT_OF_RESOURCES");
@@ -243,7 +243,7 @@ TEST(Search, FindsInTheOrderOfRefs) {
     EXPECT_THAT(desk.search(not_understood("what is this")), ElementsAre("BAD_PARAMETER"));
 }
 
-TEST(Binding, IsNeededToCommand) {
+TEST(Binding, IsRequiredForCommands) {
     World world{navigation};
     auto desk = world.connect(), hall = world.connect();
     hall.bind("navigation");
@@ -257,7 +257,7 @@ TEST(Binding, IsNeededToCommand) {
     EXPECT_EQ(desk.set_parameter("gripper", {}).return_code, ReturnCode::bad_parameter);
 }
 
-TEST(Binding, IsNotNeededToAsk) {
+TEST(Binding, IsNotRequiredForQueries) {
     World world{navigation};
     auto desk = world.connect(), hall = world.connect();
     hall.bind("navigation");
@@ -268,7 +268,7 @@ TEST(Binding, IsNotNeededToAsk) {
     EXPECT_EQ(desk.ask(GetProfile{}).components.size(), 1U);
 }
 
-TEST(Release, StopsWhatRunsThere) {
+TEST(Release, StopsTheRunningAction) {
     World world{navigation, speech};
     auto desk = world.connect();
     desk.bind("navigation");
@@ -278,11 +278,11 @@ TEST(Release, StopsWhatRunsThere) {
     EXPECT_EQ(desk.release("navigation"), ReturnCode::ok);
     EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT", "2 completed arrived ABORT"));
-    EXPECT_EQ(desk.result_of("meanwhile"), "RUNNING") << "what is bound still is not touched";
+    EXPECT_EQ(desk.result_of("meanwhile"), "RUNNING") << "a component that stays bound is not affected";
     EXPECT_EQ(world.connect().bind("navigation"), ReturnCode::ok);
 }
 
-TEST(Release, StopsWhatWasMadeActive) {
+TEST(Release, StopsAnActiveFunction) {
     World world{detection};
     auto desk = world.connect();
     desk.bind("detection");
@@ -302,7 +302,7 @@ TEST(Release, StopsACommandOfTheComponentsOwn) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock ABORT"));
 }
 
-TEST(Release, OfWhatIsNotMineDoesNothing) {
+TEST(Release, OfAComponentThatIsNotBoundHasNoEffect) {
     World world{navigation};
     auto desk = world.connect(), hall = world.connect();
     hall.bind("navigation");
@@ -319,7 +319,7 @@ TEST(ComponentStatus, AnswersForTheAsker) {
     hall.bind("navigation");
     hall.execute(go("go"));
     EXPECT_EQ(desk.status_of("navigation"), "BUSY");
-    EXPECT_EQ(hall.status_of("navigation"), "READY") << "also while my own command runs";
+    EXPECT_EQ(hall.status_of("navigation"), "READY") << "also while its own command runs";
     EXPECT_THAT(desk.search(equal("status", "BUSY")), ElementsAre("navigation"));
     EXPECT_THAT(hall.search(equal("status", "BUSY")), IsEmpty());
 }
@@ -358,7 +358,7 @@ TEST(Profile, IsThatOfTheSubEngineWhoseComponentsAreChosen) {
     };
     EXPECT_EQ(engine(equal("engine", "sub1")), "sub1");
     EXPECT_EQ(engine(both({equal("component_type", speech.profile.object.identifier), equal("engine", "sub2")})), "sub2");
-    EXPECT_EQ(engine(equal("component_type", speech.profile.object.identifier)), "main") << "two engines have one";
+    EXPECT_EQ(engine(equal("component_type", speech.profile.object.identifier)), "main") << "two engines have such a component";
     EXPECT_EQ(engine(equal("engine", "main")), "main");
     EXPECT_EQ(engine(equal("engine", "")), "main");
     EXPECT_EQ(engine(equal("name", "navigation")), "main");
@@ -388,7 +388,7 @@ TEST(Profile, OfTwoComponentsWithOneNameIsRefusedAtTheStart) {
     EXPECT_THROW((World{navigation, navigation}), std::runtime_error);
 }
 
-// Decision 31: what a component_ref says beside its code has to be the component's.
+// Decision 31: the other attributes of a component_ref must be those of the component.
 TEST(ComponentRef, OfAForeignCodebookOrAuthorityIsRefusedByAllOperations) {
     World world{named("speech_synthesis", speech)};
     auto desk = world.connect();
@@ -409,7 +409,7 @@ TEST(ComponentRef, OfAForeignCodebookOrAuthorityIsRefusedByAllOperations) {
     ref.codebook_ref = lower_case(speech.profile.object.identifier);
     EXPECT_EQ(bind().return_code, ReturnCode::ok);
     ref.codebook_ref = "urn:x-rois:def:codebook:ComponentType";
-    EXPECT_EQ(bind().return_code, ReturnCode::ok) << "as Annex B.2 writes it";
+    EXPECT_EQ(bind().return_code, ReturnCode::ok) << "as in Annex B.2";
     ref.authority = "somebody";
     EXPECT_EQ(bind().reason,
               "the component_ref 'speech_synthesis' has the authority 'somebody', which is not the component's; "

@@ -1,4 +1,4 @@
-// What conditions of subscriptions may take together, and what is kept of commands that have ended.
+// Limits: conditions of subscriptions in total, live commands, and the results of ended commands.
 #include <gmock/gmock.h>
 
 #include "engine/command.hpp"
@@ -28,7 +28,7 @@ TEST(ConditionsTogether, OfASessionHaveAMebibyteOfTextAtMost) {
     EXPECT_EQ(desk.subscribe("person_detected", named_one_of(2, long_text)).subscribe_id, first.subscribe_id);
     auto const refused = desk.subscribe("person_detected", named_one_of(2, long_text + "y"));
     EXPECT_EQ(refused.return_code, ReturnCode::out_of_resources);
-    EXPECT_THAT(refused.reason, HasSubstr("a session's subscriptions may have 1048576 bytes of text together"));
+    EXPECT_THAT(refused.reason, HasSubstr("a session's subscriptions may have at most 1048576 bytes of text in total"));
     EXPECT_EQ(other.subscribe("person_detected", named_one_of(2, long_text + "y")).return_code, ReturnCode::ok);
     desk.unsubscribe(first.subscribe_id);
     EXPECT_EQ(desk.subscribe("person_detected", named_one_of(2, long_text + "y")).return_code, ReturnCode::ok);
@@ -41,17 +41,18 @@ TEST(ConditionsTogether, OfAllHaveSoManyPredicates) {
     auto desk = world.connect(), other = world.connect();
     auto const first = desk.subscribe("person_detected", named_one_of(7));
     EXPECT_EQ(first.return_code, ReturnCode::ok);
-    EXPECT_EQ(other.subscribe("person_detected", named_one_of(7)).return_code, ReturnCode::ok) << "the same is kept once";
+    EXPECT_EQ(other.subscribe("person_detected", named_one_of(7)).return_code, ReturnCode::ok)
+        << "the same condition is kept once";
     auto const refused = other.subscribe("person_detected", named_one_of(3));
     EXPECT_EQ(refused.return_code, ReturnCode::out_of_resources);
-    EXPECT_THAT(refused.reason, HasSubstr("the conditions of all subscriptions may have 10 predicates together"));
+    EXPECT_THAT(refused.reason, HasSubstr("the conditions of all subscriptions may have at most 10 predicates in total"));
     desk.unsubscribe(first.subscribe_id);
-    EXPECT_EQ(other.subscribe("person_detected", named_one_of(3)).return_code, ReturnCode::out_of_resources) << "other has it";
+    EXPECT_EQ(other.subscribe("person_detected", named_one_of(3)).return_code, ReturnCode::out_of_resources) << "`other` has it";
     other.unsubscribe(first.subscribe_id);
     EXPECT_EQ(other.subscribe("person_detected", named_one_of(3)).return_code, ReturnCode::ok);
 }
 
-// A pattern with as many characters as there may be, each another.
+// A pattern of the maximum length, with all characters different.
 TEST(LikePatterns, WithManyCharactersMatchWhatTheySay) {
     PropertyIsLike const characters{{}, {}, "*", "?", "!", true};
     auto const at = [](int i) {

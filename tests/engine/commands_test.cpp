@@ -1,4 +1,4 @@
-// Decisions 8, 9, 16 and 17: what commands do, how they end, and what remains of them.
+// Decisions 8, 9, 16 and 17: the effects of commands, their ends and their results.
 #include <gmock/gmock.h>
 
 #include "world.hpp"
@@ -78,7 +78,7 @@ TEST_F(Commands, ANewStartReplacesTheOld) {
     EXPECT_THAT(desk.heard(), ElementsAre("2 completed there OK"));
 }
 
-TEST_F(Commands, AFunctionThatIsActiveIsStartedAnewAfterAHalt) {
+TEST_F(Commands, AnActiveFunctionIsStartedAgainAfterAHalt) {
     desk.execute(named("look", start("detection")), named("again", start("detection")));
     EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt", "start"));
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed look OK", "2 completed again OK"));
@@ -104,7 +104,7 @@ TEST_F(Commands, SuspendAndResumeInAWrongStateFail) {
     EXPECT_THAT(world["navigation"].told, ElementsAre("start", "suspend"));
 }
 
-TEST_F(Commands, WhatIsSuspendedIsForgottenWithItsAction) {
+TEST_F(Commands, ASuspensionEndsWithItsAction) {
     desk.execute(go("go"));
     desk.execute(named("hold", suspend("navigation")));
     desk.execute(named("halt", stop("navigation")));
@@ -149,7 +149,7 @@ TEST_F(Commands, OfTheProfileMayMakeTheComponentIdle) {
     EXPECT_THAT(desk.heard(), ElementsAre("4 completed idle ERROR"));
 }
 
-TEST_F(Commands, OfTheProfileLeaveWhatIsActiveAsItIs) {
+TEST_F(Commands, OfTheProfileLeaveAnActiveFunctionUnchanged) {
     desk.execute(command("dock", "navigation"));
     world["navigation"].finishes(CompletedStatus::ok, {}, Afterwards::active);
     desk.execute(command("dock", "navigation"));
@@ -173,7 +173,7 @@ TEST_F(Commands, OfTheProfileDoNotEndAStartThatRuns) {
     EXPECT_THAT(desk.heard(), ElementsAre(testing::_, testing::_, "3 completed go OK", "4 completed idle ERROR"));
 }
 
-TEST_F(Commands, WhatOneOfTheProfileMadeActiveEndsWithTheBinding) {
+TEST_F(Commands, AFunctionThatACommandOfTheProfileMadeActiveEndsWithTheBinding) {
     desk.execute(command("dock", "navigation"));
     world["navigation"].finishes(CompletedStatus::ok, {}, Afterwards::active);
     desk.release("navigation");
@@ -190,13 +190,13 @@ TEST_F(Commands, AFunctionThatFailsToStartIsNotActive) {
 
 TEST_F(Commands, OfTheComponentsOwnProfileHaveArgumentsAndResults) {
     desk.execute(named("dock", command("dock", "navigation", {text("side", "right")})));
-    EXPECT_EQ(in_words(world["navigation"].started_with), "side=right times=1") << "what is left out has its default value";
+    EXPECT_EQ(in_words(world["navigation"].started_with), "side=right times=1") << "missing arguments have their default values";
     EXPECT_EQ(desk.result_of("dock"), "RUNNING");
     world["navigation"].finishes(CompletedStatus::ok, {{integer("charge", 80)}, {}});
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock OK"));
     EXPECT_EQ(desk.result_of("dock"), "OK charge=80");
     EXPECT_EQ(in_words(desk.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time")
-        << "arguments of a command are no parameters";
+        << "arguments of a command are not parameters";
 }
 
 TEST_F(Commands, OfAnUnknownTypeAreABadParameter) {
@@ -280,7 +280,7 @@ TEST_F(Commands, TimeoutsEndWithTheCommand) {
 
 // --- Results (decision 17) ---
 
-TEST_F(Commands, TellWhetherTheyWaitOrRun) {
+TEST_F(Commands, ReportWhetherTheyWaitOrRun) {
     desk.execute(go("go"), say("say"));
     EXPECT_EQ(desk.result_of("go"), "RUNNING");
     EXPECT_EQ(desk.result_of("say"), "WAITING");
@@ -291,7 +291,7 @@ TEST_F(Commands, TellWhetherTheyWaitOrRun) {
     EXPECT_EQ(desk.result_of("say"), "ERROR");
 }
 
-TEST_F(Commands, TellWhyTheyDidNotEndWell) {
+TEST_F(Commands, ReportWhyTheyDidNotEndWithOk) {
     desk.execute(go("first"));
     desk.execute(go("second"));
     EXPECT_EQ(desk.reason_of("first"), "another start took its place");
@@ -308,7 +308,7 @@ TEST_F(Commands, AreKnownInTheirOwnSessionOnly) {
     EXPECT_EQ(world.connect().result_of("go"), "BAD_PARAMETER");
 }
 
-TEST_F(Commands, AreChosenFromByTheirResults) {
+TEST_F(Commands, HaveResultsThatAConditionSelects) {
     desk.execute(named("dock", command("dock", "navigation")));
     world["navigation"].finishes(CompletedStatus::ok, {{integer("charge", 80)}, {}});
     EXPECT_EQ(desk.result_of("dock", equal("charge", "80")), "OK charge=80");
@@ -319,7 +319,7 @@ TEST_F(Commands, AreChosenFromByTheirResults) {
 TEST_F(Commands, AreForgottenAfterTenMinutes) {
     desk.execute(go("go"));
     world.advance(11min);
-    EXPECT_EQ(desk.result_of("go"), "RUNNING") << "what runs is never forgotten";
+    EXPECT_EQ(desk.result_of("go"), "RUNNING") << "a running command is never forgotten";
     world["navigation"].finishes();
     world.advance(10min - 50ms);
     EXPECT_EQ(desk.result_of("go"), "OK");
@@ -337,19 +337,19 @@ TEST(Results, OfTheLastThousandAreKept) {
     EXPECT_EQ(desk.result_of("1"), "BAD_PARAMETER");
     EXPECT_EQ(desk.result_of("2"), "OK");
     EXPECT_EQ(desk.result_of("4"), "OK");
-    EXPECT_EQ(desk.execute(named("1", stop("navigation"))).return_code, ReturnCode::ok) << "the name is free again";
+    EXPECT_EQ(desk.execute(named("1", stop("navigation"))).return_code, ReturnCode::ok) << "the command_id is free again";
 }
 
-TEST(Results, ThatHaveAgedOutLeaveTheirNameFree) {
+TEST(Results, ThatHaveExpiredFreeTheirCommandId) {
     World world{navigation};
     auto desk = world.connect();
     desk.bind("navigation");
     desk.execute(named("halt", stop("navigation")));
-    world.now = world.now + 10min;  // and nothing has ticked since
+    world.now = world.now + 10min;  // without a tick in between
     EXPECT_EQ(desk.execute(named("halt", stop("navigation"))).return_code, ReturnCode::ok);
 }
 
-TEST(Results, OfEachSessionAgeOutInTheirTurn) {
+TEST(Results, OfEachSessionExpireSeparately) {
     EngineSettings settings;
     settings.max_command_results = 2;
     settings.command_results = 10s;
@@ -366,10 +366,10 @@ TEST(Results, OfEachSessionAgeOutInTheirTurn) {
     halt(hall, "h1", "speech");
     halt(desk, "d2", "navigation");
     world.advance(2s);
-    halt(desk, "d3", "navigation");  // d1 is one too many
+    halt(desk, "d3", "navigation");  // d1 exceeds the limit
     EXPECT_EQ(desk.result_of("d1"), "BAD_PARAMETER");
     world.advance(1s);
-    door.leave();  // before its result has aged out
+    door.leave();  // before its result has expired
     world.advance(8s);
     auto const known = [&] {
         std::string words;

@@ -1,4 +1,4 @@
-// Comparisons of conditions: numbers, times, texts, lists, what is not there; patterns.
+// Comparisons in conditions: numbers, times, texts, lists, missing values and patterns.
 #include <gmock/gmock.h>
 
 #include "conditions.hpp"
@@ -12,7 +12,7 @@ using testing::IsEmpty;
 
 namespace {
 
-// Two lamps whose parameters the test sets, and a component that has none of them.
+// Two lamps with parameters that the test sets, and a component without these parameters.
 struct Comparisons : testing::Test {
     World world{named("dim", desk_lamp), named("bright", desk_lamp), navigation};
     Application desk = world.connect();
@@ -82,7 +82,7 @@ TEST_F(Comparisons, NamesAreNeverNumbers) {
     EXPECT_THAT(guide.search(equal("component_ref", "1")), ElementsAre("1"));
 }
 
-TEST_F(Comparisons, TrueIsOneAndFalseIsNought) {
+TEST_F(Comparisons, TrueEqualsOneAndFalseEqualsZero) {
     set("dim", "lit", "bool", {"0"});
     set("bright", "lit", "bool", {"true"});
     EXPECT_THAT(found(equal("lit", "1")), ElementsAre("bright"));
@@ -91,13 +91,13 @@ TEST_F(Comparisons, TrueIsOneAndFalseIsNought) {
 }
 
 TEST_F(Comparisons, WithALiteralOfAnotherTypeAreRefused) {
-    EXPECT_EQ(reason(less("count", "many")), "the condition compares a number with 'many', which is none");
-    EXPECT_EQ(reason(less("since", "noon")), "the condition compares a time with 'noon', which is none");
-    EXPECT_EQ(reason(equal("lit", "yes")), "the condition compares a true or false with 'yes', which is none");
+    EXPECT_EQ(reason(less("count", "many")), "the condition compares a number with 'many', which is not one");
+    EXPECT_EQ(reason(less("since", "noon")), "the condition compares a time with 'noon', which is not one");
+    EXPECT_EQ(reason(equal("lit", "yes")), "the condition compares a true or false with 'yes', which is not one");
     EXPECT_THAT(reason({PropertyComparison{Comparator::equal, reference("label"), {spot(1, 2)}}}), HasSubstr("geometry"));
 }
 
-TEST_F(Comparisons, CaseCountsUnlessItIsSaidNotTo) {
+TEST_F(Comparisons, AreCaseSensitiveByDefault) {
     set("dim", "label", "string", {"Grün"});
     set("bright", "label", "string", {"GRÜN"});
     EXPECT_THAT(found(equal("label", "GRÜN")), ElementsAre("bright"));
@@ -123,7 +123,7 @@ TEST_F(Comparisons, SeveralValuesMatchAnyAllOrOne) {
     EXPECT_THAT(found(below("4", MatchAction::any)), ElementsAre("bright", "dim"));
     EXPECT_THAT(found(below("4", MatchAction::all)), ElementsAre("dim"));
     EXPECT_THAT(found(below("4", MatchAction::one)), ElementsAre("bright"));
-    EXPECT_THAT(found(compared("counts", Comparator::equal, "2", MatchAction::one)), IsEmpty()) << "two of them are 2";
+    EXPECT_THAT(found(compared("counts", Comparator::equal, "2", MatchAction::one)), IsEmpty()) << "two of the values are 2";
 }
 
 TEST_F(Comparisons, OneOfSeveralValuesIsChosenByItsPlace) {
@@ -135,7 +135,7 @@ TEST_F(Comparisons, OneOfSeveralValuesIsChosenByItsPlace) {
     EXPECT_THAT(found(is_null("labels[3]")), ElementsAre("bright", "dim", "navigation"));
 }
 
-TEST_F(Comparisons, WhatIsNotThereMeetsNothing) {
+TEST_F(Comparisons, MissingValuesNeverMatch) {
     set("dim", "count", "int", {"1"});
     EXPECT_THAT(found(not_equal("count", "5")), ElementsAre("dim"));
     EXPECT_THAT(found(compared("count", Comparator::equal, "1", MatchAction::all)), ElementsAre("dim"));
@@ -177,17 +177,17 @@ TEST_F(Comparisons, APatternHasWildCards) {
     EXPECT_THAT(found(like("component_ref", "d?")), IsEmpty());
     EXPECT_THAT(found(like("component_ref", "*")), ElementsAre("bright", "dim", "navigation"));
     EXPECT_THAT(found(like("component_ref", "")), IsEmpty());
-    EXPECT_THAT(found(like("component_ref", "bri*ght*")), ElementsAre("bright")) << "a wild card may stand for nothing";
+    EXPECT_THAT(found(like("component_ref", "bri*ght*")), ElementsAre("bright")) << "a wild card matches an empty text";
     EXPECT_THAT(found({PropertyIsLike{literal("na*"), reference("name"), "*", "?", "!"}}), ElementsAre("navigation"));
     EXPECT_THAT(found({PropertyIsLike{reference("name"), literal("d%"), "%", "_", "\\"}}), ElementsAre("dim"));
 }
 
-TEST_F(Comparisons, APatternMindsCaseUnlessItIsSaidNotTo) {
+TEST_F(Comparisons, APatternIsCaseSensitiveByDefault) {
     set("dim", "label", "string", {"Please HELP Élodie"});
     EXPECT_THAT(found(like("label", "*help*")), IsEmpty());
     EXPECT_THAT(found(like("label", "*help*", Letters::ignored)), ElementsAre("dim"));
     EXPECT_THAT(found(like("label", "*éLODIE", Letters::ignored)), ElementsAre("dim"));
-    EXPECT_THAT(found(like("component_type", "*::LAMP")), ElementsAre("bright", "dim")) << "types have no case";
+    EXPECT_THAT(found(like("component_type", "*::LAMP")), ElementsAre("bright", "dim")) << "types are not case-sensitive";
 }
 
 TEST_F(Comparisons, APatternsCharactersMayBeEscaped) {
@@ -197,7 +197,7 @@ TEST_F(Comparisons, APatternsCharactersMayBeEscaped) {
     EXPECT_THAT(found(like("label", "50??")), ElementsAre("bright", "dim"));
     set("bright", "label", "string", {"!"});
     EXPECT_THAT(found(like("label", "!!")), ElementsAre("bright"));
-    EXPECT_THAT(found(like("label", "!")), ElementsAre("bright")) << "at the end, it stands for itself";
+    EXPECT_THAT(found(like("label", "!")), ElementsAre("bright")) << "at the end, it matches itself";
 }
 
 TEST_F(Comparisons, APatternCountsCharactersAndNotBytes) {
@@ -207,7 +207,7 @@ TEST_F(Comparisons, APatternCountsCharactersAndNotBytes) {
     EXPECT_THAT(found({PropertyIsLike{reference("label"), literal("受＊"), "＊", "？", "！"}}), ElementsAre("dim"));
 }
 
-TEST_F(Comparisons, APatternThatIsNoneIsRefused) {
+TEST_F(Comparisons, AnInvalidPatternIsRefused) {
     auto const with = [](std::string wild, std::string single, std::string escape) {
         return Condition{PropertyIsLike{reference("name"), literal("d*"), std::move(wild), std::move(single), std::move(escape)}};
     };
@@ -219,8 +219,8 @@ TEST_F(Comparisons, APatternThatIsNoneIsRefused) {
     EXPECT_THAT(reason(like("name", std::string(1'001, 'a'))), HasSubstr("1000"));
 }
 
-// Any way of trying again and again would take for ever here.
-TEST_F(Comparisons, AHostilePatternIsDoneInNoTime) {
+// Backtracking would practically never end here.
+TEST_F(Comparisons, AHostilePatternIsMatchedQuickly) {
     set("dim", "label", "string", {std::string(60'000, 'a')});
     std::string stars;
     for (int i = 0; i < 400; ++i) stars += "*a?";
@@ -228,14 +228,14 @@ TEST_F(Comparisons, AHostilePatternIsDoneInNoTime) {
     EXPECT_THAT(found(like("label", stars + "*")), ElementsAre("dim"));
 }
 
-TEST_F(Comparisons, WhatIsTooLongIsAsIfItWereNotThere) {
+TEST_F(Comparisons, ValuesThatAreTooLongCountAsMissing) {
     set("dim", "label", "string", {std::string(64 * 1'024, 'a')});
     EXPECT_THAT(found(like("label", "a*")), ElementsAre("dim"));
     set("dim", "label", "string", {std::string(64 * 1'024 + 1, 'a')});
     EXPECT_THAT(found(like("label", "a*")), IsEmpty());
 }
 
-TEST_F(Comparisons, ListsOfTooManyPairsMeetNothing) {
+TEST_F(Comparisons, ListsOfTooManyPairsNeverMatch) {
     auto const numbers = [](int count) {
         std::string text;
         for (int i = 0; i < count; ++i) text += "7 ";
@@ -245,7 +245,7 @@ TEST_F(Comparisons, ListsOfTooManyPairsMeetNothing) {
     set("dim", "counts", "int[]", {numbers(300)});
     set("bright", "counts", "int[]", {numbers(1'000)});
     EXPECT_THAT(found(with_itself), ElementsAre("dim"));
-    EXPECT_THAT(found(equal("counts", "7")), ElementsAre("bright", "dim")) << "one value with many is well";
+    EXPECT_THAT(found(equal("counts", "7")), ElementsAre("bright", "dim")) << "comparing one value with many is allowed";
 }
 
 TEST_F(Comparisons, TooManyPredicatesAreRefused) {

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// Applications and components that do anything, in an order that a seed draws.
+// Applications and components that act at random, by a seed.
 class Turmoil {
 public:
     explicit Turmoil(unsigned seed) : random_{seed} {
@@ -50,7 +50,7 @@ public:
         for (auto& each : applications_) listen(each);
     }
 
-    // All that was given is completed once, and nothing else is.
+    // Checks that each command was completed exactly once.
     void calm_down() {
         for (auto& one : applications_) leave(one);
     }
@@ -152,7 +152,7 @@ private:
     }
 
     std::mt19937 random_;
-    std::vector<std::string> mine_;  // what the application that acts has bound
+    std::vector<std::string> mine_;  // bound by the application that acts
     World world_{navigation, speech, detection};
     std::vector<Attendant> applications_;
 };

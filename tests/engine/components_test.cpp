@@ -1,4 +1,4 @@
-// Components come and go while sessions are open; and components that are what a profile of their own says.
+// Components that are added and removed while sessions are open, and user-defined components.
 #include <gmock/gmock.h>
 
 #include <stdexcept>
@@ -13,7 +13,7 @@ using testing::IsEmpty;
 
 namespace {
 
-// A lamp that blinks: a user-defined component with messages of its own.
+// A blinking lamp: a user-defined component with messages of its own.
 Part blinking_lamp() {
     auto const parameter = [](std::string name, std::string type, std::optional<std::string> default_value) {
         return ParameterProfile{.name = std::move(name),
@@ -41,13 +41,13 @@ Parameter pattern(std::string numbers) { return value("pattern", "INT[]", {std::
 
 }  // namespace
 
-TEST(Component, HasARefWithoutWhiteSpaceAtItsEnds) {
+TEST(Component, RefMustNotBeginOrEndWithWhiteSpace) {
     EXPECT_THROW(World({named(" lamp", desk_lamp)}), std::runtime_error);
     EXPECT_THROW(World({named("lamp\n", desk_lamp)}), std::runtime_error);
     EXPECT_NO_THROW(World({named("desk lamp", desk_lamp)}));
 }
 
-TEST(UserDefined, CommandsAreHeldAgainstTheirProfile) {
+TEST(UserDefined, CommandsAreCheckedAgainstTheirProfile) {
     World world{blinking_lamp()};
     auto desk = world.connect();
     desk.bind("blinker");
@@ -96,11 +96,11 @@ TEST(UserDefined, StartTakesTheArgumentsOfItsProfile) {
     EXPECT_EQ(desk.execute(start("blinker", {integer("times", 3), value("colours", "string[]", {"blue"})})).return_code,
               ReturnCode::ok);
     EXPECT_EQ(in_words(world["blinker"].started_with), "times=3 slowly=1 colours=blue");
-    EXPECT_EQ(in_words(desk.get_parameter("blinker").parameters), "colours=blue") << "what is no parameter is not stored";
+    EXPECT_EQ(in_words(desk.get_parameter("blinker").parameters), "colours=blue") << "arguments are not stored";
     EXPECT_EQ(desk.set_parameter("blinker", {integer("times", 3)}).return_code, ReturnCode::bad_parameter);
 }
 
-TEST(UserDefined, TellsWhatItReadsAsItsProfileHasIt) {
+TEST(UserDefined, ReturnsReadableParametersAsItsProfileDeclaresThem) {
     auto const with = [](std::string name, std::string type, std::optional<std::string> default_value) {
         auto part = named("speech", speech);
         part.profile.messages = {
@@ -125,7 +125,7 @@ TEST(UserDefined, TellsWhatItReadsAsItsProfileHasIt) {
         desk.bind("speech");
         EXPECT_EQ(in_words(desk.get_parameter("speech").parameters), "Synthesizable_Languages=en|ja");
         desk.set_parameter("speech", {value("synthesizable_languages", "string[]", {"de"})});
-        EXPECT_EQ(in_words(desk.get_parameter("speech").parameters), "Synthesizable_Languages=de") << "what was set, and once";
+        EXPECT_EQ(in_words(desk.get_parameter("speech").parameters), "Synthesizable_Languages=de") << "the stored value, once";
     }
     World world{with("synthesizable_languages", "int", {})};
     auto desk = world.connect();
@@ -134,7 +134,7 @@ TEST(UserDefined, TellsWhatItReadsAsItsProfileHasIt) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR speech"));
 }
 
-TEST(UserDefined, EventsAndResultsAreHeldAgainstTheirProfile) {
+TEST(UserDefined, EventsAndResultsAreCheckedAgainstTheirProfile) {
     World world{blinking_lamp()};
     auto desk = world.connect();
     desk.bind("blinker");
@@ -164,7 +164,7 @@ protected:
     Application desk = world.connect();
 };
 
-TEST_F(ComingAndGoing, IsToldToAllSessionsOnce) {
+TEST_F(ComingAndGoing, NotifiesAllSessionsOnce) {
     auto hall = world.connect();
     world.change({"speech"}, {detection, named("lamp2", desk_lamp)});
     EXPECT_THAT(desk.heard(), ElementsAre("1 profile_changed"));
@@ -173,10 +173,10 @@ TEST_F(ComingAndGoing, IsToldToAllSessionsOnce) {
     auto const profile = desk.ask(GetProfile{}).profile;
     EXPECT_THAT(profile->components, ElementsAre("navigation", "detection", "lamp2"));
     world.change({}, {});
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "nothing came or went";
+    EXPECT_THAT(desk.heard(), IsEmpty()) << "nothing changed";
 }
 
-TEST_F(ComingAndGoing, LeavesTheProfileThatSomebodyReadsAsItWas) {
+TEST_F(ComingAndGoing, LeavesAProfileThatIsBeingReadUnchanged) {
     auto const before = world.engine->profile();
     world.change({"speech"}, {});
     EXPECT_THAT(before->components, ElementsAre("navigation", "speech"));
@@ -191,7 +191,7 @@ TEST_F(ComingAndGoing, OfTheLastComponentOfASubEngineEndsIt) {
     EXPECT_THAT(world.engine->profile()->sub_profiles, IsEmpty());
 }
 
-TEST_F(ComingAndGoing, EndsWhatRunsAndWhatWaitsWithAbort) {
+TEST_F(ComingAndGoing, AbortsRunningAndWaitingCommands) {
     desk.bind("navigation");
     desk.bind("speech");
     desk.execute(in_parallel({in_sequence({go("go"), say("greet")}), in_sequence({say("wait"), go("back")})}));
@@ -200,7 +200,7 @@ TEST_F(ComingAndGoing, EndsWhatRunsAndWhatWaitsWithAbort) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed go ABORT", "2 completed greet ABORT", "3 profile_changed"));
     world["speech"].finishes();
     EXPECT_THAT(desk.heard(), ElementsAre("4 completed wait OK", "5 completed back ABORT"));
-    EXPECT_EQ(desk.result_of("go"), "ABORT") << "what it did is still known";
+    EXPECT_EQ(desk.result_of("go"), "ABORT") << "its result is still known";
 }
 
 TEST_F(ComingAndGoing, EndsCommandsOfTheComponentsOwnProfileToo) {
@@ -209,10 +209,10 @@ TEST_F(ComingAndGoing, EndsCommandsOfTheComponentsOwnProfileToo) {
     world.change({"navigation"}, {});
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock ABORT", "2 profile_changed"));
     world.advance(std::chrono::seconds{2});
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "nobody waits for it any more";
+    EXPECT_THAT(desk.heard(), IsEmpty()) << "the command has ended";
 }
 
-TEST_F(ComingAndGoing, EndsWhatRunsForNobody) {
+TEST_F(ComingAndGoing, EndsCommandsWithoutASession) {
     EngineSettings settings;
     settings.on_session_end = OnSessionEnd::continue_;
     World lasting{{navigation}, settings};
@@ -237,14 +237,14 @@ TEST_F(ComingAndGoing, LosesBindingsAndKeepsSubscriptions) {
     EXPECT_EQ(desk.subscribe("person_detected").return_code, ReturnCode::unsupported);
     world.change({}, {detection});
     auto hall = world.connect();
-    EXPECT_EQ(hall.bind("detection"), ReturnCode::ok) << "nobody has it bound";
+    EXPECT_EQ(hall.bind("detection"), ReturnCode::ok) << "it is not bound any more";
     world["detection"].fires("person_detected", one);
     EXPECT_THAT(desk.heard(), ElementsAre("1 profile_changed", "2 person_detected detection", "3 profile_changed",
                                           "4 profile_changed", "5 person_detected detection"));
     EXPECT_EQ(desk.last_heard<ReceiveEvent>().subscribe_id, subscription.subscribe_id);
 }
 
-TEST_F(ComingAndGoing, LeavesTheDetailsOfEventsThatWereTold) {
+TEST_F(ComingAndGoing, KeepsTheDetailsOfEarlierEvents) {
     world.change({}, {detection});
     desk.subscribe("person_detected");
     world["detection"].fires("person_detected", {date_time("timestamp", world.now.utc), integer("number", 1)});
@@ -255,7 +255,7 @@ TEST_F(ComingAndGoing, LeavesTheDetailsOfEventsThatWereTold) {
     EXPECT_EQ(desk.detail_of(event, equal("colour", "red")).return_code, ReturnCode::bad_parameter);
 }
 
-TEST_F(ComingAndGoing, GivesACommandOfAnotherTimeNoNewComponent) {
+TEST_F(ComingAndGoing, DoesNotGiveAnOldCommandTheNewComponent) {
     desk.bind("navigation");
     desk.bind("speech");
     desk.execute(in_sequence({say("greet"), go("go")}));
@@ -290,7 +290,7 @@ TEST_F(ComingAndGoing, EndsWellInTheMiddleOfAll) {
     desk.bind("navigation");
     desk.execute(go("go"));
     world.engine.reset();
-    SUCCEED() << "what runs is freed with the engine";
+    SUCCEED() << "running commands are freed with the engine";
 }
 
 }  // namespace rois

@@ -1,4 +1,4 @@
-// Conditions in the words of the operators: `less("count", "10")`, `within("location", box(0, 0, 5, 5))`.
+// Short functions that make conditions: `less("count", "10")`, `within("location", box(0, 0, 5, 5))`.
 #pragma once
 
 #include <initializer_list>

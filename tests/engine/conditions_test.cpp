@@ -1,4 +1,4 @@
-// What a condition says (decisions 18 and 19), asked through search.
+// The meaning of conditions (decisions 18 and 19), tested through search.
 #include <gmock/gmock.h>
 
 #include "world.hpp"
@@ -37,19 +37,19 @@ TEST_F(Conditions, EqualComparesTwoReferencesOrTwoLiterals) {
     EXPECT_THAT(found(equal_sides({Literal{"a"}}, {Literal{" a "}})), testing::SizeIs(3));
 }
 
-TEST_F(Conditions, EqualMindsTheCaseOfValuesButNotOfReferences) {
+TEST_F(Conditions, EqualIsCaseSensitiveForValuesButNotForReferences) {
     EXPECT_THAT(found(equal(" Component_Ref ", " speech ")), ElementsAre("speech"));
     EXPECT_THAT(found(equal("component_ref", "Speech")), IsEmpty());
     EXPECT_THAT(found(alike("component_ref", "Speech")), ElementsAre("speech"));
     EXPECT_THAT(found(alike("engine", "SUB1")), ElementsAre("sub1.speech"));
 }
 
-TEST_F(Conditions, TypesHaveNoCase) {
+TEST_F(Conditions, TypesAreNotCaseSensitive) {
     EXPECT_THAT(found(equal("component_type", "URN:x-rois:def:component:omg::navigation")), ElementsAre("navigation"));
     EXPECT_THAT(found(equal_reversed("urn:x-rois:def:component:OMG::NAVIGATION", "component_type")), ElementsAre("navigation"));
 }
 
-TEST_F(Conditions, SpeakOfWhatChanges) {
+TEST_F(Conditions, MayReferToStateThatChanges) {
     world["speech"].status_now = ComponentStatus::warning;
     desk.bind("navigation");
     EXPECT_THAT(found(equal("status", "WARNING")), ElementsAre("speech"));
@@ -84,7 +84,7 @@ TEST_F(Conditions, WithAnUnknownReferenceAreRefusedWithTheKnownOnes) {
                 HasSubstr("'colour'"));
 }
 
-TEST_F(Conditions, ThatAreNotUnderstoodSayWhy) {
+TEST_F(Conditions, ThatAreNotSupportedAreRefusedWithAReason) {
     EXPECT_EQ(reason(not_understood("PropertyIsLike is not supported")), "PropertyIsLike is not supported");
     EXPECT_EQ(reason(both({equal("name", "speech"), not_understood("nor is this")})), "nor is this");
     EXPECT_EQ(desk.ask(Search{not_understood("x")}).return_code, ReturnCode::bad_parameter);

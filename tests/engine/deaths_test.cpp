@@ -1,5 +1,5 @@
-// Links and applications die at random moments of random commands: nothing that moves goes on for longer than its lease
-// (decision 33), whatever its component does about it.
+// Links and applications end at random moments: no motion lasts longer than its lease (decision 33), however badly the component
+// behaves.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ private:
     std::mt19937 engine_;
 };
 
-// Moves when it is told to, and does it badly at times: throws in the middle, confirms late, ends by itself.
+// Moves on command, with faults: throws halfway, confirms late, ends by itself.
 class Mover final : public Component {
 public:
     Mover(std::string const& ref, Dice& dice) : dice_{dice} {
@@ -39,7 +39,7 @@ public:
 
     bool moves() const { return moves_; }
 
-    // What it does by itself, once a tick.
+    // Called once a tick.
     void live() {
         if (ticks_to_halt_ > 0) {
             --ticks_to_halt_;
@@ -89,11 +89,11 @@ private:
     ComponentPort* port_ = nullptr;
     CommandHandle command_{};
     bool moves_ = false;
-    int ticks_to_halt_ = 0;  // while it halts
-    bool failed_ = false;    // the last time: it does not fail twice in a row
+    int ticks_to_halt_ = 0;  // while it halts; 0: it does not
+    bool failed_ = false;    // last time, so it does not fail twice in a row
 };
 
-// An application that commands at random while it lives. It asks for leases of 2 s, however it is connected.
+// An application that sends random commands during its life. It asks for leases of 2 s on any link.
 class Mortal {
 public:
     enum class Way : std::uint8_t { websocket, stream, requests };
@@ -121,8 +121,7 @@ public:
 private:
     Link link() const { return way_ == Way::websocket ? Link::websocket : Link::stream; }
 
-    // A stream that breaks is closed by the system, when it misses the answers to its probes: at once here. A WebSocket falls
-    // silent, or closes.
+    // The system closes a broken stream when its probes are not answered: here at once. A WebSocket falls silent, or closes.
     void die() {
         died_ = true;
         if (way_ == Way::stream || (way_ == Way::websocket && dice_.one_in(2)))
@@ -172,7 +171,7 @@ private:
     bool died_ = false;
 };
 
-// The longest that something moved after the death of the only application that can command it.
+// The longest motion after the death of the only application that can command it.
 std::chrono::nanoseconds longest_afterlife(std::uint32_t seed, int& moved) {
     Dice dice{seed};
     World world{std::vector<Part>{}, EngineSettings{}};
@@ -213,7 +212,7 @@ TEST(Deaths, OfLinksAndApplicationsEndTheirMotion) {
     int moved = 0;
     for (std::uint32_t seed = 1; seed <= 10'000; ++seed)
         ASSERT_LE(longest_afterlife(seed, moved), 2'500ms) << "with the seed " << seed;
-    EXPECT_GT(moved, 1'000'000) << "else the test says little";
+    EXPECT_GT(moved, 1'000'000) << "otherwise the test proves little";
 }
 
 }  // namespace rois

@@ -1,4 +1,4 @@
-// Decisions 10 to 17 and 33 to 35 by number: sequences of commands, and what remains of them; how it is held and stopped.
+// Decisions 10 to 17 and 33 to 35 by number: command sequences, their results, and how motion is held and stopped.
 #include <gmock/gmock.h>
 
 #include <set>
@@ -15,7 +15,7 @@ using testing::StartsWith;
 
 namespace {
 
-// An application that has all of it.
+// An application that has bound all components.
 struct Owner {
     World world;
     Application desk;
@@ -64,7 +64,7 @@ TEST_F(Decision10, OneBadUnitAndNothingRuns) {
     EXPECT_THAT(desk.heard(), IsEmpty());
 }
 
-TEST_F(Decision11, EveryCommandHasAnIdAndTheAnswerTellsThem) {
+TEST_F(Decision11, EveryCommandHasAnIdThatTheAnswerReturns) {
     auto const reply = desk.execute(go("mine"), in_parallel({say(""), go("")}));
     auto const ids = ids_of(reply.command_unit_list.command_unit_list);
     EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), 3U);
@@ -97,14 +97,14 @@ TEST_F(Decision12, EveryCommandCompletesOnceWhateverHappens) {
     EXPECT_THAT(desk.heard(), ElementsAre("9 completed is left ABORT"));
 }
 
-TEST_F(Decision13, WhatIsNotOkEndsItsSequence) {
+TEST_F(Decision13, ACommandThatIsNotOkEndsItsSequence) {
     desk.execute(branches({{go("a"), go("b")}, {say("c"), say("d")}}), go("e"));
     world["navigation"].finishes(CompletedStatus::timeout);
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed a TIMEOUT", "2 completed b ABORT"));
     world["speech"].finishes();
     world["speech"].finishes();
     EXPECT_THAT(desk.heard(), ElementsAre("3 completed c OK", "4 completed d OK", "5 completed e ABORT"))
-        << "the other branch runs on, then the unit counts as failed";
+        << "the other branch continues, then the unit counts as failed";
     desk.execute(go("f"), say("g"), go("h"));
     desk.release("speech");
     world["navigation"].finishes();
@@ -114,10 +114,10 @@ TEST_F(Decision13, WhatIsNotOkEndsItsSequence) {
     desk.release("speech");
     desk.bind("speech");
     world["navigation"].finishes();
-    EXPECT_THAT(desk.heard(), ElementsAre("9 completed i OK", "10 completed j ABORT")) << "binding again does not find it";
+    EXPECT_THAT(desk.heard(), ElementsAre("9 completed i OK", "10 completed j ABORT")) << "a new binding does not change that";
 }
 
-TEST_F(Decision14, AllFormsOfSequencesAreTaken) {
+TEST_F(Decision14, AllFormsOfSequencesAreAccepted) {
     auto const running = [&] {
         std::string all;
         for (auto const* id : {"a", "b", "c", "d"})
@@ -130,7 +130,7 @@ TEST_F(Decision14, AllFormsOfSequencesAreTaken) {
         EXPECT_EQ(running(), "ac") << "each child is a branch";
         world["navigation"].finishes();
         world["speech"].finishes();
-        EXPECT_EQ(running(), "b") << "what follows waits for all branches";
+        EXPECT_EQ(running(), "b") << "the next unit waits for all branches";
         world["navigation"].finishes();
         EXPECT_EQ(running(), "d");
         desk.leave();
@@ -141,13 +141,13 @@ TEST_F(Decision14, AllFormsOfSequencesAreTaken) {
     EXPECT_EQ(running(), "") << "a unit without a type only delays";
     world.advance(100ms);
     EXPECT_EQ(running(), "ac") << "each of the flat form is a branch";
-    EXPECT_EQ(desk.execute(pause(100ms)).return_code, ReturnCode::bad_parameter) << "a sequence without a command is none";
+    EXPECT_EQ(desk.execute(pause(100ms)).return_code, ReturnCode::bad_parameter) << "a sequence needs a command";
 }
 
 TEST_F(Decision15, ADelayCountsFromTheUnitsTurn) {
     desk.execute(after(200ms, go("a")), after(300ms, say("b")));
     world.advance(150ms);
-    EXPECT_EQ(desk.result_of("a"), "WAITING") << "for the first unit from receipt";
+    EXPECT_EQ(desk.result_of("a"), "WAITING") << "from the receipt of the request, for the first unit";
     world.set_calendar(24h);
     world.advance(50ms);
     EXPECT_EQ(desk.result_of("a"), "RUNNING") << "in real time, whatever the calendar says";
@@ -175,9 +175,9 @@ TEST_F(Decision16, ACommandMustHaveStartedWithinItsTimeout) {
     world["navigation"].on_start = OnStart::acts;
     desk.execute(go("begun"));
     world.advance(1h);
-    EXPECT_EQ(desk.result_of("begun"), "RUNNING") << "what has begun has no timeout of the engine's";
+    EXPECT_EQ(desk.result_of("begun"), "RUNNING") << "the engine sets no timeout for a command that has started";
     world["navigation"].finishes(CompletedStatus::timeout);
-    EXPECT_EQ(desk.result_of("begun"), "TIMEOUT") << "its own time limit is the component's";
+    EXPECT_EQ(desk.result_of("begun"), "TIMEOUT") << "the component has its own time limit";
     world["navigation"].throws_in = {"start"};
     desk.execute(go("broken"));
     EXPECT_THAT(desk.heard(),
@@ -192,14 +192,14 @@ TEST_F(Decision17, ResultsSayHowFarACommandIs) {
     EXPECT_EQ(desk.result_of("dock"), "OK charge=80");
     EXPECT_EQ(desk.result_of("nothing"), "BAD_PARAMETER");
     world.advance(10min);
-    EXPECT_EQ(desk.result_of("dock"), "BAD_PARAMETER") << "aged out";
+    EXPECT_EQ(desk.result_of("dock"), "BAD_PARAMETER") << "expired";
     EXPECT_EQ(desk.result_of("say"), "RUNNING");
     world["speech"].finishes();
     for (int i = 0; i < 1'000; ++i) desk.execute(stop("speech")), desk.heard();
-    EXPECT_EQ(desk.result_of("say"), "BAD_PARAMETER") << "a thousand have come since";
+    EXPECT_EQ(desk.result_of("say"), "BAD_PARAMETER") << "a thousand commands came after it";
 }
 
-TEST(Decision33, WhatMovesIsHeldWhenItsApplicationIsSilent) {
+TEST(Decision33, MotionIsHeldWhenItsApplicationIsSilent) {
     auto wheels = navigation;
     wheels.moves = true;
     World world{wheels};

@@ -1,4 +1,4 @@
-// Decisions 18 to 28 by number, as far as the engine keeps them: queries, events, notifications, errors, values.
+// Decisions 18 to 28 by number, as far as they concern the engine: queries, events, notifications, errors, values.
 #include <gmock/gmock.h>
 
 #include "conditions.hpp"
@@ -17,7 +17,7 @@ ParameterList people(int number) { return {integer("number", number)}; }
 
 }  // namespace
 
-TEST(Decision18, TheConditionChoosesWhoAnswers) {
+TEST(Decision18, TheConditionSelectsTheComponentThatAnswers) {
     World world{named("robot_b", navigation), named("robot_a", navigation), in_engine("sub1", named("robot_c", navigation)),
                 speech};
     auto desk = world.connect(), hall = world.connect();
@@ -36,7 +36,7 @@ TEST(Decision18, TheConditionChoosesWhoAnswers) {
     desk.subscribe("reached_target");
     for (auto const* ref : {"robot_a", "sub1.robot_c"}) world[ref].fires("reached_target");
     EXPECT_THAT(desk.heard(), ElementsAre("1 reached_target robot_a", "2 reached_target sub1.robot_c"))
-        << "without a condition all of them are heard";
+        << "without a condition, all are received";
     EXPECT_EQ(desk.subscribe("earthquake").return_code, ReturnCode::unsupported);
 }
 
@@ -53,7 +53,7 @@ TEST(Decision18, ReferencesAreThoseOfTheVocabulary) {
     EXPECT_THAT(desk.search(equal("colour", "red")), ElementsAre("BAD_PARAMETER"));
 }
 
-TEST(Decision19, OnlyMatchingEventsAndResultsAreTold) {
+TEST(Decision19, OnlyMatchingEventsAndResultsAreReported) {
     World world{detection, localization, navigation};
     auto desk = world.connect();
     desk.bind("navigation");
@@ -77,14 +77,15 @@ TEST(Decision19, OnlyMatchingEventsAndResultsAreTold) {
     EXPECT_THAT(desk.detail_of(error, like("text", "*voice*")).results.parameters, IsEmpty());
 }
 
-TEST(Decision20, TheSameSubscriptionIsOne) {
+TEST(Decision20, EqualSubscriptionsAreOne) {
     World world{detection};
     auto desk = world.connect(), hall = world.connect();
     auto const a = equal("component_ref", "detection"), b = greater("number", "0");
     auto const id = desk.subscribe("person_detected", both({a, b})).subscribe_id;
     EXPECT_EQ(desk.subscribe("person_detected", both({b, a}), true).subscribe_id, id) << "the same after canonicalisation";
     world["detection"].fires("person_detected", people(1));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection number=1")) << "told once, and the last wish wins";
+    EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection number=1"))
+        << "received once, and the last inline_results wins";
     EXPECT_EQ(hall.subscribe("person_detected", both({a, b})).subscribe_id, id) << "an id names type and condition";
     EXPECT_EQ(desk.unsubscribe(id), ReturnCode::ok);
     world["detection"].fires("person_detected", people(1));
@@ -118,7 +119,7 @@ TEST(Decision22, NotificationsAreNumberedAsThingsHappen) {
     desk.subscribe("person_detected");
     auto const answer = desk.notifications().hold();
     desk.execute(named("a", stop("navigation")), go("b"));
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "the answer comes before what it causes";
+    EXPECT_THAT(desk.heard(), IsEmpty()) << "the answer comes before the notifications that it causes";
     desk.notifications().release(answer);
     world["detection"].fires("person_detected");
     world["navigation"].finishes();
@@ -127,7 +128,7 @@ TEST(Decision22, NotificationsAreNumberedAsThingsHappen) {
                                           "4 USER_DEFINED_ERROR navigation"));
 }
 
-TEST(Decision23, EventsAreDroppedAndWhatMustBeToldIsNot) {
+TEST(Decision23, EventsAreDroppedAndOtherNotificationsAreNot) {
     EngineSettings settings;
     settings.max_waiting_notifications = 4;
     settings.max_sent_notifications = 4;
@@ -143,8 +144,8 @@ TEST(Decision23, EventsAreDroppedAndWhatMustBeToldIsNot) {
     for (auto const* id : {"1", "2", "3", "4"}) desk.execute(named(id, stop("navigation")));
     EXPECT_FALSE(desk.told_of_the_end());
     desk.execute(named("5", stop("navigation")));
-    EXPECT_TRUE(desk.told_of_the_end()) << "they alone fill it";
-    EXPECT_EQ(desk.heard().size(), 5U) << "and are told all the same";
+    EXPECT_TRUE(desk.told_of_the_end()) << "other notifications fill the queue";
+    EXPECT_EQ(desk.heard().size(), 5U) << "and all are received";
 }
 
 TEST(Decision23, ErrorsAreNeverDropped) {
@@ -161,7 +162,7 @@ TEST(Decision23, ErrorsAreNeverDropped) {
     for (int i = 0; i < 4; ++i) world["navigation"].reports(ErrorType::user_defined_error, "a wheel is stuck");
     EXPECT_FALSE(desk.told_of_the_end());
     world["navigation"].reports(ErrorType::user_defined_error, "a wheel is stuck");
-    EXPECT_TRUE(desk.told_of_the_end()) << "they alone fill it";
+    EXPECT_TRUE(desk.told_of_the_end()) << "other notifications fill the queue";
 }
 
 TEST(Decision23, APositionOlderThanTheRingBeginsWithWhatIsLost) {
@@ -178,7 +179,7 @@ TEST(Decision23, APositionOlderThanTheRingBeginsWithWhatIsLost) {
     EXPECT_EQ(std::get<Lost>(again.front().notification->body).count, 3U);
 }
 
-TEST(Decision24, ErrorsGoToThoseWhomTheyConcern) {
+TEST(Decision24, ErrorsGoToTheSessionsThatTheyConcern) {
     struct Floor : Device {
         void advance(Instant) override { throw std::runtime_error("the floor is gone"); }
     };
@@ -248,7 +249,7 @@ TEST(Decision24, DetailsDoNotPassToTheNextSession) {
     auto const id = desk.last_heard<ReceiveEvent>().event_id;
     desk.leave();
     auto next = world.connect();
-    EXPECT_EQ(next.detail_of(id).return_code, ReturnCode::bad_parameter) << "though it has the place of the one that left";
+    EXPECT_EQ(next.detail_of(id).return_code, ReturnCode::bad_parameter) << "although it has the slot of the session that ended";
     next.subscribe("person_detected");
     world["detection"].fires("person_detected", people(3));
     next.heard();
@@ -259,10 +260,10 @@ TEST(Decision25, ComponentsHaveNamesAndTypes) {
     World world{navigation, in_engine("sub1", navigation)};
     auto desk = world.connect();
     auto const found = desk.ask(Search{equal("component_type", "URN:X-ROIS:DEF:COMPONENT:omg::navigation")}).component_ref_list;
-    ASSERT_EQ(found.size(), 2U) << "types have no case";
+    ASSERT_EQ(found.size(), 2U) << "types are not case-sensitive";
     EXPECT_EQ(found[0], (Identifier{"navigation", "OMG", {}, {}}));
-    EXPECT_EQ(found[1].code, "sub1.navigation") << "a sub engine's component has its name before its own";
-    EXPECT_THROW((World{navigation, navigation}), std::runtime_error) << "a name is there once";
+    EXPECT_EQ(found[1].code, "sub1.navigation") << "with the name of its sub engine";
+    EXPECT_THROW((World{navigation, navigation}), std::runtime_error) << "refs are unique";
 }
 
 TEST(Decision26, ValuesAreOfTheirDeclaredTypes) {
@@ -280,14 +281,14 @@ TEST(Decision26, ValuesAreOfTheirDeclaredTypes) {
                              value("counts", "int[]", {"1 2 3"}), value("labels", "String[]", {"one", "two words"}),
                              value("owners", "RoISIdentifier[]", {}), value("grammer", "string", {"yes | no"})})
         EXPECT_EQ(set(good), "OK") << good.name;
-    EXPECT_NE(find(desk.get_parameter("lamp").parameters, "grammar"), nullptr) << "its right spelling";
+    EXPECT_NE(find(desk.get_parameter("lamp").parameters, "grammar"), nullptr) << "in the correct spelling";
     EXPECT_EQ(set(value("count", "int", {"2147483648"})), "parameter 'count': '2147483648' is not of the type int");
     EXPECT_THAT(set(value("count", "string", {"7"})), HasSubstr("'count' is declared as 'string', its type is int"));
     EXPECT_THAT(set(value("count", "int", {"1", "2"})), HasSubstr("'count': a single value of the type int needs exactly one"));
     EXPECT_THAT(set(value("colour", "string", {"red"})), HasSubstr("unknown parameter 'colour'"));
 }
 
-TEST(Decision26, PublishedSpellingsAreTakenAndWrittenAsTheSeedHasThem) {
+TEST(Decision26, PublishedSpellingsAreAcceptedAndReturnedInTheSeedsSpelling) {
     World world{navigation, speech};
     auto desk = world.connect();
     desk.bind("navigation");
@@ -301,7 +302,7 @@ TEST(Decision26, PublishedSpellingsAreTakenAndWrittenAsTheSeedHasThem) {
     EXPECT_NE(find(desk.get_parameter("speech").parameters, "SSML_text"), nullptr);
 }
 
-// The map of robot2 begins at (1000, 2000) of the hall, and its x axis is the hall's y axis.
+// The origin of robot2's map is at (1000, 2000) of the hall, and its x axis is the hall's y axis.
 TEST(Decision27, TheEngineConvertsBetweenTheFramesOfItsSubEngines) {
     auto driver = in_engine("robot2", navigation), finder = in_engine("robot2", localization);
     driver.crs = finder.crs = "map";
@@ -338,13 +339,13 @@ TEST(Decision30, ParametersBelongToTheBinding) {
     desk.bind("speech");
     desk.set_parameter("speech", {text("speech_text", "hello"), integer("volume", 10)});
     EXPECT_EQ(read(desk), "synthesizable_languages=en|ja speech_text=hello volume=10 language=en");
-    EXPECT_EQ(read(hall), defaults) << "what can only be read, and the defaults";
+    EXPECT_EQ(read(hall), defaults) << "read-only parameters, and the defaults";
     EXPECT_THAT(hall.search(equal("Property/speech_text", "hello")), IsEmpty());
     desk.leave();
     hall.bind("speech");
     EXPECT_EQ(read(hall), defaults);
     EXPECT_EQ(in_words(world["speech"].changed_to), "volume=50 language=en") << "the component has the defaults, too";
-    EXPECT_EQ(hall.execute(start("speech")).return_code, ReturnCode::bad_parameter) << "nothing to say is left";
+    EXPECT_EQ(hall.execute(start("speech")).return_code, ReturnCode::bad_parameter) << "the text is gone";
 }
 
 TEST(Decision32, EachRobotIsAnEngineAndTheMainEngineIsTheWhole) {
@@ -360,11 +361,11 @@ TEST(Decision32, EachRobotIsAnEngineAndTheMainEngineIsTheWhole) {
         desk.release("robot2.speech");
         EXPECT_EQ(desk.subscribe("reached_target", whole).subscribe_id.text, desk.subscribe("reached_target").subscribe_id.text);
     }
-    EXPECT_THAT(desk.search(not_equal("engine", "main")), IsEmpty()) << "all components are of the main engine";
+    EXPECT_THAT(desk.search(not_equal("engine", "main")), IsEmpty()) << "all components belong to the main engine";
     EXPECT_THAT(desk.search(not_equal("engine", "robot2")), ElementsAre("detection", "robot1.navigation"));
     auto const profile = [&](QueryExpression condition) { return desk.ask(GetProfile{std::move(condition)}).profile; };
     EXPECT_EQ(profile(equal("engine", "robot1"))->components, std::vector<std::string>{"robot1.navigation"});
-    EXPECT_EQ(profile({})->components, std::vector<std::string>{"detection"}) << "what belongs to no robot";
+    EXPECT_EQ(profile({})->components, std::vector<std::string>{"detection"}) << "components without a robot";
     EXPECT_EQ(profile({})->sub_profiles.size(), 2U);
 }
 

@@ -1,5 +1,4 @@
-// Decisions 1 to 9 by number: each rule as one dialogue. What else they mean is in the tests beside, listed in
-// docs/conformance-decisions.md.
+// Decisions 1 to 9 by number: each rule as one dialogue. docs/conformance-decisions.md lists the tests of the details.
 #include <gmock/gmock.h>
 
 #include "world.hpp"
@@ -73,7 +72,7 @@ TEST(Decision02, ALostLinkMayBeResumedForAWhileAndThenEndsTheSession) {
     EXPECT_FALSE(is_open(world, over_http));
 }
 
-// The first look at the end of its window is due before the later request lets it end.
+// The end of its first window is checked before the later request lets the session end.
 TEST(Decision02, ARequestPutsTheEndOffByTheTimeoutAndTheWholeWindow) {
     World world{navigation};
     auto over_http = world.connect_without_link();
@@ -106,7 +105,7 @@ TEST(Decision03, TheEndOfASessionStopsReleasesAndCancels) {
     EXPECT_NE(desk.ask(Connect{}).session, desk.session) << "connect with an ended id opens another session";
 }
 
-TEST(Decision03, WhatTheEngineEndsHearsItsLast) {
+TEST(Decision03, ASessionThatTheEngineEndsReceivesItsLastNotifications) {
     World world{navigation};
     auto desk = world.connect();
     desk.bind("navigation");
@@ -116,7 +115,7 @@ TEST(Decision03, WhatTheEngineEndsHearsItsLast) {
     EXPECT_TRUE(desk.told_of_the_end());
 }
 
-TEST(Decision03, CommandsMayRunOnWhereThatIsWanted) {
+TEST(Decision03, CommandsContinueIfConfigured) {
     EngineSettings settings;
     settings.on_session_end = OnSessionEnd::continue_;
     World world{{navigation}, settings};
@@ -132,17 +131,17 @@ TEST(Decision04, ABindingIsExclusive) {
     World world{named("robot_a", navigation), named("robot_b", navigation)};
     auto desk = world.connect(), hall = world.connect();
     EXPECT_EQ(desk.bind("robot_a"), ReturnCode::ok);
-    EXPECT_EQ(desk.bind("robot_a"), ReturnCode::ok) << "it is mine";
+    EXPECT_EQ(desk.bind("robot_a"), ReturnCode::ok) << "it is bound already";
     EXPECT_EQ(hall.bind("robot_a"), ReturnCode::out_of_resources);
     EXPECT_EQ(hall.bind("robot_c"), ReturnCode::bad_parameter);
     EXPECT_EQ(hall.bind_any(equal("name", "robot_c")), "UNSUPPORTED");
     EXPECT_EQ(hall.bind_any(equal("name", "robot_a")), "OUT_OF_RESOURCES");
     EXPECT_EQ(hall.bind_any(equal("colour", "red")), "BAD_PARAMETER");
     EXPECT_EQ(hall.bind_any(), "robot_b");
-    EXPECT_THAT(hall.search(equal("name", "robot_c")), IsEmpty()) << "no match is no mistake";
+    EXPECT_THAT(hall.search(equal("name", "robot_c")), IsEmpty()) << "no match is not an error";
 }
 
-TEST(Decision05, CommandsNeedTheBindingAndQuestionsDoNot) {
+TEST(Decision05, CommandsNeedABindingAndQueriesDoNot) {
     World world{navigation};
     auto desk = world.connect();
     EXPECT_EQ(desk.get_parameter("navigation").return_code, ReturnCode::error);
@@ -159,7 +158,7 @@ TEST(Decision05, CommandsNeedTheBindingAndQuestionsDoNot) {
     EXPECT_EQ(desk.execute(go("go")).return_code, ReturnCode::ok);
 }
 
-TEST(Decision06, ReleaseStopsWhatIHaveThere) {
+TEST(Decision06, ReleaseStopsTheCommandsOfTheSession) {
     World world{named("robot_a", navigation), named("robot_b", navigation), detection};
     auto desk = world.connect(), hall = world.connect();
     EXPECT_EQ(desk.bind_any(equal("component_type", "urn:x-rois:def:component:OMG::Navigation")), "robot_a");
@@ -177,7 +176,7 @@ TEST(Decision06, ReleaseStopsWhatIHaveThere) {
     EXPECT_EQ(desk.release("robot_c"), ReturnCode::bad_parameter);
 }
 
-TEST(Decision07, TheStatusIsThatForTheAsker) {
+TEST(Decision07, TheStatusDependsOnTheSessionThatAsks) {
     World world{navigation};
     auto desk = world.connect(), hall = world.connect();
     auto& robot = world["navigation"];
@@ -200,9 +199,10 @@ TEST(Decision08, ParametersAreStoredAndStartActs) {
     for (auto const* ref : {"navigation", "speech", "detection"}) desk.bind(ref);
     auto const stored = desk.set_parameter("speech", {text("speech_text", "hello"), integer("volume", 70)}).command_id;
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed " + stored.text + " OK")) << "stored, and completed at once";
-    EXPECT_THAT(world["speech"].told, ElementsAre("parameters_changed")) << "nobody has spoken";
+    EXPECT_THAT(world["speech"].told, ElementsAre("parameters_changed")) << "it does not speak";
     desk.execute(named("say", start("speech", {integer("volume", 20)})));
-    EXPECT_EQ(in_words(world["speech"].started_with), "speech_text=hello volume=20 language=en") << "arguments are stored first";
+    EXPECT_EQ(in_words(world["speech"].started_with), "speech_text=hello volume=20 language=en")
+        << "arguments of start are stored first";
     EXPECT_THAT(desk.heard(), IsEmpty());
     world["speech"].finishes();
     EXPECT_THAT(desk.heard(), ElementsAre("2 completed say OK")) << "an action completes at its end";
@@ -224,7 +224,7 @@ TEST(Decision08, FollowEndsByStopOrByItsTimeLimit) {
     desk.bind("follow");
     desk.execute(go("follow", "follow"), named("too late", stop("follow")));
     world.advance(1h);
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "a stop behind it never gets its turn";
+    EXPECT_THAT(desk.heard(), IsEmpty()) << "a stop after it in the sequence never runs";
     desk.execute(named("enough", stop("follow")));
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed follow OK", "2 completed enough OK", "3 completed too late OK"));
     desk.execute(go("again", "follow"));

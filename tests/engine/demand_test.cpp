@@ -1,4 +1,4 @@
-// What a condition demands of components; and that looking only at those finds what looking at all of them finds.
+// The demands of conditions, and that a lookup by demand finds the same components as a search of all.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ std::string urn(std::string const& name) { return "urn:x-rois:def:component:OMG:
 Condition of_type(std::string const& name) { return equal("component_type", urn(name)); }
 Condition resource(std::string rid) { return {ResourceId{std::move(rid)}}; }
 
-// The same condition, said so that it demands nothing of anybody.
+// The same condition, in a form without a demand.
 Condition scanned(Condition condition) {
     Condition const met_by_all{PropertyComparison{Comparator::equal, literal("a"), literal("a")}};
     return contrary(both({contrary(std::move(condition)), met_by_all}));
@@ -47,17 +47,17 @@ private:
 
 }  // namespace
 
-TEST_F(Demands, AreRefsAndTypesThatAreSaidToBeEqual) {
+TEST_F(Demands, AreRefsAndTypesInEqualComparisons) {
     EXPECT_EQ(demand(equal("component_ref", " b ")), "b ;");
     EXPECT_EQ(demand(equal_reversed("b", "name")), "b ;");
     EXPECT_EQ(demand(equal("component_ref/@code", "b")), "b ;");
     EXPECT_EQ(demand(resource("b")), "b ;");
-    EXPECT_EQ(demand(equal("component_type", " URN:x:Lamp ")), "; urn:x:lamp") << "types have no case";
+    EXPECT_EQ(demand(equal("component_type", " URN:x:Lamp ")), "; urn:x:lamp") << "types are not case-sensitive";
     EXPECT_EQ(demand(equal_reversed("Lamp", "component_type")), "; lamp");
     EXPECT_EQ(demand(alike("component_type", "Lamp")), "; lamp");
 }
 
-TEST_F(Demands, OfAndAreThoseOfTheOperandThatLeavesLeast) {
+TEST_F(Demands, OfAndAreThoseOfTheNarrowestOperand) {
     EXPECT_EQ(demand(both({equal("engine", "x"), equal("component_type", "Lamp")})), "; lamp");
     EXPECT_EQ(demand(both({equal("component_type", "Lamp"), equal("component_ref", "b")})), "b ;");
     auto const one_of = either({equal("component_type", "Lamp"), equal("component_type", "Clock")});
@@ -70,7 +70,7 @@ TEST_F(Demands, OfOrAreThoseOfAllItsOperands) {
     EXPECT_EQ(demand(either({equal("name", "c"), equal("engine", "x")})), "nothing");
 }
 
-TEST_F(Demands, AreNotWhatIsOnlyLikeThat) {
+TEST_F(Demands, AreNotDerivedFromOtherPredicates) {
     for (auto const& condition :
          {alike("component_ref", "b"), not_equal("component_type", "Lamp"), not_equal("component_ref", "b"),
           like("component_type", "Lamp"), less("component_type", "Lamp"), contrary(equal("component_ref", "b")),
@@ -81,7 +81,7 @@ TEST_F(Demands, AreNotWhatIsOnlyLikeThat) {
 
 namespace {
 
-// Draws the same from the same seed everywhere.
+// Random numbers that are the same for a seed on every machine.
 class Drawing {
 public:
     explicit Drawing(std::uint64_t seed) : random_{seed} {}
@@ -101,7 +101,7 @@ public:
         return kind < 8 ? both(std::move(operands)) : either(std::move(operands));
     }
 
-    // A component of one of several types: one of them in other letters, and some in another engine.
+    // A component of one of several types: some in other case, and some in another engine.
     Part part(std::string ref) {
         static std::vector<Part> const kinds{navigation, speech, detection, localization};
         auto part = named(std::move(ref), kinds[below(kinds.size())]);
@@ -154,7 +154,7 @@ std::vector<Part> drawn_parts(Drawing& drawing) {
     return parts;
 }
 
-// A world that changes: components go and come back as others, are bound, and not always READY.
+// A world that changes: components are replaced and bound, and some are not READY.
 struct Changing {
     Drawing drawing;
     World world{drawn_parts(drawing), EngineSettings{}};
@@ -181,7 +181,7 @@ struct Changing {
     }
 };
 
-// What all that takes a condition makes of it, in words.
+// The results of all operations with a condition, as text.
 std::string found_by(Application& desk, QueryExpression const& condition) {
     std::string words;
     for (auto const& ref : desk.search(condition)) words += ref + " ";
@@ -199,7 +199,7 @@ std::string found_by(Application& desk, QueryExpression const& condition) {
 
 }  // namespace
 
-TEST(LookingUp, FindsWhatLookingAtAllFinds) {
+TEST(LookingUp, FindsTheSameAsASearchOfAll) {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         Changing changing{seed};
         for (int i = 0; i < 40; ++i) {
@@ -214,12 +214,12 @@ TEST(LookingUp, FindsWhatLookingAtAllFinds) {
 
 namespace {
 
-// The subscriptions of an application, by what each is about; and what it was told, in those words.
+// The subscriptions of an application, by their meaning, and the events that it received, as text.
 class Subscriber {
 public:
     explicit Subscriber(World& world) : told_to_{world.connect()} {}
 
-    // Whether it may.
+    // Returns whether the subscription was accepted.
     bool subscribe(int number, std::string const& event_type, Condition condition) {
         auto const reply = told_to_.subscribe(event_type, std::move(condition));
         if (reply.return_code == ReturnCode::ok) numbers_.emplace_back(reply.subscribe_id, number);
@@ -255,7 +255,7 @@ private:
 
 }  // namespace
 
-TEST(LookingUp, TellsEventsAndErrorsToWhomLookingAtAllTellsThem) {
+TEST(LookingUp, NotifiesTheSameSessionsAsASearchOfAll) {
     std::size_t heard = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         Changing changing{seed};
@@ -281,10 +281,10 @@ TEST(LookingUp, TellsEventsAndErrorsToWhomLookingAtAllTellsThem) {
             heard += words.size();
         }
     }
-    EXPECT_GT(heard, 1'000u) << "so that there is something to compare";
+    EXPECT_GT(heard, 1'000u) << "otherwise the test proves little";
 }
 
-TEST(Subscriptions, OfOneComponentByRefAndByTypeAreToldInTheirOrder) {
+TEST(Subscriptions, ByRefAndByTypeAreNotifiedInTheOrderOfSubscribing) {
     World world{detection, named("other", detection)};
     Subscriber desk{world};
     desk.subscribe(1, "person_detected", equal("component_ref", "detection"));
@@ -304,14 +304,14 @@ TEST(Subscriptions, OfOneComponentByRefAndByTypeAreToldInTheirOrder) {
     EXPECT_THAT(desk.heard(), IsEmpty());
 }
 
-TEST(BindAny, LooksAtNobodyBehindTheFirstThatIsFree) {
+TEST(BindAny, StopsAtTheFirstFreeComponent) {
     World world{named("a", speech), named("b", speech), named("c", speech)};
     auto desk = world.connect(), hall = world.connect();
     hall.bind("a");
     world["c"].throws_in = {"location"};
     auto const nowhere = both({of_type("SpeechSynthesis"), is_null("location")});
     EXPECT_EQ(desk.bind_any(nowhere), "b");
-    EXPECT_EQ(world.engine->statistics().errors, 0u) << "c was not asked where it is, so nothing went wrong";
+    EXPECT_EQ(world.engine->statistics().errors, 0u) << "c was not asked for its position, so it did not fail";
 }
 
 }  // namespace rois

@@ -1,4 +1,4 @@
-// What a condition on details leaves of the results (decision 19).
+// Conditions on details select results (decision 19).
 #include <gmock/gmock.h>
 
 #include "conditions.hpp"
@@ -37,7 +37,7 @@ struct Details : testing::Test {
         desk.subscribe("person_localized");
     }
 
-    // What the condition leaves of an event with these results.
+    // The results that the condition selects of an event.
     Results left_of(Condition condition, ParameterList results, std::vector<Located> located = {}) {
         world["localization"].fires("person_localized", std::move(results), std::move(located));
         desk.heard();
@@ -46,7 +46,7 @@ struct Details : testing::Test {
         return std::move(reply.results);
     }
 
-    // The same in words: "p-1@1000, 1000, 0 located p-1".
+    // The same as text: "p-1@1000, 1000, 0 located p-1".
     std::string left(Condition condition, ParameterList given, std::vector<Located> located = {}) {
         auto const results = left_of(std::move(condition), std::move(given), std::move(located));
         if (results.parameters.empty()) return "nothing";
@@ -83,7 +83,7 @@ TEST_F(Details, MatchAsWholeRows) {
     auto const near_the_desk = within("position_data", {box(0, 0, 2'000, 2'000)});
     EXPECT_EQ(left(both({equal("person_ref", "p-1"), near_the_desk}), two, both_of_them), first);
     EXPECT_EQ(left(both({equal("person_ref", "p-2"), near_the_desk}), two, both_of_them), "")
-        << "somebody is p-2 and somebody is near, but nobody is both";
+        << "one person is p-2 and another is near, but none is both";
     EXPECT_EQ(left(either({equal("person_ref", "p-2"), near_the_desk}), two, both_of_them), both_there);
     EXPECT_EQ(left(contrary(equal("person_ref", "p-2")), two, both_of_them), first);
     EXPECT_EQ(left(contrary(near_the_desk), two, both_of_them), second);
@@ -110,7 +110,7 @@ TEST_F(Details, OfListsOfAnotherLengthStay) {
     auto const chosen = left_of(both({equal("person_ref", "p-2"), near("position_data", {spot(1'000, 1'000)}, 1)}), results);
     EXPECT_THAT(find(chosen.parameters, "person_ref")->values, ElementsAre("p-2"));
     EXPECT_THAT(find(chosen.parameters, "position_data")->values, ElementsAre("1000, 1000, 0"))
-        << "each list's entries beside all of the other's";
+        << "each entry is matched with all entries of the other list";
 }
 
 TEST_F(Details, OfListsOfNumbersArePackedAgain) {
@@ -126,7 +126,7 @@ TEST_F(Details, OfListsOfNumbersArePackedAgain) {
     EXPECT_EQ(in_words(left.results.parameters), "numbers=6 7 names=b|c");
 }
 
-// Whoever makes a component may leave out some located elements: then the ref says to which entry one belongs.
+// If a component reports only some located elements, the ref says to which entry each belongs.
 TEST_F(Details, FindTheEntryOfALocatedElementByItsRef) {
     EXPECT_EQ(left(equal("person_ref", "p-2"), two, {both_of_them[1]}), second);
     EXPECT_EQ(left(equal("person_ref", "p-1"), two, {both_of_them[1]}), "p-1@1000, 1000, 0");

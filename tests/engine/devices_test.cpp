@@ -1,4 +1,4 @@
-// Devices: moved by time, one turn after the other.
+// Devices: advanced by time, in turns.
 #include <gmock/gmock.h>
 
 #include <optional>
@@ -12,7 +12,7 @@ using testing::ElementsAre;
 
 namespace {
 
-// Ends what it was told to start when it is told so.
+// Ends its command when the test says so.
 class Machine final : public Component {
 public:
     explicit Machine(Part const& part) {
@@ -52,7 +52,7 @@ public:
     bool goes_on() const override { return turns % goes_on_until != 0; }
 
     int turns = 0;
-    int goes_on_until = 1;  // a multiple of this
+    int goes_on_until = 1;  // turns, a multiple of this
 
 private:
     Machine& machine_;
@@ -83,7 +83,7 @@ TEST_F(Devices, HaveATurnInATick) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed one OK"));
 }
 
-TEST_F(Devices, GoOnWhenTheEngineHasTakenInWhatCameOfTheirTurn) {
+TEST_F(Devices, MayHaveAnotherTurnAfterTheirReportsAreHandled) {
     motor->goes_on_until = 3;
     desk.execute(named("one", start("machine")), named("two", start("machine")), named("three", start("machine")));
     world.advance(50ms);
@@ -91,7 +91,7 @@ TEST_F(Devices, GoOnWhenTheEngineHasTakenInWhatCameOfTheirTurn) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed one OK", "2 completed two OK", "3 completed three OK"));
 }
 
-TEST_F(Devices, KeepNobodyWaitingForLong) {
+TEST_F(Devices, HaveALimitedNumberOfTurnsInATick) {
     motor->goes_on_until = 1'000'000;
     world.advance(50ms);
     EXPECT_EQ(motor->turns, 100);

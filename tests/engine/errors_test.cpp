@@ -1,4 +1,4 @@
-// Decisions 16 and 24: components that fail, and who hears of it.
+// Decisions 16 and 24: failing components, and the sessions that are notified.
 #include <gmock/gmock.h>
 
 #include "world.hpp"
@@ -23,7 +23,7 @@ struct Errors : testing::Test {
 
 }  // namespace
 
-TEST_F(Errors, OfAComponentGoToThoseWhoHaveItBoundOrSubscribed) {
+TEST_F(Errors, OfAComponentGoToSessionsThatHaveItBoundOrSubscribed) {
     auto hall = world.connect(), door = world.connect(), other = world.connect();
     hall.subscribe("reached_target");
     door.subscribe("person_detected");
@@ -35,7 +35,7 @@ TEST_F(Errors, OfAComponentGoToThoseWhoHaveItBoundOrSubscribed) {
     EXPECT_THAT(other.heard(), IsEmpty());
 }
 
-TEST_F(Errors, OfAComponentAreNotForThoseWhoChoseAnother) {
+TEST_F(Errors, OfAComponentDoNotGoToSubscribersOfAnother) {
     World two{named("robot_a", navigation), named("robot_b", navigation)};
     auto hall = two.connect();
     hall.subscribe("reached_target", equal("component_ref", "robot_a"));
@@ -79,7 +79,7 @@ TEST_F(Errors, OfTheEngineGoToAll) {
     EXPECT_EQ(in_words(detail.results.parameters), "time=" + to_text(world.now.utc - 150ms) + " text=the floor is gone");
 }
 
-TEST_F(Errors, OfADeviceThatThrowsNoExceptionGoToAllToo) {
+TEST_F(Errors, OfADeviceThatThrowsAnotherTypeGoToAllToo) {
     struct Broken : Device {
         void advance(Instant) override { throw 42; }
     };
@@ -88,7 +88,7 @@ TEST_F(Errors, OfADeviceThatThrowsNoExceptionGoToAllToo) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 ENGINE_INTERNAL_ERROR"));
 }
 
-TEST_F(Errors, InAStartEndItsSequenceAndTouchNothingElse) {
+TEST_F(Errors, InAStartEndItsSequenceOnly) {
     auto hall = world.connect();
     hall.bind("speech");
     hall.execute(say("say"));
@@ -138,7 +138,7 @@ TEST_F(Errors, InAHaltDoNotKeepACommandAlive) {
     EXPECT_THAT(desk.heard(), IsEmpty());
 }
 
-TEST_F(Errors, ThatAreNoExceptionsAreErrorsToo) {
+TEST_F(Errors, ThatAreThrownAsAnotherTypeAreErrorsToo) {
     robot.throws_no_exception = true;
     robot.throws_in = {"query"};
     EXPECT_EQ(desk.query("route").return_code, ReturnCode::error);
@@ -148,7 +148,7 @@ TEST_F(Errors, ThatAreNoExceptionsAreErrorsToo) {
     EXPECT_THAT(desk.heard(), ElementsAre("2 completed go ERROR", "3 COMPONENT_INTERNAL_ERROR navigation"));
 }
 
-TEST_F(Errors, ThatAnybodyCanCauseAreToldOnceUntilItSucceeds) {
+TEST_F(Errors, ThatAnyClientCanCauseAreReportedOnceUntilASuccess) {
     auto hall = world.connect();
     robot.throws_in = {"query"};
     for (int i = 0; i < 2'000; ++i) hall.query("route");
@@ -162,13 +162,13 @@ TEST_F(Errors, ThatAnybodyCanCauseAreToldOnceUntilItSucceeds) {
     EXPECT_THAT(desk.heard(), ElementsAre("2 COMPONENT_INTERNAL_ERROR navigation"));
 }
 
-// What was told to nobody, or to somebody else, is told to whoever binds it.
-TEST_F(Errors, ThatAnybodyCanCauseAreToldToWhoeverBindsIt) {
+// An error that went to no session, or to another one, is reported again after a binding.
+TEST_F(Errors, ThatAnyClientCanCauseAreReportedAgainAfterABinding) {
     auto hall = world.connect();
     desk.release("navigation");
     robot.throws_in = {"query"};
     for (int i = 0; i < 2; ++i) EXPECT_EQ(desk.query("route").return_code, ReturnCode::error);
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "it is nobody's";
+    EXPECT_THAT(desk.heard(), IsEmpty()) << "no session has bound it";
     hall.bind("navigation");
     for (int i = 0; i < 3; ++i) desk.query("route");
     EXPECT_THAT(hall.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
@@ -194,7 +194,7 @@ TEST_F(Errors, InTheStatusAreTheStatus) {
     EXPECT_EQ(hall.status_of("navigation"), "BUSY");
     EXPECT_THAT(desk.search(equal("status", "ERROR")), ElementsAre("navigation"));
     EXPECT_THAT(desk.search(equal("status", "READY")), ElementsAre("detection", "speech"));
-    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation")) << "asked thrice, told once";
+    EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation")) << "asked three times, reported once";
 }
 
 TEST_F(Errors, BeforeAnythingRunsAreTheAnswer) {
@@ -228,12 +228,12 @@ TEST_F(Errors, InReadingParametersAreTheAnswer) {
     EXPECT_THAT(desk.heard(), Contains("1 COMPONENT_INTERNAL_ERROR navigation"));
 }
 
-TEST_F(Errors, AParameterThatTheProfileDoesNotKnowIsNotTold) {
+TEST_F(Errors, AParameterThatIsNotInTheProfileIsLeftOut) {
     robot.throws_in = {"more than is known"};
     EXPECT_EQ(in_words(desk.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time");
 }
 
-TEST_F(Errors, InTheLastWordOfAStopLeaveItAnAbort) {
+TEST_F(Errors, InStatusWhenStoppedMakeTheStartAbort) {
     robot.throws_in = {"status_when_stopped"};
     desk.execute(go("go"));
     desk.execute(named("stop", stop("navigation")));
@@ -247,7 +247,7 @@ TEST_F(Errors, InTheDescriptionComeTooLateToMatter) {
     EXPECT_EQ(desk.execute(go("go")).return_code, ReturnCode::ok);
 }
 
-TEST_F(Errors, OfACommandThatTheProfilePromisesInVain) {
+TEST_F(Errors, OfACommandThatTheComponentDoesNotImplementAreReported) {
     robot.throws_in = {"nothing performed"};
     desk.execute(named("dock", command("dock", "navigation")));
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock ERROR", "2 COMPONENT_INTERNAL_ERROR navigation"));
@@ -256,14 +256,14 @@ TEST_F(Errors, OfACommandThatTheProfilePromisesInVain) {
 
 // --- Wrong answers ---
 
-TEST_F(Errors, AnEventThatTheProfileDoesNotKnowIsNotTold) {
+TEST_F(Errors, AnEventThatIsNotInTheProfileIsDropped) {
     desk.subscribe("reached_target");
     robot.fires("fell_over");
     EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR navigation"));
     EXPECT_THAT(in_words(desk.detail_of(desk.last_heard<ReceiveError>().error_id).results.parameters), HasSubstr("'fell_over'"));
 }
 
-TEST_F(Errors, AnEventWithWrongResultsIsNotToldAndReportedOnce) {
+TEST_F(Errors, AnEventWithWrongResultsIsDroppedAndReportedOnce) {
     desk.subscribe("reached_target");
     for (auto const& results : {ParameterList{text("target", "desk"), text("colour", "red")}, ParameterList{integer("target", 3)},
                                 ParameterList{value("is_final_target", "bool", {"perhaps"})}})
@@ -293,7 +293,7 @@ TEST_F(Errors, WrongResultsOfAQueryAreNoAnswer) {
     EXPECT_EQ(desk.status_of("navigation"), "READY");
 }
 
-// --- Answers that nobody waits for ---
+// --- Late and unexpected answers ---
 
 TEST_F(Errors, ADoubleAnswerIsCountedAndDropped) {
     desk.execute(go("go"));
@@ -313,7 +313,7 @@ TEST_F(Errors, ALateAnswerIsCountedAndDropped) {
     EXPECT_EQ(world.stray_answers(), 2U);
 }
 
-TEST_F(Errors, AnAnswerToWhatWasReplacedDoesNotEndTheNewCommand) {
+TEST_F(Errors, AnAnswerToAReplacedCommandDoesNotEndTheNewOne) {
     desk.execute(go("here"));
     auto const here = robot.latest();
     desk.execute(go("there"));

@@ -1,4 +1,4 @@
-// Decisions 18 to 21: who hears of which events, and for how long their details are kept.
+// Decisions 18 to 21: the receivers of events, and the life of their details.
 #include <gmock/gmock.h>
 
 #include "world.hpp"
@@ -21,7 +21,7 @@ struct Events : testing::Test {
 
 }  // namespace
 
-TEST_F(Events, OfAllComponentsAreHeardWithoutACondition) {
+TEST_F(Events, OfAllComponentsAreReceivedWithoutACondition) {
     desk.subscribe("person_detected");
     world["detection"].fires("person_detected");
     world["navigation"].fires("reached_target");
@@ -29,7 +29,7 @@ TEST_F(Events, OfAllComponentsAreHeardWithoutACondition) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection", "2 person_detected detection_2"));
 }
 
-TEST_F(Events, AreHeardByThoseWhoSubscribedOnly) {
+TEST_F(Events, AreReceivedBySubscribersOnly) {
     auto hall = world.connect();
     desk.subscribe("person_detected");
     world["detection"].fires("person_detected");
@@ -56,7 +56,7 @@ TEST_F(Events, MayBeChosenByTheirResults) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection"));
 }
 
-TEST_F(Events, MayBeChosenByTheStatusThatTheAskerSees) {
+TEST_F(Events, MayBeSelectedByTheStatusThatTheSubscriberSees) {
     auto hall = world.connect();
     desk.bind("detection");
     desk.subscribe("person_detected", equal("status", "BUSY"));
@@ -66,7 +66,7 @@ TEST_F(Events, MayBeChosenByTheStatusThatTheAskerSees) {
     EXPECT_THAT(hall.heard(), ElementsAre("1 person_detected detection"));
 }
 
-TEST_F(Events, ThatNobodyHasAreUnsupported) {
+TEST_F(Events, ThatNoComponentHasAreUnsupported) {
     EXPECT_EQ(desk.subscribe("earthquake").return_code, ReturnCode::unsupported);
     EXPECT_EQ(desk.subscribe("person_detected", equal("component_ref", "navigation")).return_code, ReturnCode::unsupported);
     EXPECT_EQ(desk.subscribe("person_detected", equal("is_final_target", "true")).return_code, ReturnCode::bad_parameter)
@@ -87,13 +87,13 @@ TEST(ManySubscriptions, HaveTenThousandPredicatesASession) {
     auto const one = answer(desk, {"detection"});
     EXPECT_EQ(answer(desk, {"detection", "a"}).return_code, ReturnCode::out_of_resources);
     auto const two = desk.subscribe("person_detected", both({equal("name", "detection"), equal("bound", "false")}));
-    EXPECT_EQ(two.return_code, ReturnCode::out_of_resources) << "And counts, too";
+    EXPECT_EQ(two.return_code, ReturnCode::out_of_resources) << "the And counts, too";
     EXPECT_EQ(two.reason,
-              "the conditions of a session's subscriptions may have 3 predicates together: unsubscribe from what is not needed "
-              "any more");
-    EXPECT_EQ(desk.subscribe("person_detected").return_code, ReturnCode::ok) << "without a condition there is none";
-    EXPECT_EQ(answer(desk, {"detection"}).subscribe_id, one.subscribe_id) << "what is there already costs nothing";
-    EXPECT_EQ(answer(hall, {"detection", "a"}).return_code, ReturnCode::ok) << "each session has its own";
+              "the conditions of a session's subscriptions may have at most 3 predicates in total: unsubscribe from events that "
+              "you do not need");
+    EXPECT_EQ(desk.subscribe("person_detected").return_code, ReturnCode::ok) << "without a condition there are no predicates";
+    EXPECT_EQ(answer(desk, {"detection"}).subscribe_id, one.subscribe_id) << "an existing subscription costs nothing";
+    EXPECT_EQ(answer(hall, {"detection", "a"}).return_code, ReturnCode::ok) << "each session has its own limit";
     desk.unsubscribe(one.subscribe_id);
     EXPECT_EQ(answer(desk, {"detection", "a"}).return_code, ReturnCode::ok);
 }
@@ -110,20 +110,20 @@ TEST_F(Events, OfTheSameMeaningAreTheSameSubscription) {
     EXPECT_EQ(world.engine->statistics().subscriptions, 4U);
 }
 
-TEST_F(Events, AreTheSameWhenCaseDoesNotMatterAnyway) {
+TEST_F(Events, OfConditionsThatDifferInIgnoredCaseAreTheSameSubscription) {
     auto const id = desk.subscribe("person_detected", alike("component_ref", "Detection")).subscribe_id;
     EXPECT_EQ(desk.subscribe("person_detected", alike("component_ref", "DETECTION")).subscribe_id, id);
     EXPECT_NE(desk.subscribe("person_detected", equal("component_ref", "Detection")).subscribe_id, id);
 }
 
-TEST_F(Events, SubscribedTwiceAreToldOnce) {
+TEST_F(Events, SubscribedTwiceAreReceivedOnce) {
     desk.subscribe("person_detected");
     desk.subscribe("person_detected");
     world["detection"].fires("person_detected");
     EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection"));
 }
 
-TEST_F(Events, OfTwoSubscriptionsAreToldForEachAndAreOneEvent) {
+TEST_F(Events, OfTwoSubscriptionsAreReceivedForEachWithOneEventId) {
     auto const all = desk.subscribe("person_detected").subscribe_id;
     auto const one = desk.subscribe("person_detected", equal("component_ref", "detection")).subscribe_id;
     world["detection"].fires("person_detected");
@@ -135,7 +135,7 @@ TEST_F(Events, OfTwoSubscriptionsAreToldForEachAndAreOneEvent) {
     EXPECT_THAT((std::vector{first.subscribe_id, second.subscribe_id}), testing::UnorderedElementsAre(all, one));
 }
 
-TEST_F(Events, OfASubscriptionSharedByTwoSessionsEndForEachAlone) {
+TEST_F(Events, OfASharedSubscriptionEndForEachSessionSeparately) {
     auto hall = world.connect();
     auto const id = desk.subscribe("person_detected").subscribe_id;
     EXPECT_EQ(hall.subscribe("person_detected").subscribe_id, id);
@@ -145,7 +145,7 @@ TEST_F(Events, OfASubscriptionSharedByTwoSessionsEndForEachAlone) {
     EXPECT_THAT(hall.heard(), ElementsAre("1 person_detected detection"));
 }
 
-TEST_F(Events, AreHeardByThoseWhoAreLeftOfMany) {
+TEST_F(Events, AreReceivedByTheRemainingSubscribers) {
     std::vector<Application> applications;
     for (int i = 0; i < 7; ++i) applications.push_back(world.connect());
     SubscribeId id;
@@ -176,10 +176,10 @@ TEST_F(Events, CarryTheirResultsWhenAsked) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 person_detected detection number=2"));
     desk.subscribe("person_detected", {}, false);
     world["detection"].fires("person_detected", people(3));
-    EXPECT_THAT(desk.heard(), ElementsAre("2 person_detected detection")) << "the last wish wins";
+    EXPECT_THAT(desk.heard(), ElementsAre("2 person_detected detection")) << "the last inline_results wins";
 }
 
-TEST_F(Events, CarryTheirResultsToThoseWhoAskedOnly) {
+TEST_F(Events, CarryTheirResultsOnlyToSessionsThatAskedForThem) {
     auto hall = world.connect();
     desk.subscribe("person_detected", {}, true);
     hall.subscribe("person_detected", {}, false);
@@ -188,7 +188,7 @@ TEST_F(Events, CarryTheirResultsToThoseWhoAskedOnly) {
     EXPECT_THAT(hall.heard(), ElementsAre("1 person_detected detection"));
 }
 
-TEST_F(Events, AreOneNotificationForAllWhoShareASubscription) {
+TEST_F(Events, AreOneNotificationForAllSessionsOfASubscription) {
     auto hall = world.connect();
     desk.subscribe("person_detected");
     hall.subscribe("person_detected");
@@ -231,10 +231,10 @@ TEST_F(Events, HaveDetailsThatAConditionChoosesFrom) {
     EXPECT_THAT(none.results.parameters, IsEmpty());
     EXPECT_EQ(desk.detail_of(id, equal("colour", "red")).return_code, ReturnCode::bad_parameter);
     EXPECT_EQ(desk.detail_of(id, equal("timestamp", "2026-11-20T12:00:00Z")).return_code, ReturnCode::ok)
-        << "it could have had one";
+        << "it is an id of the right form";
 }
 
-TEST_F(Events, ThatNobodyHearsAreNotKept) {
+TEST_F(Events, WithoutSubscribersAreNotKept) {
     world["detection"].fires("person_detected", people(1));
     desk.subscribe("person_detected");
     world["detection"].fires("person_detected", people(2));

@@ -1,4 +1,4 @@
-// Decision 27 between an application and components that have frames of their own.
+// Decision 27: an application, and components with their own frames.
 #include <gmock/gmock.h>
 
 #include "conditions.hpp"
@@ -37,8 +37,8 @@ Located at(double x, double y, std::string crs, std::vector<double> rows = {}) {
     return made;
 }
 
-// The engine's frame is the hall; robot2 has its own map, whose origin is at (1000, 2000) of the hall and whose x axis is the
-// hall's y axis: (3000, 0) there is (1000, 5000) in the hall.
+// The engine's frame is the hall. The origin of robot2's map is at (1000, 2000) of the hall, and its x axis is the hall's y axis:
+// (3000, 0) in the map is (1000, 5000) in the hall.
 struct TwoFrames : testing::Test {
     World world{driving(navigation), in_engine("robot2", with_map(driving(navigation))),
                 in_engine("robot2", with_map(localization))};
@@ -63,7 +63,7 @@ struct TwoFrames : testing::Test {
 
 }  // namespace
 
-TEST_F(TwoFrames, EventsAreToldInTheEnginesOwn) {
+TEST_F(TwoFrames, EventsAreConvertedToTheEnginesFrame) {
     desk.subscribe("person_localized", {}, true);
     see("3000, 0, 30", "map", {at(3'000, 0, "map", {100, 0, 0, 400})});
     EXPECT_THAT(desk.heard(), ElementsAre("1 person_localized robot2.localization position_data=1000, 5000, 120"));
@@ -72,14 +72,14 @@ TEST_F(TwoFrames, EventsAreToldInTheEnginesOwn) {
     EXPECT_THAT(results.located, ElementsAre(at(1'000, 5'000, "hall", {400, 0, 0, 100})));
 }
 
-TEST_F(TwoFrames, WhatIsInAFrameThatNobodyKnowsIsToldAsItIs) {
+TEST_F(TwoFrames, PositionsInAnUnknownFrameAreReportedUnchanged) {
     desk.subscribe("person_localized", {}, true);
     see("3000, 0", "street", {at(3'000, 0, "street")});
     EXPECT_THAT(desk.heard(), ElementsAre("1 person_localized robot2.localization position_data=3000, 0"));
     EXPECT_THAT(desk.last_heard<ReceiveEvent>().results->located, ElementsAre(at(3'000, 0, "street")));
 }
 
-TEST_F(TwoFrames, WhatCannotBeChangedIsNotTold) {
+TEST_F(TwoFrames, EventsThatCannotBeConvertedAreDropped) {
     desk.subscribe("person_localized");
     see("3000, 0", "map", {at(3'000, 0, "map", {1, 2, 3})});
     EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR robot2.localization"));
@@ -87,21 +87,21 @@ TEST_F(TwoFrames, WhatCannotBeChangedIsNotTold) {
     EXPECT_THAT(in_words(detail.results.parameters), HasSubstr("a covariance of 3 numbers"));
 }
 
-TEST_F(TwoFrames, ResultsOfCommandsAreToldInTheEnginesOwn) {
+TEST_F(TwoFrames, ResultsOfCommandsAreConvertedToTheEnginesFrame) {
     desk.execute(named("dock", command("dock", "robot2.navigation")));
     far.finishes(CompletedStatus::ok, {{integer("charge", 80)}, {at(3'000, 0, "map")}});
     EXPECT_EQ(desk.result_of("dock"), "OK charge=80");
     EXPECT_THAT(desk.ask(GetCommandResult{{"dock"}, {}}).results.located, ElementsAre(at(1'000, 5'000, "hall")));
 }
 
-TEST_F(TwoFrames, ACommandWhoseResultsCannotBeChangedFails) {
+TEST_F(TwoFrames, ACommandWhoseResultsCannotBeConvertedFails) {
     desk.execute(named("dock", command("dock", "robot2.navigation")));
     far.finishes(CompletedStatus::ok, {{integer("charge", 80)}, {at(3'000, 0, "map", {1, 2, 3})}});
     EXPECT_EQ(desk.result_of("dock"), "ERROR");
     EXPECT_THAT(desk.heard(), ElementsAre("1 COMPONENT_INTERNAL_ERROR robot2.navigation", "2 completed dock ERROR"));
 }
 
-TEST_F(TwoFrames, TargetsReachAComponentInItsOwn) {
+TEST_F(TwoFrames, TargetsAreConvertedToTheComponentsFrame) {
     desk.execute(start("robot2.navigation", target("1000, 5000, 120")));
     EXPECT_EQ(far.started_with.front(), target("3000, 0, 30", "map").front());
     desk.execute(start("robot2.navigation", target("1000, 5000, 120", "hall")));
@@ -114,7 +114,7 @@ TEST_F(TwoFrames, TargetsReachAComponentInItsOwn) {
     EXPECT_EQ(far.started_with.front().values, std::vector<std::string>{"desk"});
 }
 
-TEST_F(TwoFrames, TargetsAreReadAsTheyWereWritten) {
+TEST_F(TwoFrames, TargetsAreReadBackAsTheApplicationWroteThem) {
     desk.set_parameter("robot2.navigation", target("1000, 5000, 120", "hall"));
     EXPECT_EQ(*find(desk.get_parameter("robot2.navigation").parameters, "target_position"),
               target("1000, 5000, 120", "hall").front());
@@ -122,7 +122,7 @@ TEST_F(TwoFrames, TargetsAreReadAsTheyWereWritten) {
     EXPECT_EQ(find(far.started_with, "target_position")->values, std::vector<std::string>{"3000, 0, 30"});
 }
 
-TEST_F(TwoFrames, TargetsMustBeInOneThatIsKnown) {
+TEST_F(TwoFrames, TargetsMustBeInAKnownFrame) {
     auto const started = desk.execute(start("navigation", target("1, 2", "street")));
     EXPECT_EQ(started.return_code, ReturnCode::bad_parameter);
     EXPECT_EQ(started.reason,
@@ -133,13 +133,13 @@ TEST_F(TwoFrames, TargetsMustBeInOneThatIsKnown) {
     EXPECT_THAT(far.told, IsEmpty());
 }
 
-TEST_F(TwoFrames, ConditionsFindARobotThatTellsItsOwn) {
+TEST_F(TwoFrames, ConditionsFindARobotThatReportsInItsOwnFrame) {
     far.where = at(3'000, 0, "map");
     EXPECT_THAT(desk.search(within("location", literal("desk"))), ElementsAre("robot2.navigation"));
     EXPECT_THAT(desk.search(equal("location", "desk")), ElementsAre("robot2.navigation"));
 }
 
-TEST_F(TwoFrames, ConditionsMaySpeakInEach) {
+TEST_F(TwoFrames, ConditionsMayUseEitherFrame) {
     world["navigation"].where = at(1'000, 4'900, "hall");
     far.where = at(3'000, 5'000, "map");  // (-4000, 5000) in the hall
     EXPECT_THAT(desk.search(within("location", {box(2'901, -100, 3'100, 100, "map")})), IsEmpty());
@@ -150,7 +150,7 @@ TEST_F(TwoFrames, ConditionsMaySpeakInEach) {
                 HasSubstr("'street', which is not known here; known are hall, map"));
 }
 
-TEST_F(TwoFrames, EventsAreChosenByWhereTheyAreInEach) {
+TEST_F(TwoFrames, EventsAreSelectedByTheirPositionInEitherFrame) {
     desk.subscribe("person_localized", within("position_data", {box(2'900, -100, 3'100, 100, "map")}), true);
     see("3000, 0", "map");
     see("1000, 5000", "map");
@@ -159,9 +159,9 @@ TEST_F(TwoFrames, EventsAreChosenByWhereTheyAreInEach) {
                                           "2 person_localized robot2.localization position_data=1000, 5000"));
 }
 
-TEST_F(TwoFrames, TwoBoxesOfAConditionAreInOne) {
+TEST_F(TwoFrames, TwoBoxesOfAConditionMustShareAFrame) {
     EXPECT_THAT(reason(spatial(SpatialRelation::intersects, {{box(0, 0, 1, 1, "map")}, literal("desk")})),
-                HasSubstr("a geometry in the frame 'map' to one in 'hall': tell both in the same frame"));
+                HasSubstr("a geometry in the frame 'map' to one in 'hall': use one frame for both"));
     EXPECT_EQ(reason(spatial(SpatialRelation::intersects, {{box(0, 0, 1, 1)}, literal("desk")})), "");
 }
 

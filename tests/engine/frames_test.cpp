@@ -1,5 +1,4 @@
-// Frames: what is told in one and meant in another, against cases worked out by hand; the dialogues are in
-// frames_dialogue_test.cpp.
+// Conversions between frames, compared with cases worked out by hand. The dialogues are in frames_dialogue_test.cpp.
 #include "engine/frames.hpp"
 
 #include <gmock/gmock.h>
@@ -26,10 +25,10 @@ Frame map(std::vector<double> covariance = {}) {
             .covariance = std::move(covariance)};
 }
 
-// Known to 10 mm and 2 degrees.
+// With standard deviations of 10 mm and 2 degrees.
 Frame uncertain_map() { return map({100, 0, 0, 0, 100, 0, 0, 0, 4}); }
 
-// A cart in the map: 500 mm along its x axis, turned back by 90 degrees; so it is turned as the hall.
+// A cart in the map: 500 mm along its x axis, turned by -90 degrees. So it has the orientation of the hall.
 Frame cart() {
     return {.crs = "cart",
             .base = "map",
@@ -75,16 +74,16 @@ std::string complaint(std::vector<Frame> others, std::string own = "hall") {
 }  // namespace
 
 // 3000 mm along the map's x axis: (1000 - 0, 2000 + 3000); 30 + 90 degrees.
-TEST(Frames, TellTextsInAnother) {
+TEST(Frames, ConvertTexts) {
     Frames const frames{"hall", {map()}};
     EXPECT_EQ(text_in(frames, "3000, 0, 30", "map", "hall"), "1000, 5000, 120");
     EXPECT_EQ(text_in(frames, "3000,0", "MAP", "hall"), "1000, 5000");
     EXPECT_EQ(text_in(frames, "1000, 5000, 120", "hall", "map"), "3000, 0, 30");
-    EXPECT_EQ(text_in(frames, "0, 0, 180", "map", "hall"), "1000, 2000, -90") << "angles are more than -180, and 180 at most";
-    EXPECT_EQ(text_in(frames, "desk", "map", "hall"), "desk") << "a name is no point";
+    EXPECT_EQ(text_in(frames, "0, 0, 180", "map", "hall"), "1000, 2000, -90") << "angles are in (-180, 180]";
+    EXPECT_EQ(text_in(frames, "desk", "map", "hall"), "desk") << "a name is not a point";
 }
 
-TEST(Frames, LeaveWhatIsInAFrameThatIsNotKnown) {
+TEST(Frames, LeavePositionsInUnknownFrames) {
     Frames const frames{"hall", {map()}};
     auto parameter = positions("target_position", {"1, 2"}, "street");
     frames.change(parameter, "hall", Frames::Rounding::thousandth);
@@ -104,18 +103,17 @@ TEST(Frames, TurnACovarianceWithThePosition) {
     EXPECT_THAT(rows(there), ElementsAre(400, -7, -2, -7, 100, 1, -2, 1, 9));
 }
 
-// The map's own turn, uncertain by 2 degrees, moves what is 3000 mm away sideways: 3000 * pi / 180 = 52.35988 mm a degree, along
-// the hall's x axis, backwards. var x = 400 + 100 + 52.35988^2 * 4 = 11466.227; var y = 100 + 100; cov(x, yaw) = -52.35988 * 4
-// = -209.440; var yaw = 9 + 4.
-TEST(Frames, AddHowUncertainTheirPlacementIs) {
+// The map is uncertain by 2 degrees. A degree moves a point that is 3000 mm away by 3000 * pi / 180 = 52.35988 mm, along the
+// hall's x axis, backwards. var x = 400 + 100 + 52.35988^2 * 4 = 11466.227; var y = 100 + 100; cov(x, yaw) = -52.35988 * 4 =
+// -209.440; var yaw = 9 + 4.
+TEST(Frames, AddTheUncertaintyOfTheirPlacement) {
     Frames const frames{"hall", {uncertain_map()}};
     auto const there = changed(frames, entity("map", {3'000, 0, 0}, {0, 0, 30}, {100, 0, 0, 0, 400, 0, 0, 0, 9}), "hall");
     EXPECT_THAT(rows(there), ElementsAre(11'466.227, 0, -209.44, 0, 200, 0, -209.44, 0, 13));
 }
 
-// The same place the other way: x' = y, y' = -x. A turn of the map to the left moves it to the right, seen from the map:
-// -52.35988 mm a degree along its y axis, and -1 degree. var x' = 100 + 100; var y' = 400 + 100 + 10966.227; cov(y', yaw') =
-// +209.440.
+// The inverse: x' = y, y' = -x. If the map turns to the left, the point moves to the right, as seen from the map: -52.35988 mm a
+// degree along its y axis, and -1 degree. var x' = 100 + 100; var y' = 400 + 100 + 10966.227; cov(y', yaw') = +209.440.
 TEST(Frames, AddItOnTheWayBackToo) {
     Frames const frames{"hall", {uncertain_map()}};
     auto const there = changed(frames, entity("hall", {1'000, 5'000, 0}, {0, 0, 120}, {400, 0, 0, 0, 100, 0, 0, 0, 9}), "map");
@@ -131,12 +129,12 @@ TEST(Frames, MayBePlacedInOneAnother) {
     EXPECT_EQ(text_in(frames, "10, 20, 5", "cart", "hall"), "1010, 2520, 5");
     EXPECT_EQ(text_in(frames, "1010, 2520, 5", "hall", "cart"), "10, 20, 5");
     EXPECT_THAT(rows(changed(frames, entity("cart", {10, 20, 0}, {}, {4, 0, 0, 9}), "map")), ElementsAre(10, 0, 0, 5))
-        << "how uncertain the map is placed in the hall does not matter within it";
+        << "the uncertainty of the map's placement does not matter within it";
     EXPECT_THAT(frames.names(), ElementsAre("hall", "cart", "map"));
 }
 
-// Rolled by 90 degrees about x: (x, y, z) is (x, -z, y) in the hall, from the origin (10, 20, 30) on.
-// A body pitched by 30 degrees has there the axes of Rx(90) Ry(30), which are those of Rz(30) Rx(90): roll 90, pitch 0, yaw 30.
+// Rolled by 90 degrees about x: (x, y, z) is (x, -z, y) in the hall, plus the origin (10, 20, 30). A body pitched by 30 degrees
+// has the axes of Rx(90) Ry(30) there, which are those of Rz(30) Rx(90): roll 90, pitch 0, yaw 30.
 TEST(Frames, MayBeTiltedInSpace) {
     Frames const frames{"hall",
                         {{.crs = "wall", .base = "hall", .position = {10, 20, 30}, .orientation = {90, 0, 0}, .covariance = {}}}};
@@ -144,7 +142,7 @@ TEST(Frames, MayBeTiltedInSpace) {
     EXPECT_THAT(there.position, ElementsAre(11, 17, 32));
     EXPECT_THAT(there.orientation, ElementsAre(DoubleNear(90, 1e-9), DoubleNear(0, 1e-9), DoubleNear(30, 1e-9)));
     EXPECT_EQ(changed(frames, there, "wall"), entity("wall", {1, 2, 3}, {0, 30, 0}));
-    // y' = -z and z' = y change their variances; a small pitch in it is a yaw in the hall, and a small yaw a pitch the other way.
+    // y' = -z and z' = y exchange their variances. A small pitch in it is a yaw in the hall, and a small yaw an inverse pitch.
     std::vector<double> all(36, 0.0);
     for (std::size_t i = 0; i < 6; ++i) all[i * 7] = static_cast<double>(i + 1);
     std::vector<double> expected(36, 0.0);
@@ -171,19 +169,19 @@ TEST(Frames, LeaveAReliability) {
     EXPECT_EQ(changed(frames, sure, "hall").certainty, sure.certainty);
 }
 
-TEST(Frames, RefuseWhatIsNoCertaintyAndNoOrientation) {
+TEST(Frames, RefuseAnInvalidCovarianceOrOrientation) {
     Frames const frames{"hall", {map()}};
     auto refusal = [&](Located located) { return frames.change(located, "hall").value_or("fine"); };
     EXPECT_EQ(refusal(entity("map", {0, 0, 0}, {}, {1, 2, 3, 4, 5})),
-              "where 'person-1' is has a covariance of 5 numbers without an orientation");
+              "the position of 'person-1' has a covariance of 5 numbers without an orientation");
     EXPECT_EQ(refusal(entity("map", {0, 0, 0}, {}, std::vector<double>(36, 0.0))),
-              "where 'person-1' is has a covariance of 36 numbers without an orientation");
-    EXPECT_EQ(refusal(entity("map", {0, 0, 0}, {1, 2})), "where 'person-1' is has an orientation of 2 numbers");
-    EXPECT_EQ(refusal(entity("hall", {0, 0, 0}, {1, 2})), "fine") << "nothing is made of it";
+              "the position of 'person-1' has a covariance of 36 numbers without an orientation");
+    EXPECT_EQ(refusal(entity("map", {0, 0, 0}, {1, 2})), "the position of 'person-1' has an orientation of 2 numbers");
+    EXPECT_EQ(refusal(entity("hall", {0, 0, 0}, {1, 2})), "fine") << "it is not converted";
 }
 
-// Rounding to a thousandth must not make of a line a covariance that is none.
-TEST(Frames, KeepACovarianceOne) {
+// Rounding to a thousandth must not make a covariance invalid whose ellipse is a line.
+TEST(Frames, KeepACovarianceValidWhenRounding) {
     for (int degrees = 1; degrees < 180; ++degrees) {
         Frames const frames{"hall", {{.crs = "map", .base = "hall", .orientation = {0, 0, degrees * 1.0}, .covariance = {}}}};
         auto const there = rows(changed(frames, entity("map", {0, 0, 0}, {}, {1, 0, 0, 0}), "hall"));
@@ -191,7 +189,7 @@ TEST(Frames, KeepACovarianceOne) {
     }
 }
 
-TEST(Frames, GiveBackWhatAnApplicationWrote) {
+TEST(Frames, ConvertBackToTheTextThatAnApplicationWrote) {
     Frames const frames{
         "hall", {{.crs = "map", .base = "hall", .position = {123.4, -56.7, 0}, .orientation = {0, 0, 33.3}, .covariance = {}}}};
     for (auto const* text : {"9500, 6000, 90", "0.125, -7, -179.5", "1, 2"}) {
@@ -203,7 +201,7 @@ TEST(Frames, GiveBackWhatAnApplicationWrote) {
     }
 }
 
-TEST(Frames, MoveAPointButNoBox) {
+TEST(Frames, ConvertPointsButNotBoxes) {
     Frames const frames{"hall", {map()}};
     Geometry const spot{.crs = "map", .low = {3'000, 0, 0}, .high = {3'000, 0, 0}, .dimensions = 2};
     Geometry const there{.crs = "hall", .low = {1'000, 5'000, 0}, .high = {1'000, 5'000, 0}, .dimensions = 2};
@@ -216,7 +214,7 @@ TEST(Frames, MoveAPointButNoBox) {
 
 TEST(Frames, MustBePlaced) {
     EXPECT_EQ(complaint({map(), cart()}), "fine");
-    EXPECT_EQ(complaint({cart()}), "the frame 'cart' is placed in 'map', which is not known; known are hall, cart");
+    EXPECT_EQ(complaint({cart()}), "the frame 'cart' is placed in 'map', which is unknown; known are hall, cart");
     EXPECT_EQ(complaint({map(), map()}), "the frame 'map' is there twice");
     auto hall = map();
     hall.crs = "HALL";
@@ -227,9 +225,9 @@ TEST(Frames, MustBePlaced) {
     EXPECT_THAT(complaint({map()}, ""), HasSubstr("no name"));
 }
 
-TEST(Frames, MustHaveAPlacementThatIsOne) {
+TEST(Frames, MustHaveAValidPlacement) {
     auto const with = [](std::vector<double> covariance) { return complaint({map(std::move(covariance))}); };
-    EXPECT_THAT(with({1, 2, 3}), HasSubstr("has 3 numbers; it has 9 (x, y, yaw) or 36"));
+    EXPECT_THAT(with({1, 2, 3}), HasSubstr("has 3 numbers; expected are 9 (x, y, yaw) or 36"));
     EXPECT_THAT(with({1, 5, 0, 0, 1, 0, 0, 0, 1}), HasSubstr("is not symmetric"));
     EXPECT_THAT(with({1, 0, 0, 0, -1, 0, 0, 0, 1}), HasSubstr("is not positive semi-definite"));
     EXPECT_THAT(with({1, 0, 0, 0, HUGE_VAL, 0, 0, 0, 1}), HasSubstr("is not finite"));

@@ -1,4 +1,4 @@
-// `stop` tells the truth (decision 35): it always reaches the component, and says OK only when that stands still.
+// Decision 35: `stop` always reaches the component, and returns OK only when that stands still.
 #include <gmock/gmock.h>
 
 #include "engine/journal.hpp"
@@ -26,7 +26,7 @@ protected:
 
 }  // namespace
 
-TEST_F(Halting, IsTheFirstThingThatComponentsAreTold) {
+TEST_F(Halting, IsTheFirstCallToEveryComponent) {
     robot.halts_later = true;
     world.engine->begin(world.now);
     EXPECT_THAT(world["speech"].told, ElementsAre("halt"));
@@ -37,7 +37,7 @@ TEST_F(Halting, IsTheFirstThingThatComponentsAreTold) {
     EXPECT_THAT(robot.told, ElementsAre("halt", "start"));
 }
 
-TEST_F(Halting, IsTheFirstThingThatANewComponentIsTold) {
+TEST_F(Halting, IsTheFirstCallToANewComponent) {
     world.change({}, {named("arm", navigation)});
     EXPECT_THAT(world["arm"].told, ElementsAre("halt"));
 }
@@ -55,7 +55,7 @@ TEST_F(Halting, StopReachesACommandOfTheComponentsOwn) {
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed dock ABORT", "2 completed stop OK"));
     EXPECT_EQ(desk.reason_of("dock"), "it was stopped");
     robot.finishes();
-    EXPECT_EQ(world.stray_answers(), 1) << "it has ended already";
+    EXPECT_EQ(world.stray_answers(), 1) << "the command has ended already";
 }
 
 TEST_F(Halting, SuspendReachesACommandOfTheComponentsOwn) {
@@ -78,7 +78,7 @@ TEST_F(Halting, ThatFailsMakesStopFailAndTheStatusError) {
     EXPECT_THAT(desk.reason_of("stop"), HasSubstr("failed to halt"));
     EXPECT_EQ(desk.status_of("navigation"), "ERROR");
     desk.query("route");
-    EXPECT_EQ(desk.status_of("navigation"), "ERROR") << "a query that succeeds says nothing of motion";
+    EXPECT_EQ(desk.status_of("navigation"), "ERROR") << "a successful query does not clear it";
 }
 
 TEST_F(Halting, ThatFailsIsRepeatedUntilItSucceeds) {
@@ -87,7 +87,7 @@ TEST_F(Halting, ThatFailsIsRepeatedUntilItSucceeds) {
     desk.heard();
     world.advance(1s);
     EXPECT_EQ(halts(), 1 + 5) << "every 0.2 s";
-    EXPECT_THAT(desk.heard(), IsEmpty()) << "it is told once";
+    EXPECT_THAT(desk.heard(), IsEmpty()) << "it is reported once";
     robot.throws_in = {};
     world.advance(200ms);
     EXPECT_EQ(desk.status_of("navigation"), "READY");
@@ -96,7 +96,7 @@ TEST_F(Halting, ThatFailsIsRepeatedUntilItSucceeds) {
     EXPECT_EQ(halts(), 7);
 }
 
-TEST_F(Halting, ThatFailsLetsNothingStart) {
+TEST_F(Halting, ThatFailsPreventsStarts) {
     robot.throws_in = {"halt"};
     desk.execute(named("stop", stop("navigation")));
     desk.execute(go("go"), named("dock", command("dock", "navigation")));
@@ -112,7 +112,7 @@ TEST_F(Halting, ThatFailsLetsNothingStart) {
     EXPECT_EQ(desk.result_of("stop 2"), "OK");
 }
 
-TEST_F(Halting, ThatFailsLetsNobodyBind) {
+TEST_F(Halting, ThatFailsPreventsBinding) {
     robot.throws_in = {"halt"};
     desk.execute(go("go"));
     desk.leave();
@@ -217,7 +217,7 @@ TEST_F(Halting, ThatIsUnderWayLetsOthersBindAndTheirCommandsWaitForIt) {
     EXPECT_THAT(robot.told, ElementsAre("start", "halt", "parameters_changed", "start", "dock"));
 }
 
-TEST_F(Halting, ThatIsUnderWayAndFailsEndsWhatWaitsForIt) {
+TEST_F(Halting, ThatIsUnderWayAndFailsEndsTheCommandsThatWaitForIt) {
     robot.halts_later = true;
     desk.execute(go("go"));
     desk.execute(named("stop", stop("navigation")));
@@ -326,7 +326,7 @@ TEST_F(Halting, ThatFailsIsInTheJournalOnceUntilItSucceeds) {
     EXPECT_THAT(journal.said, ElementsAre("navigation failed: the component failed to halt", "navigation halted"));
 }
 
-TEST_F(Halting, OfEverythingTellsWhatHasNotConfirmed) {
+TEST_F(Halting, OfEverythingReportsTheComponentsThatHaveNotConfirmed) {
     robot.halts_later = true;
     world.engine->stop_everything(world.now);
     EXPECT_THAT(world.engine->not_halted(), ElementsAre("navigation"));
@@ -350,7 +350,7 @@ TEST_F(Halting, EndsWithAComponentThatGoes) {
     world.advance(1s);
 }
 
-TEST_F(Halting, ThatNobodyAskedForIsCountedWhenItIsConfirmed) {
+TEST_F(Halting, UnexpectedConfirmationsAreCounted) {
     robot.stands_still();
     EXPECT_EQ(world.stray_answers(), 1);
 }

@@ -1,4 +1,4 @@
-// Identifiers have at most 256 characters, wherever a request says one.
+// Identifiers have at most 256 characters, everywhere in a request.
 #include <gmock/gmock.h>
 
 #include "types/identifier_length.hpp"
@@ -17,7 +17,7 @@ struct Identifiers : testing::Test {
     World world{navigation, speech, desk_lamp};
     Application desk{world.connect()};
 
-    // The answer's return code and reason.
+    // Returns the code and reason of the answer.
     Outcome outcome_of(Operation const& operation) {
         auto const reply = std::get<Reply>(world.say(desk.session, operation));
         return std::visit([](Outcome const& outcome) { return outcome; }, reply);

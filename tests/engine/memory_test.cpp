@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t mib = std::size_t{1} << 20U;
 
-// A process that uses as much as the test says.
+// A process whose use of memory the test sets.
 struct Memory {
     std::size_t uses = 10 * mib;
     MemoryBudget budget{100 * mib, [this] { return uses; }};
@@ -69,13 +69,13 @@ TEST(MemoryBudget, GivesRoomUntilItIsUsedUp) {
     {
         auto const one = budget.reserve(60 * mib);
         EXPECT_TRUE(one);
-        EXPECT_TRUE(budget.reserve(30 * mib)) << "and returns it at once";
+        EXPECT_TRUE(budget.reserve(30 * mib)) << "and the memory is returned at once";
         auto const other = budget.reserve(30 * mib);
         EXPECT_TRUE(other);
         EXPECT_FALSE(budget.reserve(1));
         budget.look();
-        EXPECT_TRUE(budget.full()) << "what is reserved counts";
-        EXPECT_TRUE(budget.reserve(0)) << "for what is short";
+        EXPECT_TRUE(budget.full()) << "reserved memory counts";
+        EXPECT_TRUE(budget.reserve(0)) << "for a short document";
     }
     budget.look();
     EXPECT_EQ(budget.used(), 10 * mib);
@@ -133,7 +133,7 @@ TEST_F(InMemory, WhatIsKeptForLaterIsDroppedWithoutAny) {
         world["navigation"].fires("reached_target", {text("target", "x"), boolean("is_final_target", true)});
     use(100);
     world.advance(50ms);
-    EXPECT_EQ(desk.result_of("s0"), "BAD_PARAMETER") << "aged out";
+    EXPECT_EQ(desk.result_of("s0"), "BAD_PARAMETER") << "expired";
     EXPECT_EQ(desk.result_of("s199"), "OK");
     auto const heard = desk.heard();
     EXPECT_THAT(heard, SizeIs(65));

@@ -1,4 +1,4 @@
-// The motion lease (decision 33): what moves the robot goes on only while its application gives signs of life.
+// The motion lease (decision 33): the robot moves only while its application gives signs of life.
 #include "engine/motion_lease.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ Part moving(Part part) {
     return part;
 }
 
-// An application on its way to somewhere, which has only sent requests so far.
+// An application whose robot is on its way. It has sent only requests so far.
 class Lease : public testing::Test {
 protected:
     Lease() {
@@ -50,7 +50,7 @@ TEST_F(Lease, OfASilentWebSocketHoldsTheMotion) {
     EXPECT_THAT(robot.told, ElementsAre("start", "suspend"));
     EXPECT_THAT(desk.heard(), ElementsAre("1 USER_DEFINED_ERROR navigation"));
     auto const detail = desk.detail_of(desk.last_heard<ReceiveError>().error_id);
-    EXPECT_THAT(in_words(detail.results.parameters), HasSubstr("nothing was heard from its application"));
+    EXPECT_THAT(in_words(detail.results.parameters), HasSubstr("its application gave no sign of life"));
     world.advance(1s);
     EXPECT_THAT(robot.told, ElementsAre("start", "suspend")) << "once is enough";
 }
@@ -183,7 +183,7 @@ TEST_F(Lease, IsNeitherLongerThanTheGatewaysNorTooShort) {
     EXPECT_EQ(world.engine->statistics().sessions, 1U);
 }
 
-TEST_F(Lease, OnlyHoldsWhatMoves) {
+TEST_F(Lease, HoldsOnlyComponentsThatMove) {
     desk.release("navigation");
     desk.execute(say("say"));
     world.advance(20s);
@@ -198,7 +198,7 @@ TEST_F(Lease, HoldsACommandOfTheComponentsOwn) {
     EXPECT_THAT(robot.told, ElementsAre("dock", "suspend"));
 }
 
-TEST_F(Lease, HaltsWhatCannotBeHeld) {
+TEST_F(Lease, HaltsAComponentThatCannotBeSuspended) {
     robot.throws_in = {"suspend"};
     desk.execute(go("go"));
     world.advance(10s);
@@ -224,7 +224,7 @@ TEST_F(Lease, ThatHasEndedLetsNothingBeginByItself) {
     world.advance(11s);
     EXPECT_THAT(robot.told, IsEmpty());
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed late ABORT"));
-    EXPECT_THAT(desk.reason_of("late"), HasSubstr("nothing was heard"));
+    EXPECT_THAT(desk.reason_of("late"), HasSubstr("gave no sign of life"));
 }
 
 TEST_F(Lease, AsksForSignsOfLifeWhileSomethingMovesOrWillMove) {
@@ -264,7 +264,7 @@ TEST_F(Lease, DoesNotDependOnTheCalendar) {
     EXPECT_THAT(robot.told, ElementsAre("start"));
 }
 
-TEST_F(Lease, CoversWhatBeginsWhileTheRestIsHeld) {
+TEST_F(Lease, CoversCommandsThatBeginWhileOthersAreHeld) {
     open();
     desk.execute(go("go"));
     world.advance(2s);
@@ -300,7 +300,7 @@ TEST_F(Lease, IsOverWhenTheSessionEndsWhateverElseMayRunOn) {
     EXPECT_THAT(lasting["speech"].told, ElementsAre("start"));
 }
 
-TEST_F(Lease, IsNotNeededByWhatFailedToBegin) {
+TEST_F(Lease, IsNotNeededByAnActionThatFailedToBegin) {
     robot.throws_in = {"start", "perform"};
     desk.execute(go("go"));
     desk.execute(command("dock", "navigation"));

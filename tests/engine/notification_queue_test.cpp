@@ -1,4 +1,4 @@
-// Decisions 22 and 23: numbers without gaps, holds, and what is dropped when nobody reads.
+// Decisions 22 and 23: consecutive numbers, holds, and the notifications that are dropped if a session does not read.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -14,7 +14,7 @@ using testing::IsEmpty;
 
 namespace {
 
-// A queue of at most four that wait and three that were sent; events are "e", commands "c", as in "2 e" or "5 lost 3".
+// A queue for at most four waiting and three sent notifications. Events are "e", commands "c", as in "2 e" or "5 lost 3".
 struct Queue : testing::Test {
     explicit Queue(std::size_t max_sent = 3) : queue{SessionId{"session"}, 4, max_sent} {}
 
@@ -61,7 +61,7 @@ TEST_F(Queue, IsReadInPiecesAndAgain) {
     events(4);
     EXPECT_THAT(read(0, 2), ElementsAre("1 e", "2 e"));
     EXPECT_THAT(read(2, 1), ElementsAre("3 e"));
-    EXPECT_THAT(read(0, 3), ElementsAre("1 e", "2 e", "3 e")) << "reading discards nothing";
+    EXPECT_THAT(read(0, 3), ElementsAre("1 e", "2 e", "3 e")) << "reading does not remove entries";
     EXPECT_THAT(read(3), ElementsAre("4 e"));
     EXPECT_THAT(read(4), IsEmpty());
     EXPECT_THAT(read(77), IsEmpty());
@@ -73,7 +73,7 @@ TEST_F(Queue, DropsTheOldestWaitingEventsAndCountsThem) {
     EXPECT_EQ(queue.lost(), 2U);
 }
 
-TEST_F(Queue, NeverDropsWhatMustBeTold) {
+TEST_F(Queue, DropsOnlyEvents) {
     completed(1);
     EXPECT_EQ(push(ReceiveError{}), NotificationQueue::Pushed::ok);
     events(2);
@@ -81,14 +81,14 @@ TEST_F(Queue, NeverDropsWhatMustBeTold) {
     EXPECT_THAT(read(0), ElementsAre("1 c", "2 c", "4 lost 2", "5 c", "6 c"));
 }
 
-TEST_F(Queue, OverflowsWhenOnlyThatFillsItAndKeepsItStill) {
+TEST_F(Queue, OverflowsWhenOtherNotificationsFillItAndKeepsThem) {
     completed(4);
     EXPECT_FALSE(queue.overflowed());
     EXPECT_EQ(push(Completed{}), NotificationQueue::Pushed::overflow);
     EXPECT_TRUE(queue.overflowed());
     EXPECT_EQ(push(ReceiveEvent{}), NotificationQueue::Pushed::overflow);
     EXPECT_EQ(push(Completed{}), NotificationQueue::Pushed::overflow);
-    EXPECT_THAT(read(0), ElementsAre("1 c", "2 c", "3 c", "4 c", "5 c", "6 c")) << "an event that is not kept has no number";
+    EXPECT_THAT(read(0), ElementsAre("1 c", "2 c", "3 c", "4 c", "5 c", "6 c")) << "an event that is not kept gets no number";
 }
 
 TEST_F(Queue, OverflowsByAnEventToo) {
@@ -97,7 +97,7 @@ TEST_F(Queue, OverflowsByAnEventToo) {
     EXPECT_THAT(read(0), ElementsAre("1 c", "2 c", "3 c", "4 c"));
 }
 
-TEST_F(Queue, HasAGapForEachPlaceWhereSomethingIsMissing) {
+TEST_F(Queue, HasALostForEachGap) {
     events(1);
     completed(1);
     events(1);
@@ -106,7 +106,7 @@ TEST_F(Queue, HasAGapForEachPlaceWhereSomethingIsMissing) {
     EXPECT_THAT(read(0), ElementsAre("1 lost 1", "2 c", "3 lost 1", "4 c", "5 e", "6 e"));
 }
 
-TEST_F(Queue, CountsOnlyWhatWaits) {
+TEST_F(Queue, CountsOnlyWaitingNotifications) {
     events(4);
     read(0);
     events(4);
@@ -114,7 +114,7 @@ TEST_F(Queue, CountsOnlyWhatWaits) {
     EXPECT_THAT(read(4), ElementsAre("5 e", "6 e", "7 e", "8 e"));
 }
 
-TEST_F(Queue, KeepsWhatWasSentInARing) {
+TEST_F(Queue, KeepsTheLastSentNotifications) {
     events(4);
     read(0);
     EXPECT_THAT(read(0), ElementsAre("1 lost 1", "2 e", "3 e", "4 e"));
@@ -129,7 +129,7 @@ TEST_F(Queue, KeepsWhatWasSentInARing) {
 TEST_F(Queue, AnswersAPositionInsideAGapWithTheRestOfIt) {
     events(8);
     EXPECT_THAT(read(0), ElementsAre("4 lost 4", "5 e", "6 e", "7 e", "8 e"));
-    EXPECT_THAT(read(4), ElementsAre("5 lost 1", "6 e", "7 e", "8 e")) << "three of those that were sent are kept";
+    EXPECT_THAT(read(4), ElementsAre("5 lost 1", "6 e", "7 e", "8 e")) << "three sent ones are kept";
 }
 
 TEST_F(LongMemory, AnswersAPositionInsideAGapWithTheRestOfIt) {
@@ -142,13 +142,13 @@ TEST_F(LongMemory, AnswersAPositionInsideAGapWithTheRestOfIt) {
 
 TEST_F(Queue, AnswersAPositionBeforeAGapThatWasOnceLarger) {
     events(7);  // 3 lost 3
-    read(0);    // sent: the gap, 4 and 5 are out of the ring by then
+    read(0);    // the gap, 4 and 5 exceed the limit of sent ones
     events(6);  // 9 lost 2
     EXPECT_THAT(read(0), ElementsAre("4 lost 4", "5 e", "6 e", "7 e", "9 lost 2", "10 e", "11 e", "12 e", "13 e"));
     EXPECT_THAT(read(5), ElementsAre("10 lost 5", "11 e", "12 e", "13 e"));
 }
 
-TEST_F(Queue, CountsAsSentWhatAReaderHasSkipped) {
+TEST_F(Queue, CountsSkippedNotificationsAsSent) {
     events(4);
     EXPECT_THAT(read(3), ElementsAre("4 e"));
     events(4);
@@ -157,7 +157,7 @@ TEST_F(Queue, CountsAsSentWhatAReaderHasSkipped) {
 
 // --- Holds: an answer comes before what it causes ---
 
-TEST_F(Queue, ShowsNothingThatIsHeld) {
+TEST_F(Queue, HidesNotificationsDuringAHold) {
     events(1);
     auto const hold = queue.hold();
     events(2);
@@ -185,11 +185,11 @@ TEST_F(Queue, IsHeldByTheOldestOfSeveralHolds) {
     EXPECT_THAT(read(2), ElementsAre("3 e"));
 }
 
-TEST_F(Queue, MayLoseWhatIsHeld) {
+TEST_F(Queue, MayDropHiddenEvents) {
     events(1);
     auto const hold = queue.hold();
     events(5);
-    EXPECT_THAT(read(0), IsEmpty()) << "the gap reaches beyond the hold";
+    EXPECT_THAT(read(0), IsEmpty()) << "the gap ends after the hold";
     EXPECT_THAT(read(1), IsEmpty());
     queue.release(hold);
     EXPECT_THAT(read(0), ElementsAre("2 lost 2", "3 e", "4 e", "5 e", "6 e"));
@@ -203,20 +203,20 @@ TEST_F(Queue, CanBeReadAfterItWasClosed) {
     EXPECT_THAT(read(0), ElementsAre("1 c"));
 }
 
-TEST_F(Queue, ShowsItsEndWhenNothingIsHeld) {
+TEST_F(Queue, ShowsItsEndAfterTheLastHold) {
     auto const answer = queue.hold();
     completed(1);
     queue.close();
-    EXPECT_FALSE(queue.closed()) << "the last is still to be seen";
+    EXPECT_FALSE(queue.closed()) << "the last entry is still unread";
     EXPECT_THAT(read(0), IsEmpty());
     queue.release(answer);
     EXPECT_TRUE(queue.closed());
     EXPECT_THAT(read(0), ElementsAre("1 c"));
 }
 
-// Two readers and somebody who holds, at random; another queue is asked for its beginning each time, which is never where its
-// last entries are.
-TEST(QueueOfAnyLength, GivesTheSameWhereverItsLastEntriesAre) {
+// Two readers and holds, at random. A second queue is read from its beginning at each step, which moves its entries to the other
+// store.
+TEST(QueueOfAnyLength, ReadsTheSameFromBothStores) {
     for (unsigned seed = 1; seed <= 200; ++seed) {
         std::minstd_rand random{seed};
         auto const chance = [&](unsigned of) { return random() % of == 0; };
@@ -259,8 +259,8 @@ TEST_F(LongMemory, KeepsTheLastEventsOnly) {
     completed(1);
     events(1);
     queue.keep_last(1);
-    EXPECT_THAT(read(2), ElementsAre("3 c", "4 e")) << "one event waited";
-    EXPECT_THAT(read(0), ElementsAre("2 lost 2", "3 c", "4 e")) << "what was sent is forgotten";
+    EXPECT_THAT(read(2), ElementsAre("3 c", "4 e")) << "one waiting event is kept";
+    EXPECT_THAT(read(0), ElementsAre("2 lost 2", "3 c", "4 e")) << "sent ones are forgotten";
     queue.keep_last(0);
     events(2);
     completed(1);
@@ -285,7 +285,7 @@ TEST(OutgoingNotification, IsEncodedOnce) {
     EXPECT_EQ(encoded, 1);
 }
 
-TEST_F(Queue, SaysWhetherAHoldHasHiddenSomething) {
+TEST_F(Queue, ReleaseReturnsWhetherTheHoldHasHiddenSomething) {
     auto const before_nothing = queue.hold();
     EXPECT_FALSE(queue.release(before_nothing));
     auto const first = queue.hold();
@@ -300,7 +300,7 @@ TEST_F(Queue, SaysWhetherAHoldHasHiddenSomething) {
     EXPECT_EQ(queue.next(1), NotificationQueue::Next::ended);
 }
 
-// The engine does not wait for readers, nor they for the engine.
+// The engine does not wait for readers, nor readers for the engine.
 TEST(QueueOnTwoThreads, IsReadWhileItIsFilled) {
     constexpr std::uint64_t count = 20'000;
     NotificationQueue queue{SessionId{"session"}, count, 10};

@@ -1,4 +1,4 @@
-// Decisions 22 and 23 in sessions: what an application hears, and what becomes of one that does not listen.
+// Decisions 22 and 23 in sessions: the notifications that an application receives, and sessions that do not read.
 #include <gmock/gmock.h>
 
 #include "world.hpp"
@@ -44,7 +44,7 @@ TEST(Notifications, ComeInTheOrderInWhichThingsHappened) {
                                           "4 person_detected detection"));
 }
 
-TEST(Notifications, TellTheOutboxThatThereIsSomething) {
+TEST(Notifications, NotifyTheOutbox) {
     World world{navigation};
     auto desk = world.connect(), hall = world.connect();
     desk.bind("navigation");
@@ -52,11 +52,11 @@ TEST(Notifications, TellTheOutboxThatThereIsSomething) {
     desk.execute(named("stop", stop("navigation")));
     EXPECT_EQ(world.notified[desk.session], 1);
     desk.leave();
-    EXPECT_EQ(world.notified[desk.session], 2) << "the end is something, too";
+    EXPECT_EQ(world.notified[desk.session], 2) << "also for the end";
     EXPECT_EQ(world.notified[hall.session], 0);
 }
 
-TEST(Notifications, ThatAreEventsAreDroppedWhenNobodyListens) {
+TEST(Notifications, ThatAreEventsAreDroppedWhenTheSessionDoesNotRead) {
     World world{{navigation, detection}, few(4)};
     auto desk = world.connect();
     desk.bind("navigation");
@@ -70,7 +70,7 @@ TEST(Notifications, ThatAreEventsAreDroppedWhenNobodyListens) {
     EXPECT_EQ(world.engine->statistics().notifications_lost, 8U);
 }
 
-TEST(Notifications, ThatMustBeToldEndASessionThatNeverListens) {
+TEST(Notifications, ThatMustNotBeLostEndASessionThatNeverReads) {
     World world{{navigation, speech}, few(3)};
     auto desk = world.connect(), hall = world.connect();
     desk.bind("navigation");
@@ -78,17 +78,17 @@ TEST(Notifications, ThatMustBeToldEndASessionThatNeverListens) {
     desk.bind("speech");
     for (auto const* id : {"1", "2", "3"}) desk.execute(named(id, stop("speech")));
     EXPECT_FALSE(desk.told_of_the_end());
-    EXPECT_EQ(desk.execute(named("4", stop("speech"))).return_code, ReturnCode::ok) << "the answer is given still";
+    EXPECT_EQ(desk.execute(named("4", stop("speech"))).return_code, ReturnCode::ok) << "it still gets an answer";
     EXPECT_TRUE(desk.told_of_the_end());
     EXPECT_EQ(desk.refusal_of(Search{}), Refusal::no_session);
     EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
     EXPECT_EQ(hall.bind("navigation"), ReturnCode::ok);
     EXPECT_THAT(desk.heard(), ElementsAre("1 completed 1 OK", "2 completed 2 OK", "3 completed 3 OK", "4 completed 4 OK",
                                           "5 completed go ABORT"))
-        << "each command completes, whoever listens";
+        << "each command completes, read or not";
 }
 
-TEST(Notifications, OfOthersDoNotSufferFromOneThatNeverListens) {
+TEST(Notifications, OfOtherSessionsAreNotAffectedByOneThatNeverReads) {
     World world{{navigation, detection}, few(3)};
     auto deaf = world.connect(), desk = world.connect();
     deaf.bind("detection");

@@ -14,14 +14,14 @@ using testing::SizeIs;
 
 namespace {
 
-// An application that has the lamp bound, and nothing else on its mind.
+// An application that has bound the lamp.
 struct Lamp : testing::Test {
     World world{desk_lamp};
     Application desk = world.connect();
 
     Lamp() { desk.bind("lamp"); }
 
-    // What is answered to a parameter: "OK", or why not.
+    // "OK", or the reason why the parameter is refused.
     std::string set(Parameter parameter) {
         auto const reply = desk.set_parameter("lamp", {std::move(parameter)});
         return reply.return_code == ReturnCode::ok ? "OK" : reply.reason;
@@ -38,7 +38,7 @@ Part detection_with_threshold() {
 
 }  // namespace
 
-TEST_F(Lamp, HasItsDefaultsFirst) { EXPECT_EQ(stored(), "counts=1 2 labels=red|green"); }
+TEST_F(Lamp, StartsWithItsDefaults) { EXPECT_EQ(stored(), "counts=1 2 labels=red|green"); }
 
 TEST_F(Lamp, KeepsWhatIsSetInTheOrderOfItsProfile) {
     auto const reply = desk.set_parameter("lamp", {text("label", "night"), integer("count", 7)});
@@ -79,7 +79,7 @@ TEST_F(Lamp, TakesEveryType) {
     EXPECT_EQ(set(value("shade", "shade", {"anything"})), "OK");
 }
 
-TEST_F(Lamp, TellsTimesInUtc) {
+TEST_F(Lamp, ReturnsTimesInUtc) {
     EXPECT_EQ(set(value("since", "DateTime", {" 2026-11-20T12:00:00.5+01:00"})), "OK");
     EXPECT_EQ(stored(), "since=2026-11-20T11:00:00.5Z counts=1 2 labels=red|green");
 }
@@ -108,7 +108,7 @@ TEST_F(Lamp, RefusesTheWrongCount) {
     EXPECT_THAT(set(value("counts", "int[]", {"1", "2"})), HasSubstr("has one value, its items separated by spaces"));
 }
 
-TEST_F(Lamp, RefusesWhatItDoesNotKnowAndWhatIsThereTwice) {
+TEST_F(Lamp, RefusesUnknownAndDuplicateParameters) {
     EXPECT_THAT(set(value("colour", "string", {"red"})), HasSubstr("unknown parameter 'colour'; known are count, ratio, lit"));
     auto const twice = desk.set_parameter("lamp", {integer("count", 1), integer("Count", 2)});
     EXPECT_EQ(twice.return_code, ReturnCode::bad_parameter);
@@ -124,7 +124,7 @@ TEST_F(Lamp, StoresAllOrNothing) {
 }
 
 TEST_F(Lamp, KeepsTheCodebookOfAnIdentifier) {
-    EXPECT_EQ(set(reference("owner", "robot_1", "urn:x-test:Robots")), "OK") << "codebooks are compared without case";
+    EXPECT_EQ(set(reference("owner", "robot_1", "urn:x-test:Robots")), "OK") << "codebooks are not case-sensitive";
     EXPECT_EQ(desk.get_parameter("lamp").parameters.front().data_type_ref.codebook_ref, "urn:x-test:Robots");
 }
 
@@ -143,7 +143,7 @@ TEST_F(Lamp, RefusesAnIdentifierOfAForeignCodebook) {
     EXPECT_EQ(set(references("owners", {"tanaka", "sato"})), "OK");
     auto label = text("label", "x");
     label.data_type_ref.codebook_ref = "urn:x-test:staff";
-    EXPECT_EQ(set(label), "OK") << "the codebook of what is not an identifier is not looked at";
+    EXPECT_EQ(set(label), "OK") << "only codebooks of identifiers are checked";
 }
 
 TEST_F(Lamp, DeclaresTheDefaultCodebookInItsProfile) {
@@ -170,7 +170,7 @@ TEST(Parameters, KnowTheCodebookThatTheProfileDeclares) {
                 HasSubstr("known are urn:x-test:staff, urn:x-test:visitors, urn:x-test:robots"));
 }
 
-// Arguments of `start` and of the component's own commands, in execute: nothing of the sequence runs.
+// For arguments of `start` and of the component's own commands, in execute. No command of the sequence runs.
 TEST(Parameters, OfAForeignCodebookEndASequenceBeforeItBegins) {
     auto part = desk_lamp;
     part.profile.messages.push_back({.kind = MessageKind::command,
@@ -213,7 +213,7 @@ TEST(Parameters, ThatAreMandatoryMustBeThereByTheStart) {
     EXPECT_EQ(refused.reason, "command_unit_list[1]: the parameter target_position is mandatory");
     auto const places = texts("target_positions", {"0, 0, 0"});
     EXPECT_EQ(desk.execute(set("navigation", {places}), start("navigation")).return_code, ReturnCode::ok)
-        << "what an earlier unit of the document stores counts";
+        << "values that an earlier unit stores count";
     EXPECT_EQ(world["navigation"].told, (std::vector<std::string>{"parameters_changed", "start"}));
 }
 
@@ -234,12 +234,12 @@ TEST(Parameters, AreTheDefaultsAgainAfterARelease) {
     desk.set_parameter("navigation", {integer("time_limit", 9)});
     desk.release("navigation");
     EXPECT_THAT(world["navigation"].told, ElementsAre("parameters_changed", "halt", "parameters_changed"))
-        << "the component learns of the defaults";
+        << "the component receives the defaults";
     EXPECT_EQ(in_words(world["navigation"].changed_to), "time_limit=0 routing_policy=time");
     desk.bind("navigation");
     EXPECT_EQ(in_words(desk.get_parameter("navigation").parameters), "time_limit=0 routing_policy=time");
     desk.release("navigation");
-    EXPECT_EQ(world["navigation"].told.back(), "halt") << "nothing was set, nothing is told";
+    EXPECT_EQ(world["navigation"].told.back(), "halt") << "without a change there is no call";
 }
 
 TEST(Parameters, AreTheDefaultsAgainAfterASession) {
@@ -290,7 +290,7 @@ TEST(Parameters, OfAnApplicationAreReadByItAlone) {
         return in_words(who.query("get_parameter", equal("name", "speech")).results.parameters);
     };
     EXPECT_EQ(read(desk), "synthesizable_languages=en|ja speech_text=a secret volume=10 language=en");
-    EXPECT_EQ(read(hall), "synthesizable_languages=en|ja volume=50 language=en") << "what can only be read, and the defaults";
+    EXPECT_EQ(read(hall), "synthesizable_languages=en|ja volume=50 language=en") << "read-only parameters, and the defaults";
     for (auto const& condition :
          {equal("Property/volume", "10"), equal("Property/speech_text", "a secret"), like("Property/speech_text", "*")}) {
         EXPECT_THAT(desk.search(condition), ElementsAre("speech"));
@@ -314,7 +314,7 @@ TEST(Parameters, OfAnApplicationDecideOnlyWhichEventsItReceives) {
     EXPECT_THAT(hall.heard(), IsEmpty());
 }
 
-// A component may read what an application has set (its volume, say) as readily as what can only be read.
+// A component may report a value that an application has set (its volume, say), as well as read-only ones.
 TEST(Parameters, ThatCanBeSetAreNotReadFromTheComponentForOthers) {
     World world{speech};
     auto desk = world.connect(), hall = world.connect();
@@ -324,7 +324,7 @@ TEST(Parameters, ThatCanBeSetAreNotReadFromTheComponentForOthers) {
     EXPECT_EQ(in_words(hall.query("get_parameter").results.parameters), "synthesizable_languages=en volume=50 language=en");
 }
 
-TEST(Parameters, OfAComponentThatHasNoneAreNone) {
+TEST(Parameters, OfAComponentWithoutParametersAreEmpty) {
     World world{detection};
     auto desk = world.connect();
     desk.bind("detection");

@@ -181,7 +181,7 @@ std::optional<std::string> ScriptedComponent::refusal(std::string_view command_t
     return {};
 }
 
-// The latest of a group of alternatives replaces the others.
+// The newest of a group of alternatives replaces the others.
 void ScriptedComponent::reconcile(ParameterList& stored, ParameterList const& arrived) const {
     called("reconcile");
     for (auto const& group : part_.mandatory)

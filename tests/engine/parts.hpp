@@ -1,4 +1,4 @@
-// The parts of the world that the engine's tests play in: components that do as the test says.
+// Scripted components for the engine's tests.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace rois {
 
-// Where things happen by themselves: what is put on it is done when the engine next advances its devices.
+// A device that runs the functions that were put on it when the engine next advances its devices.
 class Stage final : public Device {
 public:
     void put(std::function<void()> what) { waiting_.push_back(std::move(what)); }
@@ -23,25 +23,25 @@ private:
     std::vector<std::function<void()>> waiting_;
 };
 
-// What a component does when it is told to start.
+// The reaction of a component to `start`.
 enum class OnStart : std::uint8_t {
-    acts,            // begins at once, and goes on until the test ends it
+    acts,            // begins at once, and acts until the test ends it
     becomes_active,  // a continuous function: completes at once, and stays active
     is_done,         // completes at once
-    stays_silent     // says nothing; the test may speak for it
+    stays_silent     // reports nothing; the test may report for it
 };
 
-// A component of the world, as it is before the engine has it.
+// The properties of a component before it is added to the engine.
 struct Part {
     std::string ref;
     ComponentProfile profile;
     OnStart on_start = OnStart::acts;
-    std::vector<std::vector<std::string>> mandatory;  // of each group of alternatives, one value must be there to start
+    std::vector<std::vector<std::string>> mandatory;  // groups of alternatives; each group needs one value for `start`
     CompletedStatus status_when_stopped = CompletedStatus::abort;
-    std::string engine;  // of a sub engine
-    std::string crs{};   // the frame in which it takes positions, and which parameters are positions
+    std::string engine;  // name of the sub engine
+    std::string crs{};   // the frame of its positions, and the parameters that are positions
     std::vector<std::string> positions{};
-    std::vector<Codebooks> codebooks{};  // from which it takes identifiers
+    std::vector<Codebooks> codebooks{};  // for its identifiers
     bool moves = false;
 };
 
@@ -49,28 +49,28 @@ class ScriptedComponent final : public Component {
 public:
     ScriptedComponent(Part const& part, std::function<void(std::function<void()>)> happen);
 
-    // The script: may be changed at any time.
+    // The script. The test may change it at any time.
     OnStart on_start;
     ComponentStatus status_now = ComponentStatus::ready;
-    // Names of calls that an exception leaves; or how else they go wrong: "nothing performed", "nothing known", "nothing right".
+    // Calls that throw, or fail in another way: "nothing performed", "nothing known", "nothing right".
     std::set<std::string> throws_in;
-    bool throws_no_exception = false;  // but something else
-    bool halts_later = false;          // says `not_yet` when told to halt
-    std::vector<std::string> told;     // the calls that reached it
+    bool throws_no_exception = false;  // throws another type
+    bool halts_later = false;          // `halt` returns `not_yet`
+    std::vector<std::string> told;     // the calls that it received
     ParameterList started_with;
-    ParameterList changed_to;            // the last parameters_changed
-    std::optional<ParameterList> reads;  // readable_parameters, instead of what it says otherwise
-    std::vector<Results> knows;          // rows that it answers queries with, instead of what it says otherwise
-    std::optional<Located> where;        // nothing: nobody knows
+    ParameterList changed_to;            // by the last parameters_changed
+    std::optional<ParameterList> reads;  // result of readable_parameters, instead of the usual one
+    std::vector<Results> knows;          // rows of answers to queries, instead of the usual one
+    std::optional<Located> where;        // nullopt: unknown
 
-    // What it says by itself; the engine has heard it when the call returns.
+    // Reports of the component. The engine has handled each one when the call returns.
     void begins();
     void stands_still();  // confirms the halt
     void finishes(CompletedStatus = CompletedStatus::ok, Results = {}, Afterwards = Afterwards::as_before);
     void answers(CommandHandle, CompletedStatus = CompletedStatus::ok);
     void fires(std::string const& event_type, ParameterList results = {}, std::vector<Located> located = {});
     void reports(ErrorType, std::string const& text);
-    CommandHandle latest() const { return latest_; }  // the command that it was told last
+    CommandHandle latest() const { return latest_; }  // the newest command that it received
 
     ComponentDescription const& description() const override;
     void attach(ComponentPort& port) override { port_ = &port; }
@@ -98,22 +98,22 @@ private:
     CommandHandle latest_{};
 };
 
-// What nearly all profiles include.
+// Included by nearly all profiles.
 extern ComponentProfile const common;
 
-// Drives: target_position is mandatory; tells `reached_target`; has the command `dock` (side, left by default; times, 1; within
-// 500 ms; results charge) and the query `route` (length, to).
+// Drives. target_position is mandatory. Has the event `reached_target`, the command `dock` (side, left by default; times, 1;
+// within 500 ms; results charge) and the query `route` (length, to).
 extern Part const navigation;
-// Speaks: speech_text or SSML_text, of which the later replaces the earlier; `start` within 2 s.
+// Speaks speech_text or SSML_text; setting one removes the other. `start` within 2 s.
 extern Part const speech;
-// Detects people, continuously; has no parameters.
+// Detects people, continuously. Has no parameters.
 extern Part const detection;
-// Finds people, continuously; tells `person_localized` (timestamp, person_ref, position_data).
+// Locates people, continuously. Has the event `person_localized` (timestamp, person_ref, position_data).
 extern Part const localization;
-// Has a parameter of each type; knows two codebooks for `owner`, none for `owners`.
+// Has a parameter of each type. Knows two codebooks for `owner`, none for `owners`.
 extern Part const desk_lamp;
 
-// The same part under another name; and of a sub engine.
+// The same part with another name, or in a sub engine.
 Part named(std::string ref, Part part);
 Part in_engine(std::string engine, Part part);
 

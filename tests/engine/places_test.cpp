@@ -1,4 +1,4 @@
-// Space and time in conditions: where components are, where and when events happened; and what is nearest.
+// Space and time in conditions: positions of components, positions and times of events, and the nearest one.
 #include <gmock/gmock.h>
 
 #include "conditions.hpp"
@@ -21,7 +21,7 @@ Located at(double x, double y, std::string robot, std::string crs = "hall") {
             .certainty = {}};
 }
 
-// Robots that stand in the hall: `near` at the desk, `far` by the wall; `lost` does not know where it is.
+// Robots in the hall: `near` at the desk, `far` by the wall; the position of `lost` is unknown.
 struct Hall : testing::Test {
     World world{named("far", navigation), named("lost", navigation), named("near", navigation), localization};
     Application desk = world.connect();
@@ -47,20 +47,20 @@ TEST_F(Hall, AGeometryMayStandFirst) {
     EXPECT_THAT(found(spatial(SpatialRelation::within, {{box(0, 0, 1'000, 1'000)}, reference("location")})), ElementsAre("near"));
 }
 
-TEST_F(Hall, IntersectsAndDisjointAreContraries) {
+TEST_F(Hall, IntersectsAndDisjointAreOpposites) {
     EXPECT_THAT(found(spatial(SpatialRelation::intersects, {reference("location"), {box(9'000, 0, 9'500, 7'000)}})),
                 ElementsAre("far"));
     EXPECT_THAT(found(spatial(SpatialRelation::disjoint, {reference("location"), {box(9'000, 0, 9'500, 7'000)}})),
                 ElementsAre("near"))
-        << "what has no place is neither";
+        << "without a position, neither matches";
 }
 
-TEST_F(Hall, OneOperandIsHeldAgainstThePlaceOfTheComponent) {
+TEST_F(Hall, OneOperandIsComparedWithThePositionOfTheComponent) {
     EXPECT_THAT(found(spatial(SpatialRelation::intersects, {{box(0, 0, 5'000, 5'000)}})), ElementsAre("near"));
 }
 
 TEST_F(Hall, DistancesAreToTheNearestEdge) {
-    EXPECT_THAT(found(near("location", {spot(4'000, 5'000)}, 5'000)), ElementsAre("near")) << "3, 4, 5";
+    EXPECT_THAT(found(near("location", {spot(4'000, 5'000)}, 5'000)), ElementsAre("near")) << "a triangle with sides 3, 4 and 5";
     EXPECT_THAT(found(near("location", {spot(4'000, 5'000)}, 4'999.9)), IsEmpty());
     EXPECT_THAT(found(near("location", {box(4'000, 0, 5'000, 5'000)}, 3, "m")), ElementsAre("near"));
     EXPECT_THAT(found(beyond("location", {spot(4'000, 5'000)}, 5'000)), ElementsAre("far"));
@@ -82,18 +82,19 @@ TEST_F(Hall, NamesOfPlacesStandForTheirAreas) {
               "the condition has the place 'attic', which is not known here; known are 'hall', 'desk'");
 }
 
-TEST_F(Hall, AsATextAPlaceIsTheNamesOfThoseThatItLiesIn) {
+TEST_F(Hall, AsATextAPositionIsTheNamesOfThePlacesAroundIt) {
     EXPECT_THAT(found(equal("location", "desk")), ElementsAre("near"));
     EXPECT_THAT(found(like("location", "ha*")), ElementsAre("far", "near"));
     EXPECT_THAT(found(is_null("location")), ElementsAre("localization", "lost"));
     world["near"].where = at(-1, -1, "robot1");
-    EXPECT_THAT(found(is_null("location")), ElementsAre("localization", "lost")) << "it is somewhere, if nowhere with a name";
+    EXPECT_THAT(found(is_null("location")), ElementsAre("localization", "lost"))
+        << "it has a position, although outside of named places";
 }
 
 TEST_F(Hall, ARobotIsKnownByItsName) {
     EXPECT_THAT(found(equal("RobotId", "robot2")), ElementsAre("far"));
     EXPECT_THAT(found(equal("location/@ref", "robot1")), ElementsAre("near"));
-    EXPECT_THAT(found(equal("RobotId", "main")), ElementsAre("localization", "lost")) << "without a place, it is the engine";
+    EXPECT_THAT(found(equal("RobotId", "main")), ElementsAre("localization", "lost")) << "without a position, it is the engine";
 }
 
 TEST_F(Hall, FramesMustBeKnown) {
@@ -102,11 +103,11 @@ TEST_F(Hall, FramesMustBeKnown) {
               "the condition has the frame 'street', which is not known here; known are hall");
     world["far"].where = at(500, 500, "robot2", "street");
     EXPECT_THAT(found(within("location", {box(0, 0, 1'000, 1'000)})), ElementsAre("near"))
-        << "coordinates of two frames have nothing in common";
+        << "coordinates of two frames cannot be compared";
     EXPECT_THAT(found(spatial(SpatialRelation::disjoint, {reference("location"), {box(0, 0, 1, 1)}})), ElementsAre("near"));
 }
 
-TEST_F(Hall, AComponentThatFailsToSayWhereItIsHasNoPlace) {
+TEST_F(Hall, AComponentThatFailsToReportItsPositionHasNone) {
     world["near"].throws_in = {"location"};
     EXPECT_THAT(found(within("location", literal("desk"))), IsEmpty());
     EXPECT_EQ(desk.status_of("near"), "ERROR");
@@ -114,10 +115,10 @@ TEST_F(Hall, AComponentThatFailsToSayWhereItIsHasNoPlace) {
 
 TEST_F(Hall, UnitsAndDistancesMustBeKnown) {
     EXPECT_THAT(reason(near("location", {spot(0, 0)}, 1, "ft")), HasSubstr("'ft'"));
-    EXPECT_THAT(reason(near("location", {spot(0, 0)}, -1)), HasSubstr("a distance that is no number from 0 on"));
+    EXPECT_THAT(reason(near("location", {spot(0, 0)}, -1)), HasSubstr("a distance that is not a number of at least 0"));
     EXPECT_THAT(reason(within("component_ref", {spot(0, 0)})), HasSubstr("'component_ref'"));
     EXPECT_THAT(reason(within("time_limit", {spot(0, 0)})), HasSubstr("'time_limit'"));
-    EXPECT_THAT(reason(within("location", {Period{}})), HasSubstr("place that is none"));
+    EXPECT_THAT(reason(within("location", {Period{}})), HasSubstr("is not a position"));
 }
 
 TEST_F(Hall, ParametersMayBePositions) {
@@ -145,7 +146,7 @@ TEST_F(Hall, DistanceIsAlsoAValue) {
 
 TEST_F(Hall, TheNearestComesFirst) {
     EXPECT_THAT(found(sorted(distance("location", {spot(10'000, 10'000)}))), ElementsAre("far", "near", "localization", "lost"))
-        << "what has no place comes last";
+        << "a component without a position comes last";
     EXPECT_THAT(found(sorted(distance("location", {spot(10'000, 10'000)}), SortOrder::descending)),
                 ElementsAre("near", "far", "localization", "lost"));
 }
@@ -155,7 +156,7 @@ TEST_F(Hall, TheNearestFreeOneIsBound) {
     EXPECT_EQ(desk.bind_any(nearest), "near");
     auto hall = world.connect();
     EXPECT_EQ(hall.bind_any(nearest), "far");
-    EXPECT_EQ(hall.bind_any({equal("name", "far"), nearest.sort_by}), "far") << "mine already";
+    EXPECT_EQ(hall.bind_any({equal("name", "far"), nearest.sort_by}), "far") << "bound already";
 }
 
 TEST_F(Hall, SeveralPropertiesSortOneAfterTheOther) {
@@ -170,7 +171,7 @@ TEST_F(Hall, SeveralPropertiesSortOneAfterTheOther) {
     EXPECT_THAT(found(query), ElementsAre("near", "lost", "far"));
 }
 
-TEST_F(Hall, SortByHasAPlace) {
+TEST_F(Hall, SortByIsAcceptedOnlyWhereItIsSupported) {
     EXPECT_THAT(reason(sorted(reference("colour"))), HasSubstr("'colour'"));
     EXPECT_THAT(reason(sorted({Function{"area", {}}})), HasSubstr("'area'"));
     EXPECT_THAT(desk.subscribe("reached_target", sorted(reference("name"))).reason, HasSubstr("SortBy"));
@@ -178,7 +179,7 @@ TEST_F(Hall, SortByHasAPlace) {
     EXPECT_EQ(desk.ask(GetProfile{sorted(reference("name"), SortOrder::descending)}).components.front().ref, "near");
 }
 
-TEST_F(Hall, APlaceThatMayComeIsNoReasonToRefuse) {
+TEST_F(Hall, APositionThatMayChangeIsNotRefused) {
     EXPECT_EQ(desk.bind_any(within("location", {box(5'000, 0, 6'000, 1'000)})), "OUT_OF_RESOURCES") << "robots move";
     EXPECT_EQ(desk.bind_any(both({equal("name", "ghost"), within("location", literal("hall"))})), "UNSUPPORTED");
 }
@@ -200,7 +201,7 @@ Located person(std::string ref, double x, double y) {
 }
 
 struct People : Hall {
-    // Whether an event with these people is told to who subscribed so.
+    // Returns whether a subscriber with this condition receives an event with these results.
     bool told(Condition condition, ParameterList results, std::vector<Located> located = {}) {
         auto const id = desk.subscribe("person_localized", std::move(condition));
         EXPECT_EQ(id.return_code, ReturnCode::ok) << id.reason;
@@ -228,7 +229,7 @@ TEST_F(People, TheStructuredFormIsTheExactOne) {
     EXPECT_TRUE(told(within("position_data", {at_head_height}), two, both_of_them));
 }
 
-TEST_F(People, DisjointAndBeyondAreSaidOfAll) {
+TEST_F(People, DisjointAndBeyondMustHoldForAllPositions) {
     EXPECT_FALSE(told(spatial(SpatialRelation::disjoint, {reference("position_data"), literal("desk")}), two));
     EXPECT_FALSE(told(beyond("position_data", literal("desk"), 100), two));
     EXPECT_TRUE(told(beyond("position_data", {spot(0, 9'999)}, 100), two));
@@ -245,12 +246,12 @@ TEST_F(People, OneOfThemIsNamed) {
     EXPECT_TRUE(told(equal("position_data[@ref='p-2']", "8000, 8000, 0"), two, both_of_them));
 }
 
-TEST_F(People, OneOperandIsHeldAgainstThePlacesOfTheEvent) {
+TEST_F(People, OneOperandIsComparedWithThePositionsOfTheEvent) {
     EXPECT_TRUE(told(spatial(SpatialRelation::intersects, {literal("desk")}), two, {person("p-1", 1, 1)}));
     EXPECT_FALSE(told(spatial(SpatialRelation::intersects, {literal("desk")}), two, {person("p-1", 5'000, 1)}));
 }
 
-TEST_F(People, WhereTheRobotIsCountsToo) {
+TEST_F(People, ThePositionOfTheRobotCountsToo) {
     world["localization"].where = at(500, 500, "robot3");
     EXPECT_TRUE(told(within("location", literal("desk")), two));
     world["localization"].where = at(5'000, 500, "robot3");
@@ -267,14 +268,14 @@ struct Times : People {
     }
 };
 
-TEST_F(Times, DuringLeavesTheEndsOut) {
+TEST_F(Times, DuringExcludesTheEnds) {
     EXPECT_TRUE(holds(TemporalRelation::during, {morning}, "2026-11-20T09:00:00.001Z"));
     EXPECT_TRUE(holds(TemporalRelation::during, {morning}, "2026-11-20T20:59:59+09:00"));
     EXPECT_FALSE(holds(TemporalRelation::during, {morning}, "2026-11-20T09:00:00Z"));
     EXPECT_FALSE(holds(TemporalRelation::during, {morning}, "2026-11-20T12:00:00Z"));
     EXPECT_TRUE(told(temporal(TemporalRelation::during, {{morning}, reference("timestamp")}),
                      found_people("2026-11-20T10:00:00Z", {}, {})))
-        << "the period may stand first";
+        << "the period may be the first operand";
 }
 
 TEST_F(Times, AfterAndBeforeLookBeyondThePeriod) {
@@ -289,11 +290,11 @@ TEST_F(Times, AfterAndBeforeLookBeyondThePeriod) {
 
 TEST_F(Times, TEqualsIsTheSameMoment) {
     EXPECT_TRUE(holds(TemporalRelation::t_equals, literal("2026-11-20T21:00:00+09:00"), noon));
-    EXPECT_FALSE(holds(TemporalRelation::t_equals, literal("2026-11-20"), noon)) << "a day is no moment";
+    EXPECT_FALSE(holds(TemporalRelation::t_equals, literal("2026-11-20"), noon)) << "a day is not a moment";
     EXPECT_TRUE(holds(TemporalRelation::during, literal("2026-11-20"), noon));
 }
 
-// ISO 19108: the one relation of the thirteen that holds, and AnyInteracts beside it.
+// ISO 19108: which of the thirteen relations holds, and AnyInteracts.
 TEST_F(Times, PeriodsAndMomentsHaveOneRelationEach) {
     using enum TemporalRelation;
     static std::vector<std::pair<TemporalRelation, std::string>> const all{{after, "after"},
@@ -361,18 +362,17 @@ TEST_F(Times, OfEventsMeetEachOperator) {
     EXPECT_FALSE(holds(TemporalRelation::meets, {morning}, "2026-11-20T09:00:00Z")) << "only periods meet";
 }
 
-TEST_F(Times, OneOperandIsHeldAgainstTheTimeOfTheEvent) {
+TEST_F(Times, OneOperandIsComparedWithTheTimeOfTheEvent) {
     EXPECT_TRUE(told(temporal(TemporalRelation::during, {{morning}}), found_people("2026-11-20T10:00:00Z", {}, {})));
     EXPECT_THAT(reason(temporal(TemporalRelation::during, {{morning}})), HasSubstr("one operand"));
 }
 
-TEST_F(Times, WhatIsNoTimeIsRefused) {
+TEST_F(Times, AnInvalidTimeIsRefused) {
     auto const refused = [&](Condition condition) { return desk.subscribe("person_localized", std::move(condition)).reason; };
     EXPECT_THAT(refused(temporal(TemporalRelation::after, {reference("timestamp"), literal("teatime")})), HasSubstr("'teatime'"));
     EXPECT_THAT(refused(temporal(TemporalRelation::after, {reference("person_ref"), literal("2026")})),
                 HasSubstr("'person_ref'"));
-    EXPECT_THAT(refused(temporal(TemporalRelation::after, {reference("timestamp"), {spot(0, 0)}})),
-                HasSubstr("time that is none"));
+    EXPECT_THAT(refused(temporal(TemporalRelation::after, {reference("timestamp"), {spot(0, 0)}})), HasSubstr("is not a time"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Decision 18: a query goes to the one component that can answer best.
+// Decision 18: a query goes to the component that can answer it best.
 #include <gmock/gmock.h>
 
 #include "conditions.hpp"
@@ -8,7 +8,7 @@ namespace rois {
 
 using testing::HasSubstr;
 
-TEST(Query, NamesWhoAnswered) {
+TEST(Query, AnswerNamesTheComponent) {
     World world{navigation, speech};
     auto desk = world.connect();
     auto const reply = desk.query("route");
@@ -17,7 +17,7 @@ TEST(Query, NamesWhoAnswered) {
     EXPECT_EQ(in_words(reply.results.parameters), "length=2.5");
 }
 
-TEST(Query, PrefersWhatIsReadyThenTheLowestRef) {
+TEST(Query, PrefersAReadyComponentThenTheLowestRef) {
     World world{named("robot_a", navigation), named("robot_b", navigation), named("robot_c", navigation)};
     auto desk = world.connect(), hall = world.connect();
     EXPECT_EQ(desk.query("route").component_ref.code, "robot_a");
@@ -30,7 +30,7 @@ TEST(Query, PrefersWhatIsReadyThenTheLowestRef) {
     EXPECT_EQ(desk.query("route").component_ref.code, "robot_a") << "when none is READY";
 }
 
-TEST(Query, GoesWhereTheConditionSays) {
+TEST(Query, GoesToTheComponentThatTheConditionSelects) {
     World world{named("robot_a", navigation), named("robot_b", navigation), speech};
     auto desk = world.connect();
     EXPECT_EQ(desk.query("route", equal("component_ref", "robot_b")).component_ref.code, "robot_b");
@@ -39,7 +39,7 @@ TEST(Query, GoesWhereTheConditionSays) {
     EXPECT_EQ(desk.query("route", not_understood("what is this")).reason, "what is this");
 }
 
-TEST(Query, GoesToTheNamedAmongMany) {
+TEST(Query, FindsANamedComponentAmongMany) {
     World world{named("a", navigation), named("b", navigation), named("c", navigation),
                 named("d", navigation), named("e", navigation), speech};
     auto desk = world.connect(), hall = world.connect();
@@ -85,12 +85,12 @@ TEST(Query, FindsTheComponentThatHasTheRow) {
     nearest_door.filter = equal("to", "door");
     EXPECT_EQ(desk.query("route", nearest_door).component_ref.code, "robot_c");
     world["robot_b"].status_now = ComponentStatus::warning;
-    EXPECT_EQ(desk.query("route", equal("to", "door")).component_ref.code, "robot_c") << "what is READY comes first";
+    EXPECT_EQ(desk.query("route", equal("to", "door")).component_ref.code, "robot_c") << "a READY one comes first";
     world["robot_c"].throws_in = {"query"};
-    EXPECT_EQ(desk.query("route", equal("to", "door")).component_ref.code, "robot_b") << "who fails has no rows";
+    EXPECT_EQ(desk.query("route", equal("to", "door")).component_ref.code, "robot_b") << "a component that fails has no rows";
 }
 
-TEST(Query, AsksOnlyWhomTheConditionLeaves) {
+TEST(Query, AsksOnlyComponentsThatMayMatch) {
     World world{named("robot_a", navigation), named("robot_b", navigation)};
     auto desk = world.connect();
     world["robot_a"].throws_in = {"query"};
@@ -100,7 +100,7 @@ TEST(Query, AsksOnlyWhomTheConditionLeaves) {
         << "robot_a was never asked";
 }
 
-TEST(Query, AsksNobodyBehindTheOneThatIsReady) {
+TEST(Query, StopsAtTheFirstReadyComponent) {
     World world{named("robot_a", navigation), named("robot_b", navigation), named("robot_c", navigation)};
     auto desk = world.connect();
     world["robot_a"].status_now = ComponentStatus::warning;
@@ -111,7 +111,7 @@ TEST(Query, AsksNobodyBehindTheOneThatIsReady) {
         << "robot_c was never asked";
 }
 
-// However the condition names components, it finds those that it would find among all.
+// A query finds the same component, however the condition names it.
 TEST(Query, FindsTheComponentsThatTheConditionNames) {
     World world{named("robot_a", navigation), named("robot_b", navigation), named("robot_c", navigation), speech};
     auto desk = world.connect();
@@ -121,7 +121,7 @@ TEST(Query, FindsTheComponentsThatTheConditionNames) {
     EXPECT_EQ(found(either({b, speaker})), "robot_b");
     EXPECT_EQ(found(both({either({a, b}), contrary(a)})), "robot_b");
     EXPECT_EQ(found(both({a, b})), "");
-    EXPECT_EQ(found(either({b, equal("bound", "true")})), "robot_b") << "any, as far as the condition says";
+    EXPECT_EQ(found(either({b, equal("bound", "true")})), "robot_b") << "the condition does not name one";
     EXPECT_EQ(found(Condition{PropertyComparison{Comparator::equal, literal("robot_c"), reference("component_ref")}}), "robot_c");
     EXPECT_EQ(found(Condition{PropertyComparison{Comparator::equal, reference("component_ref"), literal("ROBOT_C"), false}}),
               "robot_c");
@@ -133,7 +133,7 @@ TEST(Query, FindsTheComponentsThatTheConditionNames) {
     EXPECT_EQ(found(either({Condition{ResourceId{"robot_c"}}, b})), "robot_b");
 }
 
-TEST(Query, SpeaksOfComponentsFirst) {
+TEST(Query, NamesReferToComponentsBeforeResults) {
     World world{navigation, speech};
     auto desk = world.connect();
     world["navigation"].status_now = ComponentStatus::warning;
@@ -144,12 +144,12 @@ TEST(Query, SpeaksOfComponentsFirst) {
     EXPECT_THAT(desk.query("route", equal("weight", "1")).reason, HasSubstr("length, to"));
 }
 
-TEST(Query, ThatNobodyKnowsIsUnsupported) {
+TEST(Query, OfAnUnknownTypeIsUnsupported) {
     World world{navigation};
     auto const reply = world.connect().query("weather");
     EXPECT_EQ(reply.return_code, ReturnCode::unsupported);
     EXPECT_THAT(reply.reason, HasSubstr("'weather'"));
-    EXPECT_EQ(world.connect().query("dock").return_code, ReturnCode::unsupported) << "a command is no query";
+    EXPECT_EQ(world.connect().query("dock").return_code, ReturnCode::unsupported) << "a command is not a query";
 }
 
 TEST(Query, ForParametersNeedsNoBinding) {
@@ -159,7 +159,7 @@ TEST(Query, ForParametersNeedsNoBinding) {
     EXPECT_EQ(in_words(reply.results.parameters), "synthesizable_languages=en|ja volume=50 language=en");
 }
 
-TEST(Query, ForTheStatusIsTheEngines) {
+TEST(Query, ForTheStatusIsAnsweredByTheEngine) {
     World world{navigation};
     auto const reply = world.connect().query("component_status");
     EXPECT_EQ(reply.results.parameters.front(), status_of("status", ComponentStatus::ready));
@@ -182,7 +182,7 @@ ParameterProfile result(std::string name, std::string type) {
     return {.name = std::move(name), .data_type_ref = {std::move(type), {}, {}, {}}, .default_value = {}, .description = {}};
 }
 
-// Tells `robot_position` and `engine_status`.
+// Answers `robot_position` and `engine_status`.
 Part system_of(std::string const& robot) {
     auto part = in_engine(robot, named("system", navigation));
     part.profile.object.identifier = "urn:x-rois:def:component:OMG::SystemInformation";
@@ -237,7 +237,7 @@ TEST_F(TwoRobots, TellTheirPositionsTogether) {
         EXPECT_EQ(reply.results.located[1].ref, "robot2");
     }
     desk.bind("robot2.system");
-    EXPECT_EQ(desk.query("robot_position").component_ref.code, "robot1.system") << "whatever the session works with";
+    EXPECT_EQ(desk.query("robot_position").component_ref.code, "robot1.system") << "whatever the session has bound";
 }
 
 TEST_F(TwoRobots, AreChosenByACondition) {
@@ -260,7 +260,7 @@ TEST_F(TwoRobots, HaveTheWorstOfTheirStatuses) {
     one.knows = {engine_status("WARNING", "1")};
     EXPECT_EQ(status(), "WARNING operable_time=2026-11-20T12:00:02.000Z");
     other.knows = {engine_status("UNINITIALIZED", "")};
-    EXPECT_EQ(status(), "UNINITIALIZED") << "they do not operate both";
+    EXPECT_EQ(status(), "UNINITIALIZED") << "not both of them operate";
     one.knows = {engine_status("ERROR", "1")};
     EXPECT_EQ(status(), "ERROR");
     one.knows = {engine_status("READY", "1")};
@@ -277,7 +277,7 @@ TEST_F(TwoRobots, AreNotSilencedByOneThatFails) {
     other.knows = {engine_status("READY", "1")};
     EXPECT_EQ(status(), "ERROR");
     other.throws_in = {"query"};
-    EXPECT_EQ(desk.query("robot_position").return_code, ReturnCode::error) << "nobody knows";
+    EXPECT_EQ(desk.query("robot_position").return_code, ReturnCode::error) << "none has a position";
 }
 
 }  // namespace rois

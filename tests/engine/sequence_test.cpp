@@ -1,4 +1,4 @@
-// Decisions 10 to 15: command unit sequences, checked whole and run in their order.
+// Decisions 10 to 15: command unit sequences are checked as a whole, and run in order.
 #include <gmock/gmock.h>
 
 #include "world.hpp"
@@ -75,7 +75,7 @@ TEST_F(Sequence, IsCheckedKnownBoundTypeValuesInThisOrder) {
     EXPECT_THAT(reply_to(start("navigation", {text("time_limit", "1")})).reason, HasSubstr("its type is int"));
 }
 
-TEST_F(Sequence, IsRefusedForADelayThatIsNoDelay) {
+TEST_F(Sequence, WithAnInvalidDelayIsRefused) {
     EXPECT_THAT(desk.execute(after(-1ms, go("a"))).reason, HasSubstr("delay_time must be 0 to 86400000 milliseconds"));
     EXPECT_EQ(desk.execute(after(24h + 1ms, go("a"))).return_code, ReturnCode::bad_parameter);
     EXPECT_EQ(desk.execute(after(24h, go("a"))).return_code, ReturnCode::ok);
@@ -115,17 +115,17 @@ TEST_F(Sequence, FillsInNoIdThatTheApplicationGives) {
     EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()).size(), 3U);
 }
 
-TEST_F(Sequence, IsRefusedWhenANameIsThereTwice) {
+TEST_F(Sequence, WithADuplicateCommandIdIsRefused) {
     EXPECT_THAT(desk.execute(go("a"), in_sequence({say("b"), say("a")})).reason,
                 "command_unit_list[2]/command_unit_list[2]: the command_id 'a' is there twice");
     desk.execute(go("a"));
     EXPECT_THAT(desk.execute(say("a")).reason, HasSubstr("is in use in this session"));
     robot.finishes();
-    EXPECT_THAT(desk.execute(say("a")).return_code, ReturnCode::bad_parameter) << "its results are known still";
+    EXPECT_THAT(desk.execute(say("a")).return_code, ReturnCode::bad_parameter) << "its results are still known";
     auto hall = world.connect();
     desk.release("navigation");
     hall.bind("navigation");
-    EXPECT_EQ(hall.execute(go("a")).return_code, ReturnCode::ok) << "another session has names of its own";
+    EXPECT_EQ(hall.execute(go("a")).return_code, ReturnCode::ok) << "each session has its own command_ids";
 }
 
 // --- The order of things (decisions 13, 14) ---
@@ -283,7 +283,7 @@ TEST_F(Sequence, ThatOnlyDelaysIsRefused) {
     EXPECT_EQ(reason(go("go"), in_parallel({say("say"), in_parallel({pause(1s), pause(2s)})})),
               "command_unit_list[2]/command_unit_list[2]: " + none);
     EXPECT_EQ(reason(in_parallel({say("say"), pause(1s)})), "OK") << "a branch may only delay, beside one that does not";
-    EXPECT_EQ(desk.result_of("go"), "BAD_PARAMETER") << "nothing ran of what was refused";
+    EXPECT_EQ(desk.result_of("go"), "BAD_PARAMETER") << "no command of a refused sequence ran";
 }
 
 TEST_F(Sequence, ThatHasFailedDoesNotWakeAfterItsDelay) {
@@ -293,7 +293,7 @@ TEST_F(Sequence, ThatHasFailedDoesNotWakeAfterItsDelay) {
     EXPECT_THAT(voice.told, ElementsAre("halt"));
 }
 
-// A session cannot pile up commands without end.
+// The number of live commands of a session is limited.
 TEST(LiveCommands, OfASessionAreLimited) {
     EngineSettings settings;
     settings.max_waiting_notifications = 3;

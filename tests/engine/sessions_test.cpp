@@ -15,7 +15,7 @@ bool lives(World& world, Application const& application) { return world.engine->
 
 }  // namespace
 
-TEST(Session, WithoutOneEverythingButConnectIsRefused) {
+TEST(Session, IsRequiredForEveryOperationExceptConnect) {
     World world{navigation};
     auto const bind = Operation{Bind{Application::identifier("navigation")}};
     EXPECT_EQ(std::get<Refusal>(world.say({}, bind)), Refusal::no_session);
@@ -51,14 +51,14 @@ TEST(Session, ConnectWithAnEndedIdOpensANewOne) {
     EXPECT_EQ(world.engine->statistics().sessions, 1U);
 }
 
-TEST(Session, ThereAreNoMoreThanAllowed) {
+TEST(Session, CannotBeOpenedAboveTheLimit) {
     EngineSettings settings;
     settings.max_sessions = 2;
     World world{{navigation}, settings};
     auto desk = world.connect();
     auto hall = world.connect();
     EXPECT_EQ(std::get<Refusal>(world.say({}, Connect{})), Refusal::too_many_sessions);
-    EXPECT_EQ(desk.refusal_of(Connect{}), std::nullopt) << "inside a session nothing is opened";
+    EXPECT_EQ(desk.refusal_of(Connect{}), std::nullopt) << "a second connect opens no session";
     hall.leave();
     EXPECT_TRUE(std::holds_alternative<Reply>(world.say({}, Connect{})));
 }
@@ -75,13 +75,13 @@ TEST(Session, ThatIsIdleForLongestMakesRoomForANewOne) {
     world.engine->heard_from(first.session, world.now);
     auto const known = [&](Application& session) { return session.refusal_of(Search{}) == std::nullopt; };
     auto third = world.connect_without_link();
-    EXPECT_FALSE(known(second)) << "the other one was heard from later";
+    EXPECT_FALSE(known(second)) << "the other one was active later";
     EXPECT_TRUE(known(first));
     auto fourth = world.connect();
     EXPECT_FALSE(known(first));
     auto fifth = world.connect();
-    EXPECT_FALSE(known(third)) << "though it is new";
-    EXPECT_EQ(std::get<Refusal>(world.say({}, Connect{})), Refusal::too_many_sessions) << "nobody is idle";
+    EXPECT_FALSE(known(third)) << "although it is new";
+    EXPECT_EQ(std::get<Refusal>(world.say({}, Connect{})), Refusal::too_many_sessions) << "no session is idle";
     for (auto* busy : {&linked, &bound, &subscribed, &fourth, &fifth}) EXPECT_TRUE(known(*busy));
     EXPECT_EQ(world.engine->statistics().sessions_replaced, 3U);
     bound.release("navigation");
@@ -99,7 +99,7 @@ TEST(Session, DisconnectStopsWhatItStarted) {
     desk.heard();
     desk.leave();
     EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
-    EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt")) << "a function that is active counts, too";
+    EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt")) << "an active function counts, too";
     EXPECT_THAT(desk.heard(), ElementsAre("2 completed go ABORT", "3 completed and on ABORT"));
     EXPECT_TRUE(desk.told_of_the_end());
     auto hall = world.connect();
@@ -107,7 +107,7 @@ TEST(Session, DisconnectStopsWhatItStarted) {
     EXPECT_EQ(hall.bind("detection"), ReturnCode::ok);
 }
 
-TEST(Session, NothingIsToldAfterItsEnd) {
+TEST(Session, ReceivesNothingAfterItsEnd) {
     World world{navigation, detection};
     auto desk = world.connect();
     desk.bind("navigation");
@@ -125,7 +125,7 @@ TEST(Session, NothingIsToldAfterItsEnd) {
     EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "parameters_changed"));
 }
 
-TEST(Session, MayLetItsCommandsRunOn) {
+TEST(Session, MayLeaveItsCommandsRunning) {
     EngineSettings settings;
     settings.on_session_end = OnSessionEnd::continue_;
     World world{{navigation, speech}, settings};
@@ -141,7 +141,7 @@ TEST(Session, MayLetItsCommandsRunOn) {
     EXPECT_EQ(world.stray_answers(), 0U);
 }
 
-TEST(Session, WhatRunsOnDoesNotTakeAComponentFromItsNextSession) {
+TEST(Session, CommandsThatContinueDoNotKeepTheirComponentFromTheNextSession) {
     EngineSettings settings;
     settings.on_session_end = OnSessionEnd::continue_;
     World world{{navigation, speech}, settings};
@@ -204,7 +204,7 @@ TEST(Link, ASessionThatIsResumedGoesOn) {
     EXPECT_EQ(std::get<Refusal>(world.say({}, Resume{desk.session, 0})), Refusal::no_session);
 }
 
-TEST(Link, NobodyResumesFromWhatWasNeverTold) {
+TEST(Link, CannotBeResumedFromASequenceThatWasNeverSent) {
     World world{navigation};
     auto desk = world.connect_without_link();
     desk.bind("navigation");
@@ -227,7 +227,7 @@ TEST(Link, HttpMayBeSilentForTheSessionTimeoutAndTheWindow) {
     EXPECT_FALSE(lives(world, desk));
 }
 
-TEST(Link, AConnectThatNobodyFollowsUpEnds) {
+TEST(Link, ASessionWithoutRequestsAfterConnectEnds) {
     World world{navigation};
     auto desk = world.connect_without_link();
     world.advance(29900ms);
@@ -288,7 +288,7 @@ TEST(Link, ManyShortPollsDoNotShortenIt) {
     EXPECT_FALSE(lives(world, desk));
 }
 
-TEST(Link, ThatOfAnUnknownSessionIsNothing) {
+TEST(Link, OfAnUnknownSessionHasNoEffect) {
     World world{navigation};
     world.engine->heard_from({"made-up"}, world.now);
     world.engine->link_opened({"made-up"}, Link::stream, world.now);
@@ -317,7 +317,7 @@ TEST(ShutDown, EndsAllSessionsAndRefusesNewOnes) {
     EXPECT_THAT(world["navigation"].told, ElementsAre("start", "halt", "halt", "parameters_changed"));
 }
 
-TEST(ShutDown, StopsAlsoWhatWasLeftToRunOn) {
+TEST(ShutDown, StopsCommandsWithoutASessionToo) {
     EngineSettings settings;
     settings.on_session_end = OnSessionEnd::continue_;
     World world{{navigation, detection}, settings};
@@ -331,12 +331,12 @@ TEST(ShutDown, StopsAlsoWhatWasLeftToRunOn) {
     EXPECT_THAT(world["detection"].told, ElementsAre("start", "halt"));
 }
 
-TEST(ShutDown, AnEngineMayGoWhileItsCommandsRun) {
+TEST(ShutDown, AnEngineMayBeDestroyedWhileItsCommandsRun) {
     World world{navigation};
     auto desk = world.connect();
     desk.bind("navigation");
     desk.execute(go("go"), after(1h, go("later")));
-    world.engine.reset();  // a sanitizer that looks for leaks sees whether all of it went
+    world.engine.reset();  // a leak sanitizer checks that all of it is freed
     EXPECT_THAT(desk.heard(), IsEmpty());
 }
 

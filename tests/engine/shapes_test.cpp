@@ -1,4 +1,4 @@
-// How points, boxes, lines, circles and polygons lie to each other: each spatial operator with each pair of geometries.
+// Relations between points, boxes, lines, circles and polygons: each spatial operator with each pair of geometries.
 #include <gmock/gmock.h>
 
 #include <numbers>
@@ -29,7 +29,7 @@ Geometry polygon(Geometry::Points border, std::vector<Geometry::Points> holes = 
     return shape(Geometry::Shape::polygon, std::move(holes));
 }
 
-// The names of the relations that hold from one to the other, and those that hold from the other to the one only.
+// The relations that hold in both directions, and those that hold from `a` to `b` only.
 std::string relations(Geometry const& a, Geometry const& b) {
     static std::vector<std::pair<SpatialRelation, std::string>> const all{
         {SpatialRelation::equals, "equals"},    {SpatialRelation::disjoint, "disjoint"}, {SpatialRelation::touches, "touches"},
@@ -59,7 +59,7 @@ TEST(Points, AreWithinOrTouchOrApart) {
     EXPECT_EQ(relations(spot(1, 2), spot(1, 3)), "disjoint");
     for (auto const& area : {square, triangle, circle(0, 0, 1'000)}) EXPECT_EQ(relations(spot(100, 200), area), "within");
     for (auto const& area : {square, triangle, circle(2'000, 0, 1'000)})
-        EXPECT_EQ(relations(spot(1'000, 0), area), "touches within") << "edges belong to an area, and are no interior";
+        EXPECT_EQ(relations(spot(1'000, 0), area), "touches within") << "edges belong to an area, but not to its interior";
     for (auto const& area : {square, triangle, circle(500, 500, 500)}) EXPECT_EQ(relations(spot(1'001, 0), area), "disjoint");
     EXPECT_EQ(relations(spot(500, 0), line({{0, 0}, {1'000, 0}})), "within");
     EXPECT_EQ(relations(spot(0, 0), line({{0, 0}, {1'000, 0}})), "touches within") << "the end of a line is its edge";
@@ -68,7 +68,7 @@ TEST(Points, AreWithinOrTouchOrApart) {
     EXPECT_EQ(relations(spot(500, 0), box(0, 0, 1'000, 0)), "within") << "a box without height is a line";
 }
 
-TEST(Boxes, LieToEachOtherAsAreasDo) {
+TEST(Boxes, HaveTheRelationsOfAreas) {
     EXPECT_EQ(relations(square, square), "equals within contains");
     EXPECT_EQ(relations(square, box(500, 500, 2'000, 2'000)), "overlaps");
     EXPECT_EQ(relations(square, box(1'000, 0, 2'000, 1'000)), "touches");
@@ -82,11 +82,11 @@ TEST(Boxes, LieToEachOtherAsAreasDo) {
     EXPECT_EQ(relations(box(0, 0, 600, 0), box(500, 0, 900, 0)), "overlaps");
     Geometry const low{.crs = "", .low = {0, 0, 0}, .high = {1'000, 1'000, 1'000}, .dimensions = 3};
     Geometry const high{.crs = "", .low = {0, 0, 1'000}, .high = {1'000, 1'000, 2'000}, .dimensions = 3};
-    EXPECT_EQ(relations(low, high), "touches") << "one upon the other";
+    EXPECT_EQ(relations(low, high), "touches") << "one on top of the other";
     EXPECT_EQ(relations(low, square), "equals within contains") << "in the plane";
 }
 
-TEST(Polygons, LieToOtherGeometriesAsAreasDo) {
+TEST(Polygons, HaveTheRelationsOfAreasToOtherGeometries) {
     EXPECT_EQ(relations(triangle, triangle), "equals within contains");
     EXPECT_EQ(relations(polygon({{1'000, 0}, {0, 0}, {0, 1'000}, {1'000, 0}}), triangle), "equals within contains")
         << "whatever the first point and the direction";
@@ -95,7 +95,7 @@ TEST(Polygons, LieToOtherGeometriesAsAreasDo) {
     EXPECT_EQ(relations(triangle, box(500, 500, 900, 900)), "touches") << "the corner of the box is on the slanted edge";
     EXPECT_EQ(relations(triangle, box(600, 600, 900, 900)), "disjoint");
     EXPECT_EQ(relations(triangle, box(100, 100, 900, 900)), "overlaps");
-    EXPECT_EQ(relations(frame, box(400, 400, 600, 600)), "touches") << "fills the hole";
+    EXPECT_EQ(relations(frame, box(400, 400, 600, 600)), "touches") << "it fills the hole";
     EXPECT_EQ(relations(frame, box(450, 450, 550, 550)), "disjoint") << "within the hole";
     EXPECT_EQ(relations(frame, square), "within");
 }
@@ -159,7 +159,7 @@ TEST(Geometries, ThatAreInvalidSayWhy) {
     EXPECT_THAT(why_invalid(circle(0, 0, 1e13)).value_or(""), HasSubstr("beyond 1e12 mm"));
 }
 
-// The map begins at (1000, 2000) of the hall, and its x axis is the hall's y axis.
+// The origin of the map is at (1000, 2000) of the hall, and its x axis is the hall's y axis.
 TEST(Geometries, AreMovedIntoAnotherFrame) {
     Frame map{.crs = "map", .base = "hall", .position = {1'000, 2'000, 0}, .orientation = {0, 0, 90}, .covariance = {}};
     Frames const frames{"hall", {map}};
@@ -175,7 +175,7 @@ TEST(Geometries, AreMovedIntoAnotherFrame) {
     EXPECT_EQ(frames.moved(round, "hall")->paths.front().front(), (Geometry::Point{1'000, 2'100}));
     EXPECT_DOUBLE_EQ(frames.moved(round, "hall")->radius, 50);
     map.orientation = {10, 0, 0};
-    EXPECT_EQ(Frames("hall", {map}).moved(round, "hall"), std::nullopt) << "a circle that is tilted is not a circle";
+    EXPECT_EQ(Frames("hall", {map}).moved(round, "hall"), std::nullopt) << "a tilted circle is not a circle";
 }
 
 namespace {
@@ -206,26 +206,26 @@ TEST_F(Areas, ChooseComponentsByEachOperator) {
     Expression const here = reference("location");
     EXPECT_THAT(found(SpatialRelation::within, {here, {triangle}}), ElementsAre("edge", "inside"));
     EXPECT_THAT(found(SpatialRelation::contains, {{triangle}, here}), ElementsAre("edge", "inside"));
-    EXPECT_THAT(found(SpatialRelation::contains, {here, {triangle}}), IsEmpty()) << "a point contains no area";
+    EXPECT_THAT(found(SpatialRelation::contains, {here, {triangle}}), IsEmpty()) << "a point cannot contain an area";
     EXPECT_THAT(found(SpatialRelation::contains, {here, {spot(100, 100)}}), ElementsAre("inside"));
     EXPECT_THAT(found(SpatialRelation::touches, {here, {triangle}}), ElementsAre("edge"));
     EXPECT_THAT(found(SpatialRelation::equals, {here, literal("500, 500")}), ElementsAre("edge"));
     EXPECT_THAT(found(SpatialRelation::disjoint, {here, {circle(0, 0, 500)}}), ElementsAre("edge"));
-    EXPECT_THAT(found(SpatialRelation::crosses, {here, {triangle}}), IsEmpty()) << "a point crosses nothing";
+    EXPECT_THAT(found(SpatialRelation::crosses, {here, {triangle}}), IsEmpty()) << "a point cannot cross";
     EXPECT_THAT(found(SpatialRelation::overlaps, {here, {triangle}}), IsEmpty());
     EXPECT_THAT(found(SpatialRelation::crosses, {literal("desk"), {line({{0, 500}, {500, 500}})}}), ElementsAre("edge", "inside"))
-        << "true, whoever asks";
+        << "constantly true";
     EXPECT_THAT(found(SpatialRelation::touches, {{triangle}}), ElementsAre("edge")) << "one operand: the component's own place";
 }
 
-TEST_F(Areas, SayWhatIsWrongWithThem) {
+TEST_F(Areas, ReportWhyTheyAreInvalid) {
     auto const where = [&](Geometry geometry) { return reason(within("location", {std::move(geometry)})); };
     EXPECT_EQ(where(polygon({{0, 0}, {1, 1}, {1, 0}, {0, 1}, {0, 0}})),
               "the condition has a polygon whose edges cross or touch one another");
     Geometry::Points many{{0, 0}};
     for (int i = 0; i <= 3'000; ++i) many.push_back({static_cast<double>(i), 1});
     many.push_back({0, 0});
-    EXPECT_THAT(where(polygon(many)), HasSubstr("more than 256 predicates, of which 8 points of a line or polygon count as one"));
+    EXPECT_THAT(where(polygon(many)), HasSubstr("more than 256 predicates; 8 points of a line or polygon count as one"));
     EXPECT_EQ(reason(within("location", literal("14000  5000"))),
               "the condition has the position '14000  5000', which has no commas; write 'x, y' or 'x, y, th'");
 }

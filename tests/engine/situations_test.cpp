@@ -1,4 +1,4 @@
-// Who hears of errors and from when until when (7.4.1.2), and endings of commands that a note below tables 7 and 8 leaves to us.
+// The receivers of errors, and from when until when (7.4.1.2); ends of commands that the notes below tables 7 and 8 leave open.
 #include <gmock/gmock.h>
 
 #include "conditions.hpp"
@@ -13,7 +13,7 @@ using testing::IsEmpty;
 
 namespace {
 
-// Advances until it is told to break.
+// Advances until the test makes it fail.
 struct Floor : Device {
     bool breaks = false;
     void advance(Instant) override {
@@ -25,7 +25,7 @@ void reports(World& world, std::string const& ref) { world[ref].reports(ErrorTyp
 
 }  // namespace
 
-TEST(ErrorsOfTheEngine, AreHeardFromConnectToDisconnect) {
+TEST(ErrorsOfTheEngine, AreReportedFromConnectToDisconnect) {
     World world{navigation};
     auto const floor = std::make_shared<Floor>();
     world.engine->add(floor);
@@ -40,7 +40,7 @@ TEST(ErrorsOfTheEngine, AreHeardFromConnectToDisconnect) {
     EXPECT_THAT(late.heard(), IsEmpty());
 }
 
-TEST(ErrorsOfAComponent, AreHeardFromBindToRelease) {
+TEST(ErrorsOfAComponent, AreReportedFromBindToRelease) {
     World world{navigation};
     auto desk = world.connect();
     reports(world, "navigation");
@@ -56,7 +56,7 @@ TEST(ErrorsOfAComponent, AreHeardFromBindToRelease) {
     EXPECT_THAT(desk.heard(), ElementsAre("2 USER_DEFINED_ERROR navigation"));
 }
 
-TEST(ErrorsOfAComponent, AreHeardFromSubscribeToUnsubscribe) {
+TEST(ErrorsOfAComponent, AreReportedFromSubscribeToUnsubscribe) {
     World world{navigation};
     auto desk = world.connect();
     auto const id = desk.subscribe("reached_target").subscribe_id;
@@ -81,7 +81,7 @@ TEST(ErrorsOfAComponent, HaveAnIdEach) {
     for (auto const& id : ids) EXPECT_EQ(desk.detail_of(ErrorId{id}).return_code, ReturnCode::ok);
 }
 
-// An adapter whose robot is in another process, and that process has gone.
+// An adapter for a robot in another process, which has ended.
 TEST(ErrorsOfAComponent, WhoseProcessIsGoneAreNotResponding) {
     World world{navigation, speech};
     auto desk = world.connect();
@@ -128,7 +128,7 @@ TEST(Settings, AreThoseOfTheDecisions) {
     EXPECT_EQ(settings.max_sessions, 1'000U);
 }
 
-// 7.5.1: the profile of an engine may be asked for by where it is, and by the components that it has.
+// 7.5.1: get_profile can select an engine by its position and by its components.
 TEST(Profile, MayBeChosenByPlace) {
     World world{navigation, in_engine("sub1", navigation), in_engine("sub1", speech)};
     world.engine->describe({.frames = {"hall"}, .all = {{"desk", box(0, 0, 1'000, 1'000, "hall")}}});
@@ -148,7 +148,7 @@ TEST(Profile, MayBeChosenByPlace) {
     EXPECT_THAT(chosen(equal("engine", "sub1")), ElementsAre("sub1.navigation", "sub1.speech"));
 }
 
-// Annex B.1: A, B, then C and D beside E, then F when both branches are done.
+// Annex B.1: A, B, then C and D in parallel with E, then F after both branches.
 TEST(AnnexB, TheSequenceRunsInItsOrder) {
     World world{named("a", speech), named("c", navigation), named("e", speech)};
     auto desk = world.connect();
@@ -175,7 +175,7 @@ TEST(AnnexB, TheSequenceRunsInItsOrder) {
                                           "5 completed D OK", "6 completed F OK"));
 }
 
-// Annex B.2: set_parameter with an empty command_id; its component_ref says more than the code.
+// Annex B.2: set_parameter with an empty command_id, and a component_ref with more attributes than the code.
 TEST(AnnexB, TheCommandMessageGetsItsId) {
     World world{named("speech_synthesis", speech)};
     auto desk = world.connect();

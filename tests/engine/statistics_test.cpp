@@ -1,4 +1,4 @@
-// What an engine counts about its sessions and limits.
+// The engine's statistics of sessions and limits.
 #include <gmock/gmock.h>
 
 #include "world.hpp"
@@ -49,7 +49,7 @@ TEST(Statistics, OfSessionsAreByTheirNumber) {
     auto const later = world.engine->statistics().each_session[1];
     EXPECT_THAT(later.bound, ElementsAre("navigation"));
     EXPECT_EQ(later.commands, 1U);
-    EXPECT_EQ(later.waiting_notifications, 1U) << "that one of them has completed";
+    EXPECT_EQ(later.waiting_notifications, 1U) << "the completion of one of them";
 }
 
 TEST(Statistics, CountHowOftenALimitWasReached) {

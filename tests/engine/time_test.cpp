@@ -1,4 +1,4 @@
-// The clock jumps a day: nothing fires early or late (bad-input.md); documents show the new time.
+// If the clock jumps by a day, no deadline is early or late (bad-input.md), and documents have the new time.
 #include <gmock/gmock.h>
 
 #include "world.hpp"
@@ -11,7 +11,7 @@ using testing::IsEmpty;
 
 namespace {
 
-// Whichever way somebody sets the calendar.
+// The clock can be set forward and back.
 struct Calendar : testing::TestWithParam<std::chrono::hours> {
     World world{navigation, speech, detection};
     Application desk = world.connect();
@@ -62,7 +62,7 @@ TEST_P(Calendar, EndsNoSessionAndForgetsNothing) {
     EXPECT_EQ(desk.detail_of(event).return_code, ReturnCode::bad_parameter);
 }
 
-TEST_P(Calendar, IsWhatDocumentsShow) {
+TEST_P(Calendar, IsShownInDocuments) {
     auto const before = world.now.utc;
     jump();
     world["navigation"].reports(ErrorType::user_defined_error, "late");

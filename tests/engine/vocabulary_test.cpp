@@ -1,4 +1,4 @@
-// What value references may speak of, and how they are written (decision 18; the minimum XPath of ISO 19143).
+// Value references: their syntax, and the names that they can use (decision 18; the minimum XPath of ISO 19143).
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -23,17 +23,17 @@ struct References : testing::Test {
     std::string reason(Condition condition) { return desk.ask(Search{std::move(condition)}).reason; }
 };
 
-TEST_F(References, SpeakOfComponents) {
+TEST_F(References, MayReferToComponents) {
     EXPECT_THAT(found(equal("component_ref", "speech")), ElementsAre("speech"));
     EXPECT_THAT(found(equal("Identifier", "speech")), ElementsAre("speech"));
     EXPECT_THAT(found(equal("Name", "speech")), ElementsAre("speech"));
     EXPECT_THAT(found(equal("engine", "sub1")), ElementsAre("sub1.speech"));
     EXPECT_THAT(found(equal("RobotId", "sub1")), ElementsAre("sub1.speech"));
     EXPECT_THAT(found(equal("status", "READY")), SizeIs(4));
-    EXPECT_THAT(found(equal("Property/status", "READY")), SizeIs(4)) << "what is no parameter but a word is the word";
+    EXPECT_THAT(found(equal("Property/status", "READY")), SizeIs(4)) << "a word that is not a parameter keeps its meaning";
 }
 
-TEST_F(References, SpeakOfParameters) {
+TEST_F(References, MayReferToParameters) {
     EXPECT_THAT(found(equal("Property/volume", "50")), ElementsAre("speech", "sub1.speech"));
     EXPECT_THAT(found(equal("volume", "50")), ElementsAre("speech", "sub1.speech"));
     EXPECT_THAT(found(equal("Property[@name='volume']", "50")), ElementsAre("speech", "sub1.speech"));
@@ -42,7 +42,7 @@ TEST_F(References, SpeakOfParameters) {
     EXPECT_THAT(found(equal("Property/labels", "green")), ElementsAre("lamp"));
 }
 
-TEST_F(References, SpeakOfWhatTheParametersAreNow) {
+TEST_F(References, UseThePresentValuesOfParameters) {
     desk.bind("speech");
     desk.set_parameter("speech", {value("volume", "int", {"80"})});
     EXPECT_THAT(found(greater("volume", "60")), ElementsAre("speech"));
@@ -68,13 +68,13 @@ TEST_F(References, HaveOneValueWhereThereIsOne) {
     EXPECT_THAT(found(equal("name[1]", "speech")), ElementsAre("speech"));
 }
 
-TEST_F(References, ToAnAttributeThatIsNotThereMeetNothing) {
+TEST_F(References, ToAMissingAttributeNeverMatch) {
     EXPECT_THAT(found(is_null("component_ref/@version")), SizeIs(4));
     EXPECT_THAT(found(equal("component_ref/@version", "")), IsEmpty());
     EXPECT_THAT(found(not_equal("component_ref/@version", "1")), IsEmpty());
 }
 
-TEST_F(References, ToParametersGoWithTheirComponents) {
+TEST_F(References, ToParametersFollowTheirComponents) {
     ASSERT_EQ(reason(equal("ratio", "1")), "");
     ASSERT_EQ(reason(equal("label", "x")), "");
     world.change({"lamp"}, {});
@@ -141,9 +141,9 @@ TEST_F(References, ToParametersAlsoFilterEvents) {
     EXPECT_THAT(desk.heard(), SizeIs(1));
 }
 
-TEST_F(References, ToWhatACandidateNeverHasNeverMatch) {
+TEST_F(References, ToAPropertyThatACandidateNeverHasNeverMatch) {
     EXPECT_EQ(desk.bind_any(both({equal("component_ref", "navigation"), equal("Property/volume", "50")})), "UNSUPPORTED");
-    EXPECT_EQ(desk.bind_any(equal("Property/volume", "99")), "OUT_OF_RESOURCES") << "somebody may set it";
+    EXPECT_EQ(desk.bind_any(equal("Property/volume", "99")), "OUT_OF_RESOURCES") << "a session may set it";
     EXPECT_EQ(desk.subscribe("reached_target", equal("Property/volume", "50")).return_code, ReturnCode::unsupported);
 }
 
@@ -198,16 +198,16 @@ TEST_F(Groups, HaveAFilterOnTheWholeRobot) {
     auto group = of_types({"Robot"});
     group.filter = {equal("Property/counts", "2")};
     group.members = {drives};
-    EXPECT_THAT(found(group), ElementsAre("sub1.navigation")) << "its lamp counts to 2";
+    EXPECT_THAT(found(group), ElementsAre("sub1.navigation")) << "its lamp has count 2";
 }
 
-TEST_F(Groups, AnAliasStandsForWhatIsOfItsType) {
+TEST_F(Groups, AnAliasStandsForTheComponentsOfItsType) {
     auto group = of_types({"Navigation", "Lamp"}, {"a", "b"});
     group.filter = {both({equal("a/Identifier", "sub1.navigation"), equal("b/Property/labels", "red")})};
     group.members = {drives};
     EXPECT_THAT(found(group), ElementsAre("sub1.navigation"));
     group.filter = {equal("b/Identifier", "sub1.navigation")};
-    EXPECT_THAT(found(group), IsEmpty()) << "that one is a";
+    EXPECT_THAT(found(group), IsEmpty()) << "that component is `a`";
     group.filter = {equal("c/Identifier", "sub1.navigation")};
     EXPECT_THAT(desk.ask(Search{Condition{group}}).reason, HasSubstr("'c/Identifier'"));
 }
@@ -221,7 +221,7 @@ TEST_F(Groups, AreBoundOneByOne) {
     EXPECT_EQ(world.connect().bind_any(Condition{group}), "OUT_OF_RESOURCES");
 }
 
-TEST_F(Groups, SpeakOfNoResults) {
+TEST_F(Groups, AreRefusedInConditionsOnResults) {
     auto group = of_types({"Robot"});
     group.members = {equal("target", "desk")};
     EXPECT_THAT(desk.subscribe("reached_target", Condition{group}).reason, HasSubstr("'target'"));
@@ -264,7 +264,7 @@ TEST_F(Meanings, OfComparisons) {
     auto const more = detected(greater("number", "1"));
     EXPECT_EQ(detected({PropertyComparison{Comparator::less, literal(" 1.0 "), reference("Result/Number")}}), more);
     EXPECT_EQ(detected({PropertyComparison{Comparator::greater, reference("number"), literal("1e0"), false}}), more)
-        << "numbers have no case";
+        << "numbers are not case-sensitive";
     EXPECT_NE(detected(greater("number", "2")), more);
     EXPECT_NE(detected(less("number", "1")), more);
     EXPECT_NE(detected(compared("number", Comparator::greater, "1", MatchAction::all)), more);
@@ -281,7 +281,7 @@ TEST_F(Meanings, OfLogic) {
     auto const all = detected(both({a, b, c}));
     EXPECT_EQ(detected(both({c, both({b, a, a})})), all);
     EXPECT_EQ(detected(contrary(contrary(both({a, b, c})))), all);
-    EXPECT_EQ(detected(both({either({a}), either({both({b, c})})})), all) << "one operand alone is itself";
+    EXPECT_EQ(detected(both({either({a}), either({both({b, c})})})), all) << "a single operand stands for itself";
     EXPECT_NE(detected(either({a, b, c})), all);
     EXPECT_NE(detected(contrary(both({a, b, c}))), all);
     EXPECT_EQ(detected({And{{a}}}), detected(a));

@@ -1,5 +1,7 @@
-// A world for the engine's tests: scripted components, a clock that moves when told, applications that speak in the domain's
-// words. `World world{navigation, speech}; auto desk = world.connect(); desk.bind("navigation"); ...`
+// A world for the engine's tests: scripted components, a clock that the test advances, and applications.
+//     World world{navigation, speech};
+//     auto desk = world.connect();
+//     desk.bind("navigation");
 #pragma once
 
 #include <initializer_list>
@@ -18,23 +20,23 @@ namespace rois {
 
 class World;
 
-// A service application with a session of its own. It hears what it is told when it listens.
+// A service application with its own session. It reads its notifications when the test asks for them.
 class Application {
 public:
     Application(World& world, SessionId session);
 
     SessionId session;
 
-    // The answer to an operation; the test fails when it was refused before it ran.
+    // Returns the answer to an operation. The test fails if it was refused before it was performed.
     template <class Operation>
     typename Operation::Reply ask(Operation operation);
 
-    // Nothing when it ran.
+    // Returns nullopt if the operation was performed.
     std::optional<Refusal> refusal_of(Operation const&);
 
     ReturnCode bind(std::string const& ref) { return ask(Bind{identifier(ref)}).return_code; }
     ReturnCode release(std::string const& ref) { return ask(Release{identifier(ref)}).return_code; }
-    std::string bind_any(QueryExpression condition = {});  // the ref, or the return code
+    std::string bind_any(QueryExpression condition = {});  // returns the ref, or the return code
     std::vector<std::string> search(QueryExpression condition = {});
     void leave() { ask(Disconnect{}); }
 
@@ -46,9 +48,9 @@ public:
         return ask(Execute{{std::vector<CommandUnit>{std::move(units)...}}});
     }
 
-    // What get_command_result says: "RUNNING", "OK charge=80", or the return code when it says no.
+    // The result of get_command_result: "RUNNING", "OK charge=80", or the return code if it is not OK.
     std::string result_of(std::string const& command_id, QueryExpression condition = {});
-    // The reason that it gives, if it does.
+    // The result `reason`, or "".
     std::string reason_of(std::string const& command_id);
 
     std::string status_of(std::string const& ref);
@@ -58,11 +60,11 @@ public:
     GetEventDetail::Reply detail_of(EventId const& id, QueryExpression condition = {});
     GetErrorDetail::Reply detail_of(ErrorId const& id, QueryExpression condition = {});
 
-    // What was told since it last listened, in words: "3 completed go OK", "4 reached_target navigation",
-    // "5 COMPONENT_INTERNAL_ERROR speech", "9 lost 5". Heard also after the session's end.
+    // The notifications since the last call, as text: "3 completed go OK", "4 reached_target navigation", "5
+    // COMPONENT_INTERNAL_ERROR speech", "9 lost 5". Also works after the session's end.
     std::vector<std::string> heard(std::size_t most = 100'000);
 
-    // The same as it came, for the last of them.
+    // The last notification of this kind.
     template <class Kind>
     Kind last_heard() const {
         return std::get<Kind>(last_);
@@ -87,21 +89,21 @@ public:
     World(std::initializer_list<Part> parts) : World{std::vector<Part>{parts}, EngineSettings{}} {}
     World(std::vector<Part> const& parts, EngineSettings settings);
 
-    // An application with a WebSocket that stays open; and one that has only asked for a session.
+    // An application with an open WebSocket, or one that has only sent `connect`.
     Application connect();
     Application connect_without_link();
 
-    // A component; and time, in steps as the gateway's clock makes them.
+    // Access to a component, and functions that advance time in the steps of the gateway's clock.
     ScriptedComponent& operator[](std::string_view ref) { return *components_.at(std::string{ref}); }
     void advance(std::chrono::milliseconds);
 
-    // Components come and go at once.
+    // Removes and adds components in one step.
     void change(std::vector<std::string> going, std::vector<Part> const& coming);
 
-    // Somebody sets the machine's calendar; no time passes.
+    // Changes the calendar time; no time passes.
     void set_calendar(std::chrono::hours by) { now.utc += by; }
 
-    // Does this where things happen by themselves.
+    // Runs this as a part of the devices' next advance.
     void happen(std::function<void()> what);
 
     std::variant<Reply, Refusal> say(SessionId const& session, Operation const& operation) {
@@ -112,7 +114,7 @@ public:
     void notify(NotificationQueue& queue) override { ++notified[queue.session()]; }
 
     Instant now{Steady{std::chrono::hours{1}}, Utc{std::chrono::hours{24 * 20'777 + 12}}};  // 2026-11-20, noon
-    std::map<SessionId, int> notified;  // how often the outbox was called for a session
+    std::map<SessionId, int> notified;  // number of Outbox::notify calls, by session
     std::unique_ptr<Engine> engine;
 
 private:
@@ -140,8 +142,8 @@ inline CommandUnit set(std::string const& ref, ParameterList arguments) {
     return command("set_parameter", ref, std::move(arguments));
 }
 
-CommandUnit go(std::string const& id, std::string const& ref = "navigation");  // start with a place to go to
-CommandUnit say(std::string const& id, std::string const& ref = "speech");     // start with something to say
+CommandUnit go(std::string const& id, std::string const& ref = "navigation");  // start with a target
+CommandUnit say(std::string const& id, std::string const& ref = "speech");     // start with a text
 
 CommandUnit named(std::string id, CommandUnit unit);
 CommandUnit after(std::chrono::milliseconds delay, CommandUnit unit);
@@ -165,7 +167,7 @@ Condition not_understood(std::string reason);
 
 Parameter value(std::string name, std::string type, std::vector<std::string> values);
 
-// "target=a b is_final_target=true": names with their values.
+// Parameters as text: "target=a b is_final_target=true".
 std::string in_words(ParameterList const&);
 
 }  // namespace rois

@@ -7,7 +7,7 @@
 namespace rois::house {
 
 Complaints against_braces_in_awaits(Tree const& tree) {
-    // Our own types begin with a capital letter; those of libraries that are made so have constructors.
+    // Our own types begin with an upper-case letter. Library types that are made like this have constructors.
     static std::regex const braces(R"re([(,]\s*((\w+::)*[A-Z]\w*)?\s*\{)re");
     static constexpr std::string_view await = "co_await";
     Complaints complaints;
@@ -19,7 +19,7 @@ Complaints against_braces_in_awaits(Tree const& tree) {
             if (!std::regex_search(statement, braces)) continue;
             auto const line = 1 + std::ranges::count(code.substr(0, found), '\n');
             complaints.push_back(at(file, static_cast<std::size_t>(line)) +
-                                 "what is made in braces has a name before the co_await: g++ 12 destroys it twice, else");
+                                 "give the braced structure a name before the co_await: g++ 12 destroys it twice otherwise");
         }
     }
     return complaints;

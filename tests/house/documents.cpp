@@ -31,14 +31,14 @@ bool exists(Tree const& tree, std::string path) {
     return inside != tree.end() && inside->first.starts_with(path + "/");
 }
 
-// The file that a link in `document` leads to; none when it leads out of the project or stays on the page.
+// The file that a link in `document` leads to; nullopt if it leaves the project or stays on the page.
 std::optional<std::string> target(std::string const& document, std::string link) {
     link = link.substr(0, link.find('#'));
     if (link.empty() || link.find("://") != link.npos || link.starts_with("mailto:")) return {};
     return (std::filesystem::path(document).parent_path() / link).lexically_normal().generic_string();
 }
 
-// The targets of `[text](target "title")` and `[label]: target` in a line that is no example.
+// The targets of `[text](target "title")` and `[label]: target` in a line, outside of code.
 std::vector<std::string> links(std::string const& line) {
     static std::regex const code("`[^`]*`");
     static std::regex const link(R"re(\]\(\s*<?([^)\s>]+)[^)]*\)|^\s*\[[^\]]+\]:\s*<?([^\s>]+))re");
@@ -55,7 +55,7 @@ void judge_name(Tree const& tree, std::string const& where, std::string const& n
         complaints.push_back(where + dependencies + " does not name `" + name + "`");
 }
 
-// The packages of a package.json's devDependencies, and of dependencies if there are any.
+// Checks the packages of a package.json's devDependencies and dependencies.
 void judge_manifest(Tree const& tree, std::string const& file, std::string const& text, Complaints& complaints) {
     static std::regex const list(R"re(^\s*"(dev|peer|optional)?[dD]ependencies"\s*:.*)re");
     static std::regex const entry(R"re(^\s*"([^"]+)"\s*:\s*"[^"]*",?\s*)re");
@@ -67,10 +67,11 @@ void judge_manifest(Tree const& tree, std::string const& file, std::string const
     });
 }
 
-// Where packages come from is npm's default, or what whoever installs them has configured.
+// A lock file must not name the host of its packages: that is npm's default, or a setting of the installation.
 void judge_lock(std::string const& file, std::string const& text, Complaints& complaints) {
     for_each_line(text, [&](std::string const& line, std::size_t number) {
-        if (line.find("\"resolved\": \"http") != line.npos) complaints.push_back(at(file, number) + "a lock file names no host");
+        if (line.find("\"resolved\": \"http") != line.npos)
+            complaints.push_back(at(file, number) + "a lock file must not name a host");
     });
 }
 
@@ -105,7 +106,7 @@ Complaints against_links(Tree const& tree) {
 
 namespace {
 
-// Those that the project installs itself, whose tests look for them.
+// Packages that the project itself installs, for tests that use them.
 bool is_our_package(Tree const& tree, std::string const& name) {
     return std::ranges::any_of(tree, [&](auto const& file) { return file.first.ends_with("/" + name + "Config.cmake.in"); });
 }

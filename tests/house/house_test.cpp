@@ -1,4 +1,4 @@
-// The project itself keeps the rules of the house.
+// Checks the rules of the house on the project itself.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace rois::house {
 
 namespace {
 
-// One complaint a line.
+// One complaint per line.
 std::string list(Complaints const& complaints) {
     std::string text;
     for (auto const& complaint : complaints) text += complaint + "\n";
@@ -27,7 +27,7 @@ struct House : testing::Test {
     static inline Tree tree;
 };
 
-TEST_F(House, IsReadWhole) {
+TEST_F(House, IsReadCompletely) {
     EXPECT_TRUE(tree.contains("server/types/ids.hpp"));
     EXPECT_TRUE(tree.contains("dev"));
     EXPECT_TRUE(tree.contains(".ci/run"));
@@ -39,7 +39,7 @@ TEST_F(House, KeepsItsLayers) { EXPECT_EQ(list(against_layers(tree)), ""); }
 TEST_F(House, ReadsNoClockBelowTheNetwork) { EXPECT_EQ(list(against_passed_in_time(tree)), ""); }
 TEST_F(House, NamesWhatItAwaitsWith) { EXPECT_EQ(list(against_braces_in_awaits(tree)), ""); }
 TEST_F(House, HasShortFiles) { EXPECT_EQ(list(against_short_files(tree)), ""); }
-TEST_F(House, HasLinksThatLeadSomewhere) { EXPECT_EQ(list(against_links(tree)), ""); }
+TEST_F(House, HasNoBrokenLinks) { EXPECT_EQ(list(against_links(tree)), ""); }
 TEST_F(House, ProvesWhatItClaims) { EXPECT_EQ(list(against_proof(tree)), ""); }
 TEST_F(House, NamesItsDependencies) { EXPECT_EQ(list(against_named_dependencies(tree)), ""); }
 

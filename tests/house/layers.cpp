@@ -11,7 +11,7 @@ namespace rois::house {
 
 namespace {
 
-using Headers = std::vector<std::string>;  // how the names of headers begin
+using Headers = std::vector<std::string>;  // prefixes of headers
 
 Headers const xerces{"xercesc/"};
 Headers const pugixml{"pugixml.hpp", "pugiconfig.hpp"};
@@ -28,19 +28,19 @@ Headers const rois{"rois/"};
 Headers const posix{"arpa/",  "dirent.h",  "errno.h", "fcntl.h",  "locale.h", "malloc.h", "netdb.h",  "netinet/",
                     "poll.h", "pthread.h", "sched.h", "signal.h", "sys/",     "time.h",   "unistd.h", "wchar.h"};
 
-// What other layers may see through the headers of the one that uses it: vectors and poses are the simulation's vocabulary.
+// Headers that a layer may expose to the layers that use it: vectors and poses are part of the simulation's interface.
 Headers const shown{eigen};
 
 enum class Time { read, passed_in };
 
 struct Layer {
     std::string folder;
-    Headers uses;                    // the project's headers that it may include
-    std::vector<Headers> libraries;  // the C++ standard library is everybody's
+    Headers uses;                    // headers of the project that the layer may include
+    std::vector<Headers> libraries;  // besides the C++ standard library
     Time time;
 };
 
-// The arrows of ARCHITECTURE.md. A folder with C++ files that has no row here is a mistake, too.
+// The arrows of ARCHITECTURE.md. Every folder with C++ files needs a row.
 std::vector<Layer> const layers{
     {"server/types/", {"types/"}, {}, Time::passed_in},
     {"server/xml/", {"xml/", "types/"}, {xerces, pugixml}, Time::passed_in},
@@ -117,7 +117,7 @@ std::optional<std::string> file_of(Tree const& tree, std::string const& header) 
     return {};
 }
 
-// The libraries' headers that including `file` brings along, each with the file that includes it.
+// The library headers that including `file` includes as well, each with the file that includes it.
 std::map<std::string, std::string> brought_along(Tree const& tree, std::string const& file) {
     std::map<std::string, std::string> brought;
     std::set<std::string> seen{file};
@@ -140,7 +140,7 @@ void judge_own(Tree const& tree, std::string const& file, Layer const& layer, In
     auto const header = file_of(tree, include.name);
     if (!header) {
         complaints.push_back(at(file, include.line) + "\"" + include.name +
-                             "\" is no file under server/, components/ or client-cpp/");
+                             "\" is not a file under server/, components/ or client-cpp/");
         return;
     }
     if (!is_one_of(layer.uses, include.name)) {

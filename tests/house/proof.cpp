@@ -23,7 +23,7 @@ struct Row {
     std::string state;
 };
 
-// What the specification numbers, and up to where.
+// The numbered items of the specification, and the last number.
 struct Numbered {
     std::string word;
     int last;
@@ -35,7 +35,7 @@ bool is_proof(std::string_view file) {
     return file.starts_with("docs/conformance") && file.ends_with(".md") && file != "docs/conformance-program.md";
 }
 
-// What stands between the bars, without the white space around it.
+// The texts between the bars, without surrounding white space.
 std::vector<std::string> cells(std::string const& line) {
     static std::regex const cell(R"re(\|\s*([^|]*[^|\s])?\s*(?=\|))re");
     std::vector<std::string> found;
@@ -64,7 +64,7 @@ std::vector<Row> rows(Tree const& tree) {
     return found;
 }
 
-// "not done" of "not done: nobody asked for it"; nothing when it is none of those that there are.
+// "not done" for "not done: too costly"; empty for an unknown state.
 std::string_view kind_of(std::string_view state) {
     auto const kind = state.substr(0, state.find(':'));
     return std::ranges::find(known_states, kind) == known_states.end() ? "" : kind;
@@ -86,7 +86,7 @@ std::set<std::string> all_tests(Tree const& tree) {
                 names.insert(found[1].str() + "." + found[2].str());
         });
         if (!file.starts_with("tests/conformance/")) continue;
-        // A check has a function of its name; what is looked at in all that comes has not.
+        // A check has a function with its name; a rule for all messages has none.
         bool const of_functions = file.ends_with("_checks.cpp");
         for_each_line(text, [&, &source = text](std::string const& line, std::size_t) {
             for (std::sregex_iterator at(line.begin(), line.end(), check), end; at != end; ++at)
@@ -100,19 +100,19 @@ void judge(Row const& row, std::set<std::string> const& tests, Complaints& compl
     static std::regex const name(R"re(`([^`]+)`)re");
     auto const here = at(row.document, row.line);
     auto const kind = kind_of(row.state);
-    if (kind.empty()) complaints.push_back(here + "'" + row.state + "' is no state: done, not done: why, not ours: why");
+    if (kind.empty()) complaints.push_back(here + "'" + row.state + "' is not a state: done, not done: why, not ours: why");
     if (kind != "done" && !kind.empty() && row.state.size() < kind.size() + 3)
         complaints.push_back(here + "'" + row.state + "' needs a reason after a colon");
-    if (kind == "done" && row.state != kind) complaints.push_back(here + "what is done needs no word more");
+    if (kind == "done" && row.state != kind) complaints.push_back(here + "'done' takes no reason");
     std::sregex_iterator found(row.tests.begin(), row.tests.end(), name), end;
     if (std::regex_replace(row.tests, name, "").find_first_not_of(", -") != std::string::npos)
-        complaints.push_back(here + "tests are named between backticks: " + row.tests);
-    if (kind == "done" && found == end) complaints.push_back(here + "what is done has a test");
+        complaints.push_back(here + "write tests between backticks: " + row.tests);
+    if (kind == "done" && found == end) complaints.push_back(here + "'done' needs a test");
     for (; found != end; ++found)
         if (!tests.contains((*found)[1])) complaints.push_back(here + "there is no test " + (*found)[1].str());
 }
 
-// A source file that a row names, `engine/executor.cpp`, is there.
+// The source files of a row, such as `engine/executor.cpp`, must exist.
 void judge_files(Tree const& tree, Row const& row, Complaints& complaints) {
     static std::regex const name(R"re(`([a-z]+/[\w/]+[.](?:cpp|hpp|xsd|xml))`)re");
     for (std::sregex_iterator found(row.how.begin(), row.how.end(), name), end; found != end; ++found) {
@@ -168,7 +168,7 @@ void judge_summary(Tree const& tree, std::vector<Row> const& all, Complaints& co
             for (std::size_t i = 1; i < 5; ++i) said += " " + row[i];
             auto const known = missing.find(row[0]);
             if (known == missing.end()) {
-                complaints.push_back(at(summary, number) + row[0] + " is no document with rows, or is there twice");
+                complaints.push_back(at(summary, number) + row[0] + " is not a document with rows, or is there twice");
                 return;
             }
             if (said != known->second) complaints.push_back(at(summary, number) + "it should say" + known->second);

@@ -1,4 +1,4 @@
-// Each rule is broken on purpose, and says where.
+// Breaks each rule, and checks the complaint and its place.
 #include <gmock/gmock.h>
 
 #include "house/rules.hpp"
@@ -20,7 +20,7 @@ TEST(Layers, PointDown) {
     EXPECT_THAT(against_layers(tree), IsEmpty());
 }
 
-TEST(Layers, AnArrowThatPointsUpIsSeen) {
+TEST(Layers, AnArrowThatPointsUpIsFound) {
     Tree const tree{{"server/types/ids.hpp", "// ids\n#include \"xml/codec.hpp\"\n"},
                     {"server/engine/engine.cpp", "#  include \"net/web.hpp\"\n"},
                     {"server/net/web.hpp", ""},
@@ -72,10 +72,10 @@ TEST(Layers, EveryFolderIsInOne) {
                             "server/gossip/rumour.cpp:1: this folder is in no layer: tests/house/layers.cpp lists them"));
 }
 
-TEST(Layers, AnIncludeThatIsNoFileIsSeen) {
+TEST(Layers, AnIncludeOfAMissingFileIsFound) {
     Tree const tree{{"server/types/ids.cpp", "#include \"ids.hpp\"\n"}, {"server/types/ids.hpp", ""}};
     EXPECT_THAT(against_layers(tree),
-                ElementsAre("server/types/ids.cpp:1: \"ids.hpp\" is no file under server/, components/ or client-cpp/"));
+                ElementsAre("server/types/ids.cpp:1: \"ids.hpp\" is not a file under server/, components/ or client-cpp/"));
 }
 
 TEST(PassedInTime, IsReadByTheNetworkAndMainAlone) {
@@ -110,7 +110,7 @@ TEST(CodeAlone, KeepsItsLinesAndItsCode) {
     EXPECT_EQ(code_alone("1'000 R\"(x\ny)\" z"), "1'000     \n    z");
 }
 
-TEST(BracesInAwaits, AreSeen) {
+TEST(BracesInAwaits, AreFound) {
     Tree const tree{{"client-cpp/command/front.cpp",
                      "co_await write(message,\n    {FaultCode::not_found, \"no; not here\", {}, {}});\n"
                      "auto const all = co_await client.call(Search{});\n"
@@ -120,7 +120,7 @@ TEST(BracesInAwaits, AreSeen) {
                             StartsWith("client-cpp/command/front.cpp:4: ")));
 }
 
-TEST(BracesInAwaits, AreFineElsewhere) {
+TEST(BracesInAwaits, AreAllowedElsewhere) {
     Tree const tree{{"a.cpp",
                      "Search const all{};\nco_await client.call(all);\nother(Search{});\n"
                      "co_await socket.async_close(websocket::close_reason{code, \"why\"}, [] { return 1; });\n"
@@ -151,7 +151,7 @@ TEST(Links, LeadToFilesAndFolders) {
     EXPECT_THAT(against_links(tree), IsEmpty());
 }
 
-TEST(Links, ThatLeadNowhereAreSeen) {
+TEST(Links, ThatLeadNowhereAreFound) {
     Tree const tree{{"ARCHITECTURE.md", "text\n[a](docs/a.md), [b](docs/b.md)\n"},
                     {"CONTRIBUTING.md", "[c]: docs/c.md\n"},
                     {"docs/a.md", "```\n[no](link)\n```\n[d](docs/a.md)\n"},
@@ -192,7 +192,7 @@ TEST(Dependencies, OfJavaScriptAreNamedToo) {
 
 TEST(Dependencies, AreLockedWithoutAHost) {
     Tree const tree{{"web/package-lock.json", "\"resolved\": \"client\",\n\"resolved\": \"https://registry.example/a.tgz\",\n"}};
-    EXPECT_THAT(against_named_dependencies(tree), ElementsAre("web/package-lock.json:2: a lock file names no host"));
+    EXPECT_THAT(against_named_dependencies(tree), ElementsAre("web/package-lock.json:2: a lock file must not name a host"));
 }
 
 TEST(Dependencies, NeedTheDocument) {

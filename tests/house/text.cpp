@@ -18,7 +18,7 @@ bool is_cpp(std::string_view file) { return file.ends_with(".cpp") || file.ends_
 
 namespace {
 
-// Where the literal or comment that starts at `from` ends; `from` itself when none starts there.
+// The end of the literal or comment that begins at `from`; `from` itself if none begins there.
 std::size_t end_of_silence(std::string_view text, std::size_t from) {
     auto const after = [&](std::string_view mark, std::size_t start) {
         auto const found = text.find(mark, start);

@@ -14,7 +14,7 @@ std::string at(std::string_view file, std::size_t line);  // "file:line: "
 
 bool is_cpp(std::string_view file);  // .cpp or .hpp
 
-// A C++ text with blanks instead of its comments and of what its literals say; lines keep their numbers.
+// Replaces comments and the contents of literals by spaces; line numbers stay the same.
 std::string code_alone(std::string_view text);
 
 }  // namespace rois::house

@@ -9,12 +9,12 @@ namespace rois::model {
 namespace {
 
 std::string in_words(int session, std::vector<std::string> const& told) {
-    std::string text = "application " + std::to_string(session) + " hears";
+    std::string text = "application " + std::to_string(session) + " receives";
     for (auto const& one : told) text += " [" + one + "]";
     return told.empty() ? text + " nothing" : text;
 }
 
-// The difference that the last step shows, if any.
+// Returns the difference that the last step shows, if any.
 std::optional<Difference> compare(Step const& step, Reference& reference, Subject& subject) {
     auto const expected = reference.take(step), found = subject.take(step);
     if (expected != found) return Difference{{}, expected, found};
@@ -28,7 +28,7 @@ std::optional<Difference> compare(Step const& step, Reference& reference, Subjec
     return {};
 }
 
-// Each way to leave a part of a sequence out.
+// All plans with one part of a sequence removed.
 std::vector<Plan> smaller(Plan const& plan) {
     std::vector<Plan> all;
     for (std::size_t u = 0; u < plan.size(); ++u) {
@@ -50,7 +50,7 @@ std::vector<Plan> smaller(Plan const& plan) {
     return all;
 }
 
-// Leaves out stretches of this length wherever it can.
+// Removes stretches of this length where the difference remains.
 bool leave_out(Difference& known, std::size_t length, Flaw flaw) {
     bool is_shorter = false;
     for (std::size_t begin = 0; begin + length <= known.steps.size();) {

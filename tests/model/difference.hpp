@@ -1,4 +1,4 @@
-// Where engine and reference differ, and the shortest way there.
+// Finds differences between engine and reference, and the shortest history that shows one.
 #pragma once
 
 #include <optional>
@@ -10,16 +10,16 @@
 namespace rois::model {
 
 struct Difference {
-    Steps steps;  // the last of them shows it
+    Steps steps;  // the last one shows the difference
     std::string expected, found;
 
     std::string in_words() const;
 };
 
-// Plays the steps to both.
+// Plays the steps to both. Returns the first difference, or nullopt.
 std::optional<Difference> difference(Steps const& steps, Flaw flaw = Flaw::none);
 
-// Without the steps and commands that are not needed for a difference.
+// Removes the steps and commands that the difference does not need.
 Difference shrunk(Difference, Flaw flaw = Flaw::none);
 
 }  // namespace rois::model

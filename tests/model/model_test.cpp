@@ -1,5 +1,5 @@
-// Random histories of three service applications: the engine does what the reference says, and a reference that believes
-// something else is found out by a few steps.
+// Random histories of three service applications: the engine behaves like the reference. A reference with a flaw is detected, and
+// a few steps show it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t steps_a_history = 200;
 
-TEST(Model, HistoriesAreAsTheReferenceSays) {
+TEST(Model, HistoriesMatchTheReference) {
     for (std::uint64_t seed = 1; seed <= 1'000; ++seed) {
         auto const found = difference(random_steps(seed, steps_a_history));
         ASSERT_FALSE(found.has_value()) << "seed " << seed << ": " << shrunk(*found).in_words();
@@ -22,7 +22,7 @@ TEST(Model, HistoriesAreTheSameForTheSameSeed) {
     EXPECT_NE(in_lines(random_steps(7, steps_a_history)), in_lines(random_steps(8, steps_a_history)));
 }
 
-// A flaw, and how few steps show it.
+// A flaw, and the maximum number of steps that show it.
 struct Shown {
     char const* name;
     Flaw flaw;
@@ -33,14 +33,14 @@ std::ostream& operator<<(std::ostream& out, Shown const& shown) { return out << 
 
 struct Flawed : testing::TestWithParam<Shown> {};
 
-TEST_P(Flawed, ReferenceIsFoundOut) {
+TEST_P(Flawed, ReferenceIsDetected) {
     auto const [name, flaw, most_steps] = GetParam();
     std::optional<Difference> found;
     for (std::uint64_t seed = 1; !found && seed <= 300; ++seed) found = difference(random_steps(seed, steps_a_history), flaw);
     ASSERT_TRUE(found.has_value());
     auto const shortest = shrunk(*found, flaw);
     EXPECT_LE(shortest.steps.size(), most_steps) << shortest.in_words();
-    EXPECT_FALSE(difference(shortest.steps).has_value()) << "it is the flaw that shows";
+    EXPECT_FALSE(difference(shortest.steps).has_value()) << "the flaw causes the difference";
 }
 
 INSTANTIATE_TEST_SUITE_P(WhoBelievesThat, Flawed,
@@ -58,8 +58,8 @@ INSTANTIATE_TEST_SUITE_P(WhoBelievesThat, Flawed,
                                          Shown{"AnybodyReadsStoredValues", Flaw::anybody_reads_stored_values, 6}),
                          testing::PrintToStringParamName());
 
-// A counterexample is told in a few lines.
-TEST(Model, TellsTheShortestWay) {
+// A counterexample is printed in a few lines.
+TEST(Model, PrintsTheShortestHistoryThatDiffers) {
     std::optional<Difference> found;
     for (std::uint64_t seed = 1; !found; ++seed) found = difference(random_steps(seed, steps_a_history), Flaw::binding_is_shared);
     EXPECT_THAT(shrunk(*found, Flaw::binding_is_shared).in_words(),

@@ -74,7 +74,7 @@ std::string Reference::connect(int session) {
     return "OK";
 }
 
-// What this session commanded ends; nobody hears of it.
+// Ends the session's commands without notifications.
 std::string Reference::disconnect(int session) {
     for (auto& component : components_) {
         if (component.bound_to != session) continue;
@@ -111,7 +111,7 @@ void Reference::end_binding(Component& component) const {
     if (!is(Flaw::values_outlive_the_binding)) component.value = component.default_value;
 }
 
-// The query get_parameter.
+// Answers the query get_parameter.
 std::string Reference::parameters_by_query(Step const& step) const {
     if (step.component == nobody || step.component == detection) return "UNSUPPORTED";
     auto const& component = components_[at(step.component)];
@@ -133,7 +133,7 @@ std::string Reference::parameters(Step const& step) {
     return "OK";
 }
 
-// The first objection in document order.
+// Returns the first objection in document order.
 std::string Reference::objection(int session, Plan const& plan) const {
     std::string names;
     auto const& known = sessions_[at(session)]->known;
@@ -229,7 +229,7 @@ void Reference::abort(SharedCommand const& command) {
     if (!command->is_over()) end(command, "ABORT");
 }
 
-// Tells it, and what follows from it for the commands after it.
+// Ends a command, notifies its session, and continues its sequence.
 void Reference::end(SharedCommand const& command, std::string const& status) {
     auto& component = components_[at(command->component)];
     if (component.start == command) {

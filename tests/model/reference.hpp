@@ -1,5 +1,5 @@
-// The reference: what the specification and the decisions say of sessions, bindings, parameters, commands and subscriptions, in
-// as few lines as will do. It shares nothing with the engine.
+// The reference: a small implementation of the rules for sessions, bindings, parameters, commands and subscriptions. It shares no
+// code with the engine.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace rois::model {
 
-// What it can be made to believe wrongly, to show that a difference to the engine is found.
+// A wrong behaviour that the test can switch on, to show that differences to the engine are found.
 enum class Flaw : std::uint8_t {
     none,
     binding_is_shared,                 // against decision 4
@@ -31,16 +31,16 @@ enum class Flaw : std::uint8_t {
     anybody_reads_stored_values        // 30
 };
 
-// How many results of a session are kept here (decision 17).
+// The number of results that a session keeps here (decision 17).
 inline constexpr std::size_t kept_results = 4;
 
 class Reference {
 public:
     explicit Reference(Flaw flaw = Flaw::none) : flaw_{flaw} {}
 
-    // What the step is answered with.
+    // Returns the answer to the step.
     std::string take(Step const&);
-    // What the application has been told since this was last asked, or nothing when it has no session.
+    // Returns the notifications of the application since the last call, or nullopt if it has no session.
     std::optional<std::vector<std::string>> heard(int session);
 
 private:
@@ -51,9 +51,9 @@ private:
         int component;
         int delay;
         int session;
-        Execution* execution;  // null once it has ended
+        Execution* execution;  // null once the command has ended
         std::size_t unit, branch, place;
-        std::string state = "WAITING";  // RUNNING, or its status
+        std::string state = "WAITING";  // WAITING, RUNNING, or its final status
         bool binding_lost = false;
 
         bool is_over() const { return state != "WAITING" && state != "RUNNING"; }
@@ -61,20 +61,20 @@ private:
     using SharedCommand = std::shared_ptr<Command>;
     struct Execution {
         std::vector<std::vector<std::vector<SharedCommand>>> units;
-        std::size_t open_branches = 0;  // of the unit that has its turn
-        bool failed = false;            // one of its branches has
+        std::size_t open_branches = 0;  // of the present unit
+        bool failed = false;            // one of its branches has failed
     };
     struct Component {
         int bound_to = -1;
-        SharedCommand start{};  // that runs
+        SharedCommand start{};  // the running `start`
         bool is_active = false;
         bool is_suspended = false;
-        std::string default_value{};  // of its parameter
+        std::string default_value{};  // of the parameter
         std::string value = default_value;
     };
     struct Session {
         std::map<char, SharedCommand> known;
-        std::deque<char> ended;  // '-' for what it has not named itself
+        std::deque<char> ended;  // '-' for commands without an id of the application
         int subscriptions = 0;
         std::uint64_t sequence = 0;
         std::vector<std::string> told;
@@ -111,10 +111,10 @@ private:
     Flaw flaw_;
     std::array<std::optional<Session>, session_count> sessions_;
     std::array<Component, 3> components_{Component{.default_value = "0"}, Component{.default_value = "50"}, Component{}};
-    std::vector<std::unique_ptr<Execution>> executions_;  // all that ever were
-    std::deque<SharedCommand> turns_;                     // come, and not taken yet
-    std::deque<SharedCommand> activating_;                // starts of a function, which complete when all turns have been taken
-    std::vector<Due> due_;                                // delays, in the order in which they began
+    std::vector<std::unique_ptr<Execution>> executions_;  // also those that have ended
+    std::deque<SharedCommand> turns_;                     // commands whose turn has come
+    std::deque<SharedCommand> activating_;                // starts of functions, which complete after all turns
+    std::vector<Due> due_;                                // delays, in the order of their beginnings
     int time_ = 0;
 };
 

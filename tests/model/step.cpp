@@ -6,12 +6,12 @@ namespace rois::model {
 
 namespace {
 
-// The same on every machine, other than the standard's distributions.
+// Unlike the distributions of the standard library, this gives the same numbers on every machine.
 int below(std::mt19937_64& random, int bound) { return static_cast<int>(random() % static_cast<std::uint64_t>(bound)); }
 
 int any_component(std::mt19937_64& random) { return below(random, 20) == 0 ? nobody : below(random, 3); }
 
-// Mostly `home`, so that much of what is asked for is allowed.
+// Mostly for the component `home`, so that many orders are allowed.
 Order random_order(std::mt19937_64& random, int home) {
     static constexpr std::array<std::string_view, 10> types{"start", "start", "start",   "start",  "stop",
                                                             "stop",  "stop",  "suspend", "resume", "dance"};

@@ -1,4 +1,4 @@
-// What can happen in the model's world: three service applications, three components, and time.
+// The steps in the model's world: three service applications, three components, and time.
 #pragma once
 
 #include <array>
@@ -12,19 +12,19 @@
 namespace rois::model {
 
 inline constexpr int session_count = 3;
-// `navigation` and `speech` act until they are told to end; `detection` becomes active; there is no `nobody`.
+// `navigation` and `speech` act until a step ends it; `detection` becomes active; `nobody` does not exist.
 inline constexpr std::array<std::string_view, 4> refs{"navigation", "speech", "detection", "nobody"};
 inline constexpr int detection = 2, nobody = 3;
 
 // One command of a sequence.
 struct Order {
     std::string_view type;  // start, stop, suspend, resume, dance
-    int component = 0;      // of refs
+    int component = 0;      // index in refs
     char name = 'a';        // its command_id
     int delay = 0;          // in ticks
 };
-using Orders = std::vector<Order>;  // one after the other
-using Unit = std::vector<Orders>;   // side by side; a single command is one branch of one
+using Orders = std::vector<Order>;  // in sequence
+using Unit = std::vector<Orders>;   // in parallel; a single command is one branch with one order
 using Plan = std::vector<Unit>;
 
 enum class Kind : std::uint8_t {
@@ -40,16 +40,16 @@ enum class Kind : std::uint8_t {
     component_status,
     subscribe,
     unsubscribe,
-    finish,  // the component's action comes to its end: OK, or ERROR when `number` is odd
-    fire,    // detection tells its event
-    pass     // time goes by: `number` ticks
+    finish,  // the component's action ends: OK, or ERROR if `number` is odd
+    fire,    // detection reports its event
+    pass     // time passes: `number` ticks
 };
 
 struct Step {
     Kind kind = Kind::pass;
     int session = 0;
     int component = 0;
-    int number = 0;  // of set_parameter: the value, or bad when it is negative
+    int number = 0;  // of set_parameter: the value; invalid if negative
     char name = 'a';
     Plan plan{};
 };

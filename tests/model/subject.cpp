@@ -4,7 +4,7 @@ namespace rois::model {
 
 namespace {
 
-constexpr std::chrono::milliseconds tick{50};  // as the world makes them
+constexpr std::chrono::milliseconds tick{50};  // as in World
 
 EngineSettings settings(std::size_t kept) {
     EngineSettings settings;
@@ -48,7 +48,7 @@ ReturnCode code_of(Reply const& reply) {
     return std::visit([](auto const& one) { return one.return_code; }, reply);
 }
 
-// "3 completed c-17 OK" is "3 completed c OK": what the engine calls a command is its own affair.
+// "3 completed c-17 OK" becomes "3 completed c OK": the engine's own command ids are not compared.
 std::string without_own_names(std::string text) {
     auto const begin = text.find(" c-");
     if (begin == std::string::npos) return text;
@@ -94,7 +94,7 @@ std::string Subject::take(Step const& step) {
             auto const said = say(seat, Subscribe{"person_detected", {}, false});
             if (auto const* reply = std::get_if<Reply>(&said))
                 seat.subscription = std::get<Subscribe::Reply>(*reply).subscribe_id;
-            return answer(seat, Subscribe{"person_detected", {}, false});  // the same once more
+            return answer(seat, Subscribe{"person_detected", {}, false});  // the same subscription again
         }
         case Kind::unsubscribe:
             return answer(seat, Unsubscribe{seat.subscription});

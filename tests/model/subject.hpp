@@ -1,4 +1,4 @@
-// The engine, with scripted components and a clock that is told, asked the same as the reference.
+// The engine with scripted components and a simulated clock, driven by the same steps as the reference.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@ class Subject {
 public:
     Subject();
 
-    // What the step is answered with, in the reference's words.
+    // Returns the answer to the step, in the reference's form.
     std::string take(Step const&);
-    // What the application has been told since this was last asked, or nothing when it has no session.
+    // Returns the notifications of the application since the last call, or nullopt if it has no session.
     std::optional<std::vector<std::string>> heard(int session);
 
 private:
     struct Seat {
-        std::optional<Application> application;  // the last that sat here
+        std::optional<Application> application;  // the last one with this number
         bool is_connected = false;
         SubscribeId subscription{"none"};
     };

@@ -43,7 +43,7 @@ TEST_F(CppPsmAndMotion, IsHeldWhileAFunctionOfTheApplicationHangs) {
     } hanging;
     ::Person_Detection::Command detection;
     ASSERT_EQ(detection.start(), ok);
-    EXPECT_THAT(why_held(), HasSubstr("nothing was heard from its application"));
+    EXPECT_THAT(why_held(), HasSubstr("its application gave no sign of life"));
 }
 
 TEST_F(CppPsmAndMotion, GoesOnOnlyWhileTheProgramCallsAlive) {
@@ -52,7 +52,7 @@ TEST_F(CppPsmAndMotion, GoesOnOnlyWhileTheProgramCallsAlive) {
         std::this_thread::sleep_for(200ms);
     }
     EXPECT_THAT(application.errors, IsEmpty());
-    EXPECT_THAT(why_held(), HasSubstr("nothing was heard from its application"));
+    EXPECT_THAT(why_held(), HasSubstr("its application gave no sign of life"));
 }
 
 }  // namespace

@@ -165,7 +165,7 @@ TEST_P(Completion, ResultsThatHaveAgedOut) {
     application.bind("navigation");
     auto const first = application.set_parameter("navigation", {time_limit("1")}).text("command_id");
     auto const second = application.set_parameter("navigation", {time_limit("2")}).text("command_id");
-    EXPECT_THAT(application.get_command_result(first), IsRefused("BAD_PARAMETER", "aged out"));
+    EXPECT_THAT(application.get_command_result(first), IsRefused("BAD_PARAMETER", "expired"));
     EXPECT_THAT(application.get_command_result(second), IsOk());
 }
 

@@ -124,7 +124,7 @@ TEST(ConfigurationFile, ThatIsPrintedIsGood) {
 }
 
 TEST(ConfigurationFile, WithAMistakeIsOneClearLine) {
-    expect_complaint(check("{\n  \"sim_sped\": 2\n}"), "FILE:2:3: 'sim_sped' is no configuration key");
+    expect_complaint(check("{\n  \"sim_sped\": 2\n}"), "FILE:2:3: 'sim_sped' is not a configuration key");
     expect_complaint(check("{\n\n  // \"threads\": 1,\n  \"threads\": \"two\"\n}"),
                      "FILE:4:3: threads must be a whole number from 1 to 256, not '\"two\"'");
     expect_complaint(check("{\"listen\": 8080}"), "FILE:1:2: listen must be HOST:PORT");

@@ -66,7 +66,7 @@ TEST_F(Drive, IsHeldAtOnceWhenTheWebSocketIsReset) {
     driver->vanish();
     driver.reset();
     auto const gone_at = Clock::now();
-    EXPECT_THAT(watcher.held(), HasSubstr("its motion is held: nothing was heard from its application"));
+    EXPECT_THAT(watcher.held(), HasSubstr("its motion is held: its application gave no sign of life"));
     EXPECT_LT(watcher.held_at - gone_at, 1s) << "0.3 s, and some for a machine that is busy";
 }
 
@@ -119,7 +119,7 @@ TEST_F(Drive, IsHeldDespiteThePongsWhenOnlyRequestsAreProof) {
         if (frame.kind == client::Kind::text) break;  // receive_error: it was held
         driver.send(frame.payload, client::Kind::pong);
     }
-    EXPECT_THAT(watcher.held(), HasSubstr("nothing was heard"));
+    EXPECT_THAT(watcher.held(), HasSubstr("gave no sign of life"));
 }
 
 TEST_F(Drive, IsHeldWhenRequestsAloneCease) {

@@ -67,7 +67,7 @@ TEST(CheckProfiles, WarnsOfNamesThatMayMeanTwoProfiles) {
     folder.put("c.xml", profile_document("urn:c", "<rois:SubComponentProfile>Lamp</rois:SubComponentProfile>"));
     auto const ended = run_gateway({"--check-profiles", folder.name()});
     EXPECT_EQ(ended.exit_code, 0) << ended.out;
-    EXPECT_THAT(ended.out, HasSubstr("warning: c.xml:3:1: 'Lamp' may mean 'urn:a::Lamp' or 'urn:b::Lamp', and is taken for the "
+    EXPECT_THAT(ended.out, HasSubstr("warning: c.xml:3:1: 'Lamp' may mean 'urn:a::Lamp' or 'urn:b::Lamp'; the gateway uses the "
                                      "first: write the whole identifier\n"));
 }
 
@@ -100,7 +100,8 @@ TEST(CheckProfiles, NamesWhatIsNoFileAsTheOthers) {
     auto const ended = run_gateway({"--check-profiles", folder.name()});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_EQ(ended.out,
-              "refused: lost.xml: is no file\nrefused: nest.xml: is no file\n2 files: 0 ok, 0 with warnings, 2 refused\n");
+              "refused: lost.xml: not a regular file\nrefused: nest.xml: not a regular file\n2 files: 0 ok, 0 with warnings, 2 "
+              "refused\n");
 }
 
 TEST(CheckProfiles, TakesANameForAnotherProfileThanTheOneThatSaysIt) {
@@ -307,7 +308,7 @@ TEST_P(ProfilesOfUsers, ThatAreBrokenLeaveWhatWas) {
     gateway.signal(SIGTERM);
     auto const log = gateway.wait().error;
     EXPECT_THAT(log, HasSubstr("profiles: refused: broken.xml:1:1: "));
-    EXPECT_THAT(log, HasSubstr("; what it was before stays"));
+    EXPECT_THAT(log, HasSubstr("; its previous version stays"));
 }
 
 TEST_P(ProfilesOfUsers, OfOneNameTakeTurns) {
@@ -382,7 +383,8 @@ TEST(ProfilesOfUsersSay, InTheLogWhatComesOfThem) {
     GatewayProcess gateway{{"--profiles", folder.name()}};
     gateway.signal(SIGTERM);
     auto const log = gateway.wait().error;
-    for (auto const* line : {"a.xml: urn:test::Idle asks for no adapter, and makes no component", "d.xml: the component lamp\n"})
+    for (auto const* line :
+         {"a.xml: urn:test::Idle names no adapter, and makes no component", "d.xml: adds the component lamp\n"})
         EXPECT_THAT(log, HasSubstr(line));
 }
 
