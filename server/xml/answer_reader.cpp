@@ -10,12 +10,12 @@ namespace rois::xml {
 
 namespace {
 
-constexpr std::size_t deepest = 100;             // elements inside each other; engines take half as many, and answer with a few
+constexpr std::size_t deepest = 100;             // nested elements; engines accept 64 and answer with a few
 constexpr std::size_t keep_at_most = 64 * 1024;  // bytes, between two documents
 
 }  // namespace
 
-class AnswerReader::Kept {
+class AnswerReader::Impl {
 public:
     std::optional<Heard> read(std::string_view document) {
         tree_.reset();
@@ -23,13 +23,13 @@ public:
         bytes_ = document;
         auto const parsed = tree_.load_buffer_inplace(bytes_.data(), bytes_.size(), as_xerces_reads, pugi::encoding_utf8);
         if (!parsed || !message_.read(tree_.document_element(), deepest)) return std::nullopt;
-        auto heard = decode_heard(message_);
+        auto heard = decode_engine_message(message_);
         if (heard && !add_profiles(*heard, document)) return std::nullopt;
         return heard;
     }
 
 private:
-    // The profiles of get_profile's reply, in the order of its components. False when one cannot be understood.
+    // Adds the profiles of get_profile's reply, in the order of its components. Returns false if one cannot be decoded.
     bool add_profiles(Heard& heard, std::string_view document) {
         auto* const answered = std::get_if<Answered>(&heard);
         auto* const reply = answered != nullptr ? std::get_if<GetProfile::Reply>(&answered->reply) : nullptr;
@@ -57,12 +57,12 @@ private:
     MessageTree message_;
 };
 
-AnswerReader::AnswerReader() : kept_{std::make_unique<Kept>()} {}
+AnswerReader::AnswerReader() : impl_{std::make_unique<Impl>()} {}
 
 AnswerReader::~AnswerReader() = default;
 
 AnswerReader::AnswerReader(AnswerReader&&) noexcept = default;
 
-std::optional<Heard> AnswerReader::read(std::string_view document) { return kept_->read(document); }
+std::optional<Heard> AnswerReader::read(std::string_view document) { return impl_->read(document); }
 
 }  // namespace rois::xml
