@@ -30,14 +30,14 @@ enum class Validation : std::uint8_t {
     full,  // with a scan and xerces-c
 };
 
-// Validates and decodes requests. Keeps its parser, and replaces it before it grows too large. Not thread-safe.
+// Validates and decodes requests. Keeps its parser, and replaces it when it uses too much memory. Not thread-safe.
 class RequestReader {
 public:
     explicit RequestReader(std::shared_ptr<Schemas const>, DocumentLimits = {}, Validation = Validation::fast);
     ~RequestReader();
     RequestReader(RequestReader&&) noexcept;
 
-    // Throws for no document. A fault has the request_id if it could be read.
+    // Returns a fault for every invalid document, and never throws for one. The fault has the request_id if it could be read.
     std::variant<Request, Fault> read(std::string_view document);
 
     // How the last document was checked; empty if it was too large to be checked.
@@ -88,8 +88,8 @@ public:
     ~AnswerReader();
     AnswerReader(AnswerReader&&) noexcept;
 
-    // Returns nothing if the document is not XML, not one of these messages, or lacks a mandatory part (a return code, a
-    // sequence, ...). Throws for no document.
+    // Returns nothing, and never throws, if the document is not XML, not one of these messages, or lacks a mandatory part (a
+    // return code, a sequence, ...).
     std::optional<Heard> read(std::string_view document);
 
 private:
