@@ -1,4 +1,4 @@
-// What requests say, in whatever dress XML allows.
+// Decoding of requests, in the forms that XML allows.
 #include <gmock/gmock.h>
 
 #include <array>
