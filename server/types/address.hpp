@@ -1,4 +1,4 @@
-// Where a server listens, as people write it.
+// Parses the address on which a server listens.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 namespace rois {
 
 struct HostAndPort {
-    std::string host;  // a name or an address; an IPv6 address without its brackets
+    std::string host;  // a name or an address; an IPv6 address has no brackets
     std::uint16_t port = 0;
 };
 
-// Reads "HOST:PORT"; an IPv6 address stands in brackets. Returns nothing for any other text, also for "*:PORT" and ":PORT": they
-// do not say which addresses are meant.
+// Parses "HOST:PORT", with an IPv6 address in brackets. Returns nothing for any other text, also for "*:PORT" and ":PORT", which
+// do not name the addresses.
 std::optional<HostAndPort> read_host_and_port(std::string_view);
 
 }  // namespace rois

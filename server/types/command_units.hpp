@@ -1,4 +1,4 @@
-// What execute sends (7.4.3.1, tables 10 to 15; decision 14): command messages in sequence and in parallel.
+// The commands of an execute (7.4.3.1, tables 10 to 15; decision 14): command messages in sequence and in parallel.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace rois {
 
-// Table 12. The id is empty until the engine or the application gives one.
+// Table 12. The application may choose the id; the engine fills in an empty one.
 struct CommandMessage {
     Identifier component_ref;
     std::string command_type;
@@ -22,22 +22,22 @@ struct CommandMessage {
 
 struct CommandUnit;
 
-// One branch of ConcurrentCommands; its commands run in sequence. Each is a CommandMessage, perhaps with a delay.
+// One branch of ConcurrentCommands; its commands run in sequence. Each is a CommandMessage with an optional delay.
 struct Branch {
     std::vector<CommandUnit> command_list;
 };
 
-// A unit without a type of its own: it only delays.
+// A unit without a type, which only delays.
 struct DelayOnly {};
 
-// The published parallel unit. In the flat form each branch has one command and is written as command_list.
+// The parallel unit of the published XML. In the flat form each branch is one command, written as command_list.
 struct ConcurrentCommands {
     enum class Form : std::uint8_t { branch_list, command_list };
     Form form = Form::branch_list;
     std::vector<Branch> branches;
 };
 
-// The seed's units, nested freely (tables 14, 15).
+// The units of 2011, nested freely (tables 14, 15).
 struct SequentialCommandUnit {
     std::vector<CommandUnit> command_unit_list;
 };
@@ -45,7 +45,7 @@ struct ParallelCommandUnit {
     std::vector<CommandUnit> command_unit_list;
 };
 
-// CommandBase (table 11). `delay_time`: milliseconds from when the unit's turn comes; what does not fit 64 bits is saturated.
+// CommandBase (table 11). `delay_time` is in milliseconds from the unit's turn, saturated to 64 bits.
 struct CommandUnit {
     std::optional<std::int64_t> delay_time;
     std::variant<DelayOnly, CommandMessage, ConcurrentCommands, SequentialCommandUnit, ParallelCommandUnit> unit;

@@ -1,4 +1,4 @@
-// Conditions (QueryExpression of ISO 19143): the parsed form of what many operations take. docs/conditions.md says what it means.
+// The parsed conditions of operations (QueryExpression of ISO 19143). docs/conditions.md describes their meaning.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace rois {
 
-// Well-formed and valid, but not understood: what it says goes back to the application as BAD_PARAMETER.
+// A valid but unsupported part. The operation fails with BAD_PARAMETER and this reason.
 struct NotUnderstood {
     std::string reason;
     bool operator==(NotUnderstood const&) const = default;
@@ -31,30 +31,29 @@ struct Literal {
     bool operator==(Literal const&) const = default;
 };
 
-// A point, a box along the axes of its frame, a line, a circle or a polygon; coordinates in mm. A point is a box with two equal
-// corners. Lines, circles and polygons are in the plane.
+// A point, an axis-aligned box, a line, a circle or a polygon; coordinates in mm. A point is a box with two equal corners. Lines,
+// circles and polygons are two-dimensional.
 struct Geometry {
     enum class Shape : std::uint8_t { box, line, circle, polygon };
     using Point = std::array<double, 2>;
     using Points = std::vector<Point>;
 
-    std::string crs;  // empty: the frame of whatever it is related to
+    std::string crs;  // empty: the frame of the other operand
     std::array<double, 3> low{};
     std::array<double, 3> high{};
-    std::uint8_t dimensions = 2;  // 2 or 3; in the plane, z is 0 and means nothing
+    std::uint8_t dimensions = 2;  // 2 or 3; with 2, z is 0 and has no meaning
     Shape shape = Shape::box;
-    std::vector<Points> paths{};  // of a line: itself; of a circle: its centre; of a polygon: its border, then those of its
-                                  // holes, the last point of each being its first
+    std::vector<Points> paths{};  // line: its points; circle: its centre; polygon: its border, then the borders of its holes,
+                                  // each closed (last point equal to the first)
     double radius = 0;            // of a circle
     bool operator==(Geometry const&) const = default;
 
-    // Sets `low` and `high` to the corners of the smallest box around a line, circle or polygon.
+    // Sets `low` and `high` to the bounding box of a line, circle or polygon.
     void fit_corners();
 };
 
 struct Expression;
 
-// A value that is made of others.
 struct Function {
     std::string name;
     std::vector<Expression> arguments;
@@ -70,7 +69,7 @@ inline bool Function::operator==(Function const&) const = default;
 
 // --- Predicates ---
 
-// How many of several values must meet a comparison.
+// How many of several values must satisfy a comparison.
 enum class MatchAction : std::uint8_t { any, all, one };
 
 enum class Comparator : std::uint8_t { equal, not_equal, less, greater, less_or_equal, greater_or_equal };
@@ -87,9 +86,9 @@ struct PropertyComparison {
 struct PropertyIsLike {
     Expression left;
     Expression right;
-    std::string wild_card;    // stands for any text
-    std::string single_char;  // stands for one character
-    std::string escape_char;  // takes the meaning of what follows away
+    std::string wild_card;    // matches any text
+    std::string single_char;  // matches one character
+    std::string escape_char;  // makes the next character literal
     bool match_case = true;
     bool operator==(PropertyIsLike const&) const = default;
 };
@@ -112,12 +111,12 @@ struct PropertyIsBetween {
     bool operator==(PropertyIsBetween const&) const = default;
 };
 
-// BBOX says what Intersects says.
+// BBOX is read as Intersects.
 enum class SpatialRelation : std::uint8_t { within, intersects, disjoint, equals, touches, overlaps, crosses, contains };
 
 struct SpatialComparison {
     SpatialRelation relation = SpatialRelation::within;
-    std::vector<Expression> operands;  // two, or one that is held against the candidate's own position
+    std::vector<Expression> operands;  // two, or one to compare with the candidate's position
     bool operator==(SpatialComparison const&) const = default;
 };
 
@@ -150,7 +149,7 @@ enum class TemporalRelation : std::uint8_t {
 
 struct TemporalComparison {
     TemporalRelation relation = TemporalRelation::after;
-    std::vector<Expression> operands;  // two, or one that is held against the candidate's own time
+    std::vector<Expression> operands;  // two, or one to compare with the candidate's time
     bool operator==(TemporalComparison const&) const = default;
 };
 
@@ -172,16 +171,16 @@ struct Or {
 };
 
 struct Not {
-    std::vector<Condition> operand;  // one
+    std::vector<Condition> operand;  // exactly one
     bool operator==(Not const&) const;
 };
 
-// unr:ComponentGroupCondition: components of one robot; and the type of a unr:ComponentCondition, as a group of this type alone.
+// unr:ComponentGroupCondition: components of one robot. The type of a unr:ComponentCondition is a group with only this type.
 struct ComponentGroup {
     std::vector<std::string> types;
-    std::vector<std::string> aliases;  // no more than types
-    std::vector<Condition> filter;     // none or one: on the robot
-    std::vector<Condition> members;    // each is met by a component of the robot
+    std::vector<std::string> aliases;  // at most as many as types
+    std::vector<Condition> filter;     // at most one: on the robot
+    std::vector<Condition> members;    // for each, a component of the robot must match
     bool operator==(ComponentGroup const&) const;
 };
 
@@ -207,14 +206,14 @@ struct SortProperty {
     bool operator==(SortProperty const&) const = default;
 };
 
-// What is meant, and in which order. An empty one restricts nothing.
+// A filter and an order. An empty one matches everything.
 struct QueryExpression {
     QueryExpression() = default;
     QueryExpression(Condition condition, std::vector<SortProperty> order = {})
         : filter{std::move(condition)}, sort_by{std::move(order)} {}
 
     std::optional<Condition> filter;
-    std::vector<SortProperty> sort_by;  // the first one first
+    std::vector<SortProperty> sort_by;  // most significant first
     bool operator==(QueryExpression const&) const = default;
 };
 

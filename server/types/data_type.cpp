@@ -24,7 +24,7 @@ struct Known {
 constexpr std::int64_t longest = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t natural = std::numeric_limits<std::int32_t>::max();
 
-// The first name of a base is the one that we write, unless its range is another.
+// The first name of a base is its canonical name, used for all names with the same range.
 constexpr std::array<Known, 44> known_types{{{"int", BaseType::integer},
                                              {"string", BaseType::string},
                                              {"double", BaseType::real},
@@ -57,7 +57,7 @@ constexpr std::array<Known, 44> known_types{{{"int", BaseType::integer},
                                              {"nonPositiveInteger", BaseType::integer, -natural - 1, 0},
                                              {"negativeInteger", BaseType::integer, -natural - 1, -1},
                                              {"CharacterString", BaseType::string},
-                                             {"Data", BaseType::string},  // of RLS (decision 27)
+                                             {"Data", BaseType::string},  // RLS (decision 27)
                                              {"normalizedString", BaseType::string},
                                              {"token", BaseType::string},
                                              {"anyURI", BaseType::string},
@@ -70,12 +70,12 @@ constexpr std::array<Known, 44> known_types{{{"int", BaseType::integer},
                                              {"char", BaseType::string},
                                              {"QName", BaseType::string}}};
 
-// Texts in forms of their own (annex C).
+// Types whose texts have a form of their own (annex C).
 constexpr std::array<std::string_view, 2> known_forms{"NBestType", "LatticeType"};
 
 constexpr std::array<std::string_view, 4> names_of_lists{"Set", "List", "Sequence", "seq"};
 
-// `urn:x-rois:def:DataType:<authority>::<name>` gives the name; what is no such URN stays as it is.
+// Returns the name in `urn:x-rois:def:DataType:<authority>::<name>`, and any other text unchanged.
 std::string_view without_urn(std::string_view code) {
     constexpr std::string_view urn = "urn:x-rois:def:datatype:";
     if (code.size() <= urn.size() || !equal_ignoring_case(code.substr(0, urn.size()), urn)) return code;
@@ -83,10 +83,10 @@ std::string_view without_urn(std::string_view code) {
     return code.substr(colon + 1);
 }
 
-// "int" of "xsd:int", of "urn:x-other:int" and of "http://www.w3.org/2001/XMLSchema#int".
+// Returns "int" for "xsd:int", "urn:x-other:int" and "http://www.w3.org/2001/XMLSchema#int".
 std::string_view last_part(std::string_view code) { return code.substr(code.find_last_of(":#/") + 1); }
 
-// `T` of `T[]`, `Set<T>`, `List<T>` and so on; nothing when it is no list.
+// Returns `T` for `T[]`, `Set<T>`, `List<T>` and so on; nothing if the type is not a list.
 std::optional<std::string_view> item_of(std::string_view code) {
     if (code.ends_with("[]")) return trimmed(code.substr(0, code.size() - 2));
     auto const open = code.find('<');
@@ -109,7 +109,7 @@ bool is_offset(std::string_view text) {
     return (hours < "14" && minutes < "60") || (hours == "14" && minutes == "00");
 }
 
-// Whether the text begins with digits where the shape has a d, and else with what the shape has; then it is taken away.
+// Removes the shape from the beginning of the text, where a 'd' matches any digit. Returns false if the text does not match.
 bool take_shape(std::string_view& text, std::string_view shape) {
     if (text.size() < shape.size()) return false;
     for (std::size_t i = 0; i < shape.size(); ++i)
@@ -122,7 +122,7 @@ unsigned two_digits(std::string_view text, std::size_t at) {
     return static_cast<unsigned>((text[at] - '0') * 10 + (text[at + 1] - '0'));
 }
 
-// "2026-11-20", a day that exists.
+// Takes "2026-11-20" if the day exists.
 bool take_date(std::string_view& text) {
     auto const whole = text;
     if (!take_shape(text, "dddd-dd-dd")) return false;
@@ -131,7 +131,7 @@ bool take_date(std::string_view& text) {
     return date.ok();
 }
 
-// "12:00:00.123", with any number of digits after the point.
+// Takes "12:00:00.123", with any number of digits after the point.
 bool take_time(std::string_view& text) {
     auto const whole = text;
     if (!take_shape(text, "dd:dd:dd")) return false;
@@ -150,10 +150,10 @@ bool is_date_time(std::string_view text) {
     text = trimmed(text);
     auto rest = text;
     if (!take_date(rest) || !take_shape(rest, "T") || !take_time(rest) || !is_zone(rest)) return false;
-    return rest == "Z" || in_utc(text).ends_with('Z');  // its year in UTC has four digits, too
+    return rest == "Z" || in_utc(text).ends_with('Z');  // its year in UTC also has four digits
 }
 
-// Both may leave their zone out.
+// The zone of dates and times is optional.
 bool is_date(std::string_view text) {
     text = trimmed(text);
     return take_date(text) && (text.empty() || is_zone(text));
@@ -219,9 +219,11 @@ bool is_packed(BaseType base) { return base == BaseType::integer || base == Base
 
 std::string not_of(DataType const& type, std::string_view text) { return quoted(text) + " is not of the type " + type.name; }
 
-// A list of numbers or bools: one text, its items separated by white space; none for an empty list.
+// A list of numbers or bools is one value with items separated by white space; an empty list may have none.
 std::optional<std::string> why_not_packed(DataType const& type, std::span<std::string const> values) {
-    if (values.size() > 1) return "a list of the type " + to_text(type) + " has one value, its items separated by spaces";
+    if (values.size() > 1)
+        return "a list of the type " + to_text(type) + " is one value with items separated by spaces, got " +
+               std::to_string(values.size()) + " values";
     if (values.empty()) return {};
     std::string_view rest = trimmed(values.front());
     while (!rest.empty()) {
@@ -271,8 +273,7 @@ std::string to_text(DataType const& type) { return type.list ? type.name + "[]" 
 std::optional<std::string> why_not(DataType const& type, std::span<std::string const> values) {
     if (type.list && is_packed(type.base)) return why_not_packed(type, values);
     if (!type.list && values.size() != 1)
-        return "a single value of the type " + to_text(type) + " needs exactly one value, here are " +
-               std::to_string(values.size());
+        return "the type " + to_text(type) + " needs exactly one value, got " + std::to_string(values.size());
     for (auto const& value : values) {
         if (!is_of(type, value)) return not_of(type, value);
         auto too_long = type.base == BaseType::identifier ? why_too_long("the identifier", value) : std::nullopt;

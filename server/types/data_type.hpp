@@ -1,4 +1,4 @@
-// The types that values have (decision 26), and whether texts are of them.
+// The data types of values (decision 26), and checks of values against them.
 #pragma once
 
 #include <cstdint>
@@ -27,36 +27,37 @@ enum class BaseType : std::uint8_t {
     other
 };
 
-// A data_type_ref read: `int`, `string[]`, `Set<Integer>`, `xsd:float`, `urn:x-rois:def:DataType:ATR::Integer`, ... in any case.
-// A type that is known is so under the last part of any name with colons.
+// A parsed data_type_ref: `int`, `string[]`, `Set<Integer>`, `xsd:float`, `urn:x-rois:def:DataType:ATR::Integer`, ... The case is
+// ignored. Known types are recognized by the part of the name after the last ':', '#' or '/'.
 struct DataType {
     BaseType base = BaseType::other;
     bool list = false;
-    std::string name;  // the base's own name, for messages and for user-defined types (base `other`)
-    // Of whole numbers, both included.
+    std::string name;  // of the base, for messages and for user-defined types (base `other`)
+    // The range of whole numbers, inclusive.
     std::int64_t lowest = std::numeric_limits<std::int32_t>::min();
     std::int64_t highest = std::numeric_limits<std::int32_t>::max();
 
     static DataType of(Identifier const& data_type_ref);
 
-    // Names count for `other` only, without regard to case; how far whole numbers go does not.
+    // Compares names, ignoring case, only for the base `other`. Ignores the range of whole numbers.
     bool operator==(DataType const&) const;
 };
 
-// Whether it is said here or in the specification which texts are of the type; else any text is. Of a list, whether its items'
-// is.
+// Returns whether the type, or the item type of a list, is defined here or in the specification. Any text is a value of an
+// unknown type.
 bool is_known(DataType const&);
 
 std::string to_text(DataType const&);
 
-// Why these texts are not of the type (wrong count, not a number, ...), or nothing when they are. A type `other` takes any text.
+// Returns why the values are not of this type (wrong count, not a number, ...), or nothing. The base `other` accepts any text.
 std::optional<std::string> why_not(DataType const&, std::span<std::string const> values);
 
-// A text of this type, or of its items, in the form in which it is told: times are UTC (decision 28), all else is as it is.
+// Returns a value of this type, or an item of a list, in the form in which the engine reports it: converts times to UTC
+// (decision 28), and changes nothing else.
 std::string as_told(DataType const&, std::string_view text);
 
-// The values that a default of a profile stands for, as they are told: one text, but for lists of texts an item each, separated
-// by white space.
+// Returns the values of a profile's default value, in the form in which the engine reports them: one value, or for lists of texts
+// one per item (separated by white space).
 std::vector<std::string> default_values(Identifier const& data_type_ref, std::string_view text);
 
 }  // namespace rois

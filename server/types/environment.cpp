@@ -7,7 +7,7 @@ namespace rois {
 
 namespace {
 
-// Of the programs, of the project's tests, and of a cluster with a service called rois-gateway.
+// Includes variables of the project's tests, and those that Kubernetes sets for a service called rois-gateway.
 bool is_known(std::string_view name) {
     constexpr std::array<std::string_view, 8> names{"ROIS_CONFIG", "ROIS_URL",     "ROIS_SESSION", "ROIS_SESSION_FILE",
                                                     "ROIS_TOKEN",  "ROIS_CA_FILE", "ROIS_JOBS",    "ROIS_ENDURANCE"};

@@ -1,4 +1,4 @@
-// The variables of the environment that the project's programs read: ROIS_...
+// Finds misspelt environment variables (ROIS_...) of the project's programs.
 #pragma once
 
 #include <functional>
@@ -8,8 +8,8 @@
 
 namespace rois {
 
-// Returns the names of the non-empty ROIS_ variables in `environment` (such as `environ`) that no program of the project reads,
-// in order: misspelt ones, which have no effect. `is_key` knows those that stand for configuration keys of the gateway.
+// Returns the sorted names of the non-empty ROIS_ variables in `environment` (such as `environ`) that no program of the project
+// reads. `is_key` returns whether a name stands for a configuration key of the gateway.
 std::vector<std::string> unknown_variables(char const* const* environment, std::function<bool(std::string_view)> const& is_key);
 
 }  // namespace rois

@@ -1,5 +1,5 @@
-// The floor that an engine's robots live on, for those who draw it (schemas/map.xsd). Lengths in mm, angles in degrees
-// counter-clockwise, x to the right, y up.
+// The map of an engine's floor, for clients that draw it (schemas/map.xsd). Lengths in mm, angles in degrees counter-clockwise,
+// x to the right, y up.
 #pragma once
 
 #include <optional>
@@ -19,20 +19,20 @@ struct FloorMap {
     struct Place {
         std::string name;
         double x, y, heading;
-        double width, depth;  // around it, of the area that conditions mean by the name
+        double width, depth;  // along x and y, of the area around it that conditions refer to by the name
     };
     struct Frame {
         std::string crs;
-        double x, y, heading;  // of its origin
+        double x, y, heading;  // of its origin, in `FloorMap::crs`
     };
     struct Robot {
         std::string name;
         double radius;
-        std::optional<Frame> frame;  // of its own map
+        std::optional<Frame> frame;  // of the robot's own map
     };
 
     std::string name;
-    std::string crs;  // the frame of all this
+    std::string crs;  // the frame of all coordinates
     Box bounds;
     std::vector<Wall> walls;
     std::vector<Box> furniture;

@@ -1,4 +1,4 @@
-// How long identifiers may be: ids, refs, types, codes and names that a request says.
+// The maximum length of identifiers in requests: ids, refs, types, codes and names.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace rois {
 
 inline constexpr std::size_t longest_identifier = 256;  // characters
 
-// Why this text is too long for an identifier, or nothing. `what` it identifies, for the reason: "command_id".
+// Returns why this text is too long for an identifier, or nothing. `what` names the identifier in the reason: "command_id".
 std::optional<std::string> why_too_long(std::string_view what, std::string_view text);
 
 }  // namespace rois

@@ -16,7 +16,7 @@ class Taker {
 public:
     explicit Taker(std::string_view text) : rest_{text} {}
 
-    // A number of exactly so many digits.
+    // Takes a number of exactly `digits` digits.
     std::optional<int> number(std::size_t digits) {
         if (rest_.size() < digits) return {};
         int value = 0;
@@ -27,7 +27,7 @@ public:
         return value;
     }
 
-    // "-05": the sign and a number of two digits, up to `most`.
+    // Takes the sign and a number of two digits, up to `most`, such as "-05".
     std::optional<int> part(char sign, int most) {
         if (!sign_is(sign)) return {};
         auto const value = number(2);
@@ -40,7 +40,7 @@ public:
         return true;
     }
 
-    // ".123": any number of digits after the point; none at all is none of a second.
+    // Takes a fraction such as ".123", with any number of digits. Returns 0 if there is no point.
     std::optional<nanoseconds> fraction() {
         if (!sign_is('.')) return nanoseconds{0};
         nanoseconds sum{0};
@@ -51,7 +51,7 @@ public:
         return digits > 0 ? std::optional{sum} : std::nullopt;
     }
 
-    // "Z", "+09:00" or nothing: what is to be taken away to get to UTC.
+    // Takes "Z", "+09:00" or nothing. Returns the offset, to be subtracted to get UTC.
     std::optional<minutes> offset() {
         if (at_end() || sign_is('Z')) return minutes{0};
         int const sign = rest_.front() == '-' ? -1 : 1;
@@ -80,7 +80,7 @@ std::optional<sys_days> day_of(int year, int month, int day) {
     return date.ok() ? std::optional{sys_days{date}} : std::nullopt;
 }
 
-// Writes the number over zeros, its last digit at `last`.
+// Overwrites zeros in the text with the number, its last digit at index `last`.
 template <class Number>
 void put(std::string& text, std::size_t last, Number number) {
     for (auto rest = static_cast<unsigned>(number); rest > 0; rest /= 10) text[last--] = static_cast<char>('0' + rest % 10);
@@ -149,7 +149,7 @@ std::string in_utc(std::string_view text) {
     return utc.append(written.substr(utc.size(), end_of_second - utc.size())).append("Z");
 }
 
-// Of a clock that counts nanoseconds, whose years have four digits.
+// The clock counts nanoseconds, so that all years have four digits.
 std::string to_text(Utc time) {
     auto const day = floor<days>(time);
     year_month_day const date{day};

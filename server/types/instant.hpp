@@ -1,4 +1,4 @@
-// The time at which something happens, as it is passed to everything below the network layer.
+// Times: readings of the clocks, and texts with times.
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,8 @@ namespace rois {
 using Steady = std::chrono::steady_clock::time_point;
 using Utc = std::chrono::system_clock::time_point;
 
-// Two readings of one moment: deadlines are counted on `steady`, which nobody can set; `utc` is what documents show.
+// One moment on two clocks: `steady`, which nothing can set, for deadlines, and `utc` for documents. The network layer passes it
+// to the layers below.
 struct Instant {
     Steady steady;
     Utc utc;
@@ -21,27 +22,27 @@ struct Instant {
     }
 };
 
-// "2026-11-20T12:00:00.123Z" (W3C-DT, UTC, milliseconds).
+// Returns "2026-11-20T12:00:00.123Z" (W3C-DT, UTC, milliseconds).
 std::string to_text(Utc);
 
-// "2026-11-20T12:00:00.123Z", also with an offset ("+09:00"), or without any, which is UTC (decision 28). White space at the ends
-// is allowed; digits below a nanosecond are dropped, and years that no clock here can show (before 1678, after 2261) are taken as
-// the nearest that it can. Nothing when it is no such text.
+// Parses "2026-11-20T12:00:00.123Z". An offset ("+09:00") is allowed; without Z and offset the time is UTC (decision 28). Allows
+// white space at the ends. Drops digits below a nanosecond. Clamps years to 1678 to 2261, the range of the clock. Returns nothing
+// for any other text.
 std::optional<Utc> to_utc(std::string_view);
 
-// The same moment with Z instead of an offset, every digit of the second kept: "2026-11-20T11:00:00.5Z" of
-// "2026-11-20T12:00:00.5+01:00". A text that is not as `to_utc` reads it, or whose year in UTC has not four digits, as it is.
+// Converts a time to UTC and keeps all digits of the second: "2026-11-20T12:00:00.5+01:00" gives "2026-11-20T11:00:00.5Z".
+// Returns a text unchanged if `to_utc` rejects it or its year in UTC does not have four digits.
 std::string in_utc(std::string_view);
 
-// The time from `begin` to `end`; a moment when they are the same.
+// The time from `begin` to `end`; a moment if they are equal.
 struct Period {
     Utc begin;
     Utc end;
     bool operator==(Period const&) const = default;
 };
 
-// A moment as `to_utc` reads it; or "2026-11-20", "2026-11", "2026": the day, month or year from its first moment to that of the
-// next one, in UTC. Nothing when it is none of them.
+// Parses a moment as `to_utc` does, or a day, month or year in UTC ("2026-11-20", "2026-11", "2026"), which ends at the first
+// moment of the next one. Returns nothing for any other text.
 std::optional<Period> to_period(std::string_view);
 
 }  // namespace rois

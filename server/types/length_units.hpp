@@ -6,7 +6,7 @@
 
 namespace rois {
 
-// How many millimetres the unit is long: mm, cm, m, km, or their names in full (metre, meter). Nothing when it is unknown.
+// Returns the length of a unit in millimetres: mm, cm, m, km, or their full names (metre, meter); nothing if it is unknown.
 std::optional<double> millimetres_in(std::string_view unit);
 
 }  // namespace rois

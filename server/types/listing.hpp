@@ -1,4 +1,4 @@
-// Things named one after the other, as reasons do it: "desk, entrance, exit".
+// Joins texts for reasons: "desk, entrance, exit".
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 
 namespace rois {
 
-// The text of each, in the range's order; empty when there is none.
+// Returns the texts of all elements, in order, separated by ", ". `text` returns the text of an element.
 template <std::ranges::input_range Range, class Text = std::identity>
 std::string listed(Range&& range, Text text = {}) {
     std::string all;

@@ -1,5 +1,5 @@
-// The operations of the RoIS interfaces (7.4.2, tables 2 to 5), the notifications (table 6) and the fault: all that is
-// said between a service application and the engine. An operation is a struct; its reply lives inside it.
+// The messages between a service application and the engine: the operations of the RoIS interfaces (7.4.2, tables 2 to 5), the
+// notifications (table 6) and the fault. An operation is a struct that contains the struct of its reply.
 #pragma once
 
 #include <chrono>
@@ -20,20 +20,20 @@
 
 namespace rois {
 
-// What every reply begins with. The out parameters of a reply mean something only when the code is OK.
+// The common part of all replies. The other members of a reply are valid only if the code is OK.
 struct Outcome {
     ReturnCode return_code = ReturnCode::ok;
-    std::string reason;  // empty when OK
+    std::string reason;  // empty if OK
 };
 
 // --- System interface (table 2) ---
 
-// By what a WebSocket proves that its application lives: pongs, which libraries and browsers answer with by themselves, and
-// requests; or requests alone.
+// How a WebSocket proves that its application is alive: by requests and pongs (which libraries and browsers send on their own),
+// or only by requests.
 enum class MotionProof : std::uint8_t { pong, request };
 
 struct Connect {
-    // The motion lease (decision 33): what is asked for, shorter than usual.
+    // The requested motion lease (decision 33), shorter than the gateway's.
     std::optional<std::chrono::milliseconds> motion_lease;
     std::optional<std::chrono::milliseconds> motion_lease_http;
     std::optional<MotionProof> motion_proof;
@@ -42,7 +42,7 @@ struct Connect {
     };
 };
 
-// Takes over a session on a WebSocket and goes on after `last_sequence` (ours; wire.md).
+// Takes over a session on a WebSocket and continues after notification `last_sequence` (an extension; wire.md).
 struct Resume {
     SessionId session;
     std::uint64_t last_sequence = 0;
@@ -57,7 +57,7 @@ struct Disconnect {
 struct ComponentEntry {
     std::string ref;
     std::string type;    // URN of its profile
-    std::string engine;  // name of the engine or sub engine that has it
+    std::string engine;  // name of its engine or sub engine
     std::shared_ptr<ComponentProfile const> profile;
 };
 
@@ -139,7 +139,7 @@ struct Query {
     std::string query_type;
     QueryExpression condition;
     struct Reply : Outcome {
-        Identifier component_ref;  // who answered
+        Identifier component_ref;  // of the component that answered
         Results results;
     };
 };
@@ -168,7 +168,7 @@ struct GetEventDetail {
     };
 };
 
-// Every operation, once. The order is that of wire.md.
+// All operations, in the order of wire.md.
 using Operation =
     std::variant<Connect, Resume, Disconnect, GetProfile, GetErrorDetail, Search, Bind, BindAny, Release, GetParameter,
                  SetParameter, Execute, GetCommandResult, Query, Subscribe, Unsubscribe, GetEventDetail>;
@@ -183,10 +183,10 @@ using Reply = ReplyOf<Operation>::type;
 
 struct Request {
     Operation operation;
-    std::string request_id;  // echoed in the answer; empty when absent
+    std::string request_id;  // echoed in the answer; empty if absent
 };
 
-// --- Service application base (table 6): what the engine tells on its own ---
+// --- Service application base (table 6): notifications ---
 
 struct ReceiveEvent {
     EventId event_id;
@@ -194,7 +194,7 @@ struct ReceiveEvent {
     SubscribeId subscribe_id;
     Utc expire;
     Identifier component_ref;
-    std::shared_ptr<Results const> results;  // null unless the subscription asked for them inline
+    std::shared_ptr<Results const> results;  // null unless the subscription has inline_results
 };
 
 struct ReceiveError {
@@ -208,7 +208,7 @@ struct Completed {
     CompletedStatus status = CompletedStatus::ok;
 };
 
-// `count` notifications, the last of them with this notification's sequence, were dropped.
+// `count` notifications were dropped. This notification has the sequence of the last one.
 struct Lost {
     std::uint64_t count = 0;
 };
@@ -224,7 +224,7 @@ struct StopState {
     std::vector<std::string> not_halted;  // refs of components that have not confirmed that they stand still
 };
 
-// --- Fault: the message could not be read or was not allowed; no operation ran (wire.md) ---
+// --- Fault: the message was rejected before any operation ran (wire.md) ---
 
 enum class FaultCode : std::uint8_t {
     not_well_formed,
@@ -248,7 +248,7 @@ enum class FaultCode : std::uint8_t {
 
 std::string_view to_text(FaultCode);
 
-// A place in a document, counted from 1, in characters.
+// A place in a document. Line and column count from 1; the column counts characters.
 struct Place {
     std::uint64_t line = 1;
     std::uint64_t column = 1;

@@ -11,7 +11,7 @@ namespace rois {
 
 namespace {
 
-// "PersonDetection" of "urn:x-rois:def:component:OMG::PersonDetection".
+// Returns "PersonDetection" for "urn:x-rois:def:component:OMG::PersonDetection".
 std::string_view last_part(std::string_view urn) { return urn.substr(urn.rfind(':') + 1); }
 
 std::string without_underscores(std::string_view name) {
@@ -24,8 +24,8 @@ bool same_name(std::string_view a, std::string_view b) {
     return equal_ignoring_case(without_underscores(a), without_underscores(b));
 }
 
-// Of a profile that is not whole yet: what it says of a parameter, to be read or to be set, or null.
-ParameterProfile const* said_of(ComponentProfile const& profile, std::string_view name) {
+// Returns the definition of a parameter in the profile, in set_parameter or in get_parameter; null if there is none.
+ParameterProfile const* definition_of(ComponentProfile const& profile, std::string_view name) {
     if (auto const* found = find_parameter(profile.parameters, name)) return found;
     if (auto const* message = find_message(profile, MessageKind::command, "set_parameter"))
         if (auto const* found = find_parameter(message->arguments, name)) return found;
@@ -37,23 +37,23 @@ bool same_type(ParameterProfile const& a, ParameterProfile const& b) {
     return DataType::of(a.data_type_ref) == DataType::of(b.data_type_ref);
 }
 
-// What was said first of a parameter counts, in whatever message it is.
-void agree(std::vector<ParameterProfile>& added, ComponentProfile const& first) {
+// Gives the parameters the type and default value of their definition in `first`, if there is one.
+void adopt_definitions(std::vector<ParameterProfile>& added, ComponentProfile const& first) {
     for (auto& parameter : added) {
-        auto const* const said = said_of(first, parameter.name);
-        if (said == nullptr) continue;
-        if (said->default_value || !same_type(parameter, *said)) parameter.default_value = said->default_value;
-        parameter.data_type_ref = said->data_type_ref;
+        auto const* const known = definition_of(first, parameter.name);
+        if (known == nullptr) continue;
+        if (known->default_value || !same_type(parameter, *known)) parameter.default_value = known->default_value;
+        parameter.data_type_ref = known->data_type_ref;
     }
 }
 
-MessageProfile agreeing(MessageProfile message, ComponentProfile const& first) {
-    if (message.kind == MessageKind::command && message.name == "set_parameter") agree(message.arguments, first);
-    if (message.kind == MessageKind::query && message.name == "get_parameter") agree(message.results, first);
+MessageProfile with_definitions(MessageProfile message, ComponentProfile const& first) {
+    if (message.kind == MessageKind::command && message.name == "set_parameter") adopt_definitions(message.arguments, first);
+    if (message.kind == MessageKind::query && message.name == "get_parameter") adopt_definitions(message.results, first);
     return message;
 }
 
-// Adds what `part` and its own parts have, each name once; `path` are the profiles that are being added.
+// Adds messages and parameters of `part` and its sub components that `whole` lacks. `path` holds the profiles being added.
 void add_all(ComponentProfile& whole, ComponentProfile const& part, std::vector<ComponentProfile> const& known,
              std::vector<ComponentProfile const*>& path) {
     if (std::ranges::find(path, &part) != path.end())
@@ -61,9 +61,10 @@ void add_all(ComponentProfile& whole, ComponentProfile const& part, std::vector<
     path.push_back(&part);
     auto const before = whole;
     for (auto const& message : part.messages)
-        if (find_message(whole, message.kind, message.name) == nullptr) whole.messages.push_back(agreeing(message, before));
+        if (find_message(whole, message.kind, message.name) == nullptr)
+            whole.messages.push_back(with_definitions(message, before));
     auto parameters = part.parameters;
-    agree(parameters, before);
+    adopt_definitions(parameters, before);
     for (auto& parameter : parameters)
         if (find_parameter(whole.parameters, parameter.name) == nullptr) whole.parameters.push_back(std::move(parameter));
     for (auto const& urn : part.sub_components) {

@@ -1,4 +1,4 @@
-// The profiles (7.5, tables 24 to 30): what an engine, its components and their messages are.
+// Profiles (7.5, tables 24 to 30): descriptions of engines, components and their messages.
 #pragma once
 
 #include <chrono>
@@ -30,23 +30,23 @@ struct MessageProfile {
     std::string name;
     std::vector<ParameterProfile> results;
     std::vector<ParameterProfile> arguments;
-    std::optional<std::chrono::milliseconds> timeout;  // in which the component must have started
+    std::optional<std::chrono::milliseconds> timeout;  // within which the component must start the command
 
     bool operator==(MessageProfile const&) const = default;
 };
 
-// What IO_IdentifiedObject [ISO 19111] gives to profiles.
+// The part of a profile from IO_IdentifiedObject [ISO 19111].
 struct IdentifiedObject {
     std::string identifier;  // a URN
     std::string code_space;
     std::string name;
     std::string description;
-    std::string meta_data;  // where metaDataProperty leads to; of a component profile: its adapter
+    std::string meta_data;  // xlink:href of metaDataProperty; of a component profile: its adapter
 
     bool operator==(IdentifiedObject const&) const = default;
 };
 
-// Table 29. The messages of the sub components belong to it, too: see `flattened`.
+// Table 29. The messages of the sub components also belong to it: see `flattened`.
 struct ComponentProfile {
     IdentifiedObject object;
     std::vector<std::string> sub_components;  // URNs, or names
@@ -64,25 +64,23 @@ struct EngineProfile {
     std::vector<ParameterProfile> parameters;
 };
 
-// The profile with the messages and parameters of all its sub components, its own first; a name is there once. What is said
-// first of a parameter, its type and its default value, counts in all messages: those that are included say the same.
-// `known` are the profiles among which sub components are looked up (see below).
-// Throws std::runtime_error naming the URN when one is unknown or includes itself.
+// Returns the profile with the messages and parameters of all its sub components added, its own first. Names are unique. The
+// first definition of a parameter sets its type and default value in all messages. Sub components are looked up in `known`.
+// Throws std::runtime_error with the URN if a sub component is unknown or includes itself.
 ComponentProfile flattened(ComponentProfile const&, std::vector<ComponentProfile> const& known);
 
-// The profile that this text means: a URN, compared without regard to case; or what has no colon, the name of a profile or the
-// last part of its URN, without regard to case and underscores. Null when there is none.
+// Finds a profile by its URN, ignoring case. A text without colons may also be the profile's name or the last part of its URN;
+// then case and underscores are ignored. Returns the first match, or null.
 ComponentProfile const* find_profile(std::vector<ComponentProfile> const& known, std::string_view urn_or_name);
 
-// All that the text may mean, in their order; the first is the one that is found.
+// Returns all matches of find_profile, in the order of `known`.
 std::vector<ComponentProfile const*> find_profiles(std::vector<ComponentProfile> const& known, std::string_view urn_or_name);
 
-// All that a profile may mean by the name of one of its sub components: itself only where there is no other.
+// Returns all profiles that match the name of a sub component of `whole`. Returns `whole` itself only if nothing else matches.
 std::vector<ComponentProfile const*> find_parts(std::vector<ComponentProfile> const& known, ComponentProfile const& whole,
                                                 std::string_view urn_or_name);
 
-// Null when the profile has no such message or parameter. Names of messages are compared to the letter, names of parameters
-// without regard to case (decision 26).
+// Return null if there is no such message or parameter. Message names are case-sensitive; parameter names are not (decision 26).
 MessageProfile const* find_message(ComponentProfile const&, MessageKind, std::string_view name);
 ParameterProfile const* find_parameter(std::vector<ParameterProfile> const&, std::string_view name);
 

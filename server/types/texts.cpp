@@ -26,7 +26,7 @@ constexpr bool disturbs_a_line(char32_t c) {
            between(c, 0x2066, 0x2069);
 }
 
-// In these blocks capital and small letters take turns, capitals on even places or on odd ones.
+// In these blocks capital and small letters alternate; the capitals have even or odd codes.
 constexpr bool alternates_from_even(char32_t c) {
     return between(c, 0x100, 0x137) || between(c, 0x14A, 0x177) || between(c, 0x460, 0x481) || between(c, 0x48A, 0x4BF) ||
            between(c, 0x4D0, 0x52F) || between(c, 0x1E00, 0x1E95) || between(c, 0x1EA0, 0x1EFF);
@@ -44,7 +44,7 @@ void append(std::string& text, char32_t c) {
     for (int i = more - 1; i >= 0; --i) text += static_cast<char>(0x80U | (c >> (6 * i) & 0x3FU));
 }
 
-// The largest length at or below `longest` that does not cut a UTF-8 character.
+// Returns the largest length up to `longest` that does not cut a UTF-8 character.
 std::size_t whole_characters(std::string_view text, std::size_t longest) {
     if (text.size() <= longest) return text.size();
     auto const continues = [&](std::size_t i) { return (static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U; };
@@ -54,7 +54,7 @@ std::size_t whole_characters(std::string_view text, std::size_t longest) {
 
 }  // namespace
 
-// Most texts that are equal are so to the letter.
+// Compares exactly first: most equal texts are identical.
 bool equal_ignoring_case(std::string_view a, std::string_view b) {
     return a.size() == b.size() && (a == b || std::ranges::equal(a, b, {}, lower, lower));
 }

@@ -1,4 +1,4 @@
-// Small questions about texts that the specification asks everywhere.
+// Functions on texts: case, white space, numbers, characters and quoting.
 #pragma once
 
 #include <charconv>
@@ -9,26 +9,27 @@
 
 namespace rois {
 
-// ASCII only: names, URNs and type codes are compared without regard to case (decision 25, 26).
+// ASCII only: the case of names, URNs and type codes is ignored (decisions 25, 26).
 bool equal_ignoring_case(std::string_view, std::string_view);
 std::string lower_case(std::string_view);
 
-// Takes the first character from a text in UTF-8; a byte that belongs to none is one by itself. Nothing when the text is empty.
+// Removes and returns the first character of a UTF-8 text, or one byte if it is not valid UTF-8. Returns nothing if the text is
+// empty.
 std::optional<char32_t> take_character(std::string_view&);
 
-// Letters without the difference of case, for texts that people write: Latin (also full-width), Greek, Cyrillic and Armenian.
+// Folds the case of letters in Latin (also full-width), Greek, Cyrillic and Armenian, for texts that people write.
 char32_t folded_case(char32_t);
 std::string folded_case(std::string_view);
 
-// Without the white space of XML at both ends.
+// Returns the text without XML white space at both ends.
 std::string_view trimmed(std::string_view);
 
-// The whole text as a number, or nothing. White space at the ends is allowed, as in XML Schema.
+// Parse the whole text as a number; return nothing if it is not one. Allow white space at the ends, as XML Schema does.
 std::optional<double> to_double(std::string_view);
 std::optional<std::int32_t> to_int(std::string_view);
 
-// A text from outside, fit for a reason or a line of the log: cut to a bearable length, with spaces for control characters, for
-// separators of lines and for marks of writing direction, and valid UTF-8.
+// Quotes a text from outside for a reason or a log line. Cuts it to `longest` bytes, replaces control characters, line separators
+// and marks of writing direction by spaces, and invalid UTF-8 by '?'.
 std::string quoted(std::string_view, std::size_t longest = 80);
 
 }  // namespace rois

@@ -15,7 +15,7 @@ Parameter typed(std::string name, std::string type, std::vector<std::string> val
             .values = std::move(values)};
 }
 
-// Not as an initializer list, of which the text would be copied.
+// An initializer list would copy the text.
 std::vector<std::string> one(std::string value) {
     std::vector<std::string> values;
     values.push_back(std::move(value));

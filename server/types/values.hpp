@@ -1,4 +1,4 @@
-// The values that messages carry: identifiers, parameters, results and located entities (tables 9, 16 to 19; RLS data).
+// The values in messages: identifiers, parameters, results and located entities (tables 9, 16 to 19; RLS data).
 #pragma once
 
 #include <array>
@@ -24,8 +24,8 @@ struct Identifier {
     bool operator==(Identifier const&) const = default;
 };
 
-// Parameter (table 16): a named value. `values` holds the texts of the rois:value elements: exactly one for a single value
-// and for a list of numbers or bools (space-separated), one an item for other lists.
+// Parameter (table 16): a named value. `values` holds the texts of the rois:value elements: one for a single value and for a list
+// of numbers or bools (separated by spaces), one per item for other lists.
 struct Parameter {
     std::string name;
     Identifier data_type_ref;
@@ -34,20 +34,20 @@ struct Parameter {
     bool operator==(Parameter const&) const = default;
 };
 
-using ParameterList = std::vector<Parameter>;  // ordered; tables 17, 18 and 19 differ in use only
+using ParameterList = std::vector<Parameter>;  // ordered; for tables 17, 18 and 19
 
-// Where one entity is: position in mm, orientation (roll, pitch, yaw) in degrees counter-clockwise, in the frame `crs`.
+// The pose of one entity in the frame `crs`: position in mm, orientation (roll, pitch, yaw) in degrees counter-clockwise.
 struct Located {
     struct Reliability {
         double probability;  // 0 to 1
         bool operator==(Reliability const&) const = default;
     };
     struct Covariance {
-        std::vector<double> rows;  // row by row, square, in mm and degrees, ordered as position then orientation
+        std::vector<double> rows;  // a square matrix, row by row, of position and then orientation, in mm and degrees
         bool operator==(Covariance const&) const = default;
     };
 
-    std::string of;   // name of the result that it completes
+    std::string of;   // name of the result that it belongs to
     std::string ref;  // code of the entity
     std::string crs;
     std::array<double, 3> position{};
@@ -57,16 +57,16 @@ struct Located {
     bool operator==(Located const&) const = default;
 };
 
-// ResultList (table 17), with the structured form of the located data among its values.
+// ResultList (table 17), with the positions among its values also in structured form.
 struct Results {
     ParameterList parameters;
     std::vector<Located> located;
 };
 
-// A single row, which a list in braces would copy.
+// Returns a vector of one row. An initializer list would copy it.
 std::vector<Results> one_row(Results);
 
-// Makers of well-typed parameters, for whoever answers a query or fires an event. The type codes are those of the profiles.
+// Make parameters with the type codes of the basic profiles, for answers and events.
 Parameter integer(std::string name, std::int64_t value);
 Parameter boolean(std::string name, bool value);
 Parameter text(std::string name, std::string value);
@@ -78,7 +78,7 @@ Parameter reference(std::string name, std::string code, std::string codebook_ref
 Parameter references(std::string name, std::vector<std::string> codes, std::string codebook_ref = {});
 Parameter positions(std::string name, std::vector<std::string> points, std::string crs);  // each "x, y, th": mm, mm, degrees
 
-// The parameter of that name, compared without regard to case; null when there is none.
+// Returns the parameter with this name, ignoring case; null if there is none.
 Parameter const* find(std::span<Parameter const> list, std::string_view name);
 
 }  // namespace rois

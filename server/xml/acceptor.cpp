@@ -14,7 +14,7 @@ namespace rois::xml {
 
 namespace {
 
-// What ends a run of plain text, in content or in an attribute, or needs a second look.
+// The bytes that end a run of plain text in content; `ends_value`: in an attribute.
 constexpr auto ends_text = [] {
     std::array<bool, 256> table{};
     for (unsigned char const c : std::string_view{"<&]"}) table[c] = true;
@@ -27,7 +27,7 @@ constexpr auto ends_value = [] {
     return table;
 }();
 
-// Names that begin so are XML's own.
+// Prefixes that begin with "xml", in any case, are reserved.
 bool is_reserved(std::string_view prefix) {
     auto const lower = [&](std::size_t i) { return static_cast<char>(prefix[i] | 0x20); };
     return prefix.size() >= 3 && lower(0) == 'x' && lower(1) == 'm' && lower(2) == 'l';
@@ -56,7 +56,7 @@ bool Acceptor::accepts(std::string_view document) {
     return between_elements() && at_ == text_.size();
 }
 
-// An XML declaration as almost everybody writes it, and comments.
+// Takes one of the usual XML declarations, and comments.
 bool Acceptor::prologue() {
     constexpr std::array<std::string_view, 6> declarations{R"(<?xml version="1.0" encoding="UTF-8"?>)",
                                                            R"(<?xml version="1.0" encoding="utf-8"?>)",
@@ -85,7 +85,7 @@ void Acceptor::skip_until(std::array<bool, 256> const& ends) {
     at_ = end;
 }
 
-// One piece of what stands in the innermost open element: text and the markup after it.
+// Takes text in the innermost open element, and the markup after it.
 bool Acceptor::content() {
     auto const begin = at_;
     switch (open_.back().type->content) {
@@ -114,7 +114,7 @@ bool Acceptor::comment() {
     return true;
 }
 
-// Up to the next markup.
+// Takes text up to the next markup.
 bool Acceptor::text() {
     if (plain_text_) {
         at_ = std::min(text_.find('<', at_), text_.size());
@@ -133,12 +133,12 @@ bool Acceptor::text() {
                 ++at_;
                 break;
             default:
-                return false;  // the end
+                return false;  // end of the document
         }
     }
 }
 
-// Of an element that holds nothing else.
+// Takes the text of an element that holds only text.
 bool Acceptor::value() {
     auto const& open = open_.back();
     auto const begin = at_;
@@ -182,7 +182,7 @@ bool Acceptor::character_reference() {
     return true;
 }
 
-// An empty one when the document is left to xerces-c.
+// Returns an empty name if the document is left to xerces-c.
 PlainName Acceptor::take_name() {
     auto name = plain_name_before(text_.substr(at_));
     if (name.whole().size() > limits_.name_length) name = {};
@@ -234,7 +234,7 @@ bool Acceptor::end_tag() {
     return close();
 }
 
-// The innermost element, whose content must be complete.
+// Closes the innermost element. Returns false if its content is incomplete.
 bool Acceptor::close() {
     auto const& element = open_.back();
     auto const& states = element.type->states;
@@ -245,7 +245,7 @@ bool Acceptor::close() {
     return true;
 }
 
-// Up to the end of the start tag.
+// Takes the attributes up to the end of the start tag.
 bool Acceptor::attributes(std::size_t outer_bindings) {
     attributes_.clear();
     for (std::size_t count = 1;; ++count) {
@@ -280,14 +280,14 @@ bool Acceptor::attribute_value(std::string_view& value) {
             continue;
         }
         if (peek() == '\t' || peek() == '\n') as_written_ = false;
-        ++at_;  // one of these, or the other quote
+        ++at_;  // white space, or the other kind of quote
     }
     value = text_.substr(begin, at_ - begin);
     ++at_;
     return true;
 }
 
-// A namespace that is known, and a prefix that this tag has not declared yet.
+// Returns false if the namespace is unknown or this tag has already declared the prefix.
 bool Acceptor::bind(std::string_view prefix, std::string_view name_space, std::size_t outer_bindings) {
     auto const id = tables_.name_space(name_space);
     if (id == Interned::unknown || is_reserved(prefix)) return false;
@@ -339,7 +339,7 @@ ElementType const* Acceptor::type_of(ElementDeclaration const& declaration, std:
     return found == declaration.substitutes.end() ? nullptr : found->second;
 }
 
-// Each is one that the type has, none is there twice, and all that must be are there.
+// Returns false if an attribute is unknown to the type, invalid or duplicate, or a required one is missing.
 bool Acceptor::check_attributes(ElementType const& type) {
     std::uint64_t there = 0;
     bool has_type = false;
@@ -358,7 +358,7 @@ bool Acceptor::check_attributes(ElementType const& type) {
     return (there & type.required) == type.required;
 }
 
-// A few of them are compared with each other.
+// Leaves documents with more than `most_ids` ids to xerces-c.
 bool Acceptor::is_new(std::string_view id) {
     constexpr std::size_t most_ids = 16;
     if (ids_.size() == most_ids || std::ranges::find(ids_, id) != ids_.end()) return false;

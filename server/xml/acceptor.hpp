@@ -1,4 +1,4 @@
-// Says of most valid documents, in one pass over their bytes, that they are valid.
+// Validates most valid documents in one pass over their bytes.
 #pragma once
 
 #include <array>
@@ -18,19 +18,19 @@
 
 namespace rois::xml {
 
-// Checks form, limits and validity together, with the tables of the schemas, and makes the tree of a message on the way. Once its
-// stacks have grown it allocates nothing. Knows valid documents only: whatever it does not accept, for any reason, may still be
-// valid (docs/validation.md). For one thread.
+// Checks form, limits and validity with the tables of the schemas, and builds the message tree in the same pass. It is
+// conservative: a document that it does not accept may still be valid, and xerces-c decides (docs/validation.md). Allocates
+// nothing once its stacks have grown. Not thread-safe.
 class Acceptor {
 public:
     Acceptor(std::shared_ptr<Schemas const>, DocumentLimits);
 
-    // Whether the document passes the scan without a change and is valid. False says nothing. The limit of bytes is the caller's
-    // to check.
+    // Returns true if the document is valid and the scan would not change it. False means "unknown". The caller checks the limit
+    // of bytes.
     bool accepts(std::string_view document);
 
-    // The tree of a document that was accepted: views of its bytes, as long as these are there. Null when a text means something
-    // else than what stands there, for a reference or a line end in it.
+    // Returns the tree of the accepted document: views of the document's bytes, valid as long as these. Null if a text contains
+    // a reference or a line end to normalise, so that its value differs from its bytes.
     MessageTree const* tree() const { return as_written_ ? &tree_ : nullptr; }
 
 private:
@@ -43,17 +43,16 @@ private:
         std::string_view prefix;
         Interned::Id name_space = Interned::empty;
     };
-    // An element that is open: what it is called, and how far its content has come.
-    struct Open {
+    struct Open {  // an open element
         std::string_view tag;
         ElementDeclaration const* declaration;
         ElementType const* type;
         std::size_t begin;     // offset of its start tag
-        std::size_t bindings;  // how many namespaces were declared before it
-        std::uint32_t state;
+        std::size_t bindings;  // size of `bindings_` before its start tag
+        std::uint32_t state;   // of its content model
     };
 
-    // All of them: false when the document is left to xerces-c. What they take, they step over.
+    // Each of these functions consumes what it accepts, and returns false if the document is left to xerces-c.
     bool prologue();
     bool between_elements();
     bool content();
@@ -76,16 +75,16 @@ private:
     bool end_tag();
     bool close();
 
-    // Of what stands next.
-    KnownTag& known_tag();
+    KnownTag& known_tag();  // of the current position
     void remember(KnownTag&, PlainName const&, Interned::Id name_space, ElementDeclaration const&, std::size_t begin,
                   std::size_t outer_bindings);
     bool bind_again(KnownTag const&, char const* tag);
     bool take_text_element(KnownTag const&);
 
     PlainName take_name();
-    ElementDeclaration const* declaration_of(Name);  // null: left to xerces-c; steps on in the open element's content
-    // The declared one, or its xsi:type's, whose name is told then; null: left to xerces-c.
+    // Returns null if the document is left to xerces-c. Advances the content model of the innermost open element.
+    ElementDeclaration const* declaration_of(Name);
+    // Returns the declared type, or that of the tag's xsi:type, whose local name is then set. Null: left to xerces-c.
     ElementType const* type_of(ElementDeclaration const&, std::string_view& xsi_type);
     Interned::Id name_space_of(std::string_view prefix) const;
 
@@ -93,7 +92,7 @@ private:
     bool at(std::string_view wanted) const {
         return text_.size() - at_ >= wanted.size() && std::memcmp(text_.data() + at_, wanted.data(), wanted.size()) == 0;
     }
-    bool skip_white_space() {  // whether there was any
+    bool skip_white_space() {  // returns whether it skipped any
         auto const begin = at_;
         while (at_ < text_.size() && is_white_space(text_[at_])) ++at_;
         return at_ > begin;
@@ -105,22 +104,22 @@ private:
     Tables const& tables_;
     DocumentLimits limits_;
 
-    // Of one document; what they hold is kept for the next.
+    // State of the current document; the memory is reused for the next one.
     std::string_view text_;
     std::size_t at_ = 0;
     std::size_t elements_ = 0;
     bool as_written_ = true;
-    bool plain_text_ = true;   // there is no `&` and no `]` anywhere
-    std::uint64_t scope_ = 0;  // what prefixes mean: the same number, the same meanings; 0: nobody knows
+    bool plain_text_ = true;   // the document contains no `&` and no `]`
+    std::uint64_t scope_ = 0;  // number of the current set of namespace bindings; 0: not numbered
     std::vector<Open> open_;
     std::vector<Binding> bindings_;
     std::vector<Attribute> attributes_;  // of one start tag
     std::vector<std::string_view> ids_;
     MessageTree tree_;
 
-    // Of all documents so far: the root's, and one for each state of the tables by its number.
+    // Cached start tags, kept across documents: index 0 for the root, then one for each content state by its number.
     std::vector<KnownTag> known_;
-    std::uint64_t scopes_ = 0;  // that were numbered
+    std::uint64_t scopes_ = 0;  // numbers given to scopes so far
 };
 
 }  // namespace rois::xml

@@ -10,16 +10,16 @@ namespace rois::xml {
 
 namespace {
 
-constexpr std::size_t deepest = 100;             // elements inside each other; engines take half as many, and answer with a few
+constexpr std::size_t deepest = 100;             // nested elements; engines accept 64 and answer with a few
 constexpr std::size_t keep_at_most = 64 * 1024;  // bytes, between two documents
 
 }  // namespace
 
-class AnswerReader::Kept {
+class AnswerReader::Impl {
 public:
     std::optional<Heard> read(std::string_view document) {
         if (!parse(document)) return std::nullopt;
-        auto heard = decode_heard(message_);
+        auto heard = decode_engine_message(message_);
         if (heard && !add_profiles(*heard, document)) return std::nullopt;
         return heard;
     }
@@ -29,7 +29,7 @@ public:
     }
 
 private:
-    // Reads the document into `message_`. False when it is no XML, or too deep.
+    // Reads the document into `message_`. Returns false if it is not XML, or nested too deeply.
     bool parse(std::string_view document) {
         tree_.reset();
         if (bytes_.capacity() > keep_at_most) std::string{}.swap(bytes_);
@@ -38,7 +38,7 @@ private:
         return parsed && message_.read(tree_.document_element(), deepest);
     }
 
-    // The profiles of get_profile's reply, in the order of its components. False when one cannot be understood.
+    // Adds the profiles of get_profile's reply, in the order of its components. Returns false if one cannot be decoded.
     bool add_profiles(Heard& heard, std::string_view document) {
         auto* const answered = std::get_if<Answered>(&heard);
         auto* const reply = answered != nullptr ? std::get_if<GetProfile::Reply>(&answered->reply) : nullptr;
@@ -66,13 +66,13 @@ private:
     MessageTree message_;
 };
 
-AnswerReader::AnswerReader() : kept_{std::make_unique<Kept>()} {}
+AnswerReader::AnswerReader() : impl_{std::make_unique<Impl>()} {}
 
 AnswerReader::~AnswerReader() = default;
 
 AnswerReader::AnswerReader(AnswerReader&&) noexcept = default;
 
-std::optional<Heard> AnswerReader::read(std::string_view document) { return kept_->read(document); }
+std::optional<Heard> AnswerReader::read(std::string_view document) { return impl_->read(document); }
 
 std::optional<StopState> AnswerReader::read_stop_state(std::string_view document) { return kept_->read_stop_state(document); }
 

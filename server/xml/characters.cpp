@@ -9,21 +9,21 @@ namespace rois::xml {
 namespace {
 
 constexpr std::string_view not_utf8 = "the document is not UTF-8";
-constexpr std::string_view not_a_character = "a character that XML cannot carry";
+constexpr std::string_view not_a_character = "a character that XML does not allow";
 
 constexpr std::size_t block = 32;
 
-// Whether the bytes of a block are ASCII from the space on; written so that the compiler looks at sixteen together.
+// Returns whether all bytes of a block are printable ASCII or DEL. Written so that the compiler can use SIMD.
 bool all_printed(char const* bytes) {
     constexpr std::uint64_t spaces = 0x2020202020202020, high_bits = 0x8080808080808080;
     std::array<std::uint64_t, block / sizeof spaces> words{}, other{};
     std::memcpy(words.data(), bytes, block);
     for (std::size_t i = 0; i < words.size(); ++i)
-        other[i] = words[i] | (words[i] - spaces);  // below one it borrows the high bit
+        other[i] = words[i] | (words[i] - spaces);  // a byte below the space borrows the high bit
     return ((other[0] | other[1] | other[2] | other[3]) & high_bits) == 0;
 }
 
-// Whether the bytes of a block are ASCII that XML may carry. Without branches: the compiler looks at many bytes at once.
+// Returns whether all bytes of a block are ASCII characters that XML allows. Branch-free, so that the compiler can use SIMD.
 bool all_plain(char const* bytes) {
     if (all_printed(bytes)) return true;
     unsigned char bad = 0;
@@ -35,7 +35,7 @@ bool all_plain(char const* bytes) {
     return bad == 0;
 }
 
-// The number of bytes of the character that begins here, or 0 when it is none of UTF-8's (surrogates and overlong forms are not).
+// Returns the length in bytes of the first character, or 0 if it is not valid UTF-8 (surrogates and overlong forms are invalid).
 std::size_t length_of(std::string_view rest, char32_t& code) {
     auto const byte = [&](std::size_t i) { return static_cast<unsigned char>(rest[i]); };
     auto const first = byte(0);
@@ -65,7 +65,7 @@ bool is_character(char32_t code) {
 
 std::optional<BadCharacter> first_bad_character(std::string_view text) {
     for (std::size_t i = 0; i < text.size();) {
-        // The last block may begin before what is left: what it has of before was good.
+        // The last block may overlap bytes that were already checked.
         bool const last = i + block > text.size() && text.size() >= block;
         if (last && all_plain(text.data() + text.size() - block)) return std::nullopt;
         if (i + block <= text.size() && all_plain(text.data() + i)) {

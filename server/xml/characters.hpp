@@ -1,4 +1,4 @@
-// Whether bytes are characters that XML may carry.
+// Checks that bytes are UTF-8 and characters of XML 1.0.
 #pragma once
 
 #include <cstddef>
@@ -9,14 +9,14 @@ namespace rois::xml {
 
 struct BadCharacter {
     std::size_t offset;
-    std::size_t length;  // in bytes; 1 for what is not UTF-8
+    std::size_t length;  // in bytes; 1 if the bytes are not UTF-8
     std::string_view complaint;
 };
 
-// The first byte that is not UTF-8 or not a character of XML 1.0.
+// Returns the first place that is not UTF-8 or not a character of XML 1.0.
 std::optional<BadCharacter> first_bad_character(std::string_view);
 
-// Whether XML 1.0 has this character.
+// Returns whether XML 1.0 allows this character.
 bool is_character(char32_t);
 
 }  // namespace rois::xml

@@ -14,18 +14,16 @@ namespace {
 
 constexpr std::size_t keep_at_most = 256 << 10;  // bytes of the buffer between two documents
 
-// A parser's words, fit for a reason.
+// Returns a parser's message, shortened and without control characters.
 std::string clean(std::string_view text) {
     constexpr std::size_t longest = 160;
     auto const with_quotes = quoted(text, longest);
     return with_quotes.substr(1, with_quotes.size() - 2);
 }
 
-Objection about(ForeignNamespace const& foreign) {
-    return {"no schema knows the namespace " + quoted(foreign.name), foreign.offset + 1};
-}
+Objection about(ForeignNamespace const& foreign) { return {"unknown namespace " + quoted(foreign.name), foreign.offset + 1}; }
 
-// The offset of the last start tag that begins before `offset`.
+// Returns the offset of the last start tag that begins before `offset`.
 std::size_t tag_before(pugi::xml_node root, std::size_t offset) {
     struct Last : pugi::xml_tree_walker {
         std::size_t limit = 0, found = 0;
@@ -79,7 +77,7 @@ pugi::xml_parse_result CheckedReader::parse() {
     return tree_.load_buffer_inplace(bytes_.data(), bytes_.size(), as_xerces_reads, pugi::encoding_utf8);
 }
 
-// What the acceptor has taken is parsed when somebody asks.
+// A document that the acceptor accepted is parsed here, at the first call.
 pugi::xml_node CheckedReader::root() {
     if (!tree_.first_child()) {
         take_bytes();
@@ -94,7 +92,7 @@ MessageTree const& CheckedReader::message() {
     return message_;
 }
 
-// Writes today's form of its namespaces into the bytes.
+// Also replaces old namespaces in `bytes_`.
 std::optional<Fault> CheckedReader::check_in_full() {
     std::span<std::string const> namespaces;
     if (schemas_) namespaces = schemas_->grammars().namespaces();
@@ -128,7 +126,7 @@ Fault CheckedReader::not_well_formed(Objection const& objection, Scanned const& 
                    tag_to_blame(objection.offset, scanned));
 }
 
-// Where a document ends too early, or an element with another's end tag, it is the start tag that nothing closes.
+// Returns the offset of the unclosed start tag if the document is cut short or has a wrong end tag; else `offset`.
 std::size_t CheckedReader::tag_to_blame(std::size_t offset, Scanned const& scanned) const {
     if (offset >= bytes_.find_last_not_of(" \t\r\n") + 1)
         return open_element_at(bytes_, bytes_.size()).value_or(scanned.last_tag);

@@ -1,4 +1,4 @@
-// From bytes to a tree, for documents that are well-formed and valid: the way of every document into the program.
+// Checks that a document is well-formed and valid, and parses it into a tree.
 #pragma once
 
 #include <cstdint>
@@ -18,27 +18,28 @@
 
 namespace rois::xml {
 
-// Whether a document may declare a namespace that no schema knows. Where schemas let anything stand somewhere, it may there.
+// Whether a document may declare a namespace that no schema has: never, or where a schema has a wildcard.
 enum class ForeignNamespaces : std::uint8_t { refused, as_the_schemas_say };
 
-// Checks a document's bytes and makes a tree of the very same bytes. What the tables of the schemas accept is taken; everything
-// else is looked over by the scan and judged by xerces-c, which has the last word. Keeps its parsers and buffers; for one thread.
+// Checks a document and parses the same bytes into a tree. A document that the acceptor does not accept goes through the scan and
+// xerces-c, which decides. Keeps its parsers and buffers for the next document. Not thread-safe.
 class CheckedReader {
 public:
-    // Without schemas it looks at a document's form alone. `roots` are the elements that a fault names when the root is another
-    // one; none: any that the schemas have.
+    // Without schemas it checks only that documents are well-formed. `roots` are the allowed root elements, which a fault about
+    // another root lists; empty: any root that the schemas have.
     CheckedReader(std::shared_ptr<Schemas const>, DocumentLimits, std::span<std::string_view const> roots = {},
                   ForeignNamespaces = ForeignNamespaces::refused, Validation = Validation::fast);
 
-    // Nothing when all is well: then the document may be asked for, until the next call. It must live as long as that.
+    // Returns why the document is rejected, or nothing. After success, root() and message() return its content until the next
+    // read(); the document's bytes must live as long.
     std::optional<Fault> read(std::string_view document);
     pugi::xml_node root();
     MessageTree const& message();
 
-    // Which way the last document was checked; nothing for one that was too large to be looked at.
+    // How the last document was checked; empty if it was too large to be checked.
     std::optional<Validation> checked() const { return checked_; }
 
-    // A fault about an element of the last document.
+    // Returns a fault about an element of the last document.
     Fault complain(pugi::xml_node element, std::string reason) const;
     Place place(pugi::xml_node element) const;
 
@@ -58,10 +59,10 @@ private:
     ForeignNamespaces foreign_;
     std::optional<Acceptor> acceptor_;
     std::optional<Validator> validator_;
-    std::string_view document_;  // the last one, as it came
-    std::string bytes_;          // it with its namespaces in today's form; the tree points into it
+    std::string_view document_;  // the last one, unchanged
+    std::string bytes_;          // a copy in which the scan replaces old namespaces; the tree points into it
     pugi::xml_document tree_;
-    MessageTree message_;  // of what the acceptor made no tree
+    MessageTree message_;  // used if the acceptor has no tree
     std::optional<Validation> checked_;
 };
 

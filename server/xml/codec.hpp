@@ -1,5 +1,4 @@
-// Text <-> messages: the only place that knows how the messages of wire.md look. Encoding is pure and may be called from any
-// thread.
+// Encodes and decodes the messages of wire.md. Encoding is thread-safe; a reader belongs to one thread.
 #pragma once
 
 #include <cstdint>
@@ -15,52 +14,51 @@ namespace rois::xml {
 
 class Schemas;
 
-// The limits of a document, checked before any parser sees it (bad-input 3).
+// Limits of a document, checked before a parser sees it (bad-input 3).
 struct DocumentLimits {
     std::size_t bytes = 1 << 20;
     std::size_t depth = 64;
-    std::size_t attributes = 32;    // an element
+    std::size_t attributes = 32;    // per element
     std::size_t name_length = 256;  // bytes
     std::size_t elements = 5'000;
-    std::size_t namespaces = 64;  // declarations in scope: of an element and those around it
+    std::size_t namespaces = 64;  // declarations in scope: of an element and its ancestors
 };
 
-// How documents are checked. The verdict and its words are the same.
+// How documents are checked. Verdict and messages are the same.
 enum class Validation : std::uint8_t {
-    fast,  // with tables made from the schemas; what these do not accept goes the full way
+    fast,  // with tables made from the schemas, and in full if these do not accept the document
     full,  // with a scan and xerces-c
 };
 
-// Reads requests: checks the bytes, validates against the schemas, and gives the operation. Keeps its parser and replaces it on a
-// schedule; one for each thread.
+// Validates and decodes requests. Keeps its parser, and replaces it when it uses too much memory. Not thread-safe.
 class RequestReader {
 public:
     explicit RequestReader(std::shared_ptr<Schemas const>, DocumentLimits = {}, Validation = Validation::fast);
     ~RequestReader();
     RequestReader(RequestReader&&) noexcept;
 
-    // Never throws for anything that the document says; a fault has the request_id when that could be read.
+    // Returns a fault for every invalid document, and never throws for one. The fault has the request_id if it could be read.
     std::variant<Request, Fault> read(std::string_view document);
 
-    // Which way the last document was checked; nothing for one that was too large to be looked at.
+    // How the last document was checked; empty if it was too large to be checked.
     std::optional<Validation> checked() const;
 
 private:
-    class Kept;
-    std::unique_ptr<Kept> kept_;
+    class Impl;
+    std::unique_ptr<Impl> impl_;
 };
 
-// The answer's document. `request_id` is left out when empty.
+// Returns the document of an answer. An empty `request_id` is left out.
 std::string encode(Reply const&, std::string_view request_id);
 std::string encode(Fault const&);
 std::string encode(StopState const&);
 
-// A notification's document is `head(n)`, the digits of its sequence and `tail(n)`: but for the digits it is the same for all its
-// receivers. The head is a text of the program.
+// A notification's document is its head, the digits of its sequence, and its tail. Only the digits differ between receivers. The
+// head is a string literal.
 std::string_view notification_head(Notification const&);
 std::string notification_tail(Notification const&);
 
-// The document that `/rois/notifications` answers: `<notifications>` with the given documents inside.
+// The start and end tag of the answer of `/rois/notifications`; the documents of the notifications go between them.
 std::string notifications_begin();
 std::string notifications_end();
 
@@ -68,10 +66,10 @@ std::string notifications_end();
 std::string encode(EngineProfile const&, std::string_view gml_id);
 std::string encode(ComponentProfile const&, std::string_view gml_id);
 
-// --- The same from the other side, for clients ---
+// --- For clients ---
 
-// A request's document. Throws std::invalid_argument for a condition that XML cannot say: one that was not understood, or a group
-// of components inside other predicates.
+// Returns the document of a request. Throws std::invalid_argument for a condition that XML cannot express: one that contains
+// NotUnderstood, or a group of components inside other predicates.
 std::string encode(Request const&);
 
 struct Answered {
@@ -82,26 +80,25 @@ struct Told {
     std::uint64_t sequence = 0;
     Notification notification;
 };
-using Heard = std::variant<Answered, Fault, Told>;
+using Heard = std::variant<Answered, Fault, Told>;  // a message of an engine
 
-// Reads what an engine says. An engine is not asked to be valid: what is there is read, and what is more is passed over. Keeps
-// its memory; for one thread.
+// Decodes messages of an engine. Does not validate: ignores what it does not know. Keeps its memory. Not thread-safe.
 class AnswerReader {
 public:
     AnswerReader();
     ~AnswerReader();
     AnswerReader(AnswerReader&&) noexcept;
 
-    // Nothing when the document is no XML, none of these, or lacks what it must have (a return code, a sequence, ...). Never
-    // throws for anything that the document says.
+    // Returns nothing, and never throws, if the document is not XML, not one of these messages, or lacks a mandatory part (a
+    // return code, a sequence, ...).
     std::optional<Heard> read(std::string_view document);
 
     // Reads what /rois/stop and /rois/clear answer with. Nothing for any other document.
     std::optional<StopState> read_stop_state(std::string_view document);
 
 private:
-    class Kept;
-    std::unique_ptr<Kept> kept_;
+    class Impl;
+    std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace rois::xml

@@ -10,19 +10,19 @@ namespace rois::xml {
 
 namespace {
 
-using Position = std::uint32_t;  // of one occurrence of an element in the model, with bounded occurrences written out
+using Position = std::uint32_t;  // one occurrence of an element in the model, with bounded occurrences expanded
 using Positions = std::set<Position>;
 
 constexpr std::size_t most_positions = 512;
 constexpr std::size_t most_states = 1024;
 
-// Which positions a part of the model may begin and end with.
+// The positions that a part of the model may begin and end with.
 struct Part {
     bool nullable = true;
     Positions first, last;
 };
 
-// Glushkov's construction: what may follow each position.
+// Glushkov's construction: the positions that may follow each position.
 class Model {
 public:
     explicit Model(std::size_t budget) : budget_{budget} {}
@@ -106,10 +106,10 @@ private:
     std::vector<Positions> following_;
 };
 
-// The states of the automaton are the sets of positions at which reading may stand.
-class Determined {
+// Makes the automaton deterministic: each state is a set of positions.
+class AutomatonBuilder {
 public:
-    Determined(Model const& model, Part const& whole, NameOf const& name_of, DeclarationOf const& declaration_of)
+    AutomatonBuilder(Model const& model, Part const& whole, NameOf const& name_of, DeclarationOf const& declaration_of)
         : model_{model}, last_{whole.last}, name_of_{name_of}, declaration_of_{declaration_of} {
         states_.push_back({{}, whole.nullable});
         next_.push_back(whole.first);
@@ -157,7 +157,7 @@ private:
     NameOf const& name_of_;
     DeclarationOf const& declaration_of_;
     std::vector<ContentState> states_;
-    std::vector<Positions> next_;  // of each state, where reading may go on
+    std::vector<Positions> next_;  // of each state: the positions that may follow
     std::map<Positions, std::uint32_t> numbers_;
 };
 
@@ -169,7 +169,7 @@ std::optional<std::vector<ContentState>> automaton_of(xercesc::XSParticle* parti
     Model model{most_positions};
     auto const whole = model.particle(*particle);
     if (!whole) return std::nullopt;
-    return Determined{model, *whole, name_of, declaration_of}.run();
+    return AutomatonBuilder{model, *whole, name_of, declaration_of}.run();
 }
 
 }  // namespace rois::xml

@@ -1,4 +1,4 @@
-// Content models as automata: from a particle of a schema to the states that its children lead through.
+// Compiles a particle of a schema into a deterministic automaton over child elements.
 #pragma once
 
 #include <functional>
@@ -14,8 +14,8 @@ namespace rois::xml {
 using NameOf = std::function<Name(xercesc::XSElementDeclaration&)>;
 using DeclarationOf = std::function<ElementDeclaration const*(xercesc::XSElementDeclaration&)>;
 
-// Nothing when the particle holds what the tables do not know (wildcards, xsd:all) or is too large. Elements stand for themselves
-// alone, never for their substitutes.
+// Returns nothing if the particle contains a wildcard or xsd:all, has two declarations for one name, or is too large. Ignores
+// substitution groups.
 std::optional<std::vector<ContentState>> automaton_of(xercesc::XSParticle*, NameOf const&, DeclarationOf const&);
 
 }  // namespace rois::xml

@@ -28,7 +28,7 @@ ContentModel::ContentModel(xercesc::XMLGrammarPool& pool, xercesc::ComplexTypeIn
 }
 
 void ContentModel::collect(xercesc::ContentSpecNode* node) {
-    // Lists lean to the second side: a loop there, recursion for the first.
+    // Lists are nested in the second child: iterate over it, and recurse into the first.
     for (; node != nullptr; node = node->getSecond()) {
         if (node->getFirst() != nullptr) collect(node->getFirst());
         auto* const declaration = static_cast<xercesc::SchemaElementDecl*>(node->getElementDecl());
@@ -71,7 +71,7 @@ std::optional<std::size_t> ContentModel::failing(std::span<ElementName const> ch
 }
 
 std::vector<ElementName> ContentModel::expected_after(std::span<ElementName const> children) const {
-    constexpr std::size_t most_children = 100;  // trying costs their number for each name; beyond, every name is told
+    constexpr std::size_t most_children = 100;  // each name costs time linear in the children; beyond, returns every name
     std::vector<ElementName> expected;
     auto tried = make_names(children.size() > most_children ? std::span<ElementName const>{} : children);
     tried.emplace_back();

@@ -1,5 +1,5 @@
-// Which elements may stand inside an element, read from the compiled schemas. There are no wildcards in them, and no element that
-// is referred to has substitutes.
+// The child elements that a type allows, read from the compiled schemas, for error messages. Assumes that the schemas have no
+// wildcards, and that no referenced element has substitutes.
 #pragma once
 
 #include <memory>
@@ -22,23 +22,23 @@ struct ElementName {
     bool operator==(ElementName const&) const = default;
 };
 
-// "rois:value": with the prefix that our own documents use.
+// Returns "rois:value": the name with the prefix that the gateway's documents use.
 std::string to_text(ElementName const&);
 
 class ContentModel {
 public:
     ContentModel(xercesc::XMLGrammarPool&, xercesc::ComplexTypeInfo&);
 
-    // The declaration of an element of that name somewhere inside; null when there is none.
+    // Returns the declaration of a child element by its name; null if there is none.
     xercesc::SchemaElementDecl* find(ElementName const&) const;
 
-    // The index of the first child that must not stand there, or their number when some are missing at the end.
+    // Returns the index of the first child that is not allowed, or the number of children if one is missing at the end.
     std::optional<std::size_t> failing(std::span<ElementName const> children) const;
 
-    // The names, any of which may come after these children.
+    // Returns the names that are allowed after these children.
     std::vector<ElementName> expected_after(std::span<ElementName const> children) const;
 
-    // Those of them that make the content complete when there is such a one, else all.
+    // Returns the names of expected_after() that complete the content, or all of them if none does.
     std::vector<ElementName> missing_after(std::span<ElementName const> children) const;
 
 private:
@@ -46,8 +46,7 @@ private:
         ElementName name;
         xercesc::SchemaElementDecl* declaration = nullptr;
     };
-    // Children as xerces-c wants them.
-    using Names = std::vector<std::unique_ptr<xercesc::QName>>;
+    using Names = std::vector<std::unique_ptr<xercesc::QName>>;  // of children
 
     void collect(xercesc::ContentSpecNode*);
     std::unique_ptr<xercesc::QName> make_name(ElementName const&) const;
@@ -56,7 +55,7 @@ private:
 
     xercesc::XMLGrammarPool& pool_;
     xercesc::ComplexTypeInfo& type_;
-    std::vector<Declared> declared_;  // each name once
+    std::vector<Declared> declared_;  // names are unique
 };
 
 }  // namespace rois::xml

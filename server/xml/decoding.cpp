@@ -93,7 +93,7 @@ constexpr auto names = [] {
     return all;
 }();
 
-// A text that validation knows to be a whole number.
+// Validation has checked that the text is a whole number.
 template <class Number>
 Number whole_number(std::string_view text) {
     text = trimmed(text);

@@ -1,4 +1,4 @@
-// From trees of messages to messages.
+// Decodes message trees into messages.
 #pragma once
 
 #include <optional>
@@ -11,30 +11,30 @@
 
 namespace rois::xml {
 
-// The elements that are requests, in the order of wire.md.
+// Returns the root elements of requests, in the order of wire.md.
 std::span<std::string_view const> operation_names();
 
-// Nothing when the root is no request.
+// Returns nothing if the root is not a request.
 std::optional<Request> decode(MessageTree const&);
 
-// What an engine says, of which nothing is known: nothing when it is none of these, or lacks what it must have. The profiles of
-// get_profile's reply are left out.
-std::optional<Heard> decode_heard(MessageTree const&);
+// Decodes an engine's message that was not validated. Returns nothing if it is not one, or lacks a mandatory part. Leaves out the
+// profiles of get_profile's reply.
+std::optional<Heard> decode_engine_message(MessageTree const&);
 
-// Nothing when the root is another element, or does not say whether everything is stopped.
+// Returns nothing if the root is another element, or has no valid `stopped`.
 std::optional<StopState> decode_stop_state(MessageTree const&);
 
-// Parts of messages. Of none: empty ones; no condition restricts nothing.
+// Parts of messages. A missing node gives an empty part.
 Identifier decode_identifier(MessageTree::Node);
 ParameterList decode_parameters(MessageTree::Node list, std::string_view element = "parameter");
 CommandUnitSequence decode_sequence(MessageTree::Node command_unit_sequence);
 Results decode_results(MessageTree::Node results);
 QueryExpression decode_condition(MessageTree::Node condition);
 
-// "true" and "1", with white space around them.
+// Returns whether the trimmed text is "true" or "1".
 bool decode_boolean(std::string_view);
 
-// A whole number of any length: one that does not fit is saturated.
+// Decode a whole number of any length; one that does not fit is saturated.
 std::int64_t decode_integer(std::string_view);
 std::uint64_t decode_unsigned(std::string_view);
 

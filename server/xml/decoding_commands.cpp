@@ -14,7 +14,7 @@ CommandMessage decode_command(Node node) {
             CommandId{node.attribute_text("command_id")}, decode_parameters(node.child("arguments"))};
 }
 
-// The command messages of a branch: their element says their type, with or without xsi:type.
+// Decodes a command message of a branch: its element implies its type, so xsi:type is optional.
 CommandUnit decode_command_unit(Node node) {
     CommandUnit unit{{}, decode_command(node)};
     if (auto const delay = node.attribute("delay_time")) unit.delay_time = decode_integer(*delay);

@@ -133,11 +133,11 @@ Condition decode_predicate(Node node) {
     if (name == "Not") return {Not{decode_predicates(node)}};
     if (name == "Function")
         return {NotUnderstood{"the condition has the function " + quoted(node.attribute_text("name")) +
-                              " as a predicate; no function is true or false here, and distance is a length: compare it"}};
+                              " as a predicate: compare its value, for example in a PropertyIsLessThan"}};
     return {not_understood(name)};
 }
 
-// A Filter: one predicate, or several names of resources, any of which is meant. Nothing when it is empty.
+// Decodes a Filter: one predicate, or several resource ids, any of which may match. Returns nothing if it is empty.
 std::optional<Condition> decode_filter(Node filter) {
     auto predicates = decode_predicates(filter);
     if (predicates.empty()) return {};
@@ -151,7 +151,7 @@ Condition equal(std::string path, std::string literal) {
     return {PropertyComparison{Comparator::equal, {ValueReference{std::move(path)}}, {Literal{std::move(literal)}}}};
 }
 
-// A filter of the wrapper, with or without an element around it; what has the place of one.
+// Decodes a filter of the wrapper: a Filter element, or a bare predicate in its place.
 std::optional<Condition> decode_bare_filter(Node node) {
     auto const name = node.name();
     if (name == "Filter" || name == "filter") return decode_filter(node);
@@ -165,7 +165,8 @@ std::string component_type(std::string_view written) {
     return misspelt ? "urn:" + std::string{written.substr(4)} : std::string{written};
 }
 
-// A component of the type, in any of the ways to write one, that meets the filter; `exclusive`: one that nobody else has bound.
+// Decodes a ComponentCondition: a component of this type that meets the filter. The mode `exclusive` also requires that no other
+// session has bound it.
 Condition decode_component(Node node) {
     And all;
     auto type = component_type(node.attribute_text("type"));
@@ -206,7 +207,7 @@ Condition decode_group(Node node) {
     return {std::move(group)};
 }
 
-// What any of its conditions looks for is found.
+// Decodes a SearchCondition: matches if any of its conditions matches.
 std::optional<Condition> decode_search_condition(Node node) {
     Or any;
     for (auto const each : node.children()) {

@@ -17,7 +17,7 @@ namespace {
 
 using Node = MessageTree::Node;
 
-// "mm mm" for "mm": whether every word of a text is that one.
+// Returns whether every word of a text is `word`, as in "mm mm".
 bool all_words_are(std::string_view text, std::string_view word) {
     for (text = trimmed(text); !text.empty();) {
         auto const item = text.substr(0, text.find_first_of(" \t\r\n"));
@@ -27,10 +27,10 @@ bool all_words_are(std::string_view text, std::string_view word) {
     return true;
 }
 
-// What an element says of the frame of its coordinates, taken over what the one around it says.
+// The frame of coordinates. Attributes of an inner element override those of the element around it.
 struct Frame {
     std::string crs;
-    std::size_t dimensions = 0;  // 0: not said
+    std::size_t dimensions = 0;  // 0: not given
     std::optional<NotUnderstood> problem;
 
     void read(Node node) {
@@ -47,7 +47,7 @@ struct Frame {
 
 using Points = std::vector<std::vector<double>>;
 
-// Takes the points of these elements: pos, posList and corners. Returns why they cannot be used.
+// Appends the points of these elements (pos, posList and corners). Returns why they cannot be used, or nothing.
 std::optional<NotUnderstood> read_points(Frame& frame, MessageTree::Children elements, Points& points) {
     for (auto const each : elements) {
         auto const crs = frame.crs;
@@ -55,15 +55,15 @@ std::optional<NotUnderstood> read_points(Frame& frame, MessageTree::Children ele
         if (!crs.empty() && frame.crs != crs) return not_understood("points of one geometry in two frames");
         auto numbers = decode_numbers(each.text());
         if (std::ranges::any_of(numbers, [](double number) { return std::isnan(number); }))
-            return NotUnderstood{"a coordinate of the condition is NaN or beyond what a double can hold"};
+            return NotUnderstood{"a coordinate of the condition is NaN or too large for a double"};
         if (each.name() != "posList") {
             points.push_back(std::move(numbers));
             continue;
         }
         auto const each_has = frame.dimensions == 0 ? 2 : frame.dimensions;
         if (numbers.size() % each_has != 0)
-            return NotUnderstood{"a posList of the condition has " + std::to_string(numbers.size()) +
-                                 " numbers, which are not points of " + std::to_string(each_has) + " coordinates each"};
+            return NotUnderstood{"a posList of the condition has " + std::to_string(numbers.size()) + " numbers: expected " +
+                                 std::to_string(each_has) + " for each point"};
         for (auto from = numbers.begin(); from != numbers.end(); from += static_cast<std::ptrdiff_t>(each_has))
             points.emplace_back(from, from + static_cast<std::ptrdiff_t>(each_has));
     }
@@ -74,15 +74,17 @@ std::optional<NotUnderstood> wrong_dimensions(Frame const& frame, Points const& 
     auto const dimensions = points.front().size();
     for (auto const& point : points) {
         if (point.size() != dimensions || dimensions < 2 || dimensions > 3)
-            return NotUnderstood{"a position of the condition has neither two nor three coordinates"};
+            return NotUnderstood{"a position of the condition has " + std::to_string(point.size()) +
+                                 " coordinates: expected two or three, the same number in all points"};
         if (frame.dimensions != 0 && frame.dimensions != dimensions)
-            return NotUnderstood{"a position of the condition has other than the " + std::to_string(frame.dimensions) +
-                                 " coordinates of its srsDimension"};
+            return NotUnderstood{"a position of the condition has " + std::to_string(dimensions) +
+                                 " coordinates, but its srsDimension is " + std::to_string(frame.dimensions)};
     }
     return {};
 }
 
-// One point is its own two corners. Two positions may be any two opposite corners, but a lower corner is not above the upper one.
+// A point is a box with two equal corners. Two positions may be any opposite corners, but a lowerCorner must not be above the
+// upperCorner.
 Expression decode_corners(Frame frame, MessageTree::Children corners) {
     Points points;
     if (auto problem = read_points(frame, corners, points)) return {std::move(*problem)};
@@ -103,14 +105,13 @@ Expression decode_corners(Frame frame, MessageTree::Children corners) {
     return {geometry};
 }
 
-// Adds a line, the border of an area, or the centre of a circle to the geometry. Returns why it cannot be used.
+// Adds a line or the border of an area to the geometry. Returns why it cannot be used, or nothing.
 std::optional<NotUnderstood> add_path(Geometry& geometry, Frame& frame, MessageTree::Children elements) {
     Points points;
     if (auto problem = read_points(frame, elements, points)) return problem;
     if (auto problem = wrong_dimensions(frame, points)) return problem;
     if (points.front().size() != 2)
-        return NotUnderstood{
-            "the condition has a line, circle or polygon of points with three coordinates; it has to be in the plane"};
+        return NotUnderstood{"the condition has a line, circle or polygon of points with three coordinates: expected two"};
     auto& path = geometry.paths.emplace_back();
     for (auto const& point : points) path.push_back({point[0], point[1]});
     return {};
@@ -126,7 +127,7 @@ Expression decode_line(Frame frame, Node node) {
     Geometry line;
     line.shape = Geometry::Shape::line;
     if (auto problem = add_path(line, frame, node.children())) return {std::move(*problem)};
-    if (line.paths.front().size() < 2) return {NotUnderstood{"the condition has a line of one point; it needs two or more"}};
+    if (line.paths.front().size() < 2) return {NotUnderstood{"the condition has a line of one point: expected two or more"}};
     return finished(std::move(line), frame);
 }
 
@@ -140,7 +141,7 @@ Expression decode_polygon(Frame frame, Node node) {
         auto const& path = polygon.paths.back();
         if (path.size() < 4 || path.front() != path.back())
             return {NotUnderstood{"the condition has a LinearRing of " + std::to_string(path.size()) +
-                                  " points that is not closed; it needs four or more, the last one like the first"}};
+                                  " points: expected four or more, the last one equal to the first"}};
     }
     return finished(std::move(polygon), frame);
 }
@@ -154,7 +155,7 @@ Expression decode_circle(Frame frame, Node node) {
     auto const numbers = decode_numbers(centre.text());
     if (frame.problem) return {*frame.problem};
     if (numbers.size() != 2 || std::isnan(numbers[0]) || std::isnan(numbers[1]))
-        return {NotUnderstood{"the centre of a circle of the condition does not have two coordinates"}};
+        return {NotUnderstood{"the centre of a circle of the condition needs exactly two coordinates"}};
     auto const unit = millimetres_in(radius.attribute_text("uom"));
     if (!unit)
         return {NotUnderstood{"the condition has the unit " + quoted(radius.attribute_text("uom")) +
@@ -174,14 +175,15 @@ Expression decode_geometry(Node node) {
     return decode_corners(std::move(frame), node.children());
 }
 
-// beginPosition, or begin with a TimeInstant inside.
+// Decodes a time position: beginPosition, or begin with a TimeInstant inside.
 Expression decode_position(Node node) {
     if (node.name() == "begin" || node.name() == "end") node = node.first_child();
     if (node.name() == "TimeInstant") node = node.first_child();
     if (node.attribute("indeterminatePosition")) return {not_understood("indeterminatePosition")};
     auto const text = node.text();
     if (auto const period = to_period(text)) return {*period};
-    return {NotUnderstood{"the condition has the time " + quoted(text) + ", which is no moment, day, month or year"}};
+    return {NotUnderstood{"the condition has the time " + quoted(text) +
+                          ": expected a time as 2026-11-20T12:00:00Z, a day, a month or a year"}};
 }
 
 Expression decode_period(Node node) {
@@ -199,9 +201,7 @@ Expression decode_period(Node node) {
 
 }  // namespace
 
-NotUnderstood not_understood(std::string_view what) {
-    return {"the condition has " + quoted(what) + ", which is not understood"};
-}
+NotUnderstood not_understood(std::string_view name) { return {"the condition has " + quoted(name) + ", which is not supported"}; }
 
 Expression decode_expression(Node node) {
     auto const name = node.name();

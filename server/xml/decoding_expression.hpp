@@ -1,4 +1,4 @@
-// The values that predicates relate: references, literals, geometries, times and functions.
+// Decodes the operands of predicates: references, literals, geometries, times and functions.
 #pragma once
 
 #include <string_view>
@@ -8,9 +8,9 @@
 
 namespace rois::xml {
 
-// An expression, a geometry or a time, from the element that is one. What is not understood in it is named.
+// Decodes an expression, a geometry or a time. Returns NotUnderstood, with the reason, for an unsupported part.
 Expression decode_expression(MessageTree::Node);
 
-NotUnderstood not_understood(std::string_view what);
+NotUnderstood not_understood(std::string_view name);  // `name`: the unsupported part
 
 }  // namespace rois::xml

@@ -11,7 +11,7 @@ namespace {
 
 using Node = MessageTree::Node;
 
-// What a reply holds, when all went well. False when something is missing. One overload for each operation that gives something.
+// Reads the children of a successful reply. Returns false if a mandatory one is missing. One overload for each kind of content.
 bool read(Node, Outcome&) { return true; }
 
 template <class R>
@@ -181,7 +181,7 @@ Results decode_results(Node results) {
     return read;
 }
 
-std::optional<Heard> decode_heard(MessageTree const& message) {
+std::optional<Heard> decode_engine_message(MessageTree const& message) {
     constexpr std::string_view ending = "_response";
     auto const root = message.root();
     if (!root || message.name_space() != message_namespace) return std::nullopt;

@@ -16,7 +16,7 @@ std::string at(std::string const& name, Fault const& fault) {
     return name + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) + ": " + fault.reason;
 }
 
-// A file as it was read, with its tree. Its elements keep it alive.
+// The text of a file and its tree. Its elements keep it alive.
 struct Opened {
     Opened(std::string its_name, std::string its_text, std::shared_ptr<Schemas const> schemas)
         : name{std::move(its_name)},

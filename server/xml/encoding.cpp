@@ -49,7 +49,7 @@ void write_branch(Writer& out, Branch const& branch) {
     for (auto const& command : branch.command_list) write_unit(out, "rois:command_list", command);
 }
 
-// The attribute that says the type comes first, then the delay, then what the type adds.
+// Writes the attribute xsi:type, then the delay, then the content of the type.
 class UnitWriter {
 public:
     UnitWriter(Writer& out, std::optional<std::int64_t> delay) : out_{out}, delay_{delay} {}

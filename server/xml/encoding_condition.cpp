@@ -1,4 +1,4 @@
-// Conditions as ISO 19143 and the published examples write them: what decoding_condition.cpp reads.
+// Encodes conditions as in ISO 19143 and the published examples: the inverse of decoding_condition.cpp.
 #include <algorithm>
 #include <stdexcept>
 
@@ -12,7 +12,7 @@ namespace {
 
 // --- Expressions ---
 
-enum class Around { nothing, literal };  // geometries and times are literals, but among the operands of space and time
+enum class Around { nothing, literal };  // geometries and times need a Literal, except as operands of space and time
 
 void write_expression(Writer&, Expression const&, Around);
 
@@ -207,7 +207,7 @@ private:
         for (auto const& operand : operands) write_expression(out_, operand, Around::nothing);
         out_.end();
     }
-    // One alone is itself: the standard asks for two at least.
+    // A single operand is written without And or Or: the standard requires at least two.
     void write_all(std::string_view element, std::vector<Condition> const& operands) const {
         if (operands.empty()) cannot("an And or Or without operands");
         if (operands.size() == 1) {
@@ -226,7 +226,7 @@ void write_predicate(Writer& out, Condition const& condition) { std::visit(Predi
 
 // --- The published examples' wrapper ---
 
-// `all` begins with the type alone, as decoding makes it of a ComponentCondition: then it is one.
+// Returns the type of a ComponentCondition, which decoding puts first in `all` as a group of one type. Null if there is none.
 ComponentGroup const* type_of_component(And const& all) {
     auto const* const group = all.operands.empty() ? nullptr : std::get_if<ComponentGroup>(&all.operands.front().predicate);
     bool const alone =
@@ -279,7 +279,7 @@ bool holds_group(Condition const& condition) {
     return std::holds_alternative<ComponentGroup>(condition.predicate);
 }
 
-// The schema wants groups first; any of them is meant, so their order means nothing.
+// The schema requires groups first. The operands are alternatives, so their order has no meaning.
 void write_search(Writer& out, Condition const& condition) {
     auto const* const any = std::get_if<Or>(&condition.predicate);
     std::vector<Condition> const wanted = any != nullptr ? any->operands : std::vector<Condition>{condition};

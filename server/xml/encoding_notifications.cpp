@@ -41,8 +41,7 @@ std::string_view notification_head(Notification const& notification) {
     return std::visit([](auto const& each) { return head_of(each); }, notification);
 }
 
-// Written whole, then without the beginning that the head has; the quote that ends the sequence takes the place of its last
-// letter.
+// Writes the document without its sequence, then cuts off `<root`. The quote that ends the sequence replaces the last letter.
 std::string notification_tail(Notification const& notification) {
     auto const head = notification_head(notification);
     auto const root = head.substr(1, head.find(' ') - 1);

@@ -79,7 +79,7 @@ std::string document_of(Profile const& profile, std::string_view gml_id) {
 
 constexpr std::string_view digits = "0123456789ABCDEF";
 
-// "_x3A": what is so in a name already must not be taken for what is written for another character.
+// Returns whether the text begins with "_x" and two hexadecimal digits, so that it looks like an escaped character.
 bool looks_escaped(std::string_view text) {
     return text.starts_with("_x") && text.size() >= 4 && digits.find(text[2]) != digits.npos &&
            digits.find(text[3]) != digits.npos;
@@ -121,7 +121,7 @@ std::string nc_name(std::string_view text) {
     return name.empty() ? "_" : name;
 }
 
-// The profile declares its own prefixes, so that it can be cut out of the answer that it stands in.
+// A profile declares its own prefixes, so that clients can cut it out of the answer.
 void write_profile(Writer& out, EngineProfile const& profile, std::string_view gml_id) {
     out.start("rois:HRIEngineProfile");
     declare_rois(out);

@@ -6,7 +6,7 @@ namespace rois::xml {
 
 namespace {
 
-// What an answer's root is called, and what it holds when all went well. One overload for each operation that gives something.
+// The root element of an answer. write() adds the content of a successful one; one overload for each kind of content.
 constexpr std::string_view root_of(Connect::Reply const&) { return "connect_response"; }
 constexpr std::string_view root_of(Resume::Reply const&) { return "resume_response"; }
 constexpr std::string_view root_of(Disconnect::Reply const&) { return "disconnect_response"; }
@@ -32,7 +32,7 @@ template <class T>
 concept HasOnlyResults = std::is_same_v<T, GetErrorDetail::Reply> || std::is_same_v<T, GetCommandResult::Reply> ||
     std::is_same_v<T, GetEventDetail::Reply>;
 
-// Those with elements or attributes of RoIS itself; a profile declares its prefixes where it stands.
+// Replies with elements or attributes of the RoIS namespace. Profiles declare their prefixes themselves.
 template <class T>
 concept HasRois = HasOnlyResults<T> || std::is_same_v<T, Search::Reply> || std::is_same_v<T, BindAny::Reply> ||
     std::is_same_v<T, GetParameter::Reply> || std::is_same_v<T, Execute::Reply> || std::is_same_v<T, Query::Reply>;

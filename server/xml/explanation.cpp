@@ -23,7 +23,7 @@ namespace {
 using xercesc::ComplexTypeInfo;
 using xercesc::SchemaElementDecl;
 
-// Every name that stands in a document is shown cut and cleaned.
+// Every name from a document is cut to a limit and freed of control characters.
 std::string shown(std::string_view name) { return quoted(name); }
 
 // "'a'", "one of 'a', 'b', ...".
@@ -61,12 +61,12 @@ ElementName name_of(pugi::xml_node element, pugi::xml_attribute attribute) {
             std::string{local_part(attribute.name())}};
 }
 
-// The attributes of XMLSchema-instance that any element may have, `nil` apart.
+// The attributes of XMLSchema-instance that every element may have. `nil` is rejected.
 constexpr std::array<std::string_view, 3> attributes_of_xsi{"type", "schemaLocation", "noNamespaceSchemaLocation"};
 
-class Walk {
+class Explainer {
 public:
-    Walk(Schemas const& schemas) : pool_{schemas.grammars().pool()} {}
+    Explainer(Schemas const& schemas) : pool_{schemas.grammars().pool()} {}
 
     std::optional<Explanation> root(pugi::xml_node, std::span<std::string_view const> roots);
 
@@ -102,7 +102,7 @@ private:
     std::set<std::string> ids_;
 };
 
-xercesc::SchemaGrammar* Walk::grammar(std::string_view name_space) const {
+xercesc::SchemaGrammar* Explainer::grammar(std::string_view name_space) const {
     for (auto all = pool_.getGrammarEnumerator(); all.hasMoreElements();) {
         auto& each = static_cast<xercesc::SchemaGrammar&>(all.nextElement());
         if (from_xerces(each.getTargetNamespace()) == name_space) return &each;
@@ -110,7 +110,7 @@ xercesc::SchemaGrammar* Walk::grammar(std::string_view name_space) const {
     return nullptr;
 }
 
-Walk::Found Walk::root(pugi::xml_node node, std::span<std::string_view const> roots) {
+Explainer::Found Explainer::root(pugi::xml_node node, std::span<std::string_view const> roots) {
     auto const name = name_of(node);
     if (!roots.empty()) {
         std::vector<std::string> const names{roots.begin(), roots.end()};
@@ -130,12 +130,12 @@ Walk::Found Walk::root(pugi::xml_node node, std::span<std::string_view const> ro
             its_grammar->getElemDecl(uri, to_xerces(name.local_name).c_str(), nullptr, xercesc::Grammar::TOP_LEVEL_SCOPE));
     }
     if (declaration == nullptr) {
-        return at(node, "no schema has the element " + shown(node.name()) + " of the namespace " + quoted(name.name_space));
+        return at(node, "unknown element " + shown(node.name()) + " in the namespace " + quoted(name.name_space));
     }
     return element(node, *declaration);
 }
 
-Walk::Found Walk::element(pugi::xml_node node, SchemaElementDecl& declaration) {
+Explainer::Found Explainer::element(pugi::xml_node node, SchemaElementDecl& declaration) {
     if (xsi_attribute(node, "nil")) return at(node, "'xsi:nil' is not allowed on " + shown(node.name()));
     auto* type = declaration.getComplexTypeInfo();
     if (auto const wanted = xsi_type(node); wanted && type != nullptr) {
@@ -158,7 +158,7 @@ Walk::Found Walk::element(pugi::xml_node node, SchemaElementDecl& declaration) {
 
 // --- Attributes ---
 
-Walk::Found Walk::attributes(pugi::xml_node node, ComplexTypeInfo* type) {
+Explainer::Found Explainer::attributes(pugi::xml_node node, ComplexTypeInfo* type) {
     for (auto const each : node.attributes()) {
         if (declares_namespace(each.name())) continue;
         if (auto found = attribute(node, each, type)) return found;
@@ -166,7 +166,7 @@ Walk::Found Walk::attributes(pugi::xml_node node, ComplexTypeInfo* type) {
     return type == nullptr ? std::nullopt : missing_attribute(node, *type);
 }
 
-Walk::Found Walk::attribute(pugi::xml_node node, pugi::xml_attribute attribute, ComplexTypeInfo* type) {
+Explainer::Found Explainer::attribute(pugi::xml_node node, pugi::xml_attribute attribute, ComplexTypeInfo* type) {
     auto const name = name_of(node, attribute);
     if (name.name_space == xsi_namespace && std::ranges::find(attributes_of_xsi, name.local_name) != attributes_of_xsi.end()) {
         return std::nullopt;
@@ -183,7 +183,8 @@ Walk::Found Walk::attribute(pugi::xml_node node, pugi::xml_attribute attribute, 
     return at(node, "unknown attribute " + shown(attribute.name()) + " of " + shown(node.name()) + ": expected " + listed(known));
 }
 
-Walk::Found Walk::attribute_value(pugi::xml_node node, pugi::xml_attribute attribute, xercesc::SchemaAttDef const& definition) {
+Explainer::Found Explainer::attribute_value(pugi::xml_node node, pugi::xml_attribute attribute,
+                                            xercesc::SchemaAttDef const& definition) {
     auto* const type = definition.getDatatypeValidator();
     if (type == nullptr) return std::nullopt;
     if (check(*type, attribute.value()) == Value::bad) {
@@ -196,7 +197,7 @@ Walk::Found Walk::attribute_value(pugi::xml_node node, pugi::xml_attribute attri
     return std::nullopt;
 }
 
-Walk::Found Walk::missing_attribute(pugi::xml_node node, ComplexTypeInfo& type) {
+Explainer::Found Explainer::missing_attribute(pugi::xml_node node, ComplexTypeInfo& type) {
     for (auto const& [wanted, definition] : definitions_of(type)) {
         auto const use = definition->getDefaultType();
         if (use != xercesc::XMLAttDef::Required && use != xercesc::XMLAttDef::Required_And_Fixed) continue;
@@ -209,7 +210,7 @@ Walk::Found Walk::missing_attribute(pugi::xml_node node, ComplexTypeInfo& type) 
     return std::nullopt;
 }
 
-std::vector<Walk::Definition> const& Walk::definitions_of(ComplexTypeInfo& type) {
+std::vector<Explainer::Definition> const& Explainer::definitions_of(ComplexTypeInfo& type) {
     auto const [place, is_new] = definitions_.try_emplace(&type);
     auto& definitions = place->second;
     if (!is_new || !type.hasAttDefs()) return definitions;
@@ -226,18 +227,18 @@ std::vector<Walk::Definition> const& Walk::definitions_of(ComplexTypeInfo& type)
     return definitions;
 }
 
-ContentModel const& Walk::model_of(ComplexTypeInfo& type) { return models_.try_emplace(&type, pool_, type).first->second; }
+ContentModel const& Explainer::model_of(ComplexTypeInfo& type) { return models_.try_emplace(&type, pool_, type).first->second; }
 
 // --- Types ---
 
-ComplexTypeInfo* Walk::find_type(TypeName const& name) const {
+ComplexTypeInfo* Explainer::find_type(TypeName const& name) const {
     auto* const its_grammar = grammar(name.name_space);
     if (its_grammar == nullptr || its_grammar->getComplexTypeRegistry() == nullptr) return nullptr;
     auto const key = std::string{name.name_space} + "," + std::string{name.local_name};
     return its_grammar->getComplexTypeRegistry()->get(to_xerces(key).c_str());
 }
 
-std::vector<std::string> Walk::types_that_fit(ComplexTypeInfo const& base) const {
+std::vector<std::string> Explainer::types_that_fit(ComplexTypeInfo const& base) const {
     std::vector<std::string> names;
     for (auto all = pool_.getGrammarEnumerator(); all.hasMoreElements();) {
         auto* const types = static_cast<xercesc::SchemaGrammar&>(all.nextElement()).getComplexTypeRegistry();
@@ -257,7 +258,7 @@ std::vector<std::string> Walk::types_that_fit(ComplexTypeInfo const& base) const
 
 // --- Content ---
 
-Walk::Found Walk::content(pugi::xml_node node, ComplexTypeInfo& type) {
+Explainer::Found Explainer::content(pugi::xml_node node, ComplexTypeInfo& type) {
     auto const text = text_of(node);
     switch (static_cast<SchemaElementDecl::ModelTypes>(type.getContentType())) {
         case SchemaElementDecl::Any:
@@ -269,8 +270,8 @@ Walk::Found Walk::content(pugi::xml_node node, ComplexTypeInfo& type) {
             return type.getDatatypeValidator() == nullptr ? std::nullopt : value(node, *type.getDatatypeValidator());
         case SchemaElementDecl::Children:
             if (!trimmed(text).empty()) {
-                return at(node,
-                          "text " + quoted(trimmed(text)) + " inside " + shown(node.name()) + ", which may hold elements only");
+                return at(node, "text " + quoted(trimmed(text)) + " inside " + shown(node.name()) +
+                                    ", which may contain only elements");
             }
             break;
         default:
@@ -279,14 +280,14 @@ Walk::Found Walk::content(pugi::xml_node node, ComplexTypeInfo& type) {
     return children(node, type);
 }
 
-Walk::Found Walk::nothing(pugi::xml_node node, std::string_view text) {
+Explainer::Found Explainer::nothing(pugi::xml_node node, std::string_view text) {
     if (auto const child = first_element(node)) {
         return at(child, "unknown element " + shown(child.name()) + ": " + shown(node.name()) + " must be empty");
     }
     return text.empty() ? std::nullopt : Found{at(node, shown(node.name()) + " must be empty, but has the text " + quoted(text))};
 }
 
-Walk::Found Walk::children(pugi::xml_node node, ComplexTypeInfo& type) {
+Explainer::Found Explainer::children(pugi::xml_node node, ComplexTypeInfo& type) {
     std::vector<pugi::xml_node> elements;
     std::vector<ElementName> names;
     for (auto const child : node.children()) {
@@ -308,8 +309,8 @@ Walk::Found Walk::children(pugi::xml_node node, ComplexTypeInfo& type) {
     return at(node, (missing.size() == 1 ? "element " : "") + listed(missing) + " is missing in " + shown(node.name()));
 }
 
-Walk::Found Walk::misplaced(pugi::xml_node parent, pugi::xml_node child, ContentModel const& model,
-                            std::span<ElementName const> before) {
+Explainer::Found Explainer::misplaced(pugi::xml_node parent, pugi::xml_node child, ContentModel const& model,
+                                      std::span<ElementName const> before) {
     auto const expected = model.expected_after(before);
     auto const name = name_of(child);
     auto const inside = shown(child.name()) + " inside " + shown(parent.name());
@@ -325,9 +326,9 @@ Walk::Found Walk::misplaced(pugi::xml_node parent, pugi::xml_node child, Content
               (known ? "element " + inside + " is not allowed here" : "unknown element " + inside) + ": expected " + wanted);
 }
 
-Walk::Found Walk::value(pugi::xml_node node, xercesc::DatatypeValidator& type) {
+Explainer::Found Explainer::value(pugi::xml_node node, xercesc::DatatypeValidator& type) {
     if (auto const child = first_element(node)) {
-        return at(child, "element " + shown(child.name()) + " inside " + shown(node.name()) + ", which may hold text only");
+        return at(child, "element " + shown(child.name()) + " inside " + shown(node.name()) + ", which may contain only text");
     }
     auto const text = text_of(node);
     if (check(type, text) == Value::good) return std::nullopt;
@@ -337,7 +338,7 @@ Walk::Found Walk::value(pugi::xml_node node, xercesc::DatatypeValidator& type) {
 }  // namespace
 
 std::optional<Explanation> explain(Schemas const& schemas, pugi::xml_node root, std::span<std::string_view const> roots) {
-    return Walk{schemas}.root(root, roots);
+    return Explainer{schemas}.root(root, roots);
 }
 
 }  // namespace rois::xml

@@ -1,4 +1,4 @@
-// Says in our words what is wrong with a well-formed document that is not valid, and with which tag.
+// Explains why a well-formed document is invalid: reason and start tag.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@ namespace rois::xml {
 
 struct Explanation {
     std::string reason;
-    std::size_t offset = 0;  // of the `<` of the start tag that it is about
+    std::size_t offset = 0;  // of the `<` of the offending start tag
 };
 
-// The first thing in the document's order that the schemas do not allow. `roots` are the elements of messages that may be the
-// root; none: any that the schemas have. Nothing when no such thing is found.
+// Finds the first part of the document that the schemas do not allow; nothing if it finds none. `roots` are the allowed root
+// elements; empty: any root that the schemas have.
 std::optional<Explanation> explain(Schemas const&, pugi::xml_node root, std::span<std::string_view const> roots);
 
 }  // namespace rois::xml

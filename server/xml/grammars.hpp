@@ -1,4 +1,4 @@
-// The compiled schemas, for those in this layer who read with them.
+// The compiled schemas; internal to server/xml.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ class Schemas::Grammars {
 public:
     explicit Grammars(NamedFiles const& files);
 
-    // Locked. Parsers and resolvers take it without const, but change nothing in it.
+    // Locked. Parsers and resolvers need a non-const reference, but do not modify it.
     xercesc::XMLGrammarPool& pool() const { return *pool_; }
 
     // The namespaces that a document may declare.

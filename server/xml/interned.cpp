@@ -8,7 +8,7 @@ namespace rois::xml {
 
 namespace {
 
-// From the length, the first and the last bytes: names differ there, and namespaces, which are long, cost no more than names.
+// Hashes the length and up to 8 bytes at each end: names differ there, and long namespaces cost no more than short names.
 std::size_t hash(std::string_view text) {
     std::uint64_t first = 0, last = 0;
     auto const ends = [&](auto number) {

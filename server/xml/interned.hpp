@@ -1,4 +1,4 @@
-// Numbers for the names that the schemas know: to compare names is then to compare numbers.
+// Gives each name of the schemas a number, so that comparing names is comparing numbers.
 #pragma once
 
 #include <cstddef>
@@ -13,24 +13,24 @@ class Interned {
 public:
     using Id = std::uint16_t;
     static constexpr Id unknown = 0;
-    static constexpr Id empty = 1;  // of the empty text, as which "no namespace" is kept
+    static constexpr Id empty = 1;  // of the empty text, which stands for "no namespace"
 
     Interned();
 
-    // The number of a text, a new one when it has none yet. Throws std::runtime_error when there are no more numbers.
+    // Returns the number of a text, and adds the text if it is new. Throws std::runtime_error if no number is left.
     Id add(std::string_view);
 
-    // `unknown` for a text that was not added.
+    // Returns `unknown` if the text was not added.
     Id find(std::string_view) const;
 
-    // Of a number that `add` gave.
+    // `id` must be a result of add().
     std::string_view text(Id id) const { return texts_[id]; }
 
 private:
     void place(Id);
 
-    std::vector<std::string> texts_;  // by number; the first one is nobody's
-    std::vector<Id> slots_;           // a hash table with open addressing; a power of two, at most half full
+    std::vector<std::string> texts_;  // by number; index 0 is unused
+    std::vector<Id> slots_;           // hash table with open addressing; its size is a power of two, at most half of it used
 };
 
 }  // namespace rois::xml

@@ -13,7 +13,7 @@ KnownTag& Acceptor::known_tag() {
     return known_[type->states[state].number];
 }
 
-// False when the prefix means something else here, or a limit is reached.
+// Returns false if the prefix is bound to another namespace here, or a limit is reached.
 bool Acceptor::take(KnownTag& known) {
     auto const* const tag = text_.data() + at_;
     auto const outer_bindings = bindings_.size();
@@ -38,7 +38,7 @@ bool Acceptor::take(KnownTag& known) {
     return true;
 }
 
-// With its text and its end, when that is what comes.
+// Also takes the element's text and end tag, if they follow. Otherwise returns false and takes nothing.
 bool Acceptor::take_text_element(KnownTag const& known) {
     auto const* const tag = text_.data() + at_;
     auto const name = known.name.of(tag);
@@ -55,14 +55,14 @@ bool Acceptor::take_text_element(KnownTag const& known) {
     return true;
 }
 
-// The namespaces that the tag declares; false when its prefix means something else here. What it declares ends the scope.
+// Binds the namespaces that the tag declares, which ends the scope. Returns false if its prefix has another namespace here.
 bool Acceptor::bind_again(KnownTag const& known, char const* tag) {
     for (auto const& each : known.namespaces) bindings_.push_back({each.prefix.of(tag), each.name_space});
     if (!known.namespaces.empty()) scope_ = 0;
     return bindings_.size() <= limits_.namespaces && name_space_of(known.prefix.of(tag)) == known.name_space;
 }
 
-// The tag that was just read, without attributes and of its declared type.
+// Caches the tag that was just read. It must have no attributes and its declared type.
 void Acceptor::remember(KnownTag& known, PlainName const& name, Interned::Id name_space, ElementDeclaration const& declaration,
                         std::size_t begin, std::size_t outer_bindings) {
     if (at_ - begin > KnownTag::longest) return;

@@ -1,4 +1,4 @@
-// Start tags as they were last written, to be taken as a whole when they come again.
+// A cache of start tags, so that the acceptor can take a repeated tag as a whole.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,9 @@
 
 namespace rois::xml {
 
-// The last start tag without attributes that stood at some place: in the root's, or in one state of an element's content. Where
-// the same bytes stand there again, and its prefix means the same, all that was found out about it holds again.
+// The last start tag without attributes at one place: the root, or one state of a content model. If the same bytes occur there
+// again and the prefix is bound to the same namespace, all results of checking the tag are still valid.
 struct KnownTag {
-    // A part of the tag.
     struct Part {
         std::size_t offset = 0;
         std::size_t length = 0;
@@ -28,14 +27,14 @@ struct KnownTag {
 
     static constexpr std::size_t longest = 512;  // bytes
 
-    std::string text;  // from `<` to `>`; empty: none was seen yet
+    std::string text;  // from `<` to `>`; empty: no tag yet
     Part name, prefix, local;
-    std::vector<Declared> namespaces;  // that the tag declares
+    std::vector<Declared> namespaces;  // declared by the tag
     Interned::Id name_space = Interned::empty;
     ElementDeclaration const* declaration = nullptr;
-    bool holds_text = false;       // whatever text; no elements
-    std::uint32_t next_state = 0;  // of its parent's content
-    std::uint64_t scope = 0;       // in which its prefix was last looked up; of a root: that it opens
+    bool holds_text = false;       // its content is any text
+    std::uint32_t next_state = 0;  // of its parent's content model
+    std::uint64_t scope = 0;       // in which its prefix was last resolved; for a root: the scope that it opens
 };
 
 }  // namespace rois::xml

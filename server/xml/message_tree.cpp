@@ -8,7 +8,7 @@ namespace rois::xml {
 
 namespace {
 
-constexpr std::size_t keep_at_most = 1024;  // elements, and attributes, between two messages
+constexpr std::size_t keep_at_most = 1024;  // elements, and attributes, for which memory is kept between messages
 
 template <class T>
 void clear(std::vector<T>& list) {

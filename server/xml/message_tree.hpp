@@ -1,4 +1,4 @@
-// A message as decoding reads it: elements with their attributes and texts, in order.
+// The tree of a message, as decoding reads it: elements with their attributes and texts, in document order.
 #pragma once
 
 #include <cstdint>
@@ -13,27 +13,25 @@
 
 namespace rois::xml {
 
-// Names are local names: the schemas leave no doubt about the namespace. Declarations of namespaces and what xsi says are not
-// among the attributes. White space beside elements is no text; comments are nothing. Texts are views of the document, or of
-// pugixml's tree, which must outlive what reads them. What one message took is kept for the next. For one thread.
+// Names are local names: the schemas determine the namespace. Attributes exclude namespace declarations and those of xsi. Drops
+// comments, and white space between elements. Texts are views of the document or of pugixml's tree, which must outlive their use.
+// Keeps its memory for the next message. Not thread-safe.
 class MessageTree {
 public:
-    // One element, or none. Valid until the tree is cleared.
-    class Node;
+    class Node;  // one element, or none; valid until the tree is cleared
     class Children;
 
     Node root() const;
     std::string_view name_space() const { return name_space_; }  // the root's
 
-    // Whether they say the same.
     bool operator==(MessageTree const& other) const {
         return name_space_ == other.name_space_ && elements_ == other.elements_ && attributes_ == other.attributes_;
     }
 
-    // Makes it the tree of pugixml's root. False when that has more elements inside each other than this.
+    // Replaces the tree with that of pugixml's root. Returns false if elements are nested deeper than `deepest`.
     bool read(pugi::xml_node root, std::size_t deepest = std::numeric_limits<std::size_t>::max());
 
-    // Or part by part, in the order of the document. An element's attributes come before what is in it.
+    // Build the tree part by part, in document order. An element's attributes come before its content.
     void clear();
     void set_name_space(std::string_view name_space) { name_space_ = name_space; }
     void open(std::string_view name, std::string_view type);
@@ -45,7 +43,7 @@ public:
     void close() { innermost_ = elements_[innermost_].parent; }
 
 private:
-    using Index = std::uint32_t;  // of an element; 0, the root's, is nobody's child
+    using Index = std::uint32_t;  // of an element; 0 is the root, and means "none" for a child
     struct Range {
         Index first = 0;
         Index count = 0;
@@ -78,7 +76,7 @@ private:
 
     std::vector<Element> elements_;
     std::vector<Attribute> attributes_;
-    std::map<Index, std::string> joined_;  // texts that come in pieces, by element
+    std::map<Index, std::string> joined_;  // by element: texts made of several pieces
     std::string_view name_space_;
     Index innermost_ = 0;
 };
@@ -90,9 +88,9 @@ public:
     explicit operator bool() const { return tree_ != nullptr; }
     bool operator==(Node const&) const = default;
 
-    // Empty for none, in which there is nothing either.
+    // A node of no element has empty texts, and no children or attributes.
     std::string_view name() const { return element().name; }
-    std::string_view type() const { return element().type; }  // the local name of its xsi:type; empty without one
+    std::string_view type() const { return element().type; }  // the local name of its xsi:type; empty if it has none
     std::string_view text() const { return element().text; }
     Node first_child() const { return at(element().first_child); }
     Node next() const { return at(element().next); }

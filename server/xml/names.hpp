@@ -16,12 +16,12 @@ inline constexpr std::string_view xsi_namespace = "http://www.w3.org/2001/XMLSch
 inline constexpr std::string_view xml_namespace = "http://www.w3.org/XML/1998/namespace";
 inline constexpr std::string_view xlink_namespace = "http://www.w3.org/1999/xlink";
 
-static_assert(rois_namespace.size() == old_rois_namespace.size(), "the one is written over the other");
+static_assert(rois_namespace.size() == old_rois_namespace.size(), "the scan overwrites the old one with the new one");
 
-// Attributes that declare a namespace.
+// Returns whether an attribute declares a namespace.
 constexpr bool declares_namespace(std::string_view attribute) { return attribute == "xmlns" || attribute.starts_with("xmlns:"); }
 
-// `rois:code` -> `code`, and -> `rois`.
+// local_part("rois:code") is "code"; prefix_of("rois:code") is "rois".
 constexpr std::string_view local_part(std::string_view name) {
     auto const colon = name.find(':');
     return colon == name.npos ? name : name.substr(colon + 1);

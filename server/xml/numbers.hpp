@@ -1,4 +1,4 @@
-// Lists of numbers, as xsd:list writes them.
+// Decodes lists of numbers (xsd:list).
 #pragma once
 
 #include <string_view>
@@ -6,7 +6,7 @@
 
 namespace rois::xml {
 
-// Separated by white space; NaN for what is none.
+// Returns the numbers of a list separated by white space. An item that is not a number gives NaN.
 std::vector<double> decode_numbers(std::string_view);
 
 }  // namespace rois::xml

@@ -1,4 +1,4 @@
-// The memory of one kept xerces parser.
+// The memory manager of one xerces-c parser.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace rois::xml {
 
-// Gives blocks of the sizes of powers of two and keeps those that come back for the next document. Counts what is in use, so that
-// it can be seen when a parser hoards. Not thread-safe.
+// Allocates blocks whose size is a power of two, and keeps freed blocks for the next document. Counts the bytes in use, so that
+// the validator can replace a parser that keeps too many. Not thread-safe.
 class ParserMemory : public xercesc::MemoryManager {
 public:
     ParserMemory() = default;

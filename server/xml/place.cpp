@@ -8,12 +8,12 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
-// Whether a line ends with this character; CR LF ends it once.
+// Returns whether a line ends with this character. In CR LF, only the LF ends it.
 bool ends_line(std::string_view document, std::size_t i) {
     return document[i] == '\n' || (document[i] == '\r' && (i + 1 == document.size() || document[i + 1] != '\n'));
 }
 
-// How many columns a parser counts for the character whose first byte this is.
+// The number of columns that xerces-c counts for the character with this first byte.
 std::uint64_t utf16_units(char first) { return static_cast<unsigned char>(first) >= 0xF0 ? 2 : 1; }
 
 std::size_t start_of(std::string_view document) { return document.starts_with(byte_order_mark) ? byte_order_mark.size() : 0; }

@@ -1,4 +1,4 @@
-// Places in a document: byte offsets, and the lines and columns that faults tell.
+// Converts between byte offsets in a document and the lines and columns of faults.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,11 @@
 
 namespace rois::xml {
 
-// Line and column of the character that begins at `offset`, or of the end. Lines end with LF, CR LF or CR; a byte order mark is
-// no character.
+// Returns line and column of the character at `offset`, or of the end. Lines end with LF, CR LF or CR. A byte order mark is not
+// counted.
 Place place_of(std::string_view document, std::size_t offset);
 
-// The byte offset of a place as a parser counts columns, that is in UTF-16 units; the end when there is no such place.
+// Returns the byte offset of a place whose column counts UTF-16 units, as xerces-c does; the end if there is no such place.
 std::size_t offset_of(std::string_view document, Place in_utf16);
 
 }  // namespace rois::xml

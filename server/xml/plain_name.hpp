@@ -1,4 +1,4 @@
-// Names as almost all documents write them, taken apart in one look.
+// Parses the ASCII names that almost all documents use, in one pass.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace rois::xml {
 
-// A name of ASCII letters, digits and ".-_" with at most one colon; or none, whatever it is to XML.
+// A name of ASCII letters, digits and ".-_" with at most one colon. For any other text, also other names of XML, none() is true.
 class PlainName {
 public:
     PlainName() = default;
@@ -38,7 +38,7 @@ inline constexpr auto in_names = [] {
 
 }  // namespace plain
 
-// The one that a text begins with.
+// Returns the name that the text begins with.
 inline PlainName plain_name_before(std::string_view text) {
     auto const end_of_part = [&](std::size_t begin) {
         auto end = begin;
@@ -53,7 +53,7 @@ inline PlainName plain_name_before(std::string_view text) {
     return {text.substr(0, end), first};
 }
 
-// The text as a whole.
+// Returns the whole text as a name.
 inline PlainName plain_name(std::string_view text) {
     auto const name = plain_name_before(text);
     return name.whole().size() == text.size() ? name : PlainName{};

@@ -23,7 +23,7 @@ Identifier identifier(pugi::xml_node node) {
             attribute_text(node, "version")};
 }
 
-// Reads profiles out of a valid tree, and says where it cannot.
+// Decodes a profile from a valid tree, and collects warnings.
 class ProfileDecoder {
 public:
     ProfileDecoder(std::string const& name, std::string_view text) : name_{name}, text_{text} {}
@@ -43,7 +43,7 @@ public:
 private:
     std::string place(pugi::xml_node element) const { return at(name_, place_of(text_, offset_of(element))); }
 
-    // Empty when there is none.
+    // Returns an empty text if there is no such child.
     std::string place_of_child(pugi::xml_node element, std::string_view name) const {
         auto const found = child(element, name);
         return found ? place(found) : std::string{};
@@ -75,52 +75,50 @@ private:
             } else if (local_name(element) == "MessageProfile") {
                 auto read = message(element);
                 if (find_message(profile, read.kind, read.name) != nullptr)
-                    throw complain(element, "there is a second message " + quoted(read.name) + " of this kind");
-                if (auto const problem = why_the_engines_own(read)) throw complain(element, *problem);
+                    throw complain(element, "duplicate message " + quoted(read.name) + " of this kind");
+                if (auto const problem = why_reserved(read)) throw complain(element, *problem);
                 profile.messages.push_back(std::move(read));
             }
         }
-        look_for_contradictions(root, profile);
+        reject_contradictions(root, profile);
         return profile;
     }
 
-    // What the engine tells itself is not a profile's to say otherwise.
-    static std::optional<std::string> why_the_engines_own(MessageProfile const& message) {
+    // Returns why the message conflicts with a result or query that the engine answers itself, or nothing.
+    static std::optional<std::string> why_reserved(MessageProfile const& message) {
         auto const is_status = [](ParameterProfile const& result) { return equal_ignoring_case(result.name, "status"); };
         if (message.kind == MessageKind::command && std::ranges::any_of(message.results, is_status))
             return "the command " + quoted(message.name) +
-                   " has a result 'status': get_command_result tells one of its own by that name";
+                   " has a result 'status': rename it, because get_command_result adds a result of this name";
         if (message.kind != MessageKind::query || message.name != "component_status") return {};
-        bool const is_that = message.results.size() == 1 && message.results.front().name == "status" &&
-                             DataType::of(message.results.front().data_type_ref).base == BaseType::component_status;
-        if (is_that) return {};
-        return "the query 'component_status' is answered by the engine: expected its one result, 'status' of the type "
-               "Component_Status";
+        bool const standard = message.results.size() == 1 && message.results.front().name == "status" &&
+                              DataType::of(message.results.front().data_type_ref).base == BaseType::component_status;
+        if (standard) return {};
+        return "the engine answers the query 'component_status': expected one result, 'status' of the type Component_Status";
     }
 
-    // What is said of a parameter in several places of a document is the same.
-    void look_for_contradictions(pugi::xml_node root, ComponentProfile const& profile) const {
+    // A parameter that a document defines in several places must have the same type and default value in all of them.
+    void reject_contradictions(pugi::xml_node root, ComponentProfile const& profile) const {
         auto const* const set = find_message(profile, MessageKind::command, "set_parameter");
         auto const* const get = find_message(profile, MessageKind::query, "get_parameter");
-        if (set != nullptr) hold(root, "ParameterProfile", profile.parameters, set->arguments);
+        if (set != nullptr) compare(root, "ParameterProfile", profile.parameters, set->arguments);
         if (get == nullptr) return;
-        hold(root, "ParameterProfile", profile.parameters, get->results);
+        compare(root, "ParameterProfile", profile.parameters, get->results);
         if (set == nullptr) return;
         for (auto const element : root.children())
             if (local_name(element) == "MessageProfile" && trimmed(attribute_text(element, "name")) == "get_parameter")
-                hold(element, "Results", get->results, set->arguments);
+                compare(element, "Results", get->results, set->arguments);
     }
 
-    // `list` are the children of `parent` that have this name.
-    void hold(pugi::xml_node parent, std::string_view name, std::vector<ParameterProfile> const& list,
-              std::vector<ParameterProfile> const& others) const {
+    // `list` was decoded from the children of `parent` with this name. Throws BadDocument if `others` contradict it.
+    void compare(pugi::xml_node parent, std::string_view name, std::vector<ParameterProfile> const& list,
+                 std::vector<ParameterProfile> const& others) const {
         auto each = list.begin();
         for (auto const element : parent.children()) {
             if (local_name(element) != name || each == list.end()) continue;
             auto const* const other = find_parameter(others, each->name);
             if (other != nullptr && contradict(*each, *other))
-                throw complain(element,
-                               "the name " + quoted(each->name) + " is there twice, with another type or another default value");
+                throw complain(element, quoted(each->name) + " is defined twice, with different types or default values");
             ++each;
         }
     }
@@ -146,8 +144,7 @@ private:
         for (auto const element : parent.children()) {
             if (local_name(element) != name) continue;
             auto read = parameter(element);
-            if (find_parameter(list, read.name) != nullptr)
-                throw complain(element, "the name " + quoted(read.name) + " is there twice");
+            if (find_parameter(list, read.name) != nullptr) throw complain(element, "duplicate name " + quoted(read.name));
             list.push_back(std::move(read));
         }
         return list;
@@ -162,29 +159,29 @@ private:
         if (trimmed(read.data_type_ref.code).empty())
             throw complain(element, "the data type of " + quoted(read.name) + " is empty");
         if (!is_known(DataType::of(read.data_type_ref)))
-            document_.warnings.push_back(place(child(element, "data_type_ref")) + ": the data type " +
+            document_.warnings.push_back(place(child(element, "data_type_ref")) + ": unknown data type " +
                                          quoted(trimmed(read.data_type_ref.code)) + " of " + quoted(read.name) +
-                                         " is not known: its values are not checked");
+                                         ": its values are not checked");
         if (auto const written = attribute(element, "default_value")) set_default(element, read, written.value());
         return read;
     }
 
-    // Times are UTC, whatever a document says (decision 28).
-    static std::string as_told(Identifier const& data_type_ref, std::string text) {
+    // Converts times to UTC (decision 28).
+    static std::string in_reported_form(Identifier const& data_type_ref, std::string text) {
         if (DataType::of(data_type_ref).base != BaseType::date_time) return text;
-        std::string told;
-        for (auto const& value : default_values(data_type_ref, text)) told += (told.empty() ? "" : " ") + value;
-        return told;
+        std::string reported;
+        for (auto const& value : default_values(data_type_ref, text)) reported += (reported.empty() ? "" : " ") + value;
+        return reported;
     }
 
-    // Published profiles write an empty default where there is none.
+    // Published profiles write an empty default value for "none".
     void set_default(pugi::xml_node element, ParameterProfile& parameter, std::string text) {
         auto const problem = why_not(DataType::of(parameter.data_type_ref), default_values(parameter.data_type_ref, text));
         if (!problem) {
-            parameter.default_value = as_told(parameter.data_type_ref, std::move(text));
+            parameter.default_value = in_reported_form(parameter.data_type_ref, std::move(text));
         } else if (trimmed(text).empty()) {
             document_.warnings.push_back(place(element) + ": the default value of " + quoted(parameter.name) +
-                                         " is empty: taken for none");
+                                         " is empty: ignored");
         } else {
             throw complain(element, "the default value of " + quoted(parameter.name) + ": " + *problem);
         }

@@ -1,4 +1,4 @@
-// From trees of profiles to profiles.
+// Decodes the trees of profile documents.
 #pragma once
 
 #include <pugixml.hpp>
@@ -9,11 +9,11 @@
 
 namespace rois::xml {
 
-// `root` is an HRIComponentProfile or an HRIEngineProfile of the document `text`, which `name` names in complaints. Throws
-// BadDocument where it cannot be understood.
+// `root` is an HRIComponentProfile or an HRIEngineProfile of the document `text`. `name` is the document's name in errors and
+// warnings. Throws BadDocument if the profile is invalid.
 ProfileDocument decode_profile(pugi::xml_node root, std::string const& name, std::string_view text);
 
-// "name:line:column".
+// Returns "name:line:column".
 std::string at(std::string const& name, Place);
 
 }  // namespace rois::xml

@@ -20,10 +20,10 @@ BadDocument refusal(std::string const& name, Fault const& fault) {
     return BadDocument{at(name, fault.place.value_or(Place{})) + ": " + fault.reason};
 }
 
-// A document that is not valid as it stands, with what could be understood put right.
+// The tree of an invalid document after its repair.
 class RepairedTree {
 public:
-    // Throws `fault` when nothing could be put right, or what is still wrong then.
+    // Throws BadDocument: with `fault` if nothing could be repaired, or with the first error that remains.
     RepairedTree(std::shared_ptr<Schemas const> const& schemas, std::string const& name, std::string const& text,
                  Fault const& fault)
         : bytes_{text}, repairs_{repair_namespaces(bytes_, schemas->grammars().namespaces())} {
@@ -44,7 +44,7 @@ public:
     std::vector<std::string> warnings(std::string const& name, std::string_view text) const {
         std::vector<std::string> all;
         all.reserve(repairs_.size());
-        for (auto const& repair : repairs_) all.push_back(at(name, place_of(text, repair.offset)) + ": " + repair.what);
+        for (auto const& repair : repairs_) all.push_back(at(name, place_of(text, repair.offset)) + ": " + repair.warning);
         return all;
     }
 

@@ -17,7 +17,7 @@ namespace rois::xml {
 
 namespace {
 
-constexpr std::string_view any_rois_namespace = "http://www.omg.org/spec/RoIS/";  // and a date
+constexpr std::string_view any_rois_namespace = "http://www.omg.org/spec/RoIS/";  // followed by a date
 
 bool is_rois_of_another_date(std::string_view name) {
     auto const is_digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -25,7 +25,7 @@ bool is_rois_of_another_date(std::string_view name) {
            std::ranges::all_of(name.substr(any_rois_namespace.size()), is_digit);
 }
 
-// The kinds of messages, and how one of them is misspelt in print.
+// The kinds of messages in the spellings of documents. The published text misspells one ("Commane").
 struct KindOfMessage {
     std::string_view written;
     std::string_view type;
@@ -50,8 +50,8 @@ std::string_view type_meant(std::string_view written) {
     return found == kinds.end() ? std::string_view{} : found->type;
 }
 
-// What the tables of 2011 call the parts of profiles (tables 24 to 30), and what the XML calls them (decision 29). The names of
-// the profiles themselves differ by their underscores alone.
+// The parts of profiles: their names in the tables of 2011 (24 to 30), and in the XML (decision 29). The names of the profiles
+// themselves differ only by underscores.
 struct Renamed {
     std::string_view old;
     std::string_view name;
@@ -76,9 +76,9 @@ Order after_object(std::initializer_list<std::string_view> names) {
     return order;
 }
 
-class Repairing {
+class ProfileRepair {
 public:
-    explicit Repairing(pugi::xml_node root) : root_{root} {}
+    explicit ProfileRepair(pugi::xml_node root) : root_{root} {}
 
     std::vector<Repair> run() {
         rois_ = prefix_for(rois_namespace, "rois");
@@ -90,20 +90,20 @@ public:
     }
 
 private:
-    void note(pugi::xml_node element, std::string what) { repairs_.push_back({offset_of(element), std::move(what)}); }
+    void note(pugi::xml_node element, std::string warning) { repairs_.push_back({offset_of(element), std::move(warning)}); }
 
-    // An element that has its name of 2011 gets the one of today.
+    // Replaces an element's name of 2011 by its name in the schemas.
     void rename(pugi::xml_node element, std::span<Renamed const> parts) {
         auto const name = local_name(element);
         auto const part = std::ranges::find(parts, name, &Renamed::old);
         auto const profile = std::ranges::find(names_of_profiles, without_underscores(name));
         auto const today = part != parts.end() ? part->name : profile != names_of_profiles.end() ? *profile : std::string_view{};
         if (today.empty() || today == name) return;
-        note(element, quoted(element.name()) + " is the name of 2011 for " + quoted(today));
+        note(element, quoted(element.name()) + " is a name of 2011: read as " + quoted(today));
         element.set_name((rois_prefix_of(element) + std::string{today}).c_str());
     }
 
-    // A prefix that is bound to the namespace at the root; declared there when there is none. Attributes need one.
+    // Returns a prefix for the namespace, and declares it at the root if there is none. Attributes need a prefix.
     std::string prefix_for(std::string_view name_space, std::string wanted) {
         for (auto const each : root_.attributes())
             if (std::string_view{each.name()}.starts_with("xmlns:") && each.value() == name_space)
@@ -137,32 +137,32 @@ private:
         put_in_order(profile, after_object({"SubProfile", "HRIComponent", "ParameterProfile"}));
     }
 
-    // How elements of the same kind as this one begin: "rois:", or nothing.
+    // Returns the element's prefix with its colon ("rois:"), or an empty text.
     static std::string rois_prefix_of(pugi::xml_node element) {
         auto const prefix = prefix_of(element.name());
         return prefix.empty() ? std::string{} : std::string{prefix} + ":";
     }
 
-    // gml:id and the code space of the identifier.
+    // Repairs gml:id and the code space of the identifier.
     void object(pugi::xml_node profile) {
         auto const gml_id = prefix_for(gml_namespace, "gml") + ":id";
         if (auto bare = profile.attribute("id"); bare && !profile.attribute(gml_id.c_str())) {
-            note(profile, "the attribute 'id' has no prefix: taken for 'gml:id'");
+            note(profile, "the attribute 'id' has no prefix: read as 'gml:id'");
             bare.set_name(gml_id.c_str());
         }
         auto id = profile.attribute(gml_id.c_str());
         if (!id) {
-            note(profile, quoted(profile.name()) + " has no 'gml:id': given one");
+            note(profile, quoted(profile.name()) + " has no 'gml:id': added one");
             id = profile.append_attribute(gml_id.c_str());
             id.set_value("profile");
         }
         auto fit = is_nc_name(trimmed(id.value())) ? std::string{trimmed(id.value())} : nc_name(trimmed(id.value()));
         if (fit != trimmed(id.value()))
-            note(profile, "the 'gml:id' " + quoted(id.value()) + " is no name as XML has them: read as " + quoted(fit));
+            note(profile, "the 'gml:id' " + quoted(id.value()) + " is not a valid XML name: read as " + quoted(fit));
         while (!ids_.insert(fit).second) fit += '_';
         id.set_value(fit.c_str());
         if (auto identifier = child(profile, "identifier"); identifier && !attribute(identifier, "codeSpace")) {
-            note(identifier, "the identifier has no 'codeSpace': taken for urn:ietf:rfc:2141");
+            note(identifier, "the identifier has no 'codeSpace': read as urn:ietf:rfc:2141");
             identifier.append_attribute("codeSpace").set_value("urn:ietf:rfc:2141");
         }
     }
@@ -183,17 +183,17 @@ private:
             if (name == "Results" || name == "Arguments") parameter(child);
             if (name != "Arguments") continue;
             if (type == "EventMessageProfileType") {
-                note(child, "an event has no arguments: 'Arguments' are taken for 'Results'");
+                note(child, "an event has no arguments: 'Arguments' are read as 'Results'");
                 child.set_name((rois_prefix_of(child) + "Results").c_str());
             } else if (type == "QueryMessageProfileType") {
-                note(child, "a query carries no arguments, its condition chooses: 'Arguments' are left out");
+                note(child, "a query has a condition and no arguments: 'Arguments' are ignored");
                 element.remove_child(child);
             }
         }
         if (type == "CommandMessageProfileType") put_in_order(element, {"Results", "Arguments"});
     }
 
-    // The kind of message that is meant, put into its xsi:type; empty when that cannot be told.
+    // Writes the kind of message into its xsi:type and returns it; empty if it is unknown.
     std::string_view message_type(pugi::xml_node element) {
         auto const said = xsi_type(element);
         auto const name = local_name(element);
@@ -201,12 +201,12 @@ private:
         if (type.empty()) return {};
         if (said && (said->name_space != rois_namespace || said->local_name != type)) {
             auto written = xsi_attribute(element, "type");
-            note(element, "the xsi:type " + quoted(written.value()) + " is taken for " + quoted(rois(type)));
+            note(element, "the xsi:type " + quoted(written.value()) + " is read as " + quoted(rois(type)));
             written.set_value(rois(type).c_str());
         }
         if (!said) element.append_attribute((prefix_for(xsi_namespace, "xsi") + ":type").c_str()).set_value(rois(type).c_str());
         if (name != "MessageProfile") {
-            note(element, quoted(element.name()) + " stands for 'MessageProfile' with the xsi:type " + quoted(rois(type)));
+            note(element, quoted(element.name()) + " is read as 'MessageProfile' with the xsi:type " + quoted(rois(type)));
             element.set_name((rois_prefix_of(element) + "MessageProfile").c_str());
         }
         return type;
@@ -216,12 +216,12 @@ private:
         for (auto const name : names) {
             auto bare = element.attribute(std::string{name}.c_str());
             if (!bare || element.attribute(rois(name).c_str())) continue;
-            note(element, "the attribute " + quoted(name) + " has no prefix: taken for " + quoted(rois(name)));
+            note(element, "the attribute " + quoted(name) + " has no prefix: read as " + quoted(rois(name)));
             bare.set_name(rois(name).c_str());
         }
     }
 
-    // Children that are not in this order are put into it, those of one name as they stand.
+    // Sorts the children into this order, if necessary. Keeps the order of children with the same name.
     void put_in_order(pugi::xml_node parent, Order const& order) {
         auto const rank = [&](pugi::xml_node node) { return std::ranges::find(order, local_name(node)) - order.begin(); };
         std::vector<pugi::xml_node> elements;
@@ -229,9 +229,9 @@ private:
             if (child.type() == pugi::node_element) elements.push_back(child);
         auto const before = std::ranges::adjacent_find(elements, [&](auto a, auto b) { return rank(b) < rank(a); });
         if (before == elements.end()) return;
-        // The one that was added here has no place of its own.
+        // An element that was added here has no place.
         if (auto const late = *std::next(before); late.offset_debug() >= 0)
-            note(late, quoted(late.name()) + " after " + quoted(before->name()) + ": the order does not matter here");
+            note(late, quoted(late.name()) + " after " + quoted(before->name()) + ": read in any order");
         std::ranges::stable_sort(elements, {}, rank);
         for (auto const element : elements) parent.append_move(element);
     }
@@ -259,18 +259,18 @@ std::vector<Repair> repair_namespaces(std::span<char> document, std::span<std::s
         auto* const begin = document.data() + (written.data() - document.data());
         if (spaced) {
             // The quotes move to the name; the white space goes outside.
-            repairs.push_back({offset, "the namespace " + quoted(written) + " has white space around it, which is left out"});
+            repairs.push_back({offset, "the namespace " + quoted(written) + " has white space around it: ignored"});
             char const quote = begin[-1];
             std::string moved(static_cast<std::size_t>(name.data() - written.data()), ' ');
             moved.append(1, quote).append(name).append(1, quote).append(written.size() + 2 - moved.size(), ' ');
             std::ranges::copy(moved, begin - 1);
         } else {
-            repairs.push_back({offset, "the namespace " + quoted(written) + " is taken for " + quoted(rois_namespace)});
+            repairs.push_back({offset, "the namespace " + quoted(written) + " is read as " + quoted(rois_namespace)});
             std::ranges::copy(rois_namespace, begin);
         }
     }
 }
 
-std::vector<Repair> repair_profile(pugi::xml_node root) { return Repairing{root}.run(); }
+std::vector<Repair> repair_profile(pugi::xml_node root) { return ProfileRepair{root}.run(); }
 
 }  // namespace rois::xml

@@ -1,4 +1,4 @@
-// What profile documents of other versions and other hands have wrong, put right in their trees.
+// Repairs common deviations in profile documents of other versions and authors.
 #pragma once
 
 #include <cstddef>
@@ -11,16 +11,16 @@
 namespace rois::xml {
 
 struct Repair {
-    std::size_t offset = 0;  // of the start tag that it is about
-    std::string what;        // what was wrong, and what it was taken for
+    std::size_t offset = 0;  // of the start tag
+    std::string warning;     // the deviation, and how it was read
 };
 
-// Declarations of the RoIS namespace with white space around it, or of another date, become the one that the schemas know. The
-// length of the text stays.
+// Replaces declarations of the RoIS namespace that have another date or white space around the name. Keeps the length of the
+// document. `known` are the namespaces of the schemas.
 std::vector<Repair> repair_namespaces(std::span<char> document, std::span<std::string const> known);
 
-// Changes the tree of a profile, whose namespaces are known, until it says what was meant in the form of the schemas. What it
-// does not understand stays as it is.
+// Changes the tree of a profile to the form of the schemas. Leaves unchanged what it does not understand. The namespaces must be
+// repaired before.
 std::vector<Repair> repair_profile(pugi::xml_node root);
 
 }  // namespace rois::xml

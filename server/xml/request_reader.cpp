@@ -6,9 +6,9 @@
 
 namespace rois::xml {
 
-class RequestReader::Kept {
+class RequestReader::Impl {
 public:
-    Kept(std::shared_ptr<Schemas const> schemas, DocumentLimits limits, Validation validation)
+    Impl(std::shared_ptr<Schemas const> schemas, DocumentLimits limits, Validation validation)
         : schemas_{schemas}, reader_{std::move(schemas), limits, operation_names(), ForeignNamespaces::refused, validation} {}
 
     std::variant<Request, Fault> read(std::string_view document) {
@@ -20,7 +20,7 @@ public:
         }
         // Valid, but an answer, a notification or a profile.
         auto const explanation = explain(*schemas_, reader_.root(), operation_names());
-        return reader_.complain(reader_.root(), explanation ? explanation->reason : "this is no request");
+        return reader_.complain(reader_.root(), explanation ? explanation->reason : "the message is not a request");
     }
 
     std::optional<Validation> checked() const { return reader_.checked(); }
@@ -31,14 +31,14 @@ private:
 };
 
 RequestReader::RequestReader(std::shared_ptr<Schemas const> schemas, DocumentLimits limits, Validation validation)
-    : kept_{std::make_unique<Kept>(std::move(schemas), limits, validation)} {}
+    : impl_{std::make_unique<Impl>(std::move(schemas), limits, validation)} {}
 
 RequestReader::~RequestReader() = default;
 
 RequestReader::RequestReader(RequestReader&&) noexcept = default;
 
-std::variant<Request, Fault> RequestReader::read(std::string_view document) { return kept_->read(document); }
+std::variant<Request, Fault> RequestReader::read(std::string_view document) { return impl_->read(document); }
 
-std::optional<Validation> RequestReader::checked() const { return kept_->checked(); }
+std::optional<Validation> RequestReader::checked() const { return impl_->checked(); }
 
 }  // namespace rois::xml

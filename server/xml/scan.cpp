@@ -24,7 +24,6 @@ std::string limit(std::string_view what, std::size_t size) {
     return std::string{what} + ": the limit is " + std::to_string(size);
 }
 
-// The walk over the markup of one document.
 class Scan {
 public:
     Scan(std::span<char> document, DocumentLimits const& limits, std::span<std::string const> namespaces)
@@ -33,7 +32,7 @@ public:
     std::variant<Scanned, Refusal> run();
 
 private:
-    // Nothing when there is no more that a parser could read: it will find the document's error itself.
+    // `nothing`: the rest of the document is rejected, or the parser will report its error.
     enum class Next { markup, nothing };
 
     void prologue();
@@ -57,9 +56,9 @@ private:
     std::size_t at_ = 0;
     std::size_t depth_ = 0;
     std::size_t elements_ = 0;
-    std::vector<std::size_t> outer_;   // of each open element: how many namespace declarations were in scope around it
+    std::vector<std::size_t> outer_;   // of each open element: the namespace declarations in scope around it
     std::size_t in_scope_ = 0;         // namespace declarations
-    std::optional<std::size_t> list_;  // offset of the tag that began the list we are in
+    std::optional<std::size_t> list_;  // offset of the start tag of the current list of numbers
     Scanned scanned_;
     std::optional<Refusal> refusal_;
 };
@@ -81,7 +80,7 @@ void Scan::prologue() {
     auto const rest = text_.substr(first);
     if (!rest.starts_with("<?xml") || rest.size() == 5 || white_space.find(rest[5]) == white_space.npos) return;
     if (first != at_) {
-        return refuse(FaultCode::not_well_formed, "the XML declaration must be the very beginning of the document", first);
+        return refuse(FaultCode::not_well_formed, "the XML declaration must be at the very beginning of the document", first);
     }
     auto const end = text_.find("?>", at_);
     if (end == text_.npos) return refuse(FaultCode::not_well_formed, "the document ends inside the XML declaration", at_);
@@ -89,15 +88,15 @@ void Scan::prologue() {
     at_ = end + 2;
 }
 
-// What is wrong in an XML declaration otherwise, a parser will say.
+// The parser reports other errors in an XML declaration.
 void Scan::declaration(std::size_t end) {
     StartTag declared{text_.substr(0, end), at_ + 1};
     while (declared.next() == StartTag::Step::attribute) {
         if (declared.attribute() == "version" && declared.value() != "1.0") {
-            return refuse(FaultCode::forbidden_xml, "XML version " + quoted(declared.value()) + ": only 1.0 is read", at_);
+            return refuse(FaultCode::forbidden_xml, "the XML version is " + quoted(declared.value()) + ": expected 1.0", at_);
         }
         if (declared.attribute() == "encoding" && !equal_ignoring_case(declared.value(), "UTF-8")) {
-            return refuse(FaultCode::forbidden_xml, "the encoding " + quoted(declared.value()) + ": only UTF-8 is read", at_);
+            return refuse(FaultCode::forbidden_xml, "the encoding is " + quoted(declared.value()) + ": expected UTF-8", at_);
         }
     }
 }
@@ -120,7 +119,7 @@ Scan::Next Scan::markup() {
         return Next::nothing;
     }
     if (rest.starts_with("<!")) {
-        refuse(FaultCode::not_well_formed, "a '<!' that begins nothing", at_);
+        refuse(FaultCode::not_well_formed, "'<!' must begin a comment or a CDATA section", at_);
         return Next::nothing;
     }
     return rest.starts_with("</") ? end_tag() : start_tag();
@@ -133,9 +132,8 @@ Scan::Next Scan::skip_to(std::string_view end) {
     return Next::markup;
 }
 
-// Between elements XSD allows a CDATA section of white space alone; xerces-c rejects every section there. Such a section becomes
-// a comment of the same size as its markup, with the white space behind it. This means the same in every content, and moves no
-// tag.
+// Between elements, XSD allows a CDATA section of white space, but xerces-c rejects every section. Overwrites such a section with
+// a comment of the size of its markup, followed by the white space. This means the same in every content and moves no tag.
 Scan::Next Scan::cdata_section() {
     constexpr std::string_view comment = "<!--CDATA-->";
     static_assert(comment.size() == cdata_begin.size() + cdata_end.size());
@@ -145,7 +143,7 @@ Scan::Next Scan::cdata_section() {
     auto const text = section.subspan(cdata_begin.size(), section.size() - comment.size());
     bool const blank = std::ranges::all_of(text, [](char c) { return white_space.find(c) != white_space.npos; });
     if (depth_ == 0 || !blank) return Next::markup;
-    // A line end that is '\r' alone becomes '\n', which it means, so that it does not pair with a '\n' behind the section.
+    // Replaces a single '\r' by the equivalent '\n', so that it does not form a pair with a '\n' after the section.
     for (std::size_t i = 0; i < text.size(); ++i)
         if (text[i] == '\r' && (i + 1 == text.size() || text[i + 1] != '\n')) text[i] = '\n';
     std::ranges::copy_backward(text, section.end());
@@ -159,7 +157,7 @@ void Scan::end_list() {
         refuse(FaultCode::forbidden_xml, limit("a list of numbers is too long", longest_list), *begin);
 }
 
-// The innermost open element.
+// Closes the innermost open element.
 void Scan::close() {
     --depth_;
     in_scope_ = outer_.back();
@@ -287,7 +285,7 @@ std::string request_id_of(std::string_view document) {
     auto step = root.next();
     while (step == StartTag::Step::attribute) step = root.next();
     if (step == StartTag::Step::broken) return {};
-    // The tag alone, closed, is a document of its own; its references are resolved there.
+    // The root's tag alone, closed, is a document: parsing it resolves references.
     std::string alone{document.substr(at, root.offset() - at)};
     if (first_bad_character(alone)) return {};
     if (step == StartTag::Step::end) alone.insert(alone.size() - 1, 1, '/');

@@ -1,5 +1,5 @@
-// Looks over a document's bytes before any parser sees them (bad-input 3, 4): what a parser would do harm with, or do at great
-// cost, never reaches it. Takes linear time. The limit of bytes is the caller's to check.
+// Scans a document's bytes before a parser sees them (bad-input 3, 4), and rejects harmful or expensive input. Takes linear time.
+// The caller checks the limit of bytes.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,13 @@
 
 namespace rois::xml {
 
-// Why a document was refused, and the offset of the byte that tells.
 struct Refusal {
     FaultCode code = FaultCode::not_well_formed;
     std::string reason;
-    std::size_t offset = 0;
+    std::size_t offset = 0;  // of the offending byte
 };
 
-// A declaration of a namespace that no schema knows.
+// A declaration of a namespace that is not in the schemas.
 struct ForeignNamespace {
     std::string_view name;   // as written
     std::size_t offset = 0;  // of the tag's `<`
@@ -32,20 +31,20 @@ struct Scanned {
     std::size_t last_tag = 0;                 // offset of the last start tag
 };
 
-// Elements of this local name hold a list of numbers, of which a parser makes a string each: from start tag to end tag they may
-// be so long only.
+// Returns whether elements of this local name contain a list of numbers. Their length, from start tag to end tag, is limited,
+// because a parser makes a string of each number.
 bool holds_list_of_numbers(std::string_view local_name);
 inline constexpr std::size_t longest_list = 8 << 10;  // bytes
 
-// `namespaces` are those that may be declared. Declarations of the RoIS namespace of 2015 are written over with that of 2024, and
-// CDATA sections that are empty or hold white space alone with a comment and that white space: xerces-c takes them in values
-// only. Passing says nothing yet of well-formedness beyond characters and start tags.
+// Checks characters, start tags and limits; other errors are left to the parser. Reports the first namespace that is not in
+// `namespaces` as foreign. Overwrites declarations of the RoIS namespace of 2015 with that of 2024. Overwrites CDATA sections of
+// white space with a comment and the white space, because xerces-c allows such sections only in values.
 std::variant<Scanned, Refusal> scan(std::span<char> document, DocumentLimits const&, std::span<std::string const> namespaces);
 
-// The offset of the start tag of the innermost element that is open at `offset`; nothing when none is.
+// Returns the offset of the start tag of the innermost element that is open at `offset`, or nothing.
 std::optional<std::size_t> open_element_at(std::string_view document, std::size_t offset);
 
-// The attribute request_id of the root element as far as it can be read in a document that was refused; else empty.
+// Returns the attribute request_id of the root element of a rejected document; empty if it cannot be read.
 std::string request_id_of(std::string_view document);
 
 }  // namespace rois::xml

@@ -27,9 +27,9 @@ namespace rois::xml {
 
 namespace {
 
-std::mutex platform_mutex;  // xerces-c counts its users without a lock
+std::mutex platform_mutex;  // xerces-c's reference count is not thread-safe
 
-// Gives xerces-c the files that were given to us, and nothing else.
+// Resolves schema locations to the given files only.
 class GivenFiles : public xercesc::XMLEntityResolver {
 public:
     explicit GivenFiles(NamedFiles const& files) : files_{files} {}
@@ -56,7 +56,7 @@ private:
     std::set<std::string> read_;
 };
 
-// Stops at the first error and tells where it is: in the file that is being compiled when the parser does not say more.
+// Throws at the first error, with its place, or with only the name of the current file if the parser reports no place.
 class Complaints : public xercesc::ErrorHandler {
 public:
     void compiling(std::string name) { name_ = std::move(name); }
@@ -75,7 +75,7 @@ private:
     std::string name_;
 };
 
-// The names of the files that another file includes or imports.
+// Returns the names of the files that other files include or import.
 std::set<std::string> referenced(NamedFiles const& files) {
     std::set<std::string> names;
     for (auto const& [name, text] : files) {
@@ -110,14 +110,14 @@ void compile(NamedFiles const& files, xercesc::XMLGrammarPool& pool) {
             throw std::runtime_error(name + ": cannot be compiled");
         }
     };
-    // What nobody refers to comes first and brings the others in; what refers to itself in a circle is left for the end.
+    // First the files that no other file refers to; they load the others. Then the files that refer to each other in a circle.
     for (auto const& [name, text] : files) {
         if (!inner.contains(name)) load(name);
     }
     for (auto const& [name, text] : files) load(name);
 }
 
-// xerces-c makes some parts of a grammar at their first use, without a lock. This is their first use.
+// xerces-c builds some parts of a grammar at their first use, without a lock. Builds them here, before threads share it.
 void warm_up(xercesc::SchemaGrammar& grammar) {
     if (auto* const types = grammar.getComplexTypeRegistry()) {
         xercesc::RefHashTableOfEnumerator<xercesc::ComplexTypeInfo> all{types};

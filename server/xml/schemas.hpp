@@ -1,4 +1,4 @@
-// The XSD files that the server validates with, compiled once at start and shared by all threads.
+// The XSD files for validation, compiled once at start and shared by all threads.
 #pragma once
 
 #include <map>
@@ -8,8 +8,8 @@
 
 namespace rois::xml {
 
-// Starts and ends xerces-c for the whole program: the first object of main. Document types are switched off for good (bad-input
-// 1).
+// Initializes xerces-c, and terminates it in the destructor. Must be the first object of main. Disables document types for the
+// whole process (bad-input 1).
 class Platform {
 public:
     Platform();
@@ -20,11 +20,11 @@ public:
 
 using NamedFiles = std::map<std::string, std::string_view, std::less<>>;  // file name -> text
 
-// A locked grammar pool. Immutable; any thread may read with it.
+// A locked grammar pool. Immutable and thread-safe.
 class Schemas {
 public:
-    // `files` hold every schema that another one imports or includes, by the name in its schemaLocation. Throws
-    // std::runtime_error naming file, line and column when one cannot be compiled.
+    // `files` must contain every imported or included schema, by the name in schemaLocation. Throws std::runtime_error with file,
+    // line and column if one cannot be compiled.
     explicit Schemas(NamedFiles files);
     ~Schemas();
     Schemas(Schemas const&) = delete;
@@ -32,7 +32,7 @@ public:
 
     NamedFiles const& files() const { return files_; }
 
-    class Grammars;  // inside the xml layer only
+    class Grammars;  // internal to server/xml
     Grammars const& grammars() const { return *grammars_; }
 
 private:

@@ -35,7 +35,7 @@ constexpr std::array words_of_built_in{
     Words{"dateTime", "a time as 2026-11-20T12:00:00Z"},
     Words{"ID", "a name without colons and spaces, used once in the document"},
     Words{"NCName", "a name without colons and spaces"},
-    Words{"QName", "a name, perhaps with a prefix that is declared"},
+    Words{"QName", "a name without a prefix, or with a declared one"},
     Words{"string", "a text"},
 };
 
@@ -110,7 +110,7 @@ std::string kind_of(DatatypeValidator& type) {
     return base == nullptr ? "a value of " + from_xerces(type.getTypeLocalName()) : kind_of(*base);
 }
 
-// As the parser does before it looks at a value.
+// Normalises white space as the type requires.
 std::u16string normalised(DatatypeValidator const& type, std::string_view text) {
     auto value = to_xerces(text);
     auto* const manager = xercesc::XMLPlatformUtils::fgMemoryManager;

@@ -1,4 +1,4 @@
-// The simple types of the schemas, as far as faults speak of them.
+// Checks and describes simple types of the schemas, for the reasons of faults.
 #pragma once
 
 #include <string>
@@ -9,10 +9,10 @@ namespace rois::xml {
 
 enum class Value { good, bad };
 
-// Whether the text is a value of the type. Uniqueness of ids is not looked at.
+// Returns whether the text is a value of the type. Does not check that ids are unique.
 Value check(xercesc::DatatypeValidator&, std::string_view text);
 
-// What a value of the type looks like, in words: "one of OK, ERROR", "a whole number, at least 0".
+// Describes the values of the type: "one of OK, ERROR", "a whole number, at least 0".
 std::string description_of(xercesc::DatatypeValidator&);
 
 }  // namespace rois::xml

@@ -6,7 +6,7 @@ namespace rois::xml {
 
 namespace {
 
-// What ends a name. Which other characters may be in one is the parser's matter.
+// The bytes that end a name. The parser checks the characters of the name.
 constexpr auto ends_name = [] {
     std::array<bool, 256> table{};
     for (unsigned char const c : std::string_view{" \t\r\n/>=<\"'&"}) table[c] = true;
@@ -33,7 +33,7 @@ StartTag::Step StartTag::broken(std::string_view complaint) {
 }
 
 StartTag::Step StartTag::next() {
-    if (name_.empty()) return broken("a '<' without a name after it");
+    if (name_.empty()) return broken("'<' must be followed by the name of an element");
     skip_white_space();
     if (at_ == document_.size()) return broken({});
     if (document_[at_] == '>') {
@@ -42,7 +42,7 @@ StartTag::Step StartTag::next() {
     }
     if (document_[at_] == '/') {
         ++at_;
-        if (at_ == document_.size() || document_[at_] != '>') return broken("a '/' inside a tag must be followed by '>'");
+        if (at_ == document_.size() || document_[at_] != '>') return broken("'/' inside a tag must be followed by '>'");
         ++at_;
         return Step::empty_end;
     }
@@ -53,18 +53,18 @@ StartTag::Step StartTag::take_attribute() {
     attribute_ = take_name();
     if (attribute_.empty()) return broken("the name of an attribute is missing");
     skip_white_space();
-    if (at_ == document_.size() || document_[at_] != '=') return broken("an attribute without '=' and a value");
+    if (at_ == document_.size() || document_[at_] != '=') return broken("an attribute must have '=' and a value");
     ++at_;
     skip_white_space();
     if (at_ == document_.size() || (document_[at_] != '"' && document_[at_] != '\'')) {
-        return broken("the value of an attribute must stand in quotes");
+        return broken("the value of an attribute must be in quotes");
     }
     auto const begin = at_ + 1;
     auto const end = document_.find(document_[at_], begin);
     auto const value = document_.substr(begin, end == document_.npos ? end : end - begin);
     if (auto const bracket = value.find('<'); bracket != value.npos) {
         at_ = begin + bracket;
-        return broken("a '<' inside the value of an attribute");
+        return broken("'<' inside the value of an attribute: write '&lt;'");
     }
     at_ = end == document_.npos ? document_.size() : end + 1;
     if (end == document_.npos) return broken({});

@@ -1,4 +1,4 @@
-// Reads one start tag, attribute by attribute, from bytes that no parser has seen yet.
+// Reads one start tag, attribute by attribute, from unparsed bytes.
 #pragma once
 
 #include <cstddef>
@@ -12,21 +12,21 @@ class StartTag {
 public:
     enum class Step { attribute, end, empty_end, broken };
 
-    // `offset` is that of its `<`.
+    // `offset` is the offset of its `<`.
     StartTag(std::string_view document, std::size_t offset);
 
     std::string_view name() const { return name_; }
 
-    // Goes on to the next attribute or to the end of the tag. What is `broken` is not well-formed, and cannot be read on.
+    // Advances to the next attribute or the end of the tag. After `broken` (not well-formed), next() must not be called again.
     Step next();
 
-    // After Step::attribute. The value is as written: white space and references are not resolved.
+    // Valid after Step::attribute. The value is raw: white space and references are not resolved.
     std::string_view attribute() const { return attribute_; }
     std::string_view value() const { return value_; }
 
-    // Where reading stands: after the attribute, after the tag, or where it is broken.
+    // The current offset: after the attribute, after the tag, or where the tag is broken.
     std::size_t offset() const { return at_; }
-    // What is wrong with a broken tag.
+    // The error of a broken tag.
     std::string_view complaint() const { return complaint_; }
 
 private:

@@ -1,5 +1,6 @@
-// The schemas as tables: what may stand where, compiled once from the model that xerces-c has of them. What the tables hold is
-// what xerces-c accepts, or less: whatever they do not know is `unknown`, and left to xerces-c (docs/validation.md).
+// Tables of the elements, attributes and values that the schemas allow, compiled once from xerces-c's schema model. Conservative:
+// they accept nothing that xerces-c rejects. An unsupported part of a schema is `unknown` and left to xerces-c
+// (docs/validation.md).
 #pragma once
 
 #include <cstddef>
@@ -27,16 +28,16 @@ struct Name {
 
 struct ElementDeclaration;
 
-// One state of a content model: what may come next, and whether this may be the end.
+// One state of a content model: the allowed next elements, and whether the content may end here.
 struct ContentState {
     struct Transition {
         Name name;
         ElementDeclaration const* element = nullptr;
         std::uint32_t state = 0;
     };
-    std::vector<Transition> transitions;  // one for a name
+    std::vector<Transition> transitions;  // names are unique
     bool final = false;
-    std::uint32_t number = 0;  // among all states of all types: from 1 on
+    std::uint32_t number = 0;  // unique among the states of all types, from 1
 };
 
 struct AttributeUse {
@@ -50,21 +51,21 @@ struct ElementType {
 
     Content content = Content::unknown;
     ValueType const* value = nullptr;      // of Content::value
-    std::vector<ContentState> states;      // of Content::elements and mixed; it begins with the first one
-    std::vector<AttributeUse> attributes;  // 64 at most
-    std::uint64_t required = 0;            // a bit for each of them that must be there
+    std::vector<ContentState> states;      // of Content::elements and mixed; index 0 is the start
+    std::vector<AttributeUse> attributes;  // at most 64
+    std::uint64_t required = 0;            // bit i: attributes[i] is required
 };
 
 struct ElementDeclaration {
-    ElementType const* type = nullptr;                             // its content is unknown when anything about the element is
-    std::vector<std::pair<Name, ElementType const*>> substitutes;  // what its xsi:type may name
-    bool of_limited_length = false;                                // one of those whose length the scan limits
+    ElementType const* type = nullptr;                             // Content::unknown if the element is unsupported
+    std::vector<std::pair<Name, ElementType const*>> substitutes;  // the types that its xsi:type may name
+    bool of_limited_length = false;                                // the scan limits its length
 };
 
-// Immutable; any thread may read. Refers to nothing of xerces-c's.
+// Immutable and thread-safe. Does not refer to the grammar pool after construction.
 class Tables {
 public:
-    // Of a locked pool; `namespaces` are those that documents may declare.
+    // The pool must be locked. `namespaces` are the namespaces that documents may declare.
     Tables(xercesc::XMLGrammarPool&, std::vector<std::string> const& namespaces);
     Tables(Tables const&) = delete;
     Tables& operator=(Tables const&) = delete;
@@ -73,22 +74,21 @@ public:
 
     std::string_view text(Interned::Id name) const { return names_.text(name); }
 
-    // The number of a namespace that may be declared and that the tables know; else `unknown`.
+    // Returns the number of a namespace that documents may declare; else `unknown`.
     Interned::Id name_space(std::string_view text) const;
 
-    // Null when there is no such global element.
+    // Returns null if there is no such global element.
     ElementDeclaration const* root(Name) const;
 
     Name xsi_type() const { return xsi_type_; }
 
-    // The highest number of a content state.
-    std::uint32_t states() const { return states_; }
+    std::uint32_t states() const { return states_; }  // the highest number of a content state
 
 private:
     friend class TablesBuilder;
 
     Interned names_;
-    Interned::Id last_name_space_ = Interned::empty;  // those that may be declared come before all other names
+    Interned::Id last_name_space_ = Interned::empty;  // namespaces that may be declared have lower numbers than other names
     Name xsi_type_;
     std::uint32_t states_ = 0;
     std::deque<ValueType> values_;

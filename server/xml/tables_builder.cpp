@@ -29,7 +29,7 @@ xercesc::XSSimpleTypeDefinition* simple(xercesc::XSTypeDefinition* type) {
     return is_simple ? static_cast<xercesc::XSSimpleTypeDefinition*>(type) : nullptr;
 }
 
-// Whether an element of the declared type may be of the other one, for sure: what blocks anything on the way, blocks it.
+// Returns whether `type` is derived from `declared` by extension. Returns false if any type on the way blocks a derivation.
 bool extends(xercesc::XSComplexTypeDefinition* type, xercesc::XSComplexTypeDefinition& declared, int blocked) {
     while (type != nullptr && type != &declared) {
         auto* const base = complex(type->getBaseType());
@@ -40,14 +40,15 @@ bool extends(xercesc::XSComplexTypeDefinition* type, xercesc::XSComplexTypeDefin
     return type == &declared && ((blocked | declared.getProhibitedSubstitutions()) & XSConstants::DERIVATION_EXTENSION) == 0;
 }
 
-// Whether the elements say by themselves alone whether they are valid.
+// Returns whether type and declaration alone decide if the element is valid: not abstract, no default value, no identity
+// constraints.
 bool stands_alone(xercesc::XSElementDeclaration& element) {
     auto* const constraints = element.getIdentityConstraints();
     return !element.getAbstract() && element.getConstraintType() == XSConstants::VALUE_CONSTRAINT_NONE &&
            (constraints == nullptr || constraints->getLength() == 0);
 }
 
-// Whether a part of a list or of alternatives may be of this type.
+// Returns whether the tables support this type as item of a list or member of a union.
 bool fits_inside(ValueType const& type) {
     bool const plain = type.kind == ValueType::Kind::form || type.kind == ValueType::Kind::number;
     return plain || (type.kind == ValueType::Kind::text && !type.takes_any_text());
@@ -94,7 +95,7 @@ ElementDeclaration const* TablesBuilder::declaration(xercesc::XSElementDeclarati
     return &made;
 }
 
-// A list of numbers may be so long only, whatever its type says.
+// The length of a list of numbers is limited, whatever its type.
 void TablesBuilder::limit_length(ElementDeclaration& made, xercesc::XSElementDeclaration& element) const {
     bool const named_so = holds_list_of_numbers(from_xerces(element.getName()));
     bool const has_value = made.type->content == ElementType::Content::value;
@@ -185,7 +186,7 @@ ValueType TablesBuilder::made_from(xercesc::XSSimpleTypeDefinition& definition) 
     if (from_xerces(definition.getNamespace()) != xsd_namespace)
         return from_scratch ? ValueType{} : with_facets(*value(*base), definition);
     if (auto const known = built_in(from_xerces(definition.getName())); known.kind != ValueType::Kind::unknown) return known;
-    // Of those that are derived from others, the numbers differ in their bounds alone.
+    // Other built-in integer types differ from their base only in their bounds.
     bool const number =
         !from_scratch && value(*base)->kind == ValueType::Kind::number && value(*base)->notation == ValueType::Notation::integer;
     return number ? with_facets(*value(*base), definition) : ValueType{};

@@ -1,4 +1,4 @@
-// Fills the tables from xerces-c's schema model.
+// Builds the tables from xerces-c's schema model.
 #pragma once
 
 #include <map>
@@ -35,8 +35,8 @@ private:
     ValueType alternatives(xercesc::XSSimpleTypeDefinition&);
 
     Tables& tables_;
-    ElementType const* unknown_ = nullptr;                  // the type of elements that the tables do not know
-    std::vector<xercesc::XSComplexTypeDefinition*> named_;  // the complex types that an xsi:type can name
+    ElementType const* unknown_ = nullptr;                  // the type of unsupported elements
+    std::vector<xercesc::XSComplexTypeDefinition*> named_;  // complex types that an xsi:type can name
     std::map<xercesc::XSElementDeclaration*, ElementDeclaration*> declarations_;
     std::map<xercesc::XSTypeDefinition*, ElementType*> types_;
     std::map<xercesc::XSSimpleTypeDefinition*, ValueType*> values_;

@@ -10,7 +10,6 @@ namespace rois::xml {
 
 namespace {
 
-// What documents may say of themselves with attributes of the namespace xsi.
 constexpr std::array<std::string_view, 4> xsi_attributes{"type", "nil", "schemaLocation", "noNamespaceSchemaLocation"};
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A thin cursor over pugixml's tree. Names are local names wherever the schemas leave no doubt about the namespace.
+// Functions to walk pugixml's tree by local names: in a valid document the schemas determine the namespace.
 #pragma once
 
 #include <cstddef>
@@ -9,25 +9,25 @@
 
 namespace rois::xml {
 
-// How a document's bytes must be parsed to mean what they mean to xerces-c: white space kept, CDATA as text, references resolved,
-// line ends and white space in attributes normalised.
+// Parse options with which pugixml reads a document as xerces-c does: keep white space, read CDATA as text, resolve references,
+// normalise line ends and white space in attributes.
 inline constexpr unsigned int as_xerces_reads =
     pugi::parse_cdata | pugi::parse_escapes | pugi::parse_eol | pugi::parse_ws_pcdata | pugi::parse_wconv_attribute;
 
 std::string_view local_name(pugi::xml_node);
 
-// Null when there is none. Attributes of xsi and declarations of namespaces are not looked at.
+// Return null, or an empty text, if there is none. Ignore attributes of xsi and namespace declarations.
 pugi::xml_node child(pugi::xml_node, std::string_view local_name);
 pugi::xml_attribute attribute(pugi::xml_node, std::string_view local_name);
-std::string attribute_text(pugi::xml_node, std::string_view local_name);  // empty when there is none
+std::string attribute_text(pugi::xml_node, std::string_view local_name);
 
-// All character data directly inside, as it stands.
+// Returns all character data directly inside the element, untrimmed.
 std::string text_of(pugi::xml_node);
 
-// The namespace to which a prefix is bound here; "" when it is not.
+// Returns the namespace to which a prefix is bound at this node; "" if it is unbound.
 std::string_view namespace_of(pugi::xml_node, std::string_view prefix);
 
-// The offset of an element's `<` in the bytes that it was parsed from.
+// Returns the offset of an element's `<` in the parsed bytes.
 std::size_t offset_of(pugi::xml_node element);
 
 struct TypeName {
@@ -35,12 +35,12 @@ struct TypeName {
     std::string_view local_name;
 };
 
-// Whether an attribute of this element is xsi's: says a type, or where a schema is.
+// Returns whether an attribute of this element is one of the namespace xsi: type, nil, or a schema location.
 bool is_of_xsi(pugi::xml_node, std::string_view prefix, std::string_view local_name);
 bool is_of_xsi(pugi::xml_node, pugi::xml_attribute);
-// The attribute of that name in the namespace xsi.
+// Returns the attribute of this name in the namespace xsi, or null.
 pugi::xml_attribute xsi_attribute(pugi::xml_node, std::string_view local_name);
-// Its xsi:type, resolved.
+// Returns the element's xsi:type with its prefix resolved.
 std::optional<TypeName> xsi_type(pugi::xml_node);
 
 }  // namespace rois::xml

@@ -17,7 +17,7 @@ namespace rois::xml {
 
 namespace {
 
-// Whatever a document asks for outside itself is refused. An empty source would let it through instead.
+// Rejects every reference to an external entity. Returning an empty source instead would accept it.
 class NothingOutside : public xercesc::XMLEntityResolver {
 public:
     xercesc::InputSource* resolveEntity(xercesc::XMLResourceIdentifier*) override {
@@ -25,12 +25,12 @@ public:
     }
 };
 
-// Keeps the first of what a parser complains about.
+// Keeps the first error of a parser.
 class FirstComplaint : public xercesc::ErrorHandler {
 public:
     struct Complaint {
         std::string text;
-        Place place;  // as the parser counts
+        Place place;  // the column counts UTF-16 units
     };
 
     void note(std::string text, Place place = {1, 1}) {
@@ -49,10 +49,11 @@ private:
     std::optional<Complaint> complaint_;
 };
 
-// Without grammars it looks at a document's form alone.
-class Reader {
+// A xerces-c parser with hardened settings. Without grammars it checks only that documents are well-formed.
+class HardenedParser {
 public:
-    Reader(xercesc::MemoryManager& memory, xercesc::XMLGrammarPool* grammars) : memory_{memory}, parser_{&memory, grammars} {
+    HardenedParser(xercesc::MemoryManager& memory, xercesc::XMLGrammarPool* grammars)
+        : memory_{memory}, parser_{&memory, grammars} {
         bool const validating = grammars != nullptr;
         parser_.setFeature(xercesc::XMLUni::fgSAX2CoreNameSpaces, true);
         parser_.setFeature(xercesc::XMLUni::fgSAX2CoreValidation, validating);
@@ -102,19 +103,19 @@ private:
 
 class Validator::Parser {
 public:
-    explicit Parser(Schemas const& schemas) : reader_{memory_, &schemas.grammars().pool()}, at_first_{memory_.bytes_in_use()} {}
+    explicit Parser(Schemas const& schemas) : parser_{memory_, &schemas.grammars().pool()}, at_first_{memory_.bytes_in_use()} {}
 
-    std::optional<Objection> read(std::string_view document) { return reader_.read(document); }
+    std::optional<Objection> read(std::string_view document) { return parser_.read(document); }
 
-    bool hoards() const { return memory_.bytes_in_use() > at_first_ + most_in_use || memory_.bytes_kept() > most_kept; }
+    bool is_too_large() const { return memory_.bytes_in_use() > at_first_ + most_in_use || memory_.bytes_kept() > most_kept; }
     std::size_t bytes_in_use() const { return memory_.bytes_in_use(); }
 
 private:
-    static constexpr std::size_t most_in_use = 256 << 10;  // beyond what a new parser uses
-    static constexpr std::size_t most_kept = 2 << 20;
+    static constexpr std::size_t most_in_use = 256 << 10;  // bytes, more than a new parser uses
+    static constexpr std::size_t most_kept = 2 << 20;      // bytes
 
     ParserMemory memory_;
-    Reader reader_;
+    HardenedParser parser_;
     std::size_t at_first_;
 };
 
@@ -125,7 +126,7 @@ Validator::~Validator() = default;
 std::optional<Objection> Validator::objection_to(std::string_view document) {
     if (!parser_) parser_ = std::make_unique<Parser>(*schemas_);
     auto objection = parser_->read(document);
-    if (objection || parser_->hoards()) parser_.reset();
+    if (objection || parser_->is_too_large()) parser_.reset();
     return objection;
 }
 
@@ -133,7 +134,7 @@ std::size_t Validator::bytes_in_use() const { return parser_ ? parser_->bytes_in
 
 std::optional<Objection> objection_to_form(std::string_view document) {
     ParserMemory memory;
-    return Reader{memory, nullptr}.read(document);
+    return HardenedParser{memory, nullptr}.read(document);
 }
 
 }  // namespace rois::xml

@@ -1,5 +1,4 @@
-// Validates with xerces-c, hardened: nothing is fetched, nothing but the given grammars is used, the first error ends it
-// (bad-input 1).
+// Validates with a hardened xerces-c (bad-input 1): fetches nothing, uses only the given grammars, stops at the first error.
 #pragma once
 
 #include <cstddef>
@@ -13,24 +12,23 @@
 
 namespace rois::xml {
 
-// What xerces-c said first against a document, and the offset of the byte at which it stood then.
+// The first error that xerces-c reported, and its offset in bytes.
 struct Objection {
     std::string text;
     std::size_t offset = 0;
 };
 
-// A kept parser, made when it is first needed. After a document that it objects to, and when it hoards memory, it makes way for a
-// new one, because parsers keep the names that they have met (bad-input 2). The bytes are UTF-8 and have passed the scan. For one
-// thread.
+// Keeps a parser, created at the first use. Replaces it after an invalid document, and when it uses too much memory, because
+// xerces-c's parsers keep all names that they have read (bad-input 2). Documents must have passed the scan. Not thread-safe.
 class Validator {
 public:
     explicit Validator(std::shared_ptr<Schemas const>);
     ~Validator();
 
-    // Nothing when the document is valid.
+    // Returns nothing if the document is valid.
     std::optional<Objection> objection_to(std::string_view document);
 
-    // What the parser holds between two documents: bounded, whatever came.
+    // Returns the memory that the parser keeps between two documents. It is bounded.
     std::size_t bytes_in_use() const;
 
 private:
@@ -39,7 +37,7 @@ private:
     std::unique_ptr<Parser> parser_;
 };
 
-// The same without schemas and with a parser of its own, which leaves no trace: what is against the document's form alone.
+// Checks only that the document is well-formed, with a parser of its own.
 std::optional<Objection> objection_to_form(std::string_view document);
 
 }  // namespace rois::xml

@@ -18,8 +18,8 @@ using Definition = xercesc::XSSimpleTypeDefinition;
 
 enum class Understood { yes, no };
 
-// Whether numbers can be compared with this one as doubles. A whole number with more digits than the tables take is beyond them
-// all; a decimal one might round to one of them.
+// Returns whether numbers can be compared with this bound as doubles. A decimal bound with too many digits might round to an
+// accepted number; an integer bound with more digits than the tables accept is beyond all of them.
 bool is_comparable(ValueType const& type, std::string_view bound) {
     constexpr std::size_t most_digits = 15;
     auto const digits = static_cast<std::size_t>(std::ranges::count_if(bound, [](char c) { return c >= '0' && c <= '9'; }));
@@ -73,7 +73,7 @@ bool has_pattern(Definition& type) {
     return patterns != nullptr && patterns->size() > 0;
 }
 
-// Values that may be written as they are, whatever becomes of white space.
+// Keeps the values that need no escaping and do not change when white space is normalised.
 Understood apply_enumeration(ValueType& type, Definition& derived) {
     auto* const values = derived.getLexicalEnumeration();
     if (values == nullptr || values->size() == 0) return Understood::yes;

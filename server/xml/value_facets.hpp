@@ -1,4 +1,4 @@
-// The simple types of XML Schema that the tables know, and what facets make of them.
+// The built-in simple types of XML Schema that the tables support, and types restricted by facets.
 #pragma once
 
 #include <string_view>
@@ -8,10 +8,10 @@
 
 namespace rois::xml {
 
-// A type of XML Schema's own, by its local name; of unknown kind when the tables do not have it.
+// Returns a built-in type by its local name; Kind::unknown if it is not supported.
 ValueType built_in(std::string_view name);
 
-// The base type with the facets of a type derived from it by restriction; of unknown kind when one of them is not understood.
+// Returns the base type restricted by the facets of `derived`; Kind::unknown if a facet is not supported.
 ValueType with_facets(ValueType base, xercesc::XSSimpleTypeDefinition& derived);
 
 }  // namespace rois::xml

@@ -19,7 +19,7 @@ std::string_view trimmed_of_white_space(std::string_view text) {
     return text;
 }
 
-// Takes the digits that the text begins with away; their number.
+// Removes the leading digits and returns their number.
 std::size_t take_digits(std::string_view& text) {
     std::size_t count = 0;
     while (count < text.size() && is_digit(text[count])) ++count;
@@ -33,7 +33,7 @@ bool take(std::string_view& text, char wanted) {
     return true;
 }
 
-// Reads a number of just so many digits; -1 when it is none.
+// Takes a number of exactly `digits` digits. Returns -1 if there is none.
 int take_number(std::string_view& text, std::size_t digits) {
     if (text.size() < digits) return -1;
     int number = 0;
@@ -47,8 +47,8 @@ int take_number(std::string_view& text, std::size_t digits) {
 
 bool within(int number, int least, int most) { return number >= least && number <= most; }
 
-// -1.5E-3 and the like. A few digits only, so that a value is the same whoever reads it, and as a double is exact enough to be
-// compared: up to 15 digits for a decimal, which as doubles keep their order.
+// Accepts numbers such as -1.5E-3. Limits the digits, so that all parsers read the same value: decimals of up to 15 digits keep
+// their order as doubles.
 bool is_number(std::string_view text, ValueType::Notation notation) {
     constexpr std::size_t most_digits_of_decimal = 15, most_digits_of_double = 40, most_digits_of_exponent = 2;
     take(text, '-');
@@ -67,13 +67,13 @@ bool is_number(std::string_view text, ValueType::Notation notation) {
 
 bool take_year(std::string_view& text) { return take_number(text, 4) >= 1; }
 
-// Its number; 0 when it is none.
+// Returns the number of the month, or 0 if it is invalid.
 int take_month(std::string_view& text) {
     auto const month = take(text, '-') ? take_number(text, 2) : 0;
     return within(month, 1, 12) ? month : 0;
 }
 
-// 2026-11-21; the 29th of February is left out.
+// Takes a date such as 2026-11-21. Rejects the 29th of February.
 bool take_date(std::string_view& text) {
     constexpr std::array<int, 13> days{0, 31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
     if (!take_year(text)) return false;
@@ -89,14 +89,14 @@ bool take_time(std::string_view& text) {
     return !take(text, '.') || within(static_cast<int>(take_digits(text)), 1, most_digits);
 }
 
-// Nothing, Z or +01:30, and then the end.
+// Returns whether the rest of the text is a time zone: nothing, Z or +01:30.
 bool ends_with_zone(std::string_view text) {
     if (text.empty() || text == "Z") return true;
     if (!take(text, '+') && !take(text, '-')) return false;
     return within(take_number(text, 2), 0, 13) && take(text, ':') && within(take_number(text, 2), 0, 59) && text.empty();
 }
 
-// Numbers, each with its unit, in the order of the units; how many.
+// Takes numbers with their units, in the order of `units`. Returns how many.
 std::size_t take_parts_of_duration(std::string_view& text, std::string_view units) {
     constexpr std::size_t most_digits = 6;
     std::size_t parts = 0;
@@ -155,7 +155,7 @@ bool ValueType::accepts(std::string_view text) const {
 
 bool ValueType::accepts_text(std::string_view text) const {
     if (takes_any_text()) return true;
-    // A character is a byte, and stays as it is whatever becomes of white space.
+    // Such a character is one byte, and normalising white space does not change it.
     auto const plain = [](char c) { return c > ' ' && c < 0x7F && c != '&' && c != ']'; };
     if (has_length() && (text.size() < least || text.size() > most || !std::ranges::all_of(text, plain))) return false;
     if (enumeration.empty()) return true;
@@ -185,7 +185,7 @@ bool ValueType::accepts_list(std::string_view text) const {
     }
 }
 
-// Each member has its own idea of white space; without any they agree.
+// Members normalise white space differently, so that texts with white space are left to xerces-c.
 bool ValueType::accepts_alternative(std::string_view text) const {
     if (std::ranges::any_of(text, is_white_space)) return false;
     return std::ranges::any_of(members,

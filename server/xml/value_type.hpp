@@ -1,4 +1,5 @@
-// A simple type of the schemas as the tables have it: it accepts some of the type's values, and never what is none.
+// A simple type of the schemas, in the tables. Conservative: may reject a valid value (xerces-c then decides), but never accepts
+// an invalid one.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +14,16 @@ namespace rois::xml {
 
 struct ValueType {
     enum class Kind : std::uint8_t {
-        unknown,  // a type, a facet or a combination of them that the tables do not know: accepts nothing
+        unknown,  // an unsupported type, facet or combination: accepts nothing
         text,
-        form,  // told by how it is written: booleans, times, names
+        form,  // checked by `has_form`: booleans, times, names
         number,
-        id,              // xsd:ID: a name; that no other one is the same is for the caller to see
-        qualified_name,  // xsd:QName: its form; that the prefix is declared is for the caller to see
+        id,              // xsd:ID: a name; the caller checks that it is unique
+        qualified_name,  // xsd:QName: only its form; the caller checks that the prefix is declared
         list,
         alternatives,  // xsd:union
     };
-    enum class Notation : std::uint8_t { integer, decimal, floating };  // how a number may be written
+    enum class Notation : std::uint8_t { integer, decimal, floating };
 
     struct Bound {
         double value = 0;
@@ -30,20 +31,20 @@ struct ValueType {
     };
 
     Kind kind = Kind::unknown;
-    bool (*has_form)(std::string_view) = nullptr;  // of Kind::form; without white space around
-    bool collapse = false;                         // white space around a text does not count
-    std::vector<std::string> enumeration;          // of texts; empty: any
+    bool (*has_form)(std::string_view) = nullptr;  // of Kind::form; takes the trimmed text
+    bool collapse = false;                         // ignore white space around a text
+    std::vector<std::string> enumeration;          // of Kind::text; empty: any text
     std::size_t least = 0;                         // characters of a text, items of a list
     std::size_t most = std::numeric_limits<std::size_t>::max();
     Notation notation = Notation::floating;
     std::optional<Bound> lower, upper;
-    std::vector<ValueType const*> members;  // of alternatives; of a list the type of its items
+    std::vector<ValueType const*> members;  // of alternatives; of a list: the type of its items
 
-    // Whether every text is a value, with references and all.
+    // Returns whether every text is a value, including texts with references.
     bool takes_any_text() const { return kind == Kind::text && enumeration.empty() && !has_length(); }
 
-    // Whether the text, as it stands in the document, is a value for sure. What it accepts of a type that does not take any text
-    // holds no reference, no markup and no "]]>".
+    // Returns whether the raw text of the document is certainly a value. If the type does not take any text, an accepted text
+    // contains no reference, no markup and no "]]>".
     bool accepts(std::string_view text) const;
 
 private:
@@ -54,7 +55,7 @@ private:
     bool accepts_alternative(std::string_view) const;
 };
 
-// Forms of XML Schema's types; each knows the usual values of its type only.
+// Check the form of XML Schema's types. Each accepts only the usual values of its type.
 bool is_boolean(std::string_view);
 bool is_date_time(std::string_view);
 bool is_date(std::string_view);

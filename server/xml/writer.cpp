@@ -14,11 +14,11 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD, for what XML cannot carry
+constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD, for characters that XML does not allow
 
 enum class Place { text, attribute };
 
-// How a character must be written here; empty when as it is.
+// Returns how a character is escaped here; empty if it needs no escaping.
 constexpr std::string_view escaped(char c, Place place) {
     switch (c) {
         case '<':
@@ -42,7 +42,7 @@ constexpr std::string_view escaped(char c, Place place) {
 
 using Table = std::array<bool, 256>;
 
-// The bytes that stand for themselves, wherever they are.
+// The ASCII characters that need no escaping.
 constexpr Table plain(Place place) {
     Table table{};
     for (std::size_t c = ' '; c < 0x80; ++c) table[c] = escaped(static_cast<char>(c), place).empty();
@@ -60,7 +60,7 @@ bool is_plain(std::string_view value, Place place) {
 
 void Writer::grow(std::size_t wanted) { text_.resize(std::max(length_ + wanted, text_.size() * 2)); }
 
-// One piece after the other, with one look at the room that is left.
+// Appends the pieces, and checks the size of the buffer only once.
 template <class... Pieces>
 void Writer::append(Pieces const&... pieces) {
     auto const wanted = (std::string_view{pieces}.size() + ...);

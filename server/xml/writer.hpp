@@ -1,4 +1,4 @@
-// Writes a document. What is written is well-formed whatever the values are.
+// Writes an XML document. Escapes all values, so that the document is well-formed.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,20 @@ class Writer {
 public:
     Writer() : text_(usual_length, '\0') { open_.reserve(usual_depth); }
 
-    // Names are literals of ours: they are not checked, and must outlive the element.
+    // Names must be string literals: they are not checked, and must outlive the element.
     Writer& start(std::string_view element);
     Writer& attribute(std::string_view name, std::string_view value);
     Writer& attribute(std::string_view name, std::uint64_t value);
     Writer& attribute_unless_empty(std::string_view name, std::string_view value);
-    // A literal of ours, as the names are.
+    // Does not escape `value`, which must need no escaping.
     Writer& constant(std::string_view name, std::string_view value);
     Writer& text(std::string_view);
     Writer& end();
 
-    // An element with nothing but text.
+    // Writes an element that contains only text.
     Writer& element(std::string_view name, std::string_view text) { return start(name).text(text).end(); }
 
-    // What was written, whose elements have all ended.
+    // Returns the document. All elements must have ended.
     std::string written() && {
         text_.resize(length_);
         return std::move(text_);
@@ -40,13 +40,13 @@ private:
     void append_unusual(std::string_view value, bool in_attribute);
     void grow(std::size_t wanted);
 
-    std::string text_;  // as much as there is room for
+    std::string text_;  // a buffer, of which `length_` bytes are written
     std::size_t length_ = 0;
     std::vector<std::string_view> open_;
     bool in_start_tag_ = false;
 };
 
-// The shortest text that reads back as the same number, in the form of xsd:double.
+// Returns the shortest xsd:double that reads back as the same number.
 std::string number_text(double);
 
 }  // namespace rois::xml

@@ -1,4 +1,4 @@
-// Between the texts of xerces-c (UTF-16) and ours (UTF-8).
+// Converts between UTF-8 and the UTF-16 texts of xerces-c.
 #pragma once
 
 #include <string>

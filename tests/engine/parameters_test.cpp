@@ -103,9 +103,10 @@ TEST_F(Lamp, RefusesTheWrongDeclaredType) {
 }
 
 TEST_F(Lamp, RefusesTheWrongCount) {
-    EXPECT_THAT(set(value("count", "int", {"1", "2"})), HasSubstr("needs exactly one value, here are 2"));
-    EXPECT_THAT(set(value("count", "int", {})), HasSubstr("needs exactly one value, here are 0"));
-    EXPECT_THAT(set(value("counts", "int[]", {"1", "2"})), HasSubstr("has one value, its items separated by spaces"));
+    EXPECT_THAT(set(value("count", "int", {"1", "2"})), HasSubstr("needs exactly one value, got 2"));
+    EXPECT_THAT(set(value("count", "int", {})), HasSubstr("needs exactly one value, got 0"));
+    EXPECT_THAT(set(value("counts", "int[]", {"1", "2"})),
+                HasSubstr("is one value with items separated by spaces, got 2 values"));
 }
 
 TEST_F(Lamp, RefusesUnknownAndDuplicateParameters) {

@@ -1,8 +1,8 @@
 #!/bin/sh
-# Judges the profiles and the samples with libxml2, which knows nothing of the server: every profile and every sample in valid/ must
-# be valid, every one in invalid/ must not. Also checks that invalid/manifest.tsv (file, line of the offending start tag, what is
-# wrong; tab-separated) lists each invalid sample once and that a start tag begins on its line. Every XML example in a document (*.md)
-# must be well-formed, with all prefixes declared: one document, or one a line. Exits with 1 when anything is wrong.
+# Validates the profiles and the samples with libxml2, independently of the server: profiles and samples in valid/ must be valid,
+# samples in invalid/ must be invalid. Also checks that invalid/manifest.tsv (file, line of the offending start tag, error;
+# tab-separated) lists each invalid sample once, and that a start tag begins on its line. Every XML example in a document (*.md) must
+# be well-formed, with all prefixes declared: one document, or one per line. Exits with 1 after any error.
 set -u
 
 schemas=$(cd "$(dirname "$0")/../../schemas" && pwd) || exit 1
@@ -23,7 +23,7 @@ complain() {
     failed=$((failed + 1))
 }
 
-# judge SCHEMA VERDICT FILE...: xmllint must say "FILE VERDICT" of each; what it says otherwise is shown.
+# judge SCHEMA VERDICT FILE...: xmllint must print "FILE VERDICT" for each file. Otherwise shows its output.
 judge() {
     schema=$1
     verdict=$2
@@ -32,7 +32,7 @@ judge() {
     for file in "$@"; do
         checked=$((checked + 1))
         if ! grep -qxF "$file $verdict" "$verdicts"; then
-            complain "$file: expected that it $verdict with $schema"
+            complain "$file: expected: $verdict with $schema"
             grep -F "$file" "$verdicts"
         fi
     done
@@ -49,7 +49,7 @@ tab=$(printf '\t')
 while IFS="$tab" read -r file line what; do
     checked=$((checked + 1))
     if [ -z "$what" ]; then
-        complain "manifest.tsv: $file: three columns are due"
+        complain "manifest.tsv: $file: expected three columns"
     elif ! sed -n "${line}p" "samples/invalid/$file" | grep -q '<[A-Za-z]'; then
         complain "manifest.tsv: $file: no start tag in line $line"
     fi
@@ -59,7 +59,7 @@ for file in samples/invalid/*.xml; do
     [ "$listed" -eq 1 ] || complain "manifest.tsv: $(basename "$file") is listed $listed times"
 done
 
-# What xmllint says of standard input; nothing if it is well-formed. Its exit status does not report undeclared prefixes.
+# Prints the errors in standard input; nothing if it is well-formed. The exit status of xmllint ignores undeclared prefixes.
 faults() { xmllint --nonet --noout - 2>&1; }
 
 # Writes each example to a file named by its line.

@@ -78,7 +78,7 @@ TEST(CheckProfiles, WarnsOfTypesThatNobodyKnowsAsTheStartDoes) {
                                          "</rois:ParameterProfile>"));
     auto const ended = run_gateway({"--check-profiles", folder.name()});
     EXPECT_EQ(ended.exit_code, 0) << ended.out;
-    std::string const finding = "a.xml:4:1: the data type 'Shade' of 'p' is not known: its values are not checked\n";
+    std::string const finding = "a.xml:4:1: unknown data type 'Shade' of 'p': its values are not checked\n";
     EXPECT_THAT(ended.out, HasSubstr("warning: " + finding));
     GatewayProcess gateway{{"--profiles", folder.name()}};
     gateway.signal(SIGTERM);

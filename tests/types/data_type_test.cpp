@@ -1,4 +1,4 @@
-// Decision 26: which texts are of which type.
+// Decision 26: data types and their values.
 #include "types/data_type.hpp"
 
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ DataType type(std::string const& code) {
     return DataType::of({.code = code, .authority = {}, .codebook_ref = {}, .version = {}});
 }
 
-// Whether one value, or these, are of the type.
+// Return whether the value, or the values, are valid for the type.
 bool is(std::string const& code, std::string const& value) { return !why_not(type(code), std::vector{value}); }
 bool are(std::string const& code, std::vector<std::string> const& values) { return !why_not(type(code), values); }
 std::string reason(std::string const& code, std::vector<std::string> const& values) {
@@ -25,7 +25,7 @@ std::string reason(std::string const& code, std::vector<std::string> const& valu
 
 }  // namespace
 
-TEST(DataType, IsKnownInAnyCaseAndUnderItsOtherNames) {
+TEST(DataType, IsRecognizedInAnyCaseAndByAllItsNames) {
     for (auto const* code : {"int", "INT", "integer", " Integer ", "UnlimitedNatural", "urn:x-rois:def:DataType:ATR::Integer",
                              "URN:X-ROIS:DEF:DATATYPE:atr::int"})
         EXPECT_EQ(type(code), type("int")) << code;
@@ -40,7 +40,7 @@ TEST(DataType, IsKnownInAnyCaseAndUnderItsOtherNames) {
         EXPECT_EQ(type(code), type("Stream_Status")) << code;
 }
 
-TEST(DataType, IsKnownAsProgramsAndSchemasCallIt) {
+TEST(DataType, IsRecognizedByItsNamesInProgramsAndSchemas) {
     for (auto const* code : {"long", "Long", "xsd:int", "xs:integer", "xsd:long", "xs:unsignedInt", "xs:nonNegativeInteger",
                              "xsd:short", "urn:x-other:types:int", "http://www.w3.org/2001/XMLSchema#int"})
         EXPECT_EQ(type(code), type("int")) << code;
@@ -66,7 +66,7 @@ TEST(DataType, IsAListInAnyForm) {
     EXPECT_FALSE(type("Map<int>").list);
 }
 
-TEST(DataType, IsKnownOrIsAnyText) {
+TEST(DataType, IsKnownIfItIsDefined) {
     for (auto const* code : {"int", "Set<Date>", "string[]", "NBestType", "urn:x-rois:def:DataType:OMG::LatticeType"})
         EXPECT_TRUE(is_known(type(code))) << code;
     for (auto const* code : {"Shade", "Shade[]", "urn:x-other:Shade", "Map<int>"}) EXPECT_FALSE(is_known(type(code))) << code;
@@ -88,7 +88,7 @@ TEST(DataType, WholeNumbersHaveTheRangeOfTheirName) {
     EXPECT_FALSE(is("byte", "-129"));
 }
 
-TEST(DataType, DatesAndTimesOfDayExist) {
+TEST(DataType, DatesAndTimesMustExist) {
     for (auto const* text : {"2026-11-20", " 2024-02-29 ", "2026-11-20Z", "2026-11-20+09:00"})
         EXPECT_TRUE(is("Date", text)) << text;
     for (auto const* text : {"", "2026-02-30", "2026-11", "2026-11-20T12:00:00Z", "2026-11-20z", "20 November"})
@@ -98,14 +98,14 @@ TEST(DataType, DatesAndTimesOfDayExist) {
         EXPECT_FALSE(is("Time", text)) << text;
 }
 
-TEST(DataType, IsWrittenUnderItsFirstName) {
+TEST(DataType, IsWrittenWithItsCanonicalName) {
     EXPECT_EQ(to_text(type("urn:x-rois:def:DataType:ATR::Integer")), "int");
     EXPECT_EQ(to_text(type("REAL[]")), "double[]");
     EXPECT_EQ(to_text(type("Shade")), "Shade");
     EXPECT_EQ(to_text(type("urn:x-rois:def:DataType:ATR::Shade[]")), "Shade[]");
 }
 
-TEST(DataType, OfOneKindOnlyIsEqual) {
+TEST(DataType, ComparesBaseListAndUserDefinedName) {
     EXPECT_NE(type("int"), type("double"));
     EXPECT_NE(type("int"), type("int[]"));
     EXPECT_EQ(type("int[]"), type("urn:x-rois:def:DataType:ATR::Integer[]"));
@@ -136,11 +136,11 @@ TEST(DataType, BoolIsThatOfXmlSchema) {
     for (auto const* text : {"", "True", "FALSE", "yes", "2", "true false"}) EXPECT_FALSE(is("bool", text)) << text;
 }
 
-TEST(DataType, StringTakesAnything) {
+TEST(DataType, StringAcceptsAnyText) {
     for (auto const* text : {"", " ", "a b", "\xE3\x81\x82"}) EXPECT_TRUE(is("string", text)) << text;
 }
 
-TEST(DataType, DateTimeIsADayThatExists) {
+TEST(DataType, DateTimeMustExist) {
     for (auto const* text : {"2026-11-20T12:00:00Z", "2026-11-20T12:00:00.1Z", "2026-11-20T12:00:00.123456789Z",
                              " 2026-11-20T12:00:00Z ", "2024-02-29T23:59:59Z", "2000-02-29T00:00:00Z"})
         EXPECT_TRUE(is("DateTime", text)) << text;
@@ -157,12 +157,12 @@ TEST(DataType, DateTimeMayHaveAnOffset) {
     for (auto const* offset :
          {"+9:00", "+0900", "+09", "09:00", "+14:01", "+15:00", "+99:99", "-23:00", "+09:60", "+09:00Z", "+aa:00"})
         EXPECT_FALSE(is("DateTime", std::string{"2026-11-20T12:00:00.5"} + offset)) << offset;
-    EXPECT_FALSE(is("DateTime", "0001-01-01T00:00:00+01:00")) << "in UTC its year has not four digits";
+    EXPECT_FALSE(is("DateTime", "0001-01-01T00:00:00+01:00")) << "its year in UTC does not have four digits";
     EXPECT_FALSE(is("DateTime", "9999-12-31T23:59:59-01:00"));
     EXPECT_TRUE(is("DateTime", "9999-12-31T23:59:59+01:00"));
 }
 
-TEST(DataType, IdentifierIsACode) {
+TEST(DataType, IdentifierMustNotBeEmpty) {
     EXPECT_TRUE(is("RoISIdentifier", "visitor_1"));
     EXPECT_TRUE(is("RoISIdentifier", "urn:x-test:visitor 1"));
     EXPECT_FALSE(is("RoISIdentifier", ""));
@@ -185,16 +185,16 @@ TEST(DataType, StreamStatusIsOneOfFive) {
     EXPECT_EQ(reason("stream_status[]", {"FINE"}), "'FINE' is not of the type Stream_Status");
 }
 
-TEST(DataType, OfItsOwnTakesAnything) { EXPECT_TRUE(is("Shade", "red")); }
+TEST(DataType, UserDefinedTypesAcceptAnyText) { EXPECT_TRUE(is("Shade", "red")); }
 
 TEST(DataType, ASingleValueNeedsExactlyOne) {
     for (auto const* code : {"int", "double", "bool", "string", "DateTime", "RoISIdentifier", "Component_Status", "Shade"}) {
-        EXPECT_THAT(reason(code, {}), HasSubstr("needs exactly one value, here are 0")) << code;
-        EXPECT_THAT(reason(code, {"1", "1"}), HasSubstr("needs exactly one value, here are 2")) << code;
+        EXPECT_THAT(reason(code, {}), HasSubstr("needs exactly one value, got 0")) << code;
+        EXPECT_THAT(reason(code, {"1", "1"}), HasSubstr("needs exactly one value, got 2")) << code;
     }
 }
 
-TEST(DataType, ListsOfNumbersAndBoolsAreOneText) {
+TEST(DataType, ListsOfNumbersAndBoolsAreOneValue) {
     EXPECT_TRUE(are("int[]", {}));
     EXPECT_TRUE(are("int[]", {""}));
     EXPECT_TRUE(are("int[]", {"  "}));
@@ -208,7 +208,7 @@ TEST(DataType, ListsOfNumbersAndBoolsAreOneText) {
     EXPECT_EQ(reason("int[]", {"1 2147483648 x"}), "'2147483648' is not of the type int");
 }
 
-TEST(DataType, ListsOfOtherTypesAreATextEach) {
+TEST(DataType, ListsOfOtherTypesHaveOneValuePerItem) {
     EXPECT_TRUE(are("string[]", {}));
     EXPECT_TRUE(are("string[]", {"", "one two"}));
     EXPECT_TRUE(are("DateTime[]", {"2026-11-20T12:00:00Z", "2026-11-21T12:00:00Z"}));
@@ -220,7 +220,7 @@ TEST(DataType, ListsOfOtherTypesAreATextEach) {
     EXPECT_EQ(reason("Component_Status[]", {"READY", "FINE"}), "'FINE' is not of the type Component_Status");
 }
 
-TEST(DataType, DefaultsAreOneTextOrAnItemEach) {
+TEST(DataType, DefaultsAreOneValueOrOnePerItem) {
     auto const values = [](std::string code, std::string_view text) {
         return default_values({.code = std::move(code), .authority = {}, .codebook_ref = {}, .version = {}}, text);
     };

@@ -1,4 +1,4 @@
-// Profiles and the sub profiles that they include.
+// Profiles and their sub components.
 #include "types/profiles.hpp"
 
 #include <gmock/gmock.h>
@@ -39,7 +39,7 @@ std::vector<std::string> names(auto const& list) {
 
 }  // namespace
 
-TEST(Flattened, HasTheMessagesOfItsPartsAfterItsOwn) {
+TEST(Flattened, HasTheMessagesOfSubComponentsAfterItsOwn) {
     std::vector const known{profile({"urn:base", {}, {"start", "stop"}, {"volume"}}),
                             profile({"urn:middle", {"urn:base"}, {"pause"}, {"language"}})};
     auto const whole = flattened(profile({"urn:top", {"URN:Middle "}, {"speak"}, {"text"}}), known);
@@ -49,7 +49,7 @@ TEST(Flattened, HasTheMessagesOfItsPartsAfterItsOwn) {
     EXPECT_THAT(whole.sub_components, ElementsAre("URN:Middle "));
 }
 
-TEST(Flattened, HasANameOnceAndItsOwnFirst) {
+TEST(Flattened, HasUniqueNamesAndItsOwnFirst) {
     std::vector const known{profile({"urn:base", {}, {"start"}, {"Volume", "pitch"}})};
     auto const whole = flattened(profile({"urn:top", {"urn:base"}, {"start"}, {"volume"}}), known);
     EXPECT_THAT(names(whole.messages), ElementsAre("start"));
@@ -57,7 +57,7 @@ TEST(Flattened, HasANameOnceAndItsOwnFirst) {
     EXPECT_EQ(whole.parameters.front().description, "urn:top");
 }
 
-TEST(Flattened, SaysTheSameOfAParameterInAllMessages) {
+TEST(Flattened, UsesTheFirstDefinitionOfAParameterInAllMessages) {
     auto const parameter = [](std::string name, std::string type, std::optional<std::string> value) {
         return ParameterProfile{.name = std::move(name),
                                 .data_type_ref = {.code = std::move(type), .authority = {}, .codebook_ref = {}, .version = {}},
@@ -97,14 +97,14 @@ TEST(Flattened, SaysTheSameOfAParameterInAllMessages) {
     EXPECT_THAT(said(flattened(sets, {base}).parameters), ElementsAre("string none", "int 3"));
 }
 
-TEST(Flattened, MayIncludeAPartOnTwoWays) {
+TEST(Flattened, MayIncludeASubComponentTwice) {
     std::vector const known{profile({"urn:base", {}, {"start"}}), profile({"urn:left", {"urn:base"}, {"l"}}),
                             profile({"urn:right", {"urn:base"}, {"r"}})};
     EXPECT_THAT(names(flattened(profile({"urn:top", {"urn:left", "urn:right"}}), known).messages),
                 ElementsAre("l", "start", "r"));
 }
 
-TEST(Flattened, NamesThePartThatIsUnknown) {
+TEST(Flattened, ThrowsForAnUnknownSubComponent) {
     EXPECT_THAT(
         [] {
             flattened(profile({"urn:top", {"urn:gone"}}), {});
@@ -112,7 +112,7 @@ TEST(Flattened, NamesThePartThatIsUnknown) {
         ThrowsMessage<std::runtime_error>("no component profile 'urn:gone' is known"));
 }
 
-TEST(Flattened, NamesThePartThatIncludesItself) {
+TEST(Flattened, ThrowsForAProfileThatIncludesItself) {
     std::vector const known{profile({"urn:a", {"urn:b"}}), profile({"urn:b", {"urn:a"}}), profile({"urn:self", {"urn:self"}})};
     EXPECT_THAT([&] { flattened(known[0], known); }, ThrowsMessage<std::runtime_error>(HasSubstr("includes itself")));
     EXPECT_THAT(
@@ -129,7 +129,7 @@ TEST(Profile, IsFoundByUrnOrName) {
     EXPECT_EQ(find_profile(known, " URN:X-ROIS:DEF:Component:omg::roiscommon "), &known[0]);
     for (auto const* name : {"RoISCommon", "RoIS_Common", "roiscommon"}) EXPECT_EQ(find_profile(known, name), &known[0]) << name;
     for (auto const* name : {"Lamp", "DeskLamp", "desk_lamp"}) EXPECT_EQ(find_profile(known, name), &known[1]) << name;
-    EXPECT_EQ(find_profile(known, "urn:x-rois:def:component:OMG::Lamp"), nullptr) << "another authority's";
+    EXPECT_EQ(find_profile(known, "urn:x-rois:def:component:OMG::Lamp"), nullptr) << "the authority differs";
     EXPECT_EQ(find_profile(known, ""), nullptr);
     EXPECT_EQ(find_profile(known, "a"), &known[2]);
 }

@@ -10,8 +10,8 @@ TEST(Texts, AreEqualIgnoringTheCaseOfAscii) {
     EXPECT_TRUE(equal_ignoring_case("", ""));
     EXPECT_TRUE(equal_ignoring_case("SSML_text", "ssml_TEXT"));
     EXPECT_FALSE(equal_ignoring_case("a", "ab"));
-    EXPECT_FALSE(equal_ignoring_case("[", "{")) << "these differ by the bit that makes letters small";
-    EXPECT_FALSE(equal_ignoring_case("\xC3\x84", "\xC3\xA4")) << "no letters of ASCII";
+    EXPECT_FALSE(equal_ignoring_case("[", "{")) << "they differ only in the bit of the case";
+    EXPECT_FALSE(equal_ignoring_case("\xC3\x84", "\xC3\xA4")) << "not letters of ASCII";
     EXPECT_EQ(lower_case("OMG::Navigation \xC3\x84"), "omg::navigation \xC3\x84");
 }
 
@@ -22,7 +22,7 @@ TEST(Texts, AreTrimmedOfTheWhiteSpaceOfXml) {
     EXPECT_EQ(trimmed("\v a"), "\v a");
 }
 
-TEST(Texts, AreNumbersAsAWhole) {
+TEST(Texts, AreNumbersOnlyAsAWhole) {
     EXPECT_EQ(to_int(" +5 "), 5);
     EXPECT_EQ(to_int("-2147483648"), -2147483648);
     EXPECT_EQ(to_int("2147483648"), std::nullopt);
@@ -56,13 +56,13 @@ TEST(Texts, AreQuotedOnOneLineOfUtf8) {
     EXPECT_EQ(quoted("\xC3\xA9\xE2\x82\xAC\xF0\x9F\x99\x82"), "'\xC3\xA9\xE2\x82\xAC\xF0\x9F\x99\x82'");
 }
 
-TEST(Texts, AreQuotedAtABearableLength) {
+TEST(Texts, AreCutWhenTheyAreQuoted) {
     EXPECT_EQ(quoted("abcdef", 6), "'abcdef'");
     EXPECT_EQ(quoted("abcdefg", 6), "'abcdef...'");
     std::string_view const long_text =
         "0123456789012345678901234567890123456789012345678901234567890123456789012345678901234567890";
     EXPECT_EQ(quoted(long_text), "'" + std::string{long_text.substr(0, 80)} + "...'");
-    EXPECT_EQ(quoted("ab\xE3\x81\x82", 4), "'ab...'") << "no character is cut";
+    EXPECT_EQ(quoted("ab\xE3\x81\x82", 4), "'ab...'") << "whole characters only";
     EXPECT_EQ(quoted("ab\xE3\x81\x82", 5), "'ab\xE3\x81\x82'");
     EXPECT_EQ(quoted("\xE3\x81\x82", 1), "'...'");
 }
@@ -72,12 +72,12 @@ TEST(Texts, FoldTheCaseOfManyScripts) {
     EXPECT_EQ(folded_case("GRÜẞE ÉCOLE ŁÓDŹ Ÿ"), folded_case("grüße école łódź ÿ"));
     EXPECT_EQ(folded_case("ΑΘΉΝΑΣ ΈΊΌΎΏ"), folded_case("αθήνας έίόύώ"));
     EXPECT_EQ(folded_case("МОСКВА Ёлка"), "москва ёлка");
-    EXPECT_EQ(folded_case("ＲｏＩＳ"), "ｒｏｉｓ") << "full-width, as Japanese texts have it";
-    EXPECT_EQ(folded_case("受付はこちらです ×÷"), "受付はこちらです ×÷") << "what has no case stays";
-    EXPECT_EQ(folded_case("a\xFFZ\xC3"), "a\xFFz\xC3") << "and so do bytes that are no text";
+    EXPECT_EQ(folded_case("ＲｏＩＳ"), "ｒｏｉｓ") << "full-width";
+    EXPECT_EQ(folded_case("受付はこちらです ×÷"), "受付はこちらです ×÷") << "characters without case are unchanged";
+    EXPECT_EQ(folded_case("a\xFFZ\xC3"), "a\xFFz\xC3") << "invalid bytes are unchanged";
 }
 
-TEST(Texts, AreTakenApartIntoCharacters) {
+TEST(Texts, AreSplitIntoCharacters) {
     std::string_view text = "a\u00E9\u3042\U0001F600\xFF";
     EXPECT_EQ(take_character(text), U'a');
     EXPECT_EQ(take_character(text), U'\u00E9');

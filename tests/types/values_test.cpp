@@ -1,4 +1,4 @@
-// The makers of parameters, the codes and their texts, and conditions as values.
+// Functions that make parameters, codes and their texts, and the comparison of conditions.
 #include "types/values.hpp"
 
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@ namespace rois {
 
 using testing::ElementsAre;
 
-TEST(Values, AreMadeWithTheTypesThatProfilesName) {
+TEST(Values, HaveTheTypeCodesOfTheProfiles) {
     auto const type_and_values = [](Parameter const& p) {
         auto words = p.name + ":" + p.data_type_ref.code;
         for (auto const& value : p.values) words += " " + value;
@@ -30,14 +30,14 @@ TEST(Values, AreMadeWithTheTypesThatProfilesName) {
     EXPECT_EQ(type_and_values(positions("position", {"1, 2, 3"}, "hall")), "position:string[] 1, 2, 3");
 }
 
-TEST(Values, AreOfTheTypesThatTheyAreMadeWith) {
+TEST(Values, AreValidForTheirTypes) {
     for (auto const& p :
          {integer("a", 2147483647), boolean("a", true), text("a", ""), texts("a", {}), date_time("a", Utc{}),
           status_of("a", ComponentStatus::ready), reference("a", "x"), references("a", {}), positions("a", {}, "")})
         EXPECT_EQ(why_not(DataType::of(p.data_type_ref), p.values), std::nullopt) << p.data_type_ref.code;
 }
 
-TEST(Values, NameTheirCodebook) {
+TEST(Values, HaveTheirCodebook) {
     EXPECT_EQ(reference("person_ref", "p1", "urn:visitors").data_type_ref.codebook_ref, "urn:visitors");
     EXPECT_EQ(references("person_ref", {}, "urn:visitors").data_type_ref.codebook_ref, "urn:visitors");
     EXPECT_EQ(positions("position", {}, "hall").data_type_ref.codebook_ref, "hall");

@@ -1,4 +1,4 @@
-// Which documents go the fast way, and that this makes no difference but time.
+// The acceptor: which documents it accepts, and that its answers are those of the full validation.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -16,7 +16,7 @@ using Outcome = fuzz::Comparison::Outcome;
 
 bool accepted(std::string_view text, DocumentLimits limits = {}) { return Acceptor{schemas(), limits}.accepts(text); }
 
-TEST(Acceptor, TakesTheSamplesOfAllOperations) {
+TEST(Acceptor, AcceptsTheSamplesOfAllOperations) {
     std::set<std::size_t> operations;
     for (auto const& entry : std::filesystem::directory_iterator{samples() / "valid"}) {
         auto const text = file(entry.path());
@@ -28,7 +28,7 @@ TEST(Acceptor, TakesTheSamplesOfAllOperations) {
     EXPECT_EQ(operations.size(), std::variant_size_v<Operation>);
 }
 
-TEST(Acceptor, TakesAllProfiles) {
+TEST(Acceptor, AcceptsAllProfiles) {
     std::filesystem::path const root{ROIS_SOURCE_DIR};
     std::size_t profiles = 0;
     for (auto const& folder : {root / "schemas" / "profiles", root / "components" / "simulation" / "profiles"}) {
@@ -40,7 +40,7 @@ TEST(Acceptor, TakesAllProfiles) {
     EXPECT_GT(profiles, 20u);
 }
 
-TEST(Acceptor, TakesWhatOtherWritersWrite) {
+TEST(Acceptor, AcceptsCommonWaysToWriteXml) {
     auto const* const bind = R"(bind xmlns="urn:x-rois:psm:xml:message:1" xmlns:r="http://www.omg.org/spec/RoIS/20240801")";
     for (std::string const& text : std::initializer_list<std::string>{
              std::string{R"(<?xml version="1.0" encoding="UTF-8"?>)"} + "\n" + document("connect"),
@@ -56,7 +56,7 @@ TEST(Acceptor, TakesWhatOtherWritersWrite) {
     }
 }
 
-TEST(Acceptor, LeavesTheUnusualToXerces) {
+TEST(Acceptor, LeavesUnusualXmlToXerces) {
     auto const old = [](std::string text) { return text.replace(text.find("20240801"), 8, "20151201"); };
     for (auto const& text :
          {"\xEF\xBB\xBF" + document("connect"), "<?xml version='1.0' standalone='yes'?>" + document("connect"),
@@ -70,7 +70,7 @@ TEST(Acceptor, LeavesTheUnusualToXerces) {
     }
 }
 
-// The root, what is around, and so many.
+// Returns a request with `depth` nested Not elements.
 std::string nested(std::size_t depth) {
     std::string text;
     for (std::size_t i = 0; i < depth; ++i) text += "<fes:Not>";
@@ -79,7 +79,7 @@ std::string nested(std::size_t depth) {
     return document("search", "<condition><fes:Filter>" + text + "</fes:Filter></condition>");
 }
 
-TEST(Acceptor, KeepsTheLimits) {
+TEST(Acceptor, EnforcesTheLimits) {
     EXPECT_TRUE(accepted(nested(59)));
     EXPECT_FALSE(accepted(nested(60)));
     EXPECT_TRUE(accepted(nested(2), {.depth = 7}));
@@ -110,8 +110,8 @@ TEST(Acceptor, KeepsTheLimits) {
     }
 }
 
-// Start tags that were seen before are taken as a whole (KnownTag): with the verdict and the tree of the first time.
-TEST(Acceptor, SeesADocumentAsIfItWereItsFirst) {
+// The acceptor takes repeated start tags as a whole (KnownTag). Verdict and tree must not change.
+TEST(Acceptor, ReadsEveryDocumentLikeTheFirst) {
     auto const fes = [](std::string const& prefix, std::string const& name_space, std::string const& inside) {
         return "<search xmlns='urn:x-rois:psm:xml:message:1' xmlns:" + prefix + "='http://www.opengis.net/" + name_space + "'>" +
                inside + "</search>";
@@ -161,8 +161,7 @@ TEST(Acceptor, SeesADocumentAsIfItWereItsFirst) {
     EXPECT_FALSE(kept.accepts(documents.at(5)));
 }
 
-// As known ones, too.
-TEST(Acceptor, KeepsTheLimitsOfWhatItHasSeen) {
+TEST(Acceptor, EnforcesTheLimitsForCachedTags) {
     Acceptor deep{schemas(), {.depth = 7}}, many{schemas(), {.elements = 7}};
     for (auto* const each : {&deep, &many}) {
         for (int twice = 0; twice < 2; ++twice) {
@@ -172,8 +171,8 @@ TEST(Acceptor, KeepsTheLimitsOfWhatItHasSeen) {
     }
 }
 
-// Whoever reads, the verdict, its words and its place are the same.
-TEST(Acceptor, MakesNoDifference) {
+// Verdict, reason and place must be the same.
+TEST(Acceptor, GivesTheSameAnswersAsFullValidation) {
     RequestReader fast{schemas()}, full{schemas(), {}, Validation::full};
     std::map<Validation, std::size_t> ways;
     for (auto const& text : fuzz::samples()) {
@@ -194,8 +193,8 @@ TEST(Acceptor, MakesNoDifference) {
     EXPECT_FALSE(fast.checked());
 }
 
-// As fuzz-validator does with millions.
-TEST(Acceptor, NeverAcceptsWhatXercesDoesNot) {
+// fuzz-validator does the same with millions of documents.
+TEST(Acceptor, NeverAcceptsWhatXercesRejects) {
     fuzz::Comparison comparison{schemas()};
     fuzz::Mutation mutation{fuzz::samples(), 20261121};
     for (int i = 0; i < 25'000; ++i) {

@@ -1,5 +1,5 @@
-// The examples of Annex A, as their element trees are known: with the identifiers, the codes and the mistakes that they have in
-// print. The texts around them are ours.
+// The examples of Annex A, with their identifiers, codes and misprints. The element structure is that of the published trees; the
+// texts around it are our own.
 #include <gmock/gmock.h>
 
 #include "speaking.hpp"
@@ -31,7 +31,7 @@ std::string const max_number =
 std::string const person_detected =
     message("EventMessageProfileType", "person_detected", results("timestamp", "DateTime") + results("number", "Integer"));
 
-// As in print: the identifier has no code space.
+// As published, the identifier has no code space.
 std::string whole(std::string const& root, std::string const& identifier, std::string const& inside) {
     return "<rois:" + root +
            " xmlns:rois='http://www.omg.org/spec/RoIS/20151201' xmlns:gml='http://www.opengis.net/gml/3.2' "
@@ -80,7 +80,7 @@ TEST(AnnexA, AQueryMessageProfileHasResults) {
     EXPECT_EQ(to_text(DataType::of(read.results.at(0).data_type_ref)), "Component_Status");
 }
 
-// The types of its commands are misspelt in print.
+// The published types of its commands are misspelt.
 TEST(AnnexA, AComponentProfileHasMessagesAndParameters) {
     std::string inside;
     for (auto const* name : {"start", "stop", "suspend", "resume"}) inside += message("CommaneMessageProfileType", name);
@@ -122,7 +122,7 @@ TEST(AnnexA, AnEngineProfileListsItsComponents) {
     EXPECT_THAT(engine.components, ElementsAre("urn:x-rois:def:HRIComponent:ATR::PersonDetection"));
 }
 
-// Both robots have a component of the same id, and the main engine has none of its own: the published schema takes neither.
+// Both robots have a component with the same id, and the main engine has none. The published schema rejects both.
 TEST(AnnexA, AnEngineProfileOfTwoRobotsHasSubProfiles) {
     std::string robots;
     for (auto const* robot : {"Robot1", "Robot2"})

@@ -1,4 +1,4 @@
-// What the gateway says: every kind of document, valid against the schemas.
+// The documents that the gateway writes: every kind is valid against the schemas.
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -11,13 +11,13 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// Everything that XML must write in another way, or cannot carry at all.
+// Characters that XML must escape, and characters that it does not allow.
 using namespace std::string_literals;
 std::string const strange = "<&>\"'\t\n\r ]]> \xC3\xA4\xF0\x9F\x98\x80 \x01\0\xC3( \xED\xA0\x80"s;
 
 Identifier const component{"navi<gation", "OMG", "cb", "1"};
 
-// A good answer with that in it.
+// Returns a successful reply with this member set.
 template <class R, class Value>
 Reply answer(Value R::*member, std::type_identity_t<Value> value) {
     R reply;
@@ -87,7 +87,7 @@ CommandUnitSequence sequence() {
              CommandUnit{{}, DelayOnly{}}}};
 }
 
-// One good answer of every operation.
+// Returns a successful reply of every operation.
 std::vector<Reply> good_replies() {
     return {answer(&Connect::Reply::session, SessionId{strange}),
             Resume::Reply{},
@@ -108,7 +108,7 @@ std::vector<Reply> good_replies() {
             answer(&GetEventDetail::Reply::results, Results{})};
 }
 
-TEST(Answer, EveryGoodOneIsValid) {
+TEST(Answer, EverySuccessfulReplyIsValid) {
     auto const all = good_replies();
     ASSERT_EQ(all.size(), std::variant_size_v<Reply>);
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -121,7 +121,7 @@ TEST(Answer, EveryGoodOneIsValid) {
     }
 }
 
-TEST(Answer, EveryFailedOneHasAReasonAndNothingElse) {
+TEST(Answer, EveryFailedReplyHasOnlyAReason) {
     for (auto code : {ReturnCode::error, ReturnCode::bad_parameter, ReturnCode::unsupported, ReturnCode::out_of_resources,
                       ReturnCode::timeout}) {
         for (auto reply : good_replies()) {
@@ -137,7 +137,7 @@ TEST(Answer, EveryFailedOneHasAReasonAndNothingElse) {
     }
 }
 
-TEST(Answer, IsAsShortAsInTheContract) {
+TEST(Answer, HasTheShortFormOfTheContract) {
     EXPECT_EQ(encode(Reply{Bind::Reply{}}, ""), R"(<bind_response xmlns="urn:x-rois:psm:xml:message:1" return_code="OK"/>)");
     EXPECT_EQ(
         encode(answer(&Connect::Reply::session, SessionId{"s"}), "1"),
@@ -148,7 +148,7 @@ TEST(Answer, IsAsShortAsInTheContract) {
         R"(<component_ref rois:code="a"/></bind_any_response>)");
 }
 
-TEST(Answer, ValuesComeBackAsTheyWere) {
+TEST(Answer, ValuesRoundTrip) {
     std::string const carried = "<&>\"'\t\n\r ]]> \xC3\xA4\xF0\x9F\x98\x80  ";
     auto const reply = query_reply({carried, carried, {}, {}}, {{{carried, {carried, {}, {}, {}}, {carried, "", " "}}}, {}});
     auto const root = Document::parse(schemas(), "answer", encode(reply, carried)).root();
@@ -163,7 +163,7 @@ TEST(Answer, ValuesComeBackAsTheyWere) {
     EXPECT_EQ(values[2].text(), " ");
 }
 
-TEST(Answer, WhatXmlCannotCarryIsReplaced) {
+TEST(Answer, InvalidCharactersAreReplaced) {
     auto const session = [](std::string const& text) {
         return child(Document::parse(schemas(), "answer", encode(answer(&Connect::Reply::session, SessionId{text}), "")).root(),
                      "session")
@@ -177,7 +177,7 @@ TEST(Answer, WhatXmlCannotCarryIsReplaced) {
     EXPECT_EQ(session("\xE2\x82"), replaced + replaced);
 }
 
-TEST(Answer, NumbersAreShortAndComeBack) {
+TEST(Answer, NumbersAreShortAndRoundTrip) {
     auto const root = Document::parse(schemas(), "answer", encode(answer(&GetEventDetail::Reply::results, results()), "")).root();
     auto const located = child(root, "results").children("located");
     ASSERT_EQ(located.size(), 3u);
@@ -199,7 +199,7 @@ TEST(Answer, AProfileHasOneIdForEachObject) {
     }
 }
 
-TEST(Answer, AProfileOfAnyNameThatXmlHasIsCalledSo) {
+TEST(Answer, ProfileIdsKeepTheCharactersOfXmlNames) {
     for (auto const& [name, id] :
          {std::pair{"profile.ランプ", "profile.ランプ"}, {"profile.é1", "profile.é1"}, {"1ラ", "_x31_ラ"}}) {
         auto const text = encode(ComponentProfile{}, name);
@@ -208,7 +208,7 @@ TEST(Answer, AProfileOfAnyNameThatXmlHasIsCalledSo) {
     }
 }
 
-TEST(Answer, AProfileOfAnotherNameIsCalledOtherwise) {
+TEST(Answer, ProfileIdsEscapeOtherCharacters) {
     std::vector<std::pair<std::string, std::string>> const ids{
         {"profile.😀", "profile._xF0__x9F__x98__x80_"},
         {"profile._xF0__x9F__x98__x80_", "profile._x5F_xF0__x5F_x9F__x5F_x98__x5F_x80_"},
@@ -297,7 +297,7 @@ TEST(StopStateDocument, IsNoOtherDocument) {
     EXPECT_FALSE(reader.read(encode(StopState{true, {}})));
 }
 
-TEST(ProfileDocument, IsValidAndDeclared) {
+TEST(ProfileDocument, IsValidAndHasAnXmlDeclaration) {
     for (auto const& text :
          {encode(engine_profile(), "engine.main"), encode(component_profile(), "profile.a:b"), encode(ComponentProfile{}, "")}) {
         EXPECT_THAT(text, testing::StartsWith("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"));
@@ -305,7 +305,7 @@ TEST(ProfileDocument, IsValidAndDeclared) {
     }
 }
 
-TEST(ProfileDocument, OfAComponentComesBackAsItWas) {
+TEST(ProfileDocument, OfAComponentRoundTrips) {
     auto const written = encode(component_profile(), "profile.a");
     auto const again = read_component_profile(schemas(), "profile", written);
     EXPECT_EQ(encode(again, "profile.a"), written);

@@ -18,10 +18,10 @@ std::string repeated(std::string_view text, std::size_t times) {
     return all;
 }
 
-// A request whose elements are nested so deeply, the root counted.
+// Returns a request with elements nested to this depth, including the root.
 std::string nested(std::size_t depth) { return document("search", repeated("<a>", depth - 1) + repeated("</a>", depth - 1)); }
 
-TEST(BadDocument, EmptyOrCutShort) {
+TEST(BadDocument, EmptyAndTruncatedDocumentsAreNotWellFormed) {
     for (auto const text : {"", " ", "\r\n\t ", "\xEF\xBB\xBF", "\xEF\xBB\xBF "}) {
         EXPECT_EQ(fault(text).code, FaultCode::not_well_formed);
         EXPECT_EQ(fault(text).reason, "the document is empty");
@@ -34,7 +34,7 @@ TEST(BadDocument, EmptyOrCutShort) {
     }
 }
 
-TEST(BadDocument, DocumentTypesAndEntities) {
+TEST(BadDocument, DocumentTypesAndEntitiesAreRejected) {
     auto const bomb = "<!DOCTYPE x [<!ENTITY a 'aaaaaaaaaa'><!ENTITY b '&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;'>]>"s;
     for (auto const& type : {bomb, "<!DOCTYPE connect>"s, "<!DOCTYPE connect SYSTEM 'file:///etc/passwd'>"s,
                              "<!DOCTYPE connect [<!ENTITY e SYSTEM 'http://127.0.0.1:1/'>]>"s,
@@ -47,7 +47,7 @@ TEST(BadDocument, DocumentTypesAndEntities) {
     EXPECT_EQ(fault("<!ELEMENT connect ANY>" + document("connect")).code, FaultCode::not_well_formed);
 }
 
-TEST(BadDocument, ProcessingInstructions) {
+TEST(BadDocument, ProcessingInstructionsAreRejected) {
     EXPECT_EQ(fault("<?php echo 1 ?>" + document("connect")).code, FaultCode::forbidden_xml);
     EXPECT_EQ(fault("<?xml-stylesheet href='http://127.0.0.1:1/x.xsl'?>" + document("connect")).code, FaultCode::forbidden_xml);
     EXPECT_EQ(fault(document("bind", "<?p?><component_ref rois:code='a'/>")).code, FaultCode::forbidden_xml);
@@ -55,7 +55,7 @@ TEST(BadDocument, ProcessingInstructions) {
     EXPECT_EQ(fault(" <?xml version='1.0'?>" + document("connect")).code, FaultCode::not_well_formed);
 }
 
-TEST(BadDocument, OtherVersionsAndEncodings) {
+TEST(BadDocument, OtherVersionsAndEncodingsAreRejected) {
     EXPECT_EQ(fault("<?xml version='1.1'?>" + document("connect")).code, FaultCode::forbidden_xml);
     EXPECT_EQ(fault("<?xml version=\"1.0\" encoding='ISO-8859-1'?>" + document("connect")).code, FaultCode::forbidden_xml);
     EXPECT_EQ(fault("<?xml version='1.0' encoding='UTF-16'?>" + document("connect")).code, FaultCode::forbidden_xml);
@@ -68,14 +68,14 @@ TEST(BadDocument, OtherVersionsAndEncodings) {
     EXPECT_EQ(fault("\x4C\x6F\xA7\x94\x93").code, FaultCode::not_well_formed);  // EBCDIC
 }
 
-TEST(BadDocument, Utf8WithAndWithoutItsMarkIsTaken) {
+TEST(BadDocument, Utf8IsAcceptedWithAndWithoutByteOrderMark) {
     operation<Connect>("\xEF\xBB\xBF<?xml version='1.0' encoding='utf-8' standalone='yes'?>\n" + document("connect") +
                        "\n<!-- end -->\n");
     operation<Connect>("<?xml version='1.0' encoding=\"Utf-8\"?>" + document("connect"));
     operation<Connect>("\n" + document("connect"));
 }
 
-TEST(BadDocument, BytesThatAreNoCharacters) {
+TEST(BadDocument, BytesThatAreNotCharactersAreRejected) {
     for (auto const& bytes :
          {"\xC3\x28"s, "\0"s, "\x01"s, "\x1F"s, "\xC0\x80"s, "\xE0\x80\xAF"s, "\xF0\x80\x80\xAF"s, "\xED\xA0\x80"s,
           "\xF4\x90\x80\x80"s, "\xF5\x80\x80\x80"s, "\xEF\xBF\xBE"s, "\xEF\xBF\xBF"s, "\x80"s, "\xE2\x82"s, "\xFE"s}) {
@@ -91,7 +91,7 @@ TEST(BadDocument, BytesThatAreNoCharacters) {
     EXPECT_EQ(fault(document("query", "<query_type>&#x110000;</query_type>")).code, FaultCode::not_well_formed);
 }
 
-TEST(BadDocument, Depth) {
+TEST(BadDocument, ElementsNestedTooDeeplyAreRejected) {
     EXPECT_EQ(fault(nested(64)).code, FaultCode::invalid);
     auto const deeper = fault(nested(65));
     EXPECT_EQ(deeper.code, FaultCode::forbidden_xml);
@@ -100,7 +100,7 @@ TEST(BadDocument, Depth) {
     EXPECT_EQ(fault(repeated("<a>", 300'000)).code, FaultCode::forbidden_xml);
 }
 
-TEST(BadDocument, Attributes) {
+TEST(BadDocument, TooManyAndDuplicateAttributesAreRejected) {
     auto const with = [](std::size_t count) {
         std::string attributes;
         for (std::size_t i = 0; i < count; ++i) attributes += " a" + std::to_string(i) + "='1'";
@@ -115,7 +115,7 @@ TEST(BadDocument, Attributes) {
               FaultCode::not_well_formed);
 }
 
-// Each of so many elements, one within the other, declares so many namespaces.
+// Returns a request with nested elements, each of which declares `each` namespaces.
 std::string declaring(std::size_t elements, std::size_t each) {
     std::string text, ends;
     for (std::size_t i = 0; i < elements; ++i) {
@@ -129,8 +129,8 @@ std::string declaring(std::size_t elements, std::size_t each) {
     return document("search", "<condition><fes:Filter>" + text + "</fes:Filter></condition>");
 }
 
-TEST(BadDocument, NamespacesInScope) {
-    std::size_t const of_root = 6;  // what `document` declares
+TEST(BadDocument, TooManyNamespacesInScopeAreRejected) {
+    std::size_t const of_root = 6;  // declared by `document`
     auto const most = 64 - of_root;
     EXPECT_TRUE(std::holds_alternative<Request>(read(declaring(2, most / 2))));
     auto const text = declaring(3, most / 2);
@@ -145,7 +145,7 @@ TEST(BadDocument, NamespacesInScope) {
     EXPECT_EQ(fault(document("bind", beside)).code, FaultCode::invalid) << "these are not in scope together";
 }
 
-TEST(BadDocument, LongNamesAndManyElements) {
+TEST(BadDocument, LongNamesAndTooManyElementsAreRejected) {
     std::string const longest(256, 'n');
     EXPECT_EQ(fault(document("bind", "<" + longest + "/>")).code, FaultCode::invalid);
     EXPECT_THAT(fault(document("bind", "<" + longest + "n/>")).reason, HasSubstr("256"));
@@ -156,7 +156,7 @@ TEST(BadDocument, LongNamesAndManyElements) {
     EXPECT_THAT(fault(document("bind", repeated("<a/>", 5'000))).reason, HasSubstr("5000"));
 }
 
-// A condition with a box whose corner has these coordinates.
+// Returns a request with a box whose corner has these coordinates.
 std::string within_box(std::string const& corner) {
     return document(
         "search",
@@ -166,7 +166,7 @@ std::string within_box(std::string const& corner) {
             "</gml:lowerCorner><gml:upperCorner>1 1</gml:upperCorner></gml:Envelope></fes:BBOX></fes:Filter></condition>");
 }
 
-TEST(BadDocument, LongListsOfNumbers) {
+TEST(BadDocument, LongListsOfNumbersAreRejected) {
     EXPECT_TRUE(std::holds_alternative<Request>(read(within_box("0 0<!-- in the corner -->"))));
     for (auto const& corner : {repeated("1 ", 400'000), repeated("1 ", 3'000) + "<!-- -->" + repeated("1 ", 3'000)}) {
         auto const refused = fault(within_box(corner));
@@ -175,8 +175,8 @@ TEST(BadDocument, LongListsOfNumbers) {
     }
 }
 
-// Every element of the schemas that holds a list is one of those whose length is looked at.
-TEST(BadDocument, ListsAreKnownToTheScan) {
+// The scan must limit the length of every element of the schemas whose type is a list.
+TEST(BadDocument, TheScanLimitsEveryListOfTheSchemas) {
     std::set<std::string> types;     // whose values are lists
     std::set<std::string> elements;  // of such a type
     for (std::size_t before = 1; before != types.size() + elements.size();) {
@@ -206,7 +206,7 @@ TEST(BadDocument, ListsAreKnownToTheScan) {
             << element;
 }
 
-TEST(BadDocument, AtTheLimitOfBytesAndOneOver) {
+TEST(BadDocument, OneByteOverTheLimitIsTooLarge) {
     std::size_t const limit = 1 << 20;
     auto const frame = document("query", "<query_type></query_type>");
     auto whole = document("query", "<query_type>" + std::string(limit - frame.size(), 'q') + "</query_type>");
@@ -217,7 +217,7 @@ TEST(BadDocument, AtTheLimitOfBytesAndOneOver) {
     EXPECT_THAT(fault(whole).reason, HasSubstr("1048576"));
 }
 
-TEST(BadDocument, LimitsAreThoseThatWereGiven) {
+TEST(BadDocument, TheGivenLimitsApply) {
     DocumentLimits const limits{.bytes = 500, .depth = 3, .attributes = 6, .name_length = 14, .elements = 3};
     EXPECT_EQ(fault(std::string(501, ' '), limits).code, FaultCode::too_large);
     EXPECT_THAT(fault("<a><a><a><a/></a></a></a>", limits).reason, HasSubstr("3"));
@@ -235,7 +235,7 @@ TEST(BadDocument, SchemaLocationsAreIgnored) {
         document("connect", {}, R"( xsi:schemaLocation="http://www.opengis.net/gml/3.2 file:///nowhere/gml.xsd")"));
 }
 
-TEST(BadDocument, BrokenTags) {
+TEST(BadDocument, BrokenTagsAreNotWellFormed) {
     for (auto const* inside :
          {"<a b>",   "<a b=c/>",   "<a b='1'c='2'/>", "<a b='<'/>", "<a 'b'/>", "< a/>", "<a/ >", "<a =''/>", "</a>",
           "<a></b>", "<a",         "<!-- -- -->",     "<![CDATA[",  "]]>",      "&",     "&#x;",  "<1/>",     "<a:b:c/>",
@@ -247,20 +247,20 @@ TEST(BadDocument, BrokenTags) {
     EXPECT_EQ(fault("connect").code, FaultCode::not_well_formed);
 }
 
-TEST(BadDocument, WhatIsNotWellFormedIsSoAlsoWhenItIsInvalidBefore) {
+TEST(BadDocument, NotWellFormedTakesPrecedenceOverInvalid) {
     EXPECT_EQ(fault(document("bind", "<foo/><b>")).code, FaultCode::not_well_formed);
     EXPECT_EQ(fault(document("bind", "<component_ref xmlns='urn:foreign'/><b>")).code, FaultCode::not_well_formed);
     EXPECT_EQ(fault(document("bind", "<component_ref xmlns='urn:foreign'/>")).code, FaultCode::invalid);
 }
 
-TEST(BadDocument, XsiNil) {
+TEST(BadDocument, XsiNilIsInvalid) {
     for (auto const* nil : {"true", "false", "1", "0"}) {
         auto const text = document("bind", "<component_ref rois:code='a' xsi:nil='"s + nil + "'/>");
         EXPECT_EQ(fault(text).code, FaultCode::invalid) << nil;
     }
 }
 
-TEST(BadDocument, ItsWordsAreShownCutAndClean) {
+TEST(BadDocument, ReasonsAreShortAndOnOneLine) {
     auto const refused = fault(document("connect", {}, " request_id='r' x='" + std::string(5'000, 'x') + "'"));
     EXPECT_LT(refused.reason.size(), 400u);
     auto const value =
@@ -287,7 +287,7 @@ TEST(RequestId, OfMoreThan256CharactersIsInvalidAndNotRepeated) {
     EXPECT_EQ(fault(document("nonsense", {}, " request_id='" + euros + "x'")).request_id, "");
 }
 
-TEST(BadDocument, TheRequestIdIsToldWhenItCanBeRead) {
+TEST(BadDocument, TheFaultHasTheRequestIdIfItCanBeRead) {
     EXPECT_EQ(fault(document("bind", {}, " request_id='r1'")).request_id, "r1");
     EXPECT_EQ(fault(document("nonsense", {}, " request_id='a&amp;b&#x20AC;\tc'")).request_id, "a&b\xE2\x82\xAC c");
     EXPECT_EQ(fault(document("bind", "<a></b>", " request_id=\"r2\"")).request_id, "r2");

@@ -1,5 +1,5 @@
-// The profiles of the basic components against tables 31 to 47 (and Move, whose table came later): every method, every argument
-// and result, its name, its type and its place.
+// Compares the profiles of the basic components with tables 31 to 47 (and Move, whose table came later): methods, arguments and
+// results, with name, type and order.
 #include <gmock/gmock.h>
 
 #include <map>
@@ -45,7 +45,7 @@ Methods methods(std::string const& name) {
     return all;
 }
 
-// What set_parameter takes and get_parameter tells when it is the same.
+// Returns set_parameter and get_parameter with the same parameters.
 Methods with_parameters(std::string const& parameters) {
     return {"command set_parameter " + parameters, "query get_parameter -> " + parameters};
 }
@@ -55,7 +55,7 @@ Methods operator+(Methods methods, std::string const& another) {
     return methods;
 }
 
-TEST(BasicProfiles, OfWhatIsCommonToAll) {
+TEST(BasicProfiles, RoISCommonHasTheMethodsOfItsTable) {
     EXPECT_THAT(methods("RoISCommon"), ElementsAre("command start", "command stop", "command suspend", "command resume",
                                                    "query component_status -> status:Component_Status"));
     for (auto const& [name, profile] : shipped()) {
@@ -67,13 +67,13 @@ TEST(BasicProfiles, OfWhatIsCommonToAll) {
     }
 }
 
-TEST(BasicProfiles, OfSystemInformation) {
+TEST(BasicProfiles, SystemInformationHasTheMethodsOfItsTable) {
     EXPECT_THAT(methods("SystemInformation"),
                 ElementsAre("query robot_position -> timestamp:DateTime robot_ref:RoISIdentifier[] position_data:string[]",
                             "query engine_status -> status:Component_Status operable_time:DateTime"));
 }
 
-TEST(BasicProfiles, OfDetectionLocalizationAndIdentification) {
+TEST(BasicProfiles, DetectionLocalizationAndIdentificationHaveTheMethodsOfTheirTables) {
     Methods const limits = with_parameters("detection_threshold:int minimum_interval:int");
     for (auto const& [name, prefix] :
          {std::pair<std::string, std::string>{"Person", "person"}, {"Face", "face"}, {"Sound", "sound"}}) {
@@ -86,7 +86,7 @@ TEST(BasicProfiles, OfDetectionLocalizationAndIdentification) {
               Methods{"event person_identified -> timestamp:DateTime person_ref:RoISIdentifier[]"});
 }
 
-TEST(BasicProfiles, OfRecognition) {
+TEST(BasicProfiles, RecognitionHasTheMethodsOfItsTables) {
     EXPECT_THAT(
         methods("SpeechRecognition"),
         ElementsAre("command set_parameter languages:string[] grammar:string rule:string",
@@ -98,7 +98,7 @@ TEST(BasicProfiles, OfRecognition) {
                             "event gesture_recognized -> timestamp:DateTime gesture_ref:RoISIdentifier[]"));
 }
 
-TEST(BasicProfiles, OfActions) {
+TEST(BasicProfiles, ActionsHaveTheMethodsOfTheirTables) {
     EXPECT_THAT(
         methods("SpeechSynthesis"),
         ElementsAre("command set_parameter speech_text:string SSML_text:string volume:int language:string character:string",
@@ -113,8 +113,8 @@ TEST(BasicProfiles, OfActions) {
     EXPECT_EQ(methods("Move"), with_parameters("line:int[] curve:int[] time:int"));
 }
 
-// RoIS 2.0; the argument of its query is named by the condition here, and a result.
-TEST(BasicProfiles, OfStreaming) {
+// RoIS 2.0. The stream id of the query is an argument there; here it is in the condition, and a result.
+TEST(BasicProfiles, StreamingHasTheMethodsOfRoIS20) {
     for (auto const* name : {"AudioStreaming", "VideoStreaming"})
         EXPECT_THAT(
             methods(name),
@@ -129,8 +129,8 @@ TEST(BasicProfiles, OfStreaming) {
             << name;
 }
 
-// 7.2: symbols only. Nothing of a camera, a microphone or a motor has a type here.
-TEST(BasicProfiles, NameSymbolicTypesOnly) {
+// 7.2: symbolic data only, no types for data of cameras, microphones or motors.
+TEST(BasicProfiles, UseOnlySymbolicTypes) {
     auto const symbolic = [](std::string const& name, std::vector<ParameterProfile> const& list) {
         for (auto const& one : list) EXPECT_NE(DataType::of(one.data_type_ref).base, BaseType::other) << name << " " << one.name;
     };
@@ -143,8 +143,8 @@ TEST(BasicProfiles, NameSymbolicTypesOnly) {
     }
 }
 
-// What set_parameter takes are the component's parameters (table 29), in the same order.
-TEST(BasicProfiles, HaveTheParametersThatAreSet) {
+// The arguments of set_parameter are the component's parameters (table 29), in the same order.
+TEST(BasicProfiles, HaveTheParametersOfSetParameter) {
     for (auto const& [name, profile] : shipped())
         for (auto const& message : profile.messages)
             if (message.name == "set_parameter") {

@@ -1,4 +1,4 @@
-// What clients write is read by the engine's reader, and what the engine writes by theirs: nothing is lost on the way.
+// Round trips: requests that clients encode and the engine decodes, and answers in the other direction.
 #include <gmock/gmock.h>
 
 #include "speaking.hpp"
@@ -10,7 +10,7 @@ namespace {
 using testing::Gt;
 using testing::HasSubstr;
 
-// The conditions in it are the same; all else is compared as it is written.
+// Conditions are compared as values, everything else as encoded text.
 QueryExpression const& condition_of(Request const& request) {
     static QueryExpression const none;
     return std::visit(
@@ -40,7 +40,7 @@ std::vector<std::filesystem::path> valid_samples() {
     return files;
 }
 
-TEST(BothWays, EveryRequestAmongTheSamples) {
+TEST(BothWays, EverySampleRequestRoundTrips) {
     std::size_t count = 0;
     for (auto const& path : valid_samples()) {
         auto const answer = read(file(path));
@@ -57,7 +57,7 @@ TEST(BothWays, EveryRequestAmongTheSamples) {
 }
 
 // Answers, notifications and faults.
-TEST(BothWays, EveryAnswerAmongTheSamples) {
+TEST(BothWays, EverySampleAnswerRoundTrips) {
     std::size_t count = 0;
     AnswerReader reader;
     for (auto const& path : valid_samples()) {
@@ -91,7 +91,7 @@ Request search(Condition condition, std::vector<SortProperty> order = {}) {
 
 Expression reference(std::string path) { return {ValueReference{std::move(path)}}; }
 
-TEST(BothWays, EveryPredicate) {
+TEST(BothWays, EveryPredicateRoundTrips) {
     auto const noon = *to_utc("2026-11-20T12:00:00Z");
     Expression const where = reference("location");
     Expression const box{Geometry{.crs = "hall", .low = {0, -1, 0}, .high = {5000, 8000.5, 0}, .dimensions = 2}};
@@ -143,8 +143,8 @@ TEST(BothWays, EveryPredicate) {
     expect_both_ways({Search{}, {}}, "nothing");
 }
 
-// The rules of the wrapper put every condition into an `or`, and every component's into an `and`.
-TEST(BothWays, GroupsOfComponents) {
+// Decoding the wrapper puts all conditions into an Or, and those of each component into an And.
+TEST(BothWays, GroupsOfComponentsRoundTrip) {
     auto const text = document("search", R"(<condition><unr:SearchCondition>
         <unr:ComponentGroupCondition types="Robot urn:x:place" aliases="a b"><fes:Filter><fes:PropertyIsNull>
           <fes:ValueReference>a/location</fes:ValueReference></fes:PropertyIsNull></fes:Filter>
@@ -154,7 +154,7 @@ TEST(BothWays, GroupsOfComponents) {
     expect_both_ways(request(text), text);
 }
 
-TEST(BothWays, RefusesWhatXmlCannotSay) {
+TEST(BothWays, ThrowsForWhatXmlCannotExpress) {
     ComponentGroup const group{.types = {"Robot"}, .aliases = {}, .filter = {}, .members = {}};
     EXPECT_THROW(encode(search({NotUnderstood{"what"}})), std::invalid_argument);
     EXPECT_THROW(encode(search({PropertyIsNull{{NotUnderstood{"what"}}}})), std::invalid_argument);
@@ -163,7 +163,7 @@ TEST(BothWays, RefusesWhatXmlCannotSay) {
     EXPECT_THROW(encode(search({And{}})), std::invalid_argument);
 }
 
-TEST(AnswerReader, TakesNothingThatIsNoAnswer) {
+TEST(AnswerReader, RejectsDocumentsThatAreNotAnswers) {
     AnswerReader reader;
     std::string deep;
     for (int i = 0; i < 100'000; ++i) deep += "<a>";

@@ -1,4 +1,4 @@
-// Conditions: every operator, geometry and time as it is written, and what is given back as not understood.
+// Decoding of conditions: every operator, geometry and time, and the reasons for unsupported parts.
 #include <gmock/gmock.h>
 
 #include "speaking.hpp"
@@ -48,7 +48,7 @@ Utc const twelve = *to_utc("2026-11-20T12:00:00Z");
 std::string reason_in(Expression const& expression) { return std::get<NotUnderstood>(expression.value).reason; }
 std::string reason_in(Condition const& given) { return the<NotUnderstood>(given).reason; }
 
-// What an operand of a spatial operator is read as.
+// Returns the geometry as decoded in an operand of a spatial operator.
 Expression geometry(std::string const& gml) {
     return the<SpatialComparison>(filter("<fes:Within>" + where + gml + "</fes:Within>")).operands.at(1);
 }
@@ -57,7 +57,7 @@ Expression time(std::string const& gml) {
     return the<TemporalComparison>(filter("<fes:During>" + where + gml + "</fes:During>")).operands.at(1);
 }
 
-TEST(Condition, ComparesInSixWays) {
+TEST(Condition, ReadsTheSixComparisons) {
     auto const read = [](std::string const& name) {
         return the<PropertyComparison>(filter("<fes:" + name + ">" + status + ready + "</fes:" + name + ">")).comparator;
     };
@@ -69,13 +69,13 @@ TEST(Condition, ComparesInSixWays) {
     EXPECT_EQ(read("PropertyIsGreaterThanOrEqualTo"), Comparator::greater_or_equal);
 }
 
-TEST(Condition, KeepsTheOrderOfSidesAndTheTextOfLiterals) {
+TEST(Condition, KeepsTheOrderOfOperandsAndTheTextOfLiterals) {
     EXPECT_EQ(filter(is_ready), equal("status", "READY"));
     EXPECT_EQ(filter("<fes:PropertyIsLessThan><fes:Literal> 1 </fes:Literal>" + status + "</fes:PropertyIsLessThan>"),
               (Condition{PropertyComparison{Comparator::less, literal(" 1 "), reference("status")}}));
 }
 
-TEST(Condition, SaysHowCaseAndSeveralValuesCount) {
+TEST(Condition, ReadsMatchCaseAndMatchAction) {
     auto const read = [](std::string const& attributes) {
         return the<PropertyComparison>(
             filter("<fes:PropertyIsEqualTo " + attributes + ">" + status + ready + "</fes:PropertyIsEqualTo>"));
@@ -89,34 +89,34 @@ TEST(Condition, SaysHowCaseAndSeveralValuesCount) {
     EXPECT_EQ(read("matchAction='One'").match_action, MatchAction::one);
 }
 
-TEST(Condition, HasThePatternsCharacters) {
+TEST(Condition, ReadsTheSpecialCharactersOfPatterns) {
     auto const like =
         the<PropertyIsLike>(filter("<fes:PropertyIsLike wildCard='*' singleChar='?' escapeChar='\\' matchCase='false'>" + status +
                                    "<fes:Literal>R*</fes:Literal></fes:PropertyIsLike>"));
     EXPECT_EQ(like, (PropertyIsLike{reference("status"), literal("R*"), "*", "?", "\\", false}));
 }
 
-TEST(Condition, AsksForWhatIsNotThere) {
+TEST(Condition, ReadsNullAndNil) {
     EXPECT_EQ(filter("<fes:PropertyIsNull>" + status + "</fes:PropertyIsNull>"), Condition{PropertyIsNull{reference("status")}});
     EXPECT_EQ(filter("<fes:PropertyIsNil nilReason='missing'>" + status + "</fes:PropertyIsNil>"),
               (Condition{PropertyIsNil{reference("status"), "missing"}}));
 }
 
-TEST(Condition, HasBoundaries) {
+TEST(Condition, ReadsBoundaries) {
     EXPECT_EQ(filter("<fes:PropertyIsBetween>" + status +
                      "<fes:LowerBoundary><fes:Literal>1</fes:Literal></fes:LowerBoundary>"
                      "<fes:UpperBoundary><fes:Literal>2</fes:Literal></fes:UpperBoundary></fes:PropertyIsBetween>"),
               (Condition{PropertyIsBetween{reference("status"), literal("1"), literal("2")}}));
 }
 
-TEST(Condition, NestsAndOrNot) {
+TEST(Condition, ReadsNestedAndOrNot) {
     auto const ready_now = equal("status", "READY");
     EXPECT_EQ(filter("<fes:And>" + is_ready + is_ready + "</fes:And>"), (Condition{And{{ready_now, ready_now}}}));
     EXPECT_EQ(filter("<fes:Or>" + is_ready + "<fes:Not>" + is_ready + "</fes:Not></fes:Or>"),
               (Condition{Or{{ready_now, Condition{Not{{ready_now}}}}}}));
 }
 
-TEST(Condition, NamesResources) {
+TEST(Condition, ReadsResourceIds) {
     EXPECT_EQ(filter("<fes:ResourceId rid='a'/>"), Condition{ResourceId{"a"}});
     EXPECT_EQ(filter("<fes:ResourceId rid='a'/><fes:ResourceId rid='b'/>"),
               (Condition{Or{{Condition{ResourceId{"a"}}, Condition{ResourceId{"b"}}}}}));
@@ -125,7 +125,7 @@ TEST(Condition, NamesResources) {
                     HasSubstr(std::string{version}.substr(0, std::string{version}.find('='))));
 }
 
-TEST(Condition, RelatesPlaces) {
+TEST(Condition, ReadsSpatialRelations) {
     auto const read = [](std::string const& name) {
         return the<SpatialComparison>(filter("<fes:" + name + ">" + where + box + "</fes:" + name + ">"));
     };
@@ -142,7 +142,7 @@ TEST(Condition, RelatesPlaces) {
     EXPECT_THAT(the<SpatialComparison>(filter("<fes:BBOX>" + box + "</fes:BBOX>")).operands, ElementsAre(Expression{the_box}));
 }
 
-TEST(Condition, RelatesDistances) {
+TEST(Condition, ReadsDistanceRelations) {
     auto const read = [](std::string const& name) {
         return the<DistanceComparison>(
             filter("<fes:" + name + ">" + where + spot + "<fes:Distance uom='m'>1.5</fes:Distance></fes:" + name + ">"));
@@ -195,16 +195,16 @@ TEST(Condition, ReadsLinesCirclesAndPolygons) {
         Expression{polygon});
 }
 
-TEST(Condition, NamesTheGeometriesThatItDoesNotRead) {
+TEST(Condition, GivesTheReasonForUnsupportedGeometries) {
     EXPECT_THAT(reason_in(geometry("<gml:LineString><gml:posList>0 0 1</gml:posList></gml:LineString>")),
-                HasSubstr("3 numbers, which are not points of 2 coordinates each"));
+                HasSubstr("has 3 numbers: expected 2 for each point"));
     EXPECT_THAT(reason_in(geometry("<gml:LineString><gml:posList>0 0</gml:posList></gml:LineString>")),
                 HasSubstr("line of one point"));
     EXPECT_THAT(reason_in(geometry("<gml:LineString srsDimension='3'><gml:posList>0 0 0 1 1 1</gml:posList></gml:LineString>")),
-                HasSubstr("has to be in the plane"));
+                HasSubstr("three coordinates: expected two"));
     EXPECT_THAT(reason_in(geometry("<gml:Polygon><gml:exterior><gml:LinearRing><gml:posList>0 0 1 0 1 1</gml:posList>"
                                    "</gml:LinearRing></gml:exterior></gml:Polygon>")),
-                HasSubstr("LinearRing of 3 points that is not closed"));
+                HasSubstr("LinearRing of 3 points: expected four or more, the last one equal to the first"));
     EXPECT_THAT(reason_in(geometry("<gml:CircleByCenterPoint><gml:pos>1 2</gml:pos><gml:radius uom='ell'>1</gml:radius>"
                                    "</gml:CircleByCenterPoint>")),
                 HasSubstr("'ell'"));
@@ -214,24 +214,25 @@ TEST(Condition, NamesTheGeometriesThatItDoesNotRead) {
     EXPECT_THAT(reason_in(geometry("<gml:Envelope><gml:lowerCorner>0 9</gml:lowerCorner><gml:upperCorner>5 3</gml:upperCorner>"
                                    "</gml:Envelope>")),
                 HasSubstr("lowerCorner is above its upperCorner (9 and 3)"));
-    EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos>1</gml:pos></gml:Point>")), HasSubstr("neither two nor three"));
-    EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos>1 2 3 4</gml:pos></gml:Point>")), HasSubstr("neither two nor three"));
-    EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos>1 NaN</gml:pos></gml:Point>")), HasSubstr("is NaN or beyond"));
-    EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos>1 1e999</gml:pos></gml:Point>")), HasSubstr("is NaN or beyond"));
+    EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos>1</gml:pos></gml:Point>")), HasSubstr("has 1 coordinates: expected two"));
+    EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos>1 2 3 4</gml:pos></gml:Point>")),
+                HasSubstr("has 4 coordinates: expected two or three"));
+    EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos>1 NaN</gml:pos></gml:Point>")), HasSubstr("is NaN or too large"));
+    EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos>1 1e999</gml:pos></gml:Point>")), HasSubstr("is NaN or too large"));
     EXPECT_THAT(reason_in(geometry("<gml:Point srsDimension='3'><gml:pos>1 2</gml:pos></gml:Point>")),
-                HasSubstr("other than the 3 coordinates of its srsDimension"));
+                HasSubstr("has 2 coordinates, but its srsDimension is 3"));
     EXPECT_THAT(reason_in(geometry("<gml:Point><gml:pos srsDimension='2'>1 2 3</gml:pos></gml:Point>")),
-                HasSubstr("other than the 2 coordinates"));
+                HasSubstr("has 3 coordinates, but its srsDimension is 2"));
     EXPECT_THAT(reason_in(geometry("<gml:Point uomLabels='m m'><gml:pos>1 2</gml:pos></gml:Point>")), HasSubstr("uomLabels"));
     EXPECT_THAT(reason_in(geometry("<gml:Point axisLabels='y x'><gml:pos>1 2</gml:pos></gml:Point>")), HasSubstr("axisLabels"));
     EXPECT_THAT(reason_in(geometry("<gml:Envelope><gml:pos>1 2</gml:pos><gml:pos>1 2 3</gml:pos></gml:Envelope>")),
-                HasSubstr("neither two nor three"));
+                HasSubstr("the same number in all points"));
     EXPECT_THAT(
         reason_in(geometry("<gml:Envelope><gml:pos srsName='a'>1 2</gml:pos><gml:pos srsName='b'>1 2</gml:pos></gml:Envelope>")),
         HasSubstr("two frames"));
 }
 
-TEST(Condition, RelatesTimes) {
+TEST(Condition, ReadsTemporalRelations) {
     auto const read = [](std::string const& name) {
         return the<TemporalComparison>(filter("<fes:" + name + ">" + where + noon + "</fes:" + name + ">"));
     };
@@ -282,7 +283,7 @@ TEST(Condition, ReadsFunctions) {
     EXPECT_EQ(bare.left, compared.left) << "without a Literal around it";
 }
 
-TEST(Condition, NamesOperatorsThatItDoesNotKnow) {
+TEST(Condition, GivesTheReasonForAFunctionAsPredicate) {
     EXPECT_THAT(reason_in(filter("<fes:Function name='is_free'/>")), HasSubstr("the function 'is_free' as a predicate"));
 }
 
@@ -310,7 +311,7 @@ TEST(SearchCondition, WithoutConditionsRestrictsNothing) {
     EXPECT_FALSE(condition("<unr:SearchCondition>\n</unr:SearchCondition>"));
 }
 
-TEST(SearchCondition, OfAComponentIsItsTypeItsModeAndItsFilter) {
+TEST(SearchCondition, OfAComponentHasTypeModeAndFilter) {
     auto const component = [](std::string const& attributes, std::string const& inside) {
         return condition("<unr:SearchCondition><unr:ComponentCondition " + attributes + ">" + inside +
                          "</unr:ComponentCondition></unr:SearchCondition>");

@@ -1,4 +1,4 @@
-// Decisions 26, 27 and 29 by number, as far as documents keep them.
+// Decisions 26, 27 and 29, as far as they concern documents.
 #include <gmock/gmock.h>
 
 #include "speaking.hpp"
@@ -25,7 +25,7 @@ std::vector<std::string> values(std::string const& type, std::string const& writ
         .values;
 }
 
-TEST(Decision26, ListsAreOneValueOrOneAnItem) {
+TEST(Decision26, ListsAreOneValueOrOnePerItem) {
     EXPECT_THAT(values("int", "<rois:value>7</rois:value>"), ElementsAre("7"));
     EXPECT_THAT(values("int[]", "<rois:value>1 2 3</rois:value>"), ElementsAre("1 2 3"));
     EXPECT_THAT(values("string[]", "<rois:value>one two</rois:value><rois:value/>"), ElementsAre("one two", ""));
@@ -47,8 +47,7 @@ TEST(Decision27, LocatedDataHaveATextAndAStructure) {
                                    "<covariance>2500 0 0 0 2500 0 0 0 64</covariance></located>"));
 }
 
-// Names of other versions, in documents from files.
-TEST(Decision29, WhatOthersCallOtherwiseIsRead) {
+TEST(Decision29, NamesOfOtherVersionsAreRead) {
     auto const read = read_profile_document(
         schemas(), "p.xml",
         "<rois:HRIComponentProfile xmlns:rois='http://www.omg.org/spec/RoIS/20151201' xmlns:gml='http://www.opengis.net/gml/3.2' "
@@ -60,11 +59,11 @@ TEST(Decision29, WhatOthersCallOtherwiseIsRead) {
     EXPECT_EQ(profile.messages.at(0).kind, MessageKind::command);
     auto const written = encode(profile, "profile.lamp");
     EXPECT_EQ(problem("again.xml", written), "");
-    EXPECT_THAT(written, HasSubstr("http://www.omg.org/spec/RoIS/20240801")) << "the published names of today";
+    EXPECT_THAT(written, HasSubstr("http://www.omg.org/spec/RoIS/20240801")) << "the current namespace";
     EXPECT_THAT(written, HasSubstr("\"rois:CommandMessageProfileType\""));
 }
 
-// What the tables of 2011 call the parts of profiles.
+// The names of the parts of profiles in the tables of 2011.
 TEST(Decision29, NamesOf2011AreRead) {
     std::string const declared =
         " xmlns:rois='http://www.omg.org/spec/RoIS/20240801' xmlns:gml='http://www.opengis.net/gml/3.2' "
@@ -89,8 +88,9 @@ TEST(Decision29, NamesOf2011AreRead) {
     EXPECT_EQ(profile.messages[0].arguments.at(0).name, "colour");
     EXPECT_EQ(profile.messages[1].kind, MessageKind::event);
     EXPECT_EQ(profile.parameters.size(), 2U);
-    EXPECT_THAT(read.warnings, Contains("p.xml:1:1: 'rois:HRI_Component_Profile' is the name of 2011 for 'HRIComponentProfile'"));
-    EXPECT_THAT(read.warnings, Contains(HasSubstr("'rois:argument' is the name of 2011 for 'Arguments'")));
+    EXPECT_THAT(read.warnings,
+                Contains("p.xml:1:1: 'rois:HRI_Component_Profile' is a name of 2011: read as 'HRIComponentProfile'"));
+    EXPECT_THAT(read.warnings, Contains(HasSubstr("'rois:argument' is a name of 2011: read as 'Arguments'")));
 
     auto const engine = read_profile_document(schemas(), "p.xml",
                                               "<rois:HRI_Engine_Profile" + declared +
@@ -99,7 +99,7 @@ TEST(Decision29, NamesOf2011AreRead) {
     EXPECT_EQ(std::get<EngineProfile>(engine.profile).components, (std::vector<std::string>{"lamp", "door"}));
 }
 
-// The seed's nesting and the published forms of later versions are read, and written as they came.
+// The nested units of 2011 and the published forms of later versions.
 TEST(Decision29, SequencesOfAllVersionsAreRead) {
     std::string const command =
         "xsi:type='rois:CommandMessageType' rois:command_type='stop' rois:command_id='c'><rois:component_ref rois:code='lamp'/>";

@@ -1,4 +1,4 @@
-// Documents from files, and the schemas themselves.
+// Documents from files, and the schemas.
 #include <gmock/gmock.h>
 
 #include "speaking.hpp"
@@ -32,7 +32,7 @@ TEST(DocumentFromAFile, IsWalkedByLocalNames) {
     auto const root = document.root();
     EXPECT_EQ(root.name(), "HRIComponentProfile");
     EXPECT_EQ(root.attribute("id"), "c");
-    EXPECT_EQ(root.attribute("p"), std::nullopt) << "a declaration of a namespace is no attribute";
+    EXPECT_EQ(root.attribute("p"), std::nullopt) << "a namespace declaration is not an attribute";
     EXPECT_EQ(root.attribute("nothing", "else"), "else");
     ASSERT_EQ(root.children().size(), 3u);
     ASSERT_EQ(root.children("SubComponentProfile").size(), 2u);
@@ -41,7 +41,7 @@ TEST(DocumentFromAFile, IsWalkedByLocalNames) {
     EXPECT_FALSE(root.child("name"));
 }
 
-TEST(DocumentFromAFile, TellsTextsAndElementsInOrder) {
+TEST(DocumentFromAFile, ReturnsTextsAndElementsInOrder) {
     auto const content =
         child(Document::parse(
                   schemas(), "g.xml",
@@ -61,7 +61,7 @@ TEST(DocumentFromAFile, LivesAsLongAsItsElements) {
     EXPECT_EQ(identifier.text(), " urn:c ");
 }
 
-TEST(DocumentFromAFile, NumbersAreCheckedWhenTheyAreAskedFor) {
+TEST(DocumentFromAFile, NumbersAreCheckedWhenTheyAreRead) {
     auto const root = Document::parse(schemas(), "p.xml",
                                       profile("\n<p:ParameterProfile p:name='1.5e1' p:default_value='x'>"
                                               "<p:data_type_ref p:code='int'/></p:ParameterProfile>"))
@@ -72,13 +72,13 @@ TEST(DocumentFromAFile, NumbersAreCheckedWhenTheyAreAskedFor) {
     EXPECT_THROW(parameter.number("description"), BadDocument);
     try {
         parameter.number("default_value", 7);
-        ADD_FAILURE() << "'x' was taken for a number";
+        ADD_FAILURE() << "'x' was read as a number";
     } catch (BadDocument const& e) {
         EXPECT_THAT(e.what(), AllOf(StartsWith("p.xml:3:1: "), HasSubstr("'default_value'"), HasSubstr("'x'")));
     }
 }
 
-TEST(DocumentFromAFile, SaysWhatIsWrongAndWhere) {
+TEST(DocumentFromAFile, ReportsErrorsWithTheirPlace) {
     EXPECT_THAT(problem("f.xml", "<a"), StartsWith("f.xml:1:1: "));
     EXPECT_THAT(problem("f.xml", ""), StartsWith("f.xml:1:1: "));
     EXPECT_THAT(problem("f.xml", std::string(2 << 20, ' ')), StartsWith("f.xml:1:1: the document is too large"));
@@ -107,7 +107,7 @@ TEST(ComponentProfileDocument, IsRefusedWithItsPlace) {
     EXPECT_THAT(refusal(document("connect")), AllOf(StartsWith("c.xml:1:1: "), HasSubstr("expected 'HRIComponentProfile'")));
 }
 
-TEST(ComponentProfileDocument, OfTheBasicComponentsAreRead) {
+TEST(ComponentProfileDocument, IsReadForAllBasicComponents) {
     for (auto const& [name, text] : files::profiles()) {
         auto const read = read_component_profile(schemas(), name, std::string{text});
         EXPECT_THAT(read.object.identifier, StartsWith("urn:x-rois:def:component:OMG::")) << name;
@@ -119,7 +119,7 @@ TEST(ComponentProfileDocument, OfTheBasicComponentsAreRead) {
 // --- The schemas ---
 
 std::string why_not_compiled(NamedFiles files) {
-    schemas();  // the platform
+    schemas();  // initializes the platform
     try {
         Schemas const compiled{std::move(files)};
         return {};
@@ -150,7 +150,7 @@ TEST(SchemaFiles, AreRefusedWithFileAndPlace) {
     EXPECT_THAT(why_not_compiled({{"broken.xsd", "<s:schema"}}), StartsWith("broken.xsd:1:"));
 }
 
-TEST(SchemaFiles, TakeNothingFromOutside) {
+TEST(SchemaFiles, LoadNothingFromOutside) {
     auto const outside = schema("<s:include schemaLocation='/etc/passwd'/>");
     EXPECT_THAT(why_not_compiled({{"a.xsd", outside}}),
                 AllOf(HasSubstr("'/etc/passwd'"), HasSubstr("not among the given files")));

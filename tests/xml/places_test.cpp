@@ -1,4 +1,4 @@
-// Where a fault is, and what it says was expected.
+// The place of a fault, and what it expected.
 #include <gmock/gmock.h>
 
 #include "speaking.hpp"
@@ -30,23 +30,23 @@ TEST(Place, CountsCharactersAndLines) {
     EXPECT_EQ(place_of(text, 1'000).line, 5u);
 }
 
-TEST(Place, IsFoundAgainFromTheColumnsOfAParser) {
+TEST(Place, IsFoundFromTheColumnsOfAParser) {
     std::string_view const text =
         "\xEF\xBB\xBF"
         "a\xF0\x9F\x98\x80z\n\xC3\xA4y";
     EXPECT_EQ(text.substr(offset_of(text, {1, 1}), 1), "a");
-    EXPECT_EQ(text.substr(offset_of(text, {1, 4}), 1), "z");  // the character before takes two of UTF-16's units
+    EXPECT_EQ(text.substr(offset_of(text, {1, 4}), 1), "z");  // the character before takes two UTF-16 units
     EXPECT_EQ(text.substr(offset_of(text, {2, 2}), 1), "y");
     EXPECT_EQ(offset_of(text, {7, 1}), text.size());
 }
 
-TEST(Fault, IsAtTheChildThatMustNotBeThere) {
+TEST(Fault, IsAtTheChildThatIsNotAllowed) {
     auto const refused = fault("<bind xmlns='urn:x-rois:psm:xml:message:1'>\r\n  <!-- \xC3\xA4 --> <component/>\r\n</bind>");
     EXPECT_EQ(place(refused), "2:14");
     EXPECT_EQ(refused.reason, "unknown element 'component' inside 'bind': expected 'component_ref'");
 }
 
-TEST(Fault, IsAtTheParentOfAChildThatIsMissing) {
+TEST(Fault, IsAtTheParentOfAMissingChild) {
     auto const refused = fault(
         "\n <!-- here -->\n <set_parameter xmlns='urn:x-rois:psm:xml:message:1'\n "
         "xmlns:rois='http://www.omg.org/spec/RoIS/20240801'>"
@@ -67,7 +67,7 @@ TEST(Fault, IsAtTheTagOfAWrongAttribute) {
     EXPECT_THAT(missing.reason, AllOf(HasSubstr("'rois:delay_time'"), HasSubstr("'1s'"), HasSubstr("a whole number")));
 }
 
-TEST(Fault, NamesTheOperationsThatThereAre) {
+TEST(Fault, ListsTheKnownOperations) {
     auto const refused = fault(document("foo"));
     EXPECT_EQ(place(refused), "1:1");
     EXPECT_THAT(refused.reason,
@@ -78,23 +78,23 @@ TEST(Fault, NamesTheOperationsThatThereAre) {
     EXPECT_EQ(fault("<connect xmlns='urn:other'/>").code, FaultCode::invalid);
 }
 
-TEST(Fault, OfANamespaceThatNobodyKnowsIsAtItsTag) {
+TEST(Fault, OfAnUnknownNamespaceIsAtItsTag) {
     auto const unused = fault(document("bind", "\n<component_ref xmlns:x='urn:x' rois:code='a'/>"));
     EXPECT_EQ(unused.code, FaultCode::invalid);
     EXPECT_EQ(place(unused), "2:1");
     EXPECT_THAT(unused.reason, HasSubstr("'urn:x'"));
-    // A parser's pools would keep it; so it must not be hidden behind a reference either.
+    // A parser's pools would keep the namespace, so a reference must not hide it.
     EXPECT_EQ(fault(document("connect", {}, " xmlns:x='urn:&#120;'")).code, FaultCode::invalid);
 }
 
-TEST(Fault, OfAnElementThatAnotherEndTagClosesIsAtItsStartTag) {
+TEST(Fault, OfAMismatchedEndTagIsAtTheStartTag) {
     EXPECT_EQ(place(fault(document("bind", "\n <component_ref rois:code='a'>\n"))), "2:2");
     EXPECT_EQ(place(fault("<bind>\n <a><!-- <b> --><c/><d x='>'></d>\n</bind>\n")), "2:2");
     EXPECT_EQ(place(fault("<bind>\n <a>\n</a></bound>")), "1:1");
     EXPECT_EQ(place(fault("<bind/>\n</bind>")).substr(0, 2), "2:");
 }
 
-TEST(Fault, OfADocumentThatIsCutShortIsAtTheTagThatNothingCloses) {
+TEST(Fault, OfATruncatedDocumentIsAtTheUnclosedTag) {
     auto const refused = fault(document("bind", "\n   <component_ref rois:code='a'>\n\n"));
     EXPECT_EQ(refused.code, FaultCode::not_well_formed);
     auto const cut = fault("<bind xmlns='urn:x-rois:psm:xml:message:1'>\n   <component_ref>\n\n");
@@ -103,7 +103,7 @@ TEST(Fault, OfADocumentThatIsCutShortIsAtTheTagThatNothingCloses) {
     EXPECT_EQ(place(fault("<bind>\n <component_ref rois:code='a")), "2:2");
 }
 
-TEST(Fault, OfWhatIsNotWellFormedIsWhereItBreaks) {
+TEST(Fault, OfASyntaxErrorIsAtTheError) {
     EXPECT_EQ(place(fault("<bind>\n <component_ref a=b/></bind>")), "2:19");
     EXPECT_EQ(place(fault("<bind>\n\n <a></b>\n</bind>")).substr(0, 2), "3:");
 }
@@ -114,7 +114,7 @@ TEST(Fault, IsAtTheSamePlaceWithAByteOrderMark) {
     EXPECT_EQ(place(fault("\xEF\xBB\xBF<nonsense/>")), "1:1");
 }
 
-TEST(Fault, AfterManyGoodChildrenIsFoundToo) {
+TEST(Fault, IsFoundAfterManyValidChildren) {
     std::string children;
     for (int i = 0; i < 4'000; ++i) children += "<rois:command_unit_list/>";
     auto const refused =
@@ -123,20 +123,20 @@ TEST(Fault, AfterManyGoodChildrenIsFoundToo) {
     EXPECT_EQ(refused.reason, "unknown element 'bad' inside 'rois:CommandUnitSequence': expected 'rois:command_unit_list'");
 }
 
-TEST(Fault, OfALimitIsAtTheTag) {
+TEST(Fault, OfAnExceededLimitIsAtTheTag) {
     EXPECT_EQ(place(fault("<a>\n <b>\n  <c/></b></a>", {.depth = 2})), "3:3");
     EXPECT_EQ(place(fault("<?xml version='1.1'?><a/>")), "1:1");
     EXPECT_EQ(place(fault("\n<!DOCTYPE a><a/>")), "2:1");
 }
 
-TEST(Fault, OfAnIdThatIsUsedTwiceIsAtTheSecond) {
-    auto const told = problem(
+TEST(Fault, OfADuplicateIdIsAtTheSecond) {
+    auto const reported = problem(
         "p.xml",
         "<rois:HRIEngineProfile xmlns:rois='http://www.omg.org/spec/RoIS/20240801' xmlns:gml='http://www.opengis.net/gml/3.2'"
         " gml:id='e'><gml:identifier codeSpace='c'>i</gml:identifier>\n<rois:SubProfile gml:id='e'>"
         "<gml:identifier codeSpace='c'>i</gml:identifier><rois:HRIComponent>c</rois:HRIComponent></rois:SubProfile>"
         "<rois:HRIComponent>c</rois:HRIComponent></rois:HRIEngineProfile>");
-    EXPECT_EQ(told, "p.xml:2:1: the id 'e' is used twice");
+    EXPECT_EQ(reported, "p.xml:2:1: the id 'e' is used twice");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What requests say, in whatever dress XML allows.
+// Decoding of requests, in the forms that XML allows.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -33,7 +33,7 @@ TEST(Request, EveryOperationIsRead) {
     EXPECT_EQ(operation<GetEventDetail>(document("get_event_detail", "<event_id>v1</event_id>")).event_id, EventId{"v1"});
 }
 
-TEST(Request, ResumeSaysWhereToGoOn) {
+TEST(Request, ResumeHasSessionAndLastSequence) {
     auto const resume = operation<Resume>(document("resume", {}, " session='s' last_sequence=' 42 '"));
     EXPECT_EQ(resume.session, SessionId{"s"});
     EXPECT_EQ(resume.last_sequence, 42u);
@@ -41,7 +41,7 @@ TEST(Request, ResumeSaysWhereToGoOn) {
     EXPECT_EQ(last.last_sequence, std::numeric_limits<std::uint64_t>::max());
 }
 
-TEST(Request, SubscribeSaysWhetherResultsComeInline) {
+TEST(Request, SubscribeReadsInlineResults) {
     auto const inline_results = [](std::string_view value) {
         return operation<Subscribe>(document("subscribe", "<event_type>e</event_type>", value)).inline_results;
     };
@@ -68,7 +68,7 @@ TEST(Request, ParametersAreRead) {
                                             Parameter{"none", {"string[]", {}, "cb", {}}, {}}));
 }
 
-TEST(Request, TextMeansWhatXmlSaysItMeans) {
+TEST(Request, TextIsReadByTheRulesOfXml) {
     auto const text = [](std::string_view written) {
         return operation<rois::Query>(document("query", "<query_type>" + std::string{written} + "</query_type>")).query_type;
     };
@@ -89,8 +89,7 @@ TEST(Request, TextMeansWhatXmlSaysItMeans) {
               "a  b\n\tc  d ");
 }
 
-// XSD 1.0, cvc-complex-type 2: white space is allowed between elements, however it is written, and no character in an empty
-// element.
+// XSD 1.0, cvc-complex-type 2: white space in any form is allowed between elements, but no character in an empty element.
 TEST(Request, MayHaveWhiteSpaceAndEmptyCdataBetweenElements) {
     auto const is_request = [](std::string const& text) { return std::holds_alternative<Request>(read(text)); };
     std::string const ref = "<component_ref rois:code='a'/>";
@@ -110,7 +109,7 @@ TEST(Request, MayHaveWhiteSpaceAndEmptyCdataBetweenElements) {
     EXPECT_FALSE(is_request(document("connect") + "<![CDATA[]]>"));
 }
 
-TEST(Request, PrefixesAreFree) {
+TEST(Request, AnyPrefixesAreRead) {
     auto const bind = operation<Bind>(
         R"(<m:bind xmlns:m="urn:x-rois:psm:xml:message:1"><m:component_ref xmlns:q="http://www.omg.org/spec/RoIS/20240801" q:code="a"/></m:bind>)");
     EXPECT_EQ(bind.component_ref.code, "a");
@@ -198,7 +197,7 @@ std::string echo(CommandUnitSequence const& units) {
     return encode(Reply{reply}, "");
 }
 
-TEST(Request, ACommandSequenceGoesBackAsItCame) {
+TEST(Request, CommandSequencesRoundTrip) {
     auto const first = operation<Execute>(document("execute", sequence));
     auto const answer = echo(first.command_unit_list);
     EXPECT_EQ(problem("answer", answer), "");

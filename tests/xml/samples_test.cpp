@@ -1,4 +1,4 @@
-// The samples that come with the schemas.
+// The samples in schemas/samples.
 #include <gmock/gmock.h>
 
 #include <set>
@@ -24,7 +24,7 @@ TEST(Samples, ValidOnesAreValid) {
     for (auto const& path : all) EXPECT_EQ(problem(path.filename(), file(path)), "");
 }
 
-TEST(Samples, RequestsAreTakenAndNothingElseIs) {
+TEST(Samples, OnlyRequestsAreAccepted) {
     std::set<std::size_t> operations;
     for (auto const& path : documents_in(samples() / "valid")) {
         auto const answer = read(file(path));
@@ -35,7 +35,7 @@ TEST(Samples, RequestsAreTakenAndNothingElseIs) {
             EXPECT_THAT(std::get<Fault>(answer).reason, StartsWith("unknown operation")) << path;
         }
     }
-    EXPECT_EQ(operations.size(), std::variant_size_v<Operation>) << "there is no sample of some operation";
+    EXPECT_EQ(operations.size(), std::variant_size_v<Operation>) << "an operation has no sample";
 }
 
 TEST(Samples, InvalidOnesAreRefusedAtTheirLine) {

@@ -1,4 +1,4 @@
-// Schemas made for a test, and the two judges of their documents.
+// A small schema for a test, and the comparison of the tables with xerces-c.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace rois::xml {
 
 using Outcome = fuzz::Comparison::Outcome;
 
-// A schema with these declarations, for the namespace urn:t, and both judges of its documents.
+// A schema with these declarations in the namespace urn:t. Checks documents with the tables and with xerces-c.
 class Small {
 public:
     explicit Small(std::string_view declarations) {
@@ -25,7 +25,7 @@ public:
         comparison_.emplace(std::make_shared<Schemas const>(NamedFiles{{"t.xsd", text_}}));
     }
 
-    // `<root xmlns="urn:t">` around what is inside, with attributes.
+    // Checks `<root xmlns="urn:t">` with this content and these attributes. The test fails if only the tables accept it.
     Outcome root(std::string_view inside, std::string_view attributes = {}) {
         std::string document{R"(<root xmlns="urn:t" xmlns:t="urn:t" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance")"};
         document.append(attributes).append(">").append(inside).append("</root>");

@@ -1,4 +1,4 @@
-// What the tests of this folder say and hear: documents, and what the reader makes of them.
+// Helpers for the tests of this folder: make documents and read them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ inline constexpr std::string_view prefixes =
     R"( xmlns:gml="http://www.opengis.net/gml/3.2")"
     R"( xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance")";
 
-// `<bind ...>` with all the prefixes that requests need, around what is inside.
+// Returns the element `root` with all the prefixes that requests need, and this content.
 inline std::string document(std::string_view root, std::string_view inside = {}, std::string_view attributes = {}) {
     std::ostringstream text;
     text << '<' << root << prefixes << attributes;
@@ -48,11 +48,11 @@ inline std::variant<Request, Fault> read(std::string_view text, DocumentLimits l
     return RequestReader{schemas(), limits}.read(text);
 }
 
-// What a document asks for; the test fails when it is refused.
+// Returns the request of a document. The test fails if it is rejected.
 inline Request request(std::string_view text) {
     auto answer = read(text);
     if (auto const* fault = std::get_if<Fault>(&answer)) {
-        ADD_FAILURE() << text << "\nwas refused: " << fault->reason;
+        ADD_FAILURE() << text << "\nwas rejected: " << fault->reason;
         return {};
     }
     return std::get<Request>(std::move(answer));
@@ -66,20 +66,20 @@ Wanted operation(std::string_view text) {
     return found == nullptr ? Wanted{} : *found;
 }
 
-// Why a document is refused; the test fails when it is not.
+// Returns why a document is rejected. The test fails if it is accepted.
 inline Fault fault(std::string_view text, DocumentLimits limits = {}) {
     auto answer = read(text, limits);
     if (std::holds_alternative<Fault>(answer)) return std::get<Fault>(std::move(answer));
-    ADD_FAILURE() << std::string{text.substr(0, 500)} << "\nwas taken";
+    ADD_FAILURE() << std::string{text.substr(0, 500)} << "\nwas accepted";
     return {};
 }
 
-// "2:3" of a fault, "-" when it has no place.
+// Returns the place of a fault as "2:3", or "-" if it has none.
 inline std::string place(Fault const& of) {
     return of.place ? std::to_string(of.place->line) + ":" + std::to_string(of.place->column) : "-";
 }
 
-// What is wrong with a document of any kind, as "name:line:column: reason"; empty when it is valid.
+// Returns the error of a document of any kind as "name:line:column: reason"; empty if it is valid.
 inline std::string problem(std::string const& name, std::string text) {
     try {
         Document::parse(schemas(), name, std::move(text));
@@ -89,7 +89,7 @@ inline std::string problem(std::string const& name, std::string text) {
     }
 }
 
-// The first child of that name, which must be there.
+// Returns the first child with this name. Throws if there is none.
 inline Element child(Element const& parent, std::string_view name) {
     auto const found = parent.child(name);
     if (!found) throw std::runtime_error{"there is no element " + std::string{name}};

@@ -1,5 +1,5 @@
-// Content models, attributes and elements, one by one, with small schemas: what the tables accept, what they leave to xerces-c,
-// and that xerces-c accepts whatever they accept.
+// Content models, attributes and elements of the tables, with small schemas: what the tables accept, what they leave to xerces-c,
+// and that they never accept what xerces-c rejects.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -17,7 +17,7 @@ namespace {
 enum class Known { yes, no };
 
 struct ContentCase {
-    std::string_view type;  // what stands in xsd:complexType
+    std::string_view type;  // the rest of `<xsd:complexType`, with its content
     Known known = Known::yes;
 };
 
@@ -25,7 +25,7 @@ void PrintTo(ContentCase const& of, std::ostream* out) { *out << of.type; }
 
 class Content : public testing::TestWithParam<ContentCase> {};
 
-// All sequences of a, b and c of up to so many elements.
+// Returns all sequences of the elements a, b and c up to this length.
 std::vector<std::string> sequences(std::size_t longest) {
     std::vector<std::string> all{""};
     for (std::size_t begin = 0, length = 0; length < longest; ++length) {
@@ -37,7 +37,7 @@ std::vector<std::string> sequences(std::size_t longest) {
     return all;
 }
 
-TEST_P(Content, IsAcceptedJustAsXercesDoes) {
+TEST_P(Content, IsAcceptedAsByXerces) {
     auto const& [type, known] = GetParam();
     std::string declarations{
         R"(<xsd:element name="a"><xsd:complexType/></xsd:element><xsd:element name="b"><xsd:complexType/></xsd:element>)"
@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
         ContentCase{R"(><xsd:sequence><xsd:element ref="a" minOccurs="0" maxOccurs="1000"/></xsd:sequence>)", Known::no},
         ContentCase{R"(><xsd:sequence><xsd:element ref="a" minOccurs="0" maxOccurs="300"/></xsd:sequence>)"}));
 
-// A particle as one might write it, or not.
+// Returns a random particle. It may be ambiguous.
 std::string any_particle(std::mt19937& random, int depth) {
     static constexpr std::array occurrences{"",
                                             "",
@@ -109,7 +109,7 @@ std::string any_particle(std::mt19937& random, int depth) {
     return text + "</" + group + ">";
 }
 
-TEST(Tables, AnyContentModel) {
+TEST(Tables, RandomContentModelsAreCheckedAsByXerces) {
     constexpr auto elements =
         R"(<xsd:element name="a"><xsd:complexType/></xsd:element><xsd:element name="b"><xsd:complexType/></xsd:element>)"
         R"(<xsd:element name="c"><xsd:complexType/></xsd:element>)";
@@ -124,7 +124,7 @@ TEST(Tables, AnyContentModel) {
         try {
             schema.emplace(declarations);
         } catch (std::runtime_error const&) {
-            continue;  // it is ambiguous
+            continue;  // an ambiguous content model
         }
         ++models;
         for (auto const& each : children) {
@@ -138,7 +138,7 @@ TEST(Tables, AnyContentModel) {
     EXPECT_EQ(xerces_only, 0u);
 }
 
-TEST(Tables, TextBetweenElements) {
+TEST(Tables, TextBetweenElementsIsCheckedAsByXerces) {
     auto const with = [](std::string_view mixed) {
         return Small{std::string{R"(<xsd:element name="root"><xsd:complexType mixed=")"}.append(mixed).append(
             R"("><xsd:sequence><xsd:element name="a" minOccurs="0"/></xsd:sequence></xsd:complexType></xsd:element>)")};
@@ -159,7 +159,7 @@ TEST(Tables, TextBetweenElements) {
     EXPECT_NE(empty.root("<!-- -->"), Outcome::both);
 }
 
-TEST(Tables, Attributes) {
+TEST(Tables, AttributesAreCheckedAsByXerces) {
     Small schema{R"(
         <xsd:attribute name="global" type="xsd:integer"/>
         <xsd:complexType name="Base"><xsd:attribute name="gone"/><xsd:attribute name="kept" type="xsd:integer"/><xsd:anyAttribute namespace="##any" processContents="lax"/></xsd:complexType>
@@ -188,7 +188,7 @@ TEST(Tables, Attributes) {
     EXPECT_EQ(with(" must='1' xsi:nil='false'"), Outcome::neither);
 }
 
-TEST(Tables, TypesThatADocumentChooses) {
+TEST(Tables, XsiTypesAreCheckedAsByXerces) {
     auto const declared = [](std::string_view of_base, std::string_view of_root) {
         return Small{
             std::string{R"(<xsd:complexType name="Base")"}
@@ -230,7 +230,7 @@ TEST(Tables, TypesThatADocumentChooses) {
     EXPECT_EQ(abstract.root("<b>2</b>", " xsi:type='Longer' c=''"), Outcome::both);
 }
 
-TEST(Tables, ElementsThatAreMoreThanTheirType) {
+TEST(Tables, UnsupportedDeclarationsAreLeftToXerces) {
     Small schema{R"(
         <xsd:element name="head" type="xsd:integer"/>
         <xsd:element name="member" type="xsd:integer" substitutionGroup="head"/>
@@ -264,7 +264,7 @@ TEST(Tables, ElementsThatAreMoreThanTheirType) {
     EXPECT_EQ(schema.root("<pos/>"), Outcome::xerces_only) << "called like a list";
 }
 
-TEST(Tables, Ids) {
+TEST(Tables, IdsMustBeUnique) {
     Small schema{R"(<xsd:element name="root"><xsd:complexType><xsd:choice minOccurs="0" maxOccurs="unbounded">
         <xsd:element name="of"><xsd:complexType><xsd:attribute name="id" type="xsd:ID"/></xsd:complexType></xsd:element>
         <xsd:element name="to"><xsd:complexType><xsd:attribute name="id" type="xsd:IDREF"/></xsd:complexType></xsd:element>
@@ -279,7 +279,7 @@ TEST(Tables, Ids) {
     EXPECT_EQ(schema.root(many), Outcome::xerces_only);
 }
 
-TEST(Tables, ElementsWithoutANamespace) {
+TEST(Tables, UnqualifiedElementsAreLeftToXerces) {
     Small qualified{
         R"(<xsd:element name="root"><xsd:complexType><xsd:sequence><xsd:element name="a" form="unqualified"><xsd:complexType/></xsd:element>
         </xsd:sequence></xsd:complexType></xsd:element>)"};

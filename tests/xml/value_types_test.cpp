@@ -1,5 +1,5 @@
-// Simple types and their facets, one by one: what the tables accept, what they leave to xerces-c, and that xerces-c accepts
-// whatever they accept.
+// Simple types and facets of the tables: what the tables accept, what they leave to xerces-c, and that they never accept what
+// xerces-c rejects.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,17 +11,17 @@ namespace rois::xml {
 namespace {
 
 struct TypeCase {
-    std::string_view type;  // its definition: what stands in xsd:simpleType
+    std::string_view type;  // the content of its xsd:simpleType
     std::vector<std::string_view> accepted;
-    std::vector<std::string_view> left;     // to xerces-c, which accepts them
-    std::vector<std::string_view> refused;  // by xerces-c
+    std::vector<std::string_view> left;     // left to xerces-c, which accepts them
+    std::vector<std::string_view> refused;  // rejected by xerces-c
 };
 
 void PrintTo(TypeCase const& of, std::ostream* out) { *out << of.type; }
 
 class Type : public testing::TestWithParam<TypeCase> {};
 
-TEST_P(Type, IsAcceptedAsFarAsItIsKnown) {
+TEST_P(Type, AcceptsOnlyWhatXercesAccepts) {
     auto const& [type, accepted, left, refused] = GetParam();
     std::string declarations{R"(<xsd:simpleType name="T">)"};
     declarations.append(type)
@@ -37,14 +37,15 @@ TEST_P(Type, IsAcceptedAsFarAsItIsKnown) {
     expect(accepted, Outcome::both);
     expect(left, Outcome::xerces_only);
     expect(refused, Outcome::neither);
-    // Whatever the value, never more than xerces-c; as content and as an attribute, with white space around and inside.
-    auto const nobody_differs = [&](std::string const& text) {
+    // For any value, as content and as attribute, with white space around and inside: accepts nothing that xerces-c rejects.
+    auto const expect_no_wrong_acceptance = [&](std::string const& text) {
         schema.root(element(text));
         schema.root("<none/>", " a=\"" + text + "\"");
     };
     for (auto const value : fuzz::values) {
-        for (std::string const blank : {"", " ", "\r\n", "&#x9;"}) nobody_differs((blank + std::string{value}).append(blank));
-        nobody_differs(std::string{value}.append(" ").append(value));
+        for (std::string const space : {"", " ", "\r\n", "&#x9;"})
+            expect_no_wrong_acceptance((space + std::string{value}).append(space));
+        expect_no_wrong_acceptance(std::string{value}.append(" ").append(value));
     }
 }
 

@@ -1,4 +1,4 @@
-// Documents that nobody would write on purpose: what they leave behind, and what comes of a great many of them.
+// Hostile documents: they leave no memory in use, and each of many thousands is answered.
 #include <algorithm>
 #include <random>
 #include <thread>
@@ -11,10 +11,10 @@
 namespace rois::xml {
 namespace {
 
-TEST(Stranger, TwentyThousandFreshNamesLeaveNothingBehind) {
+TEST(HostileDocument, TwentyThousandUnknownNamesLeaveNoMemoryInUse) {
     Validator validator{schemas()};
     auto& pool = *schemas()->grammars().pool().getURIStringPool();
-    ASSERT_FALSE(validator.objection_to(document("connect")));  // the first document of all leaves its own
+    ASSERT_FALSE(validator.objection_to(document("connect")));  // the first document creates the parser
     auto const names = pool.getStringCount();
     auto const bytes = validator.bytes_in_use();
     for (int i = 0; i < 20'000; ++i) {
@@ -27,7 +27,7 @@ TEST(Stranger, TwentyThousandFreshNamesLeaveNothingBehind) {
     EXPECT_EQ(pool.getStringCount(), names);
 }
 
-TEST(Stranger, FreshPrefixesIdsAndTypesInValidDocumentsAreForgottenOnSchedule) {
+TEST(HostileDocument, NamesOfValidDocumentsUseBoundedMemory) {
     Validator validator{schemas()};
     auto& pool = *schemas()->grammars().pool().getURIStringPool();
     ASSERT_FALSE(validator.objection_to(document("connect")));
@@ -46,7 +46,7 @@ TEST(Stranger, FreshPrefixesIdsAndTypesInValidDocumentsAreForgottenOnSchedule) {
     EXPECT_EQ(pool.getStringCount(), names);
 }
 
-TEST(Stranger, ForeignNamespacesNeverReachTheGrammars) {
+TEST(HostileDocument, ForeignNamespacesNeverReachTheGrammars) {
     RequestReader reader{schemas()};
     auto& pool = *schemas()->grammars().pool().getURIStringPool();
     auto const names = pool.getStringCount();
@@ -57,7 +57,7 @@ TEST(Stranger, ForeignNamespacesNeverReachTheGrammars) {
     EXPECT_EQ(pool.getStringCount(), names);
 }
 
-// One of the changes that a broken or malicious sender might make.
+// Returns the text with one to three random changes.
 std::string mutant(std::string text, std::vector<std::string> const& all, std::mt19937& random) {
     auto const any = [&](std::size_t below) { return static_cast<std::size_t>(random() % std::max<std::size_t>(below, 1)); };
     static std::vector<std::string> const pieces{"<",
@@ -109,7 +109,7 @@ std::string mutant(std::string text, std::vector<std::string> const& all, std::m
                 text.insert(at, other.substr(any(other.size()), any(200)));
                 break;
             }
-            default: {  // exchange two tags
+            default: {  // move a tag
                 auto const one = text.find('<', at), two = text.find('>', one);
                 if (two != text.npos) text.insert(any(text.size()), text.substr(one, two - one + 1)).erase(one, 1);
             }
@@ -124,13 +124,13 @@ std::vector<std::string> all_samples() {
     for (auto const* folder : {"valid", "invalid"}) {
         std::vector<std::filesystem::path> paths;
         for (auto const& entry : std::filesystem::directory_iterator{samples() / folder}) paths.push_back(entry.path());
-        std::ranges::sort(paths);  // the same history whatever the order of the directory
+        std::ranges::sort(paths);  // independent of the order of the directory
         for (auto const& path : paths) all.push_back(file(path));
     }
     return all;
 }
 
-TEST(Stranger, MutantsAreAlwaysAnswered) {
+TEST(HostileDocument, EveryMutantIsAnswered) {
     auto const samples = all_samples();
     std::mt19937 random{20261121};
     RequestReader reader{schemas()};
@@ -161,7 +161,7 @@ TEST(Stranger, MutantsAreAlwaysAnswered) {
     for (auto const count : refused) EXPECT_GT(count, 20u);
 }
 
-TEST(Stranger, ManyThreadsReadWithTheSameSchemas) {
+TEST(HostileDocument, ThreadsReadWithTheSameSchemas) {
     auto const samples = all_samples();
     auto const compiled = schemas();
     std::vector<std::vector<std::size_t>> heard(4);
